@@ -1,0 +1,26 @@
+// Bricks: 4x4x4 voxels in one u64.
+//
+// Children of a node and voxels of a 2x2x2 block are numbered c = 4x + 2y + z. Bit 8*c1 + c2 of a
+// brick is the voxel in child c1 of the outer and child c2 of the inner 2x2x2 (the layout of
+// HashDAG and SymVox, so that bricks go there unchanged).
+#pragma once
+
+#include <cstdint>
+
+namespace svdag {
+
+using Brick = uint64_t;
+
+constexpr int kBrickSide = 4;
+
+// The child of a cube in which the upper bits (x, y, z in {0, 1}) lie.
+constexpr unsigned child_index(unsigned x, unsigned y, unsigned z) {
+  return 4 * x + 2 * y + z;
+}
+
+// The bit of voxel (x, y, z), each in 0 .. 3, of a brick.
+constexpr unsigned brick_bit(unsigned x, unsigned y, unsigned z) {
+  return 8 * child_index(x >> 1, y >> 1, z >> 1) + child_index(x & 1, y & 1, z & 1);
+}
+
+}  // namespace svdag

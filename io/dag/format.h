@@ -1,0 +1,64 @@
+// The file format `.svdag`, version 1: the structures of docs/format.md.
+//
+//   header (1024 bytes) | level sections, deepest first, 64-byte aligned | metadata (JSON) |
+//   checksum table | end
+//
+// Little-endian. No dependency at all: host and CUDA code include this file through dag_view.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace svdag {
+
+constexpr unsigned char kMagic[8] = {0x89, 'S', 'V', 'D', 'A', 'G', '\r', '\n'};
+constexpr uint32_t kFormatVersion = 1;
+constexpr uint32_t kMaxSections = 19;  // levels 0 .. L-2, L <= 20
+constexpr uint64_t kSectionAlignment = 64;
+constexpr uint64_t kChecksumBlock = 65536;   // bytes covered by one entry of the checksum table
+constexpr uint64_t kMaxWords = 0xfffffffeU;  // of a section: the last two u32 values stay free
+
+enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
+
+// One level. Inner levels (0 .. L-3): u32 words; the brick level (L-2): u64 bricks.
+struct Section {
+  uint64_t offset;  // from the start of the file
+  uint64_t bytes;   // without padding
+  uint64_t nodes;   // nodes, or bricks
+};
+
+struct Header {
+  unsigned char magic[8];
+  uint32_t version;
+  uint32_t header_bytes;  // 1024
+  uint32_t levels;        // L
+  uint32_t fraction;      // F
+  uint32_t rule;          // Rule
+  uint32_t grid_kind;     // Grid::Kind
+  double corner[3];       // world position of the corner of voxel (0, 0, 0)
+  double voxel_size;
+  int64_t k0[3];           // kLattice: plane number of the corner; else 0
+  uint32_t bounded;        // 1 if voxels outside the selection were left empty on demand
+  uint32_t section_count;  // L-1
+  uint32_t selection_min[3];
+  uint32_t selection_max[3];  // exclusive
+  uint64_t voxels;            // set voxels
+  double largest_snap;        // in voxels, the largest move of a coordinate by the snap
+  uint64_t metadata_offset, metadata_bytes;
+  uint64_t checksum_offset, checksum_bytes;
+  uint64_t file_bytes;
+  Section sections[kMaxSections];  // [k] is level k; unused ones are zero
+  uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table
+  unsigned char reserved[368];  // zero
+  uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
+};
+
+static_assert(sizeof(Section) == 24);
+static_assert(offsetof(Header, corner) == 32);
+static_assert(offsetof(Header, voxels) == 120);
+static_assert(offsetof(Header, sections) == 176);
+static_assert(offsetof(Header, content_hash) == 632);
+static_assert(offsetof(Header, header_checksum) == 1016);
+static_assert(sizeof(Header) == 1024);
+
+}  // namespace svdag

@@ -1,0 +1,96 @@
+#include "io/grid.h"
+
+#include <cmath>
+
+#include "io/lattice.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// Sides of cells that keep their content when a scene of one lattice grows.
+constexpr int64_t kCornerStep = 1024;
+
+void check_voxel_size(double size) {
+  if (!std::isnormal(size) || size < 0)
+    fail_usage("the voxel size would be " + format_double(size) +
+               ", which is not a positive normal number: give --voxel-size or --bounds");
+}
+
+int64_t floor_to_step(int64_t k) {
+  return k >= 0 ? k / kCornerStep * kCornerStep
+                : -((-k + kCornerStep - 1) / kCornerStep) * kCornerStep;
+}
+
+// Tries to hold `box` in 2^levels voxels of the lattice; false if it does not fit.
+bool try_cover(const Box& box, double size, int levels, Grid* out) {
+  Grid grid;
+  grid.kind = Grid::Kind::kLattice;
+  grid.levels = levels;
+  grid.voxel_size = size;
+  grid.selection = grid.whole();
+  const Lattice at_zero(grid);  // k0 = 0: voxel numbers relative to plane 0
+  const LatticePoint low = at_zero.snap(box.min), high = at_zero.snap(box.max);
+  for (int a = 0; a < 3; ++a) {
+    grid.k0[a] = floor_to_step(at_zero.first_voxel(low[a]));
+    if (at_zero.last_voxel(high[a]) - grid.k0[a] >= grid.resolution()) return false;
+  }
+  *out = grid;
+  return true;
+}
+
+}  // namespace
+
+Point Grid::corner() const {
+  if (kind == Kind::kBox) return origin;
+  Point p;
+  for (int a = 0; a < 3; ++a) p[a] = (double(k0[a]) + 0.5) * voxel_size;
+  return p;
+}
+
+Grid divide_box(const Box& box, int levels) {
+  SVDAG_ASSERT(levels >= kMinLevels && levels <= kMaxLevels && !box.empty());
+  double extent = 0;
+  for (int a = 0; a < 3; ++a) extent = std::max(extent, box.max[a] - box.min[a]);
+  Grid grid;
+  grid.levels = levels;
+  grid.voxel_size = extent / double(grid.resolution() - 1);
+  check_voxel_size(grid.voxel_size);
+  for (int a = 0; a < 3; ++a) grid.origin[a] = box.min[a] - grid.voxel_size * 0.5;
+  grid.selection = grid.whole();
+  return grid;
+}
+
+Grid cover_lattice(const Box& box, double size) {
+  SVDAG_ASSERT(!box.empty());
+  check_voxel_size(size);
+  for (int a = 0; a < 3; ++a) {
+    if (!(std::abs(box.min[a] / size) < 0x1p38 && std::abs(box.max[a] / size) < 0x1p38))
+      fail_usage(
+          "--voxel-size: the scene is more than 2^38 voxels away from zero: choose larger voxels");
+  }
+  Grid grid;
+  for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
+    if (try_cover(box, size, levels, &grid)) return grid;
+  }
+  fail_usage(
+      "--voxel-size: the scene needs more than 1M voxels on an axis: choose larger voxels or "
+      "--bounds");
+}
+
+Grid select_bounds(Grid grid, const Box& bounds) {
+  const Lattice lattice(grid);
+  const LatticePoint low = lattice.snap(bounds.min), high = lattice.snap(bounds.max);
+  for (int a = 0; a < 3; ++a) {
+    // The open voxel (k, k+1) meets [low, high] iff k * 2^F < high and (k+1) * 2^F > low.
+    grid.selection.min[a] = std::clamp<int64_t>(lattice.last_voxel(low[a]), 0, grid.resolution());
+    grid.selection.max[a] =
+        std::clamp<int64_t>(lattice.first_voxel(high[a]) + 1, 0, grid.resolution());
+  }
+  if (grid.selection.empty()) grid.selection = {};
+  grid.bounded = true;
+  return grid;
+}
+
+}  // namespace svdag

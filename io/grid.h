@@ -1,0 +1,67 @@
+// The grid: N^3 voxels, N = 2^L, placed in the world.
+//
+// Notation: L levels (3 .. 20), F fraction bits of the lattice, q = a lattice coordinate; voxel k
+// of an axis is the closed interval [k, k+1] * 2^F of lattice coordinates.
+//
+// Kind kBox (-r N): the grid divides the box of the scene, or of --bounds: voxel size =
+// extent/(N-1), origin half a voxel below the minimum, so that the outermost faces lie mid-voxel
+// and not on a voxel plane, where every wall would be two voxels thick. Kind kLattice (--voxel-size
+// S): voxel planes at (k + 1/2) * S, wherever the scene lies, so that tiles of one world agree. The
+// grid's corner is plane k0, a multiple of 1024 on each axis, so cells of up to 1024 voxels keep
+// their content when a scene grows.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "io/triangle.h"
+
+namespace svdag {
+
+constexpr int kMinLevels = 3;
+constexpr int kMaxLevels = 20;
+
+// F: always the same for one L, so that L + F <= 39 bits and every exact test fits 128 bits.
+constexpr int fraction_bits(int levels) {
+  return std::min(23, 39 - levels);
+}
+
+// Voxels min <= k < max on each axis.
+struct VoxelBox {
+  LatticePoint min{0};
+  LatticePoint max{0};
+  bool empty() const { return min.x >= max.x || min.y >= max.y || min.z >= max.z; }
+  bool operator==(const VoxelBox&) const = default;
+};
+
+struct Grid {
+  enum class Kind : uint32_t { kBox = 0, kLattice = 1 };
+
+  Kind kind = Kind::kBox;
+  int levels = kMinLevels;  // L
+  double voxel_size = 1;    // world units; the S of kLattice
+  Point origin{0};          // kBox: world position of the grid's corner; kLattice: not used
+  LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: not used
+  bool bounded = false;     // --bounds was given: voxels outside `selection` stay empty
+  VoxelBox selection;       // the voxels that may be set; the whole grid unless bounded
+
+  int64_t resolution() const { return int64_t(1) << levels; }
+  int fraction() const { return fraction_bits(levels); }
+  VoxelBox whole() const { return {LatticePoint(0), LatticePoint(resolution())}; }
+  // World position of the corner of voxel (0, 0, 0), for display and export.
+  Point corner() const;
+  bool operator==(const Grid&) const = default;
+};
+
+// The grid of kind kBox with 2^levels voxels that divides `box`. A box without extent, or whose
+// voxel size is not a normal number, is an Error (kUsage).
+Grid divide_box(const Box& box, int levels);
+
+// The smallest grid of kind kLattice with voxel size `size` whose voxels hold `box`. An invalid
+// size, or a box of more than 2^20 voxels, is an Error (kUsage).
+Grid cover_lattice(const Box& box, double size);
+
+// Restricts `grid` to the whole voxels whose interior meets the closed `bounds`; never moves it.
+Grid select_bounds(Grid grid, const Box& bounds);
+
+}  // namespace svdag

@@ -1,0 +1,36 @@
+#include "io/lattice.h"
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+Lattice::Lattice(const Grid& grid)
+    : grid_(grid), fraction_(grid.fraction()), scale_(std::ldexp(1.0, fraction_)) {
+  SVDAG_ASSERT(std::fegetround() == FE_TONEAREST);
+}
+
+LatticePoint Lattice::snap(const Point& p, double* move) const {
+  LatticePoint q;
+  for (int a = 0; a < 3; ++a) {
+    const bool box = grid_.kind == Grid::Kind::kBox;
+    const double offset = box ? p[a] - grid_.origin[a] : p[a];
+    const double exact = offset / grid_.voxel_size * scale_;
+    const double rounded = std::nearbyint(exact);
+    // Also refuses NaN and infinity, which the comparison does not hold for.
+    if (!(std::abs(rounded) < 0x1p62))
+      throw Error(
+          ExitCode::kBadInput,
+          "a vertex lies too far from the grid (more than 2^62 lattice steps): choose larger "
+          "voxels or larger bounds");
+    if (move != nullptr) *move = std::max(*move, std::abs(exact - rounded));
+    q[a] = int64_t(rounded);
+    if (!box) q[a] -= (2 * grid_.k0[a] + 1) * (int64_t(1) << (fraction_ - 1));
+  }
+  return q;
+}
+
+}  // namespace svdag

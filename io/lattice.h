@@ -1,0 +1,35 @@
+// The snap: the only place where a double becomes an integer.
+//
+//   kBox:     q = nearbyint((v - origin) / voxel_size * 2^F)
+//   kLattice: q = nearbyint(v / S * 2^F) - (2*k0 + 1) * 2^(F-1)     (snap first, shift in integers)
+//
+// Every expression is evaluated in double in the order written, without fused multiply-add, in
+// round-to-nearest; q is monotone in v, so bounds may be snapped instead of all vertices. After the
+// snap everything is decided exactly on integers.
+#pragma once
+
+#include "io/grid.h"
+
+namespace svdag {
+
+class Lattice {
+ public:
+  explicit Lattice(const Grid& grid);
+
+  // Maps a finite point; |q| >= 2^62 on an axis is an Error (kBadInput). *move grows to the largest
+  // distance on an axis, in lattice units (<= 0.5), that a coordinate was moved.
+  LatticePoint snap(const Point& p, double* move = nullptr) const;
+
+  // The voxels that a lattice coordinate touches: first .. last, both included.
+  // ceil(q / 2^F) - 1 and floor(q / 2^F): on a voxel plane both neighbours are touched.
+  int64_t first_voxel(int64_t q) const { return -((-q) >> fraction_) - 1; }
+  int64_t last_voxel(int64_t q) const { return q >> fraction_; }
+  int fraction() const { return fraction_; }
+
+ private:
+  Grid grid_;
+  int fraction_;
+  double scale_;  // 2^F
+};
+
+}  // namespace svdag

@@ -1,0 +1,39 @@
+#include "io/scene/mesh_reader.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+namespace svdag {
+namespace {
+
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  });
+}
+
+}  // namespace
+
+bool NameFilter::excludes(const std::string& name) const {
+  return matches_any(exclude, name);
+}
+
+bool NameFilter::includes(const std::string& name) const {
+  return include.empty() || matches_any(include, name);
+}
+
+void BatchWriter::mesh(std::string_view name) {
+  flush();
+  mesh_ = name;
+  first_ = 0;
+}
+
+void BatchWriter::flush() {
+  if (batch_.empty()) return;
+  sink_({mesh_, first_, batch_});
+  first_ += batch_.size();
+  batch_.clear();
+}
+
+}  // namespace svdag

@@ -1,0 +1,83 @@
+// What every scene format gives: triangles in world space, in batches.
+//
+// One function per format, one file per function. A reader streams: it holds at most the vertex
+// positions of one mesh (reserved in `budget`), never the faces. It checks every count against the
+// remaining bytes before it allocates, and answers a broken file with one Error (kBadInput).
+// Readers hand on non-finite coordinates as they are; io/scene/scene.cpp decides about them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/triangle.h"
+#include "streaming/file.h"
+#include "streaming/memory_budget.h"
+
+namespace svdag {
+
+// Consecutive triangles of one mesh; valid during the call only.
+struct TriangleBatch {
+  std::string_view mesh;  // glTF node or OBJ group, "" where the format has no names
+  uint64_t first = 0;     // number, within the mesh, of the first triangle of this batch
+  std::span<const Triangle> triangles;
+};
+
+using TriangleSink = std::function<void(const TriangleBatch&)>;
+
+// Which named parts of a scene are wanted: shell patterns (*, ?, [..]) against glTF node names (a
+// node is chosen if it or an ancestor matches), OBJ group and object names, and file names.
+struct NameFilter {
+  std::vector<std::string> include;  // if not empty, only what matches one of these
+  std::vector<std::string> exclude;  // never what matches one of these
+
+  bool excludes(const std::string& name) const;
+  bool includes(const std::string& name) const;  // true where `include` is empty
+  bool empty() const { return include.empty() && exclude.empty(); }
+};
+
+struct ReadOptions {
+  const NameFilter* names = nullptr;  // never null in a reader
+  // The file's own name matched --include: its parts need not match again.
+  bool file_included = false;
+  MemoryBudget* budget = nullptr;  // never null in a reader
+
+  // Whether a part called `name` inside the file is wanted.
+  bool wants(const std::string& name) const {
+    return !names->excludes(name) && (file_included || names->includes(name));
+  }
+};
+
+void read_ply(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink);  // and GLB
+void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
+
+// Collects triangles and hands them on in batches of up to kBatch; the readers' common tail.
+class BatchWriter {
+ public:
+  static constexpr size_t kBatch = 4096;
+
+  explicit BatchWriter(const TriangleSink& sink) : sink_(sink) { batch_.reserve(kBatch); }
+  // Starts the next mesh: flushes, and counts triangles from 0 again.
+  void mesh(std::string_view name);
+  void add(const Point& a, const Point& b, const Point& c) {
+    batch_.push_back({{a, b, c}});
+    if (batch_.size() == kBatch) flush();
+  }
+  void flush();
+
+ private:
+  const TriangleSink& sink_;
+  std::string mesh_;
+  uint64_t first_ = 0;
+  std::vector<Triangle> batch_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,159 @@
+#include "io/scene/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+bool finite(const Triangle& t) {
+  for (const Point& p : t.v) {
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) return false;
+  }
+  return true;
+}
+
+// Stands between a reader and the user's sink: no triangle with NaN or infinity passes.
+class FiniteFilter {
+ public:
+  FiniteFilter(const std::string& path, bool skip, const TriangleSink& sink, SceneCounts* counts)
+      : path_(path), skip_(skip), sink_(sink), counts_(counts) {}
+
+  void operator()(const TriangleBatch& batch) {
+    const auto bad = std::find_if_not(batch.triangles.begin(), batch.triangles.end(), finite);
+    if (bad == batch.triangles.end()) return pass(batch);
+    if (!skip_) refuse(batch, batch.first + size_t(bad - batch.triangles.begin()));
+    kept_.clear();
+    std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
+    counts_->invalid += batch.triangles.size() - kept_.size();
+    pass({batch.mesh, batch.first, kept_});
+  }
+
+ private:
+  void pass(const TriangleBatch& batch) {
+    counts_->triangles += batch.triangles.size();
+    if (!batch.triangles.empty()) sink_(batch);
+  }
+  [[noreturn]] void refuse(const TriangleBatch& batch, uint64_t index) const {
+    const std::string mesh = batch.mesh.empty() ? "" : " of \"" + std::string(batch.mesh) + "\"";
+    fail_input(path_, "triangle " + std::to_string(index) + mesh +
+                          " has a coordinate that is NaN or infinite (--skip-invalid drops such "
+                          "triangles)");
+  }
+
+  const std::string& path_;
+  bool skip_;
+  const TriangleSink& sink_;
+  SceneCounts* counts_;
+  std::vector<Triangle> kept_;
+};
+
+void read_file(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  switch (detect_format(file)) {
+    case SceneFormat::kPly:
+      return read_ply(file, options, sink);
+    case SceneFormat::kStl:
+      return read_stl(file, options, sink);
+    case SceneFormat::kObj:
+      return read_obj(file, options, sink);
+    case SceneFormat::kOff:
+      return read_off(file, options, sink);
+    case SceneFormat::kGltf:
+      return read_gltf(file, options, sink);
+    case SceneFormat::kDraco:
+      return read_draco(file, options, sink);
+    case SceneFormat::kOpenMesh:
+      return read_openmesh(file, options, sink);
+  }
+}
+
+std::string base_name(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1);
+}
+
+std::string lower_extension(const std::string& path) {
+  const std::string name = base_name(path);
+  const size_t dot = name.find_last_of('.');
+  std::string extension = dot == std::string::npos ? "" : name.substr(dot + 1);
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+Scene::Scene(SceneConfig config, MemoryBudget* budget)
+    : config_(std::move(config)), budget_(budget) {}
+
+SceneCounts Scene::stream(const TriangleSink& sink) const {
+  SceneCounts counts;
+  for (const std::string& path : config_.paths) {
+    const std::string name = base_name(path);
+    if (config_.names.excludes(name)) continue;
+    const File file = File::open_read(path);
+    const bool by_name = !config_.names.include.empty() && config_.names.includes(name);
+    FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
+    read_file(file, {&config_.names, by_name, budget_}, std::ref(filter));
+  }
+  return counts;
+}
+
+Box Scene::bounds(SceneCounts* counts) const {
+  Box box;
+  const SceneCounts seen = stream([&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles) {
+      for (const Point& p : t.v) box.add(p);
+    }
+  });
+  if (counts != nullptr) *counts = seen;
+  if (box.empty()) fail_input(config_.paths.front(), "the scene has no triangles to bake");
+  return box;
+}
+
+SceneFormat detect_format(const File& file) {
+  std::array<char, 8> head{};
+  file.read_some_at(0, std::as_writable_bytes(std::span(head)));
+  const std::string_view start(head.data(), head.size());
+  if (start.starts_with("ply")) return SceneFormat::kPly;
+  if (start.starts_with("glTF")) return SceneFormat::kGltf;
+  if (start.starts_with("DRACO")) return SceneFormat::kDraco;
+  const std::string extension = lower_extension(file.path());
+  if (extension == "stl") return SceneFormat::kStl;
+  if (extension == "obj") return SceneFormat::kObj;
+  if (extension == "off") return SceneFormat::kOff;
+  if (extension == "gltf" || extension == "glb") return SceneFormat::kGltf;
+  if (extension == "ply") return SceneFormat::kPly;
+  if (extension == "drc") return SceneFormat::kDraco;
+  if (extension == "om") return SceneFormat::kOpenMesh;
+  if (start.starts_with("OFF")) return SceneFormat::kOff;
+  if (start.starts_with("solid")) return SceneFormat::kStl;
+  fail_input(file.path(),
+             "is no scene file that svdag knows: it reads PLY, STL, OBJ, OFF, glTF, GLB, "
+             "Draco and OpenMesh files");
+}
+
+const char* format_name(SceneFormat format) {
+  switch (format) {
+    case SceneFormat::kPly:
+      return "PLY";
+    case SceneFormat::kStl:
+      return "STL";
+    case SceneFormat::kObj:
+      return "OBJ";
+    case SceneFormat::kOff:
+      return "OFF";
+    case SceneFormat::kGltf:
+      return "glTF";
+    case SceneFormat::kDraco:
+      return "Draco";
+    case SceneFormat::kOpenMesh:
+      return "OpenMesh";
+  }
+  return "";
+}
+
+}  // namespace svdag

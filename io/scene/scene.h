@@ -1,0 +1,49 @@
+// A scene: one or more files read as one triangle soup, as often as needed, never held in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/scene/mesh_reader.h"
+
+namespace svdag {
+
+enum class SceneFormat { kPly, kStl, kObj, kOff, kGltf, kDraco, kOpenMesh };
+
+struct SceneConfig {
+  std::vector<std::string> paths;  // at least one
+  NameFilter names;                // --include, --exclude
+  bool skip_invalid = false;       // drop triangles with NaN or infinity instead of refusing them
+};
+
+struct SceneCounts {
+  uint64_t triangles = 0;  // handed to the sink
+  uint64_t invalid = 0;    // dropped: a coordinate was NaN or infinite
+};
+
+class Scene {
+ public:
+  // Opens nothing yet. `budget` must outlive the scene.
+  Scene(SceneConfig config, MemoryBudget* budget);
+
+  // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless
+  // skip_invalid. An unknown or broken file is an Error (kBadInput).
+  SceneCounts stream(const TriangleSink& sink) const;
+  // The box of the vertices that triangles use (one pass over the files). A scene without
+  // triangles is an Error (kBadInput).
+  Box bounds(SceneCounts* counts = nullptr) const;
+
+  const SceneConfig& config() const { return config_; }
+
+ private:
+  SceneConfig config_;
+  MemoryBudget* budget_;
+};
+
+// Tells the format by content, and by extension where content cannot tell (.obj, .stl, .off).
+// An unknown file is an Error (kBadInput) that lists what can be read.
+SceneFormat detect_format(const File& file);
+const char* format_name(SceneFormat format);
+
+}  // namespace svdag

@@ -1,0 +1,43 @@
+// Points and triangles, in the world (double) and on the lattice (integers).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace svdag {
+
+using Point = glm::dvec3;                   // world space, in the units of the scene
+using LatticePoint = glm::vec<3, int64_t>;  // sub-voxel units of the grid, see io/lattice.h
+
+struct Triangle {
+  std::array<Point, 3> v;
+};
+
+// The normative geometry: everything after the snap is decided on these integers alone.
+struct LatticeTriangle {
+  std::array<LatticePoint, 3> v;
+  bool operator==(const LatticeTriangle&) const = default;
+};
+
+// A closed box; empty until a point was added.
+struct Box {
+  Point min{std::numeric_limits<double>::infinity()};
+  Point max{-std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+  void add(const Point& p) {
+    for (int a = 0; a < 3; ++a) {
+      if (p[a] < min[a]) min[a] = p[a];
+      if (p[a] > max[a]) max[a] = p[a];
+    }
+  }
+  void add(const Box& other) {
+    if (other.empty()) return;
+    add(other.min);
+    add(other.max);
+  }
+};
+
+}  // namespace svdag

@@ -1,0 +1,67 @@
+#include "io/units.h"
+
+#include <bit>
+#include <charconv>
+#include <cstdio>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+uint64_t parse_count(std::string_view text, const char* option) {
+  uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view suffix(end, size_t(text.data() + text.size() - end));
+  int shift = 0;
+  if (error == std::errc() && !suffix.empty()) {
+    const size_t power = std::string_view("KMGT").find(char(suffix[0] & ~0x20));
+    shift = power == std::string_view::npos ? -1 : 10 * int(power + 1);
+    suffix.remove_prefix(1);
+    if (suffix != "" && suffix != "B" && suffix != "iB") shift = -1;
+  }
+  if (error != std::errc() || shift < 0 || (value << shift) >> shift != value)
+    fail_usage(std::string(option) + ": \"" + std::string(text) +
+               "\" is not a number like 512, 64K or 4G");
+  return value << shift;
+}
+
+int parse_resolution(std::string_view text) {
+  const uint64_t n = parse_count(text, "--resolution");
+  if (!std::has_single_bit(n) || n < 8 || n > (1U << 20))
+    fail_usage("--resolution: \"" + std::string(text) +
+               "\" is not a power of two from 8 to 1M (1048576)");
+  return std::countr_zero(n);
+}
+
+std::string format_resolution(uint64_t n) {
+  if (n >= (1U << 20) && n % (1U << 20) == 0) return std::to_string(n >> 20) + "M";
+  if (n >= 1024 && n % 1024 == 0) return std::to_string(n >> 10) + "K";
+  return std::to_string(n);
+}
+
+std::string format_bytes(uint64_t bytes) {
+  static constexpr const char* kUnits[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  double value = double(bytes);
+  int unit = 0;
+  while (value >= 1024 && unit < 6) {
+    value /= 1024;
+    ++unit;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, kUnits[unit]);
+  return text;
+}
+
+std::string format_count(uint64_t count) {
+  std::string text = std::to_string(count);
+  for (int at = int(text.size()) - 3; at > 0; at -= 3) text.insert(size_t(at), ",");
+  return text;
+}
+
+std::string format_double(double value) {
+  char text[40];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return std::string(text, result.ptr);
+}
+
+}  // namespace svdag

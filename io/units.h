@@ -1,0 +1,23 @@
+// Numbers as people write them: resolutions "64K", sizes "4G"; K, M, G, T are powers of 1024.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace svdag {
+
+// "512" | "64K" | "4G" -> count; also "4GiB", "4GB". Throws Error (kUsage) naming `option`.
+uint64_t parse_count(std::string_view text, const char* option);
+// A resolution N = 2^L from "8" to "1M" -> L in 3 .. 20. Throws Error (kUsage).
+int parse_resolution(std::string_view text);
+// 65536 -> "64K", 1000 -> "1000".
+std::string format_resolution(uint64_t resolution);
+// 1536 -> "1.5 KiB".
+std::string format_bytes(uint64_t bytes);
+// 1234567 -> "1,234,567".
+std::string format_count(uint64_t count);
+// The shortest decimal text that reads back as exactly `value`.
+std::string format_double(double value);
+
+}  // namespace svdag

@@ -1,0 +1,37 @@
+// An output file that is there whole or not at all.
+//
+// Bytes go to an anonymous file in the target's folder; commit() does fsync, close, rename and
+// fsync of the folder, in this order, so that after a crash at any moment the name holds the old
+// file or the complete new one. Without commit() nothing is left behind.
+// Rejected: writing beside the target under a fixed temporary name (follows planted symlinks, two
+// writers mix), unlink before rename (a window without any file).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "streaming/file.h"
+
+namespace svdag {
+
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& target);
+
+  void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  void append(std::span<const std::byte> bytes);
+  void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+  uint64_t size() const { return size_; }
+  void read_at(uint64_t offset, std::span<std::byte> out) const { file_.read_at(offset, out); }
+
+  void commit();
+
+ private:
+  std::string target_;
+  File file_;
+  uint64_t size_ = 0;
+};
+
+}  // namespace svdag

@@ -1,0 +1,56 @@
+// The one error type of the project.
+//
+// An Error is thrown at the edges (files, command line, limits) and caught once, in main(), which
+// prints what() on stderr and exits with code(). what() is one sentence for the person at the
+// keyboard: what went wrong, in which file, where, and what to do about it.
+// Rejected: status codes (92 % of catastrophic failures are mishandled codes, Yuan et al. 2014).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace svdag {
+
+// Exit codes of both programs; a farm tells retryable (4, 5) from permanent (2, 3) failures by
+// them.
+enum class ExitCode : int {
+  kOk = 0,
+  kDiffers = 1,    // the verifier found a difference
+  kUsage = 2,      // the command line asks for something impossible
+  kBadInput = 3,   // a scene or DAG file is missing, broken or unsupported
+  kOutput = 4,     // disk full, I/O error, output not writable
+  kMemory = 5,     // the memory budget does not suffice
+  kInternal = 70,  // an assertion failed: a defect of ours (sysexits.h EX_SOFTWARE)
+};
+
+class Error : public std::runtime_error {
+ public:
+  // `sentence` without a full stop; `path` and the byte `offset` in it are put in front and behind.
+  Error(ExitCode code, const std::string& sentence, const std::string& path = {},
+        std::optional<uint64_t> offset = {});
+
+  ExitCode code() const { return code_; }
+  const std::string& path() const { return path_; }
+  std::optional<uint64_t> offset() const { return offset_; }
+
+ private:
+  ExitCode code_;
+  std::string path_;
+  std::optional<uint64_t> offset_;
+};
+
+// Shorthands for the two most common edges.
+[[noreturn]] void fail_input(const std::string& path, const std::string& sentence,
+                             std::optional<uint64_t> offset = {});
+[[noreturn]] void fail_usage(const std::string& sentence);
+
+// Called by SVDAG_ASSERT: throws an Error with kInternal that asks for a bug report.
+[[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
+
+}  // namespace svdag
+
+// Stays on in release builds. Not for kernels, which are noexcept and tested from outside.
+#define SVDAG_ASSERT(condition) \
+  ((condition) ? (void)0 : ::svdag::assertion_failed(#condition, __FILE__, __LINE__))

@@ -1,0 +1,199 @@
+#include "streaming/file.h"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// One sentence for each errno that a user meets; the kernel's words for the rest.
+std::string reason(int error) {
+  switch (error) {
+    case ENOENT:
+      return "no such file or folder";
+    case EACCES:
+    case EPERM:
+      return "permission denied";
+    case ENOSPC:
+      return "the disk is full";
+    case EDQUOT:
+      return "the disk quota is used up";
+    case EROFS:
+      return "the file system is read-only";
+    default:
+      return std::strerror(error);
+  }
+}
+
+[[noreturn]] void fail(ExitCode code, const char* what, const std::string& path, int error) {
+  throw Error(code, std::string(what) + ": " + reason(error), path);
+}
+
+template <class Call>
+auto retry_interrupted(Call call) {
+  for (;;) {
+    const auto result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
+
+std::string random_suffix() {
+  uint64_t bits = 0;
+  if (getrandom(&bits, sizeof bits, 0) != ssize_t(sizeof bits)) bits = uint64_t(getpid());
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(bits));
+  return text;
+}
+
+}  // namespace
+
+File File::open_read(const std::string& path) {
+  // O_NONBLOCK: opening a pipe must not hang before fstat can refuse it.
+  const int fd =
+      retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
+  if (fd < 0) fail(ExitCode::kBadInput, "cannot be opened", path, errno);
+  File file(fd, path);
+  struct stat status;
+  if (::fstat(fd, &status) != 0) fail(ExitCode::kBadInput, "cannot be examined", path, errno);
+  if (!S_ISREG(status.st_mode)) fail_input(path, "is not a regular file");
+  return file;
+}
+
+File File::create_anonymous(const std::string& folder) {
+  int fd = retry_interrupted(
+      [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
+  if (fd >= 0) return File(fd, folder);
+  if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)
+    fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  if (::access(folder.c_str(), F_OK) != 0)
+    fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  const std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
+  fd = retry_interrupted([&] {
+    return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  });
+  if (fd < 0) fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  File file(fd, folder);
+  file.temporary_ = name;
+  return file;
+}
+
+File::File(File&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)),
+      path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})) {}
+
+File& File::operator=(File&& other) noexcept {
+  if (this != &other) {
+    discard();
+    fd_ = std::exchange(other.fd_, -1);
+    path_ = std::move(other.path_);
+    temporary_ = std::exchange(other.temporary_, {});
+  }
+  return *this;
+}
+
+File::~File() {
+  discard();
+}
+
+void File::discard() noexcept {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  fd_ = -1;
+}
+
+uint64_t File::size() const {
+  struct stat status;
+  if (::fstat(fd_, &status) != 0) fail(ExitCode::kBadInput, "cannot be examined", path_, errno);
+  return uint64_t(status.st_size);
+}
+
+size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
+  size_t done = 0;
+  while (done < out.size()) {
+    const ssize_t n = retry_interrupted(
+        [&] { return ::pread(fd_, out.data() + done, out.size() - done, off_t(offset + done)); });
+    if (n < 0) fail(ExitCode::kBadInput, "cannot be read", path_, errno);
+    if (n == 0) break;
+    done += size_t(n);
+  }
+  return done;
+}
+
+void File::read_at(uint64_t offset, std::span<std::byte> out) const {
+  const size_t n = read_some_at(offset, out);
+  if (n < out.size()) fail_input(path_, "ends too early", offset + n);
+}
+
+void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = retry_interrupted([&] {
+      return ::pwrite(fd_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
+    });
+    if (n < 0) fail(ExitCode::kOutput, "cannot be written", path_, errno);
+    if (n == 0) fail(ExitCode::kOutput, "cannot be written", path_, ENOSPC);
+    done += size_t(n);
+  }
+}
+
+void File::sync() {
+  if (::fsync(fd_) != 0) fail(ExitCode::kOutput, "cannot be brought to disk", path_, errno);
+}
+
+void File::link_as(const std::string& path) {
+  if (temporary_.empty()) {
+    const std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
+    const std::string self = "/proc/self/fd/" + std::to_string(fd_);
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      fail(ExitCode::kOutput, "cannot be named", path, errno);
+    temporary_ = name;
+  }
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (::fchmod(fd_, 0666 & ~mask) != 0) fail(ExitCode::kOutput, "cannot be opened up", path, errno);
+  if (::rename(temporary_.c_str(), path.c_str()) != 0)
+    fail(ExitCode::kOutput, "cannot be replaced", path, errno);
+  temporary_.clear();
+  path_ = path;
+}
+
+void File::close() {
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0 && errno != EINTR) fail(ExitCode::kOutput, "cannot be closed", path_, errno);
+}
+
+void sync_folder(const std::string& folder) {
+  const int fd =
+      retry_interrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (fd < 0) fail(ExitCode::kOutput, "cannot be opened", folder, errno);
+  const int result = ::fsync(fd);
+  const int error = errno;
+  ::close(fd);
+  // Some file systems cannot sync a folder and say EINVAL: nothing more can be done there.
+  if (result != 0 && error != EINVAL)
+    fail(ExitCode::kOutput, "cannot be brought to disk", folder, error);
+}
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  struct stat left, right;
+  return ::stat(a.c_str(), &left) == 0 && ::stat(b.c_str(), &right) == 0 &&
+         left.st_dev == right.st_dev && left.st_ino == right.st_ino;
+}
+
+}  // namespace svdag

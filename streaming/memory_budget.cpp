@@ -1,0 +1,71 @@
+#include "streaming/memory_budget.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+void MemoryBudget::take(uint64_t bytes, const char* purpose) {
+  const uint64_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
+  const uint64_t now = before + bytes;
+  if (now > limit_ || now < before) {
+    give_back(bytes);
+    throw Error(ExitCode::kMemory,
+                "the " + std::string(purpose) + " need " + std::to_string((now >> 20) + 1) +
+                    " MiB in all, more than the memory budget of " + std::to_string(limit_ >> 20) +
+                    " MiB: give more with --memory");
+  }
+  uint64_t peak = peak_.load(std::memory_order_relaxed);
+  while (peak < now && !peak_.compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
+  }
+}
+
+MemoryBudget::Reservation MemoryBudget::reserve(uint64_t bytes, const char* purpose) {
+  take(bytes, purpose);
+  return Reservation(this, bytes);
+}
+
+MemoryBudget::Reservation& MemoryBudget::Reservation::operator=(Reservation&& other) noexcept {
+  if (this != &other) {
+    release();
+    budget_ = other.budget_;
+    bytes_ = std::exchange(other.bytes_, 0);
+  }
+  return *this;
+}
+
+void MemoryBudget::Reservation::resize(uint64_t bytes, const char* purpose) {
+  SVDAG_ASSERT(budget_ != nullptr);
+  if (bytes > bytes_) budget_->take(bytes - bytes_, purpose);
+  if (bytes < bytes_) budget_->give_back(bytes_ - bytes);
+  bytes_ = bytes;
+}
+
+void MemoryBudget::Reservation::release() noexcept {
+  if (budget_ != nullptr) budget_->give_back(bytes_);
+  bytes_ = 0;
+}
+
+uint64_t default_memory_limit() {
+  uint64_t allowed = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
+  // cgroup v2, then v1; "max" does not parse and leaves the machine's memory.
+  for (const char* path :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    uint64_t limit = 0;
+    if (std::ifstream(path) >> limit && limit > 0) allowed = std::min(allowed, limit);
+  }
+  return allowed / 2;
+}
+
+uint64_t peak_resident_bytes() {
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace svdag

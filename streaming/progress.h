@@ -1,0 +1,36 @@
+// A progress line on stderr: only on a terminal, at most ten times a second, erased at the end.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace svdag {
+
+class Progress {
+ public:
+  enum class Mode { kAuto, kOn, kOff };
+
+  explicit Progress(Mode mode = Mode::kOff);
+  ~Progress() { finish(); }
+
+  // Starts a phase of `total` steps (0 = unknown).
+  void phase(const std::string& name, uint64_t total);
+  // Counts steps; safe to call from any thread.
+  void advance(uint64_t steps = 1);
+  void finish();
+
+ private:
+  void draw(uint64_t done);
+
+  bool enabled_;
+  bool drawn_ = false;
+  std::string name_;
+  uint64_t total_ = 0;
+  std::atomic<uint64_t> done_{0};
+  std::atomic<int64_t> next_draw_{0};  // milliseconds since start_
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace svdag
