@@ -1,0 +1,43 @@
+// A `.svdag` opened for reading: header and structure are proven sound with pread before the file
+// is mapped, so nobody who walks the view needs another check.
+#pragma once
+
+#include <string>
+
+#include "io/dag/dag_view.h"
+#include "io/grid.h"
+#include "streaming/file.h"
+
+namespace svdag {
+
+class DagFile {
+ public:
+  // Throws Error (kBadInput) with path and offset if anything is not as docs/format.md says:
+  // magic, version, sizes, checksums, pointers out of bounds. Order and minimality are not looked at
+  // (verify/integrity.h does).
+  static DagFile open(const std::string& path);
+
+  DagFile(DagFile&& other) noexcept;
+  DagFile& operator=(DagFile&&) = delete;
+  ~DagFile();
+
+  const std::string& path() const { return file_.path(); }
+  const Header& header() const { return *static_cast<const Header*>(data_); }
+  const DagView& view() const { return view_; }
+  Grid grid() const;
+  Rule rule() const { return Rule(header().rule); }
+  std::string_view metadata() const;  // the JSON text
+
+ private:
+  DagFile(File file, void* data, size_t size);
+
+  File file_;
+  void* data_;
+  size_t size_;
+  DagView view_;
+};
+
+// The grid that a header describes.
+Grid grid_of(const Header& header);
+
+}  // namespace svdag
