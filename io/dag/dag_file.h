@@ -13,8 +13,8 @@ namespace svdag {
 class DagFile {
  public:
   // Throws Error (kBadInput) with path and offset if anything is not as docs/format.md says:
-  // magic, version, sizes, checksums, pointers out of bounds. Order and minimality are not looked at
-  // (verify/integrity.h does).
+  // magic, version, sizes, checksums, pointers out of bounds. Order and minimality are not looked
+  // at (verify/integrity.h does).
   static DagFile open(const std::string& path);
 
   DagFile(DagFile&& other) noexcept;

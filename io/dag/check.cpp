@@ -1,0 +1,228 @@
+#include "io/dag/check.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "io/grid.h"
+#include "streaming/checksum.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+uint64_t aligned(uint64_t offset) {
+  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+}
+
+void require(bool condition, const File& file, const char* sentence, uint64_t offset) {
+  if (!condition) fail_input(file.path(), std::string("damaged file: ") + sentence, offset);
+}
+
+void check_identity(const File& file, const Header& h) {
+  if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
+    fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
+  if (h.version != kFormatVersion)
+    fail_input(file.path(), "has format version " + std::to_string(h.version) +
+                                ", this program reads version " + std::to_string(kFormatVersion));
+  const auto bytes = std::as_bytes(std::span(&h, 1));
+  require(checksum64(bytes.first(offsetof(Header, header_checksum))) == h.header_checksum, file,
+          "the header does not match its checksum", offsetof(Header, header_checksum));
+}
+
+void check_fields(const File& file, const Header& h) {
+  require(h.header_bytes == sizeof(Header), file, "wrong header size", 12);
+  require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels), file,
+          "the number of levels is not 3 to 20", 16);
+  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), file, "wrong lattice fraction", 20);
+  require(h.rule <= 1, file, "unknown rule", 24);
+  require(h.grid_kind <= 1, file, "unknown kind of grid", 28);
+  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, file, "impossible voxel size", 56);
+  require(h.bounded <= 1, file, "impossible flag", 88);
+  require(h.section_count == h.levels - 1, file, "wrong number of sections", 92);
+  for (int a = 0; a < 3; ++a) {
+    require(std::isfinite(h.corner[a]), file, "impossible grid corner", 32);
+    const uint32_t n = 1U << h.levels;
+    require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n, file,
+            "impossible selection", 96);
+    require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n), file,
+            "impossible selection", 96);
+  }
+  for (const unsigned char byte : h.reserved) require(byte == 0, file, "unknown header field", 648);
+}
+
+// The parts stand one behind the other exactly as the format says, so no byte is unaccounted for.
+void check_layout(const File& file, const Header& h) {
+  uint64_t end = sizeof(Header);
+  const uint64_t size = file.size();
+  require(h.file_bytes == size, file, "its size is not the one in its header", 168);
+  const auto place = [&](uint64_t offset, uint64_t bytes, uint64_t field) {
+    require(offset == aligned(end) && offset <= size && bytes <= size - offset, file,
+            "a section is not where it belongs", field);
+    end = offset + bytes;
+  };
+  for (uint32_t k = kMaxSections; k-- > 0;) {
+    const Section& s = h.sections[k];
+    const uint64_t field = offsetof(Header, sections) + k * sizeof(Section);
+    if (k >= h.section_count) {
+      require(s.offset == 0 && s.bytes == 0 && s.nodes == 0, file, "unused section", field);
+      continue;
+    }
+    place(s.offset, s.bytes, field);
+    const uint64_t unit = k + 1 == h.section_count ? 8 : 4;
+    require(s.bytes % unit == 0 && s.bytes / unit <= kMaxWords, file, "impossible section size",
+            field);
+  }
+  place(h.metadata_offset, h.metadata_bytes, 136);
+  place(h.checksum_offset, h.checksum_bytes, 152);
+  const uint64_t payload = h.checksum_offset - sizeof(Header);
+  const uint64_t blocks = (payload + kChecksumBlock - 1) / kChecksumBlock;
+  require(h.checksum_bytes == 8 * blocks && end == size, file, "wrong checksum table", 160);
+}
+
+std::vector<uint64_t> read_table(const File& file, const Header& h) {
+  std::vector<uint64_t> table(h.checksum_bytes / 8);
+  const auto bytes = std::as_writable_bytes(std::span(table));
+  file.read_at(h.checksum_offset, bytes);
+  Header blank = h;
+  blank.content_hash[0] = blank.content_hash[1] = blank.header_checksum = 0;
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(&blank, 1)));
+  hasher.update(bytes);
+  require(hasher.digest() == Hash128{h.content_hash[0], h.content_hash[1]}, file,
+          "the checksum table does not match the content hash", h.checksum_offset);
+  return table;
+}
+
+// Walks the sections as their bytes go by; words may straddle nothing, since offsets and block
+// sizes are multiples of 8.
+class StructureScan {
+ public:
+  StructureScan(const File& file, const Header& h) : file_(file), h_(h), level_(h.section_count) {
+    next_level();
+  }
+
+  // `bytes` of the payload, which begin at file offset `offset`.
+  void feed(uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const uint64_t part = part_end();
+      const size_t n = size_t(std::min<uint64_t>(bytes.size(), part - offset));
+      if (in_section(offset)) {
+        scan(offset, bytes.first(n));
+      } else if (offset < h_.metadata_offset || offset >= h_.metadata_offset + h_.metadata_bytes) {
+        for (size_t i = 0; i < n; ++i)
+          require(bytes[i] == std::byte(0), file_, "padding is not zero", offset + i);
+      }
+      offset += n;
+      bytes = bytes.subspan(n);
+      advance(offset);
+    }
+  }
+
+  void finish() const {
+    const Section& root = h_.sections[0];
+    const bool empty = h_.sections[h_.section_count - 1].nodes == 0;
+    require(root.nodes == (empty ? 0U : 1U), file_, "it has not one root", root.offset);
+  }
+
+ private:
+  const Section& section() const { return h_.sections[level_]; }
+  bool in_section(uint64_t offset) const {
+    return !done_ && offset >= section().offset && offset < section().offset + section().bytes;
+  }
+  uint64_t part_end() const {  // of the part (padding, section, rest) that is being read
+    if (done_)
+      return position_ < h_.metadata_offset ? h_.metadata_offset
+             : position_ < h_.metadata_offset + h_.metadata_bytes
+                 ? h_.metadata_offset + h_.metadata_bytes
+                 : h_.checksum_offset;
+    return position_ < section().offset ? section().offset : section().offset + section().bytes;
+  }
+  void advance(uint64_t offset) {
+    position_ = offset;
+    while (!done_ && position_ >= section().offset + section().bytes) {
+      close_level();
+      next_level();
+    }
+  }
+  void next_level() {
+    if (level_ == 0) {
+      done_ = true;
+      return;
+    }
+    --level_;
+    below_ = std::move(starts_);
+    starts_.assign(level_ + 2 == h_.levels ? 0 : (section().bytes / 4 + 63) / 64, 0);
+    nodes_ = 0;
+    word_ = 0;
+    pending_ = 0;
+    advance(position_);
+  }
+  void close_level() const {
+    const bool bricks = level_ + 2 == h_.levels;
+    require(pending_ == 0 && (bricks ? section().bytes / 8 : nodes_) == section().nodes, file_,
+            "a level has another number of nodes than its header says", section().offset);
+  }
+
+  void scan(uint64_t offset, std::span<const std::byte> bytes) {
+    if (level_ + 2 == h_.levels) return;  // any u64 is safe to follow
+    for (size_t i = 0; i < bytes.size(); i += 4, ++word_) {
+      uint32_t word;
+      std::memcpy(&word, bytes.data() + i, 4);
+      if (pending_ == 0) {
+        require(word != 0 && word < 256, file_, "impossible child mask", offset + i);
+        starts_[word_ / 64] |= uint64_t(1) << (word_ % 64);
+        pending_ = std::popcount(word);
+        ++nodes_;
+      } else {
+        require(starts_below(word), file_, "a pointer leads nowhere", offset + i);
+        --pending_;
+      }
+    }
+  }
+  bool starts_below(uint32_t word) const {
+    const Section& below = h_.sections[level_ + 1];
+    if (level_ + 3 == h_.levels) return word < below.nodes;
+    return word < below.bytes / 4 && (below_[word / 64] >> (word % 64) & 1U) != 0;
+  }
+
+  const File& file_;
+  const Header& h_;
+  uint32_t level_;
+  bool done_ = false;
+  uint64_t position_ = sizeof(Header);
+  std::vector<uint64_t> starts_, below_;  // bitmaps: word w begins a node
+  uint64_t nodes_ = 0;
+  uint64_t word_ = 0;
+  int pending_ = 0;  // pointers still to come of the node being read
+};
+
+}  // namespace
+
+Header check_dag(const File& file) {
+  Header h;
+  const size_t got = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
+  if (got >= sizeof h.magic && std::memcmp(h.magic, kMagic, sizeof kMagic) == 0 && got < sizeof h)
+    fail_input(file.path(), "damaged file: it ends within its header", got);
+  if (got < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
+  check_identity(file, h);
+  check_fields(file, h);
+  check_layout(file, h);
+  const std::vector<uint64_t> table = read_table(file, h);
+  StructureScan scan(file, h);
+  std::vector<std::byte> block(kChecksumBlock);
+  for (size_t i = 0; i < table.size(); ++i) {
+    const uint64_t offset = sizeof(Header) + i * kChecksumBlock;
+    const auto bytes = std::span(block).first(
+        size_t(std::min<uint64_t>(kChecksumBlock, h.checksum_offset - offset)));
+    file.read_at(offset, bytes);
+    require(checksum64(bytes) == table[i], file, "a block does not match its checksum", offset);
+    scan.feed(offset, bytes);
+  }
+  scan.finish();
+  return h;
+}
+
+}  // namespace svdag

@@ -1,0 +1,168 @@
+#include "io/dag/dag_writer.h"
+
+#include <bit>
+#include <cstring>
+
+#include "io/units.h"
+#include "streaming/checksum.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+std::string json_list(std::initializer_list<std::string> items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "[" : ",") + item;
+  return text + "]";
+}
+
+}  // namespace
+
+DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule)
+    : file_(path), level_(grid.levels - 1) {
+  static_assert(std::endian::native == std::endian::little, "the format is little-endian");
+  std::memcpy(header_.magic, kMagic, sizeof kMagic);
+  header_.version = kFormatVersion;
+  header_.header_bytes = sizeof(Header);
+  header_.levels = uint32_t(grid.levels);
+  header_.fraction = uint32_t(grid.fraction());
+  header_.rule = uint32_t(rule);
+  header_.grid_kind = uint32_t(grid.kind);
+  header_.voxel_size = grid.voxel_size;
+  header_.bounded = grid.bounded;
+  header_.section_count = uint32_t(grid.levels - 1);
+  const Point corner = grid.corner();
+  for (int a = 0; a < 3; ++a) {
+    header_.corner[a] = corner[a];
+    header_.k0[a] = grid.k0[a];
+    header_.selection_min[a] = uint32_t(grid.selection.min[a]);
+    header_.selection_max[a] = uint32_t(grid.selection.max[a]);
+  }
+  block_.reserve(kChecksumBlock);
+  file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
+}
+
+void DagWriter::append(const void* bytes, size_t size) {
+  const std::byte* from = static_cast<const std::byte*>(bytes);
+  while (size > 0) {
+    const size_t n = std::min<size_t>(size, kChecksumBlock - block_.size());
+    block_.insert(block_.end(), from, from + n);
+    from += n;
+    size -= n;
+    if (block_.size() == kChecksumBlock) flush_block();
+  }
+}
+
+void DagWriter::flush_block() {
+  if (block_.empty()) return;
+  checksums_.push_back(checksum64(block_));
+  file_.write_at(sizeof(Header) + written_, block_);
+  written_ += block_.size();
+  block_.clear();
+}
+
+void DagWriter::align() {
+  static constexpr std::byte kZeros[kSectionAlignment] = {};
+  append(kZeros, (kSectionAlignment - position() % kSectionAlignment) % kSectionAlignment);
+}
+
+void DagWriter::close_level() {
+  if (level_ == int(header_.section_count)) return;  // none was begun yet
+  Section& section = header_.sections[level_];
+  section.bytes = position() - section.offset;
+}
+
+void DagWriter::begin_level(int level) {
+  SVDAG_ASSERT(level == level_ - 1 && level >= 0);
+  close_level();
+  align();
+  level_ = level;
+  words_ = 0;
+  header_.sections[level].offset = position();
+}
+
+uint32_t DagWriter::add_brick(Brick brick) {
+  SVDAG_ASSERT(brick != 0 && level_ + 2 == int(header_.levels));
+  if (words_ >= kMaxWords)
+    throw Error(ExitCode::kOutput,
+                "the scene needs more than 2^32 - 2 different bricks, which "
+                "format version 1 cannot hold: lower the resolution");
+  append(&brick, sizeof brick);
+  ++header_.sections[level_].nodes;
+  return words_++;
+}
+
+uint32_t DagWriter::add_node(const NodeKey& children) {
+  uint32_t words[9];
+  uint32_t mask = 0, count = 1;
+  for (unsigned c = 0; c < 8; ++c) {
+    if (children[c] == 0) continue;
+    mask |= 1U << c;
+    words[count++] = children[c] - 1;
+  }
+  words[0] = mask;
+  SVDAG_ASSERT(mask != 0 && level_ + 2 < int(header_.levels));
+  if (uint64_t(words_) + count > kMaxWords)
+    throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
+                                       " needs more than 2^32 - 2 words, which format "
+                                       "version 1 cannot hold: lower the resolution");
+  append(words, 4 * size_t(count));
+  ++header_.sections[level_].nodes;
+  const uint32_t index = words_;
+  words_ += count;
+  return index;
+}
+
+std::string DagWriter::metadata() const {
+  const Header& h = header_;
+  const auto number = [](auto v) { return std::to_string(v); };
+  const auto real = [](double v) { return format_double(v); };
+  std::string nodes;
+  for (uint32_t k = 0; k < h.section_count; ++k)
+    nodes += (k ? "," : "[") + number(h.sections[k].nodes);
+  return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
+         ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" +
+         (Rule(h.rule) == Rule::kThin ? "thin" : "conservative") +
+         "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
+         (Grid::Kind(h.grid_kind) == Grid::Kind::kBox ? "box" : "lattice") +
+         "\",\"corner\":" + json_list({real(h.corner[0]), real(h.corner[1]), real(h.corner[2])}) +
+         ",\"voxel_size\":" + real(h.voxel_size) +
+         ",\"k0\":" + json_list({number(h.k0[0]), number(h.k0[1]), number(h.k0[2])}) +
+         ",\"bounded\":" + (h.bounded ? "true" : "false") + ",\"selection\":" +
+         json_list({number(h.selection_min[0]), number(h.selection_min[1]),
+                    number(h.selection_min[2]), number(h.selection_max[0]),
+                    number(h.selection_max[1]), number(h.selection_max[2])}) +
+         "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
+         "],\"largest_snap\":" + real(h.largest_snap) + "}\n";
+}
+
+void DagWriter::finish(uint64_t voxels, double largest_snap) {
+  SVDAG_ASSERT(level_ == 0);
+  close_level();
+  header_.voxels = voxels;
+  header_.largest_snap = largest_snap;
+  align();
+  const std::string json = metadata();
+  header_.metadata_offset = position();
+  header_.metadata_bytes = json.size();
+  append(json.data(), json.size());
+  align();
+  header_.checksum_offset = position();
+  flush_block();
+  header_.checksum_bytes = checksums_.size() * sizeof(uint64_t);
+  header_.file_bytes = header_.checksum_offset + header_.checksum_bytes;
+  const auto table = std::as_bytes(std::span(checksums_));
+  file_.write_at(header_.checksum_offset, table);
+
+  Hasher128 hasher;  // content_hash and header_checksum are still zero
+  hasher.update(std::as_bytes(std::span(&header_, 1)));
+  hasher.update(table);
+  const Hash128 hash = hasher.digest();
+  std::memcpy(header_.content_hash, hash.data(), sizeof hash);
+  const auto bytes = std::as_bytes(std::span(&header_, 1));
+  header_.header_checksum = checksum64(bytes.first(offsetof(Header, header_checksum)));
+  file_.write_at(0, bytes);
+  file_.commit();
+}
+
+}  // namespace svdag

@@ -1,0 +1,54 @@
+// Writes a `.svdag` level by level, deepest first, in one sequential pass.
+//
+// The levels arrive in canonical order (docs/format.md, "Order"), so the writer holds one block of
+// 64 KiB and the checksum table. The file appears under its name only after finish().
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/brick.h"
+#include "io/dag/format.h"
+#include "io/grid.h"
+#include "streaming/atomic_file.h"
+
+namespace svdag {
+
+// The children of a node: 0 = absent, otherwise 1 + the child's index (word or brick) one level
+// down. Compared lexicographically, child 0 first: the canonical order.
+using NodeKey = std::array<uint32_t, 8>;
+
+class DagWriter {
+ public:
+  DagWriter(const std::string& path, const Grid& grid, Rule rule);
+
+  // Begins the section of `level`; the order is L-2, L-3, ..., 0, each exactly once.
+  void begin_level(int level);
+  // Appends a brick to level L-2; returns its index. A full section is an Error (kOutput).
+  uint32_t add_brick(Brick brick);
+  // Appends a node to an inner level; returns the index of its first word.
+  uint32_t add_node(const NodeKey& children);
+  // Writes metadata, checksums and header, and gives the file its name.
+  void finish(uint64_t voxels, double largest_snap);
+
+  const Header& header() const { return header_; }
+
+ private:
+  void append(const void* bytes, size_t size);
+  void flush_block();
+  void align();
+  uint64_t position() const { return sizeof(Header) + written_ + block_.size(); }
+  void close_level();
+  std::string metadata() const;
+
+  AtomicFile file_;
+  Header header_{};
+  int level_;                     // the level being written
+  uint32_t words_ = 0;            // words (bricks) in it
+  uint64_t written_ = 0;          // payload bytes in the file
+  std::vector<std::byte> block_;  // payload bytes not yet written, less than kChecksumBlock
+  std::vector<uint64_t> checksums_;
+};
+
+}  // namespace svdag
