@@ -16,10 +16,12 @@ __attribute__((noinline)) Point rounded(const Point& p) {
 TEST(FloatRounding, RoundsNeighbouringCoordinates) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 1000; ++i) {
-    const Point p(double(random()), double(random()), double(random()));
+    Point p;
+    for (int a = 0; a < 3; ++a) p[a] = double(random());
     const Point q = rounded(p);
     for (int a = 0; a < 3; ++a) {
-      EXPECT_EQ(q[a], double(static_cast<volatile float>(p[a])));
+      const volatile float nearest = float(p[a]);
+      EXPECT_EQ(q[a], double(nearest));
       EXPECT_NE(q[a], p[a]);  // 64 random bits do not fit 24
     }
   }
