@@ -72,20 +72,28 @@ class ObjReader {
 
   void read_face() {
     if (!wanted_) return;
-    while (!scanner_.at_line_end()) {
-      triangulator_.corner(position(scanner_.integer('/')));
-      skip_references();
+    std::array<Point, 3> first;
+    size_t corners = 0;
+    for (; !scanner_.at_line_end(); ++corners) {
+      const Point p = position(scanner_.integer('/'));
+      if (!scanner_.at_word_end()) skip_references();
+      if (corners < 3) {
+        first[corners] = p;
+        continue;
+      }
+      if (corners == 3)
+        std::for_each(first.begin(), first.end(), [&](const Point& q) { triangulator_.corner(q); });
+      triangulator_.corner(p);
     }
-    triangulator_.finish(writer_);
+    if (corners == 3) writer_.add(first[0], first[1], first[2]);
+    if (corners > 3) triangulator_.finish(writer_);
   }
 
   // The "/2/3" of a corner "1/2/3".
   void skip_references() {
-    if (scanner_.at_word_end()) return;
-    for (const char c : scanner_.word()) {
-      if (c != '/' && c != '-' && c != '+' && (c < '0' || c > '9'))
-        scanner_.fail("has a corner of a face that is no index/index/index");
-    }
+    scanner_.skip_while([](char c) { return (c >= '/' && c <= '9') || c == '-' || c == '+'; });
+    if (!scanner_.at_word_end())
+      scanner_.fail("has a corner of a face that is no index/index/index");
   }
 
   Point position(int64_t index) const {

@@ -110,7 +110,12 @@ class PlyBody {
     if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
     positions_.emplace(budget,
                        single ? Positions::Precision::kSingle : Positions::Precision::kDouble);
-    for (uint64_t row = 0; row < element.count; ++row) {
+    uint64_t row = 0;
+    if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
+      if (const auto offset = plain_vertices(values, element))
+        row = read_plain_vertices(values, *offset, element);
+    }
+    for (; row < element.count; ++row) {
       std::array<double, 4> read{};
       for (size_t i = 0; i < element.properties.size(); ++i) {
         if (coordinate[i] < 3) {
@@ -121,6 +126,39 @@ class PlyBody {
       }
       positions_->add({read[0], read[1], read[2]});
     }
+  }
+
+  // Where x, y, z stand in a row that holds them as consecutive floats of this machine's order.
+  static std::optional<size_t> plain_vertices(const PlyBinaryValues& values,
+                                              const PlyElement& element) {
+    const auto x = element.find("x");
+    if (!x || element.has_lists() || values.order() != std::endian::native) return {};
+    for (size_t a = 0; a < 3; ++a) {
+      if (element.find(std::string(1, char('x' + a))) != *x + a ||
+          element.properties[*x + a].type != PlyType::kFloat32)
+        return {};
+    }
+    size_t offset = 0;
+    for (size_t i = 0; i < *x; ++i) offset += size_of(element.properties[i].type);
+    return offset;
+  }
+
+  uint64_t read_plain_vertices(PlyBinaryValues& values, size_t offset, const PlyElement& element) {
+    const size_t row_bytes = element.least_bytes();
+    uint64_t done = 0;
+    while (done < element.count) {
+      const auto bytes = values.stream().peek(row_bytes);
+      const uint64_t visible = std::min(bytes.size() / row_bytes, element.count - done);
+      if (visible == 0) break;
+      const std::byte* p = bytes.data() + offset;
+      for (uint64_t i = 0; i < visible; ++i, p += row_bytes) {
+        const auto v = load<std::array<float, 3>>(p, std::endian::native);
+        positions_->add({v[0], v[1], v[2]});
+      }
+      values.stream().skip(visible * row_bytes);
+      done += visible;
+    }
+    return done;
   }
 
   static bool all_float(const PlyElement& element, const std::vector<int>& coordinate) {

@@ -20,7 +20,7 @@ void TextScanner::take_line_end() {
   ++line_;
 }
 
-void TextScanner::next_line() {
+void TextScanner::skip_rest_of_line() {
   // A comment that ends with a backslash (a path, say) does not swallow the next line.
   const bool comment = at_line_end() && here_ != end_ && *here_ == syntax_.comment;
   for (bool joins = false;;) {
@@ -35,16 +35,6 @@ void TextScanner::next_line() {
       joins = false;
     }
   }
-}
-
-std::string_view TextScanner::word() {
-  if (at_line_end()) return {};
-  const char* start = here_;
-  while (!ends_word(here_)) {
-    if (size_t(here_ - start) >= kLongestWord) fail("has a word that is too long");
-    ++here_;
-  }
-  return {start, size_t(here_ - start)};
 }
 
 std::string_view TextScanner::rest_of_line() {

@@ -38,7 +38,14 @@ class TextScanner {
     skip_blanks();
     return here_ == end_ || is_line_end(*here_) || *here_ == syntax_.comment;
   }
-  void next_line();
+  void next_line() {
+    if (here_ != end_ && *here_ == '\n') {
+      ++here_;
+      ++line_;
+    } else {
+      skip_rest_of_line();
+    }
+  }
   // Moves over blanks, line ends and comments; true at the end of the file.
   bool at_end() {
     while (at_line_end()) {
@@ -54,7 +61,15 @@ class TextScanner {
   char next_letter() { return at_line_end() ? '\0' : *here_; }
 
   // The next word of this line, "" at its end; valid until the next call.
-  std::string_view word();
+  std::string_view word() {
+    if (at_line_end()) return {};
+    const char* start = here_;
+    const char* p = start;
+    while (p != end_ && !ends_word(p)) ++p;
+    here_ = p;
+    if (size_t(p - start) > kLongestWord) fail("has a word that is too long");
+    return {start, size_t(p - start)};
+  }
   // What is left of this line, blanks at its ends and comments included; valid until the next call.
   std::string_view rest_of_line();
 
@@ -64,12 +79,25 @@ class TextScanner {
   // As number(), for integers; `stop` may end the word too and is not consumed.
   int64_t integer(char stop = '\0') {
     skip_blanks();
+    const char* p = here_;
+    const bool negative = p != end_ && *p == '-';
+    if (p != end_ && (*p == '-' || *p == '+')) ++p;
+    const char* first = p;
     int64_t value = 0;
-    const auto [end, error] = std::from_chars(behind_plus(), end_, value);
-    if (error != std::errc{} || !(ends_word(end) || (end != end_ && *end == stop && stop != '\0')))
+    while (p != end_ && *p >= '0' && *p <= '9' && p - first <= kMostDigits)
+      value = 10 * value + (*p++ - '0');
+    if (p == first || p - first > kMostDigits ||
+        !(ends_word(p) || (p != end_ && *p == stop && stop != '\0')))
       fail_word("an integer");
-    here_ = end;
-    return value;
+    here_ = p;
+    return negative ? -value : value;
+  }
+  // Moves on within a word, over the characters that `belongs` accepts.
+  template <class Belongs>
+  void skip_while(Belongs belongs) {
+    const char* p = here_;
+    while (p != end_ && belongs(*p)) ++p;
+    here_ = p;
   }
 
   // A broken file: one sentence that names this line.
@@ -77,13 +105,16 @@ class TextScanner {
 
  private:
   static constexpr size_t kLookAhead = kLongestWord + 2;
+  static constexpr int kMostDigits = 18;  // of an int64 without a thought of overflow
 
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
   void skip_blanks() {
     for (;;) {
-      while (here_ != end_ && is_blank(*here_)) ++here_;
+      const char* p = here_;
+      while (p != end_ && is_blank(*p)) ++p;
+      here_ = p;
       if (size_t(end_ - here_) < kLookAhead && !last_) {
         refill();
       } else if (here_ == end_ || *here_ != '\\' || !at_continuation(here_)) {
@@ -99,6 +130,7 @@ class TextScanner {
   }
   bool ends_word(const char* p) const {
     if (p == end_) return last_;
+    if (*p > ' ' && *p != '\\') return false;
     return is_blank(*p) || is_line_end(*p) || at_continuation(p);
   }
   // from_chars takes no "+", and must not be handed the "-1" of "+-1".
@@ -122,6 +154,7 @@ class TextScanner {
   }
   template <class T>
   T beyond_range(const char* end) const;
+  void skip_rest_of_line();
   void take_line_end();
   void refill();
   [[noreturn]] void fail_word(const char* wanted);
