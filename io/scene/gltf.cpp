@@ -6,6 +6,7 @@
 // transform); morph targets, points and lines are ignored. A Draco primitive that also has plain
 // data is read from the plain data, which is exact.
 #include <array>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,27 @@ static_assert(sizeof(Point) == 3 * sizeof(double));
 std::span<double> as_numbers(std::span<Point> points) {
   return {reinterpret_cast<double*>(points.data()), points.size() * 3};
 }
+
+// Reserved memory for points, kept from one primitive to the next: fresh pages cost more than the
+// triangles of a small mesh.
+class PointArray {
+ public:
+  std::span<Point> resize(uint64_t count, MemoryBudget* budget) {
+    if (count > capacity_) {
+      points_.reset();
+      memory_.release();
+      memory_ = budget->reserve(count * sizeof(Point), "glTF vertices");
+      points_ = std::make_unique_for_overwrite<Point[]>(size_t(count));
+      capacity_ = count;
+    }
+    return {points_.get(), size_t(count)};
+  }
+
+ private:
+  MemoryBudget::Reservation memory_;
+  std::unique_ptr<Point[]> points_;
+  uint64_t capacity_ = 0;
+};
 
 // The corners of an unindexed primitive, transformed.
 class SoupCorners {
@@ -60,14 +82,17 @@ class IndexedCorners {
       next_ = 0;
     }
     const uint32_t index = window_[next_++];
-    if (index >= points_.size()) {
-      fail_input(*path_, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
-                             std::to_string(points_.size()) + " vertices");
-    }
+    if (index >= points_.size()) fail(index);
     return points_[index];
   }
 
  private:
+  // Out of line, so that the loop above stays small enough to be inlined.
+  [[noreturn, gnu::noinline]] void fail(uint32_t index) const {
+    fail_input(*path_, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
+                           std::to_string(points_.size()) + " vertices");
+  }
+
   ElementStream stream_;
   std::span<const Point> points_;
   const std::string* path_;
@@ -153,10 +178,9 @@ class GltfReader {
     const Accessor indices = buffers_.accessor(primitive.count("indices"), "SCALAR");
     check_indices(indices);
     check_count(mode, indices.count());
-    auto memory = options_.budget->reserve(positions.count() * sizeof(Point), "glTF vertices");
-    std::vector<Point> points(size_t(positions.count()));
+    std::span<Point> points = local_.resize(positions.count(), options_.budget);
     ElementStream(positions).read(as_numbers(points));
-    for_each_placed(std::move(points), std::move(instances), [&](std::span<const Point> placed) {
+    for_each_placed(points, std::move(instances), [&](std::span<const Point> placed) {
       IndexedCorners corners(indices, placed);
       assemble(mode, indices.count(), corners, out_);
     });
@@ -169,28 +193,22 @@ class GltfReader {
                              document_.element("accessors", accessor).flag("normalized")};
     DracoMesh mesh = decode_draco(source, options_.budget);
     const std::vector<uint32_t>& indices = mesh.indices;
-    for_each_placed(
-        std::move(mesh.positions), std::move(instances), [&](std::span<const Point> placed) {
-          for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
-          }
-        });
+    for_each_placed(mesh.positions, std::move(instances), [&](std::span<const Point> placed) {
+      for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
+      }
+    });
   }
 
   // Calls use(points in world space) for every instance; a second copy only if there are several.
   template <class Use>
-  void for_each_placed(std::vector<Point> points, InstanceStream instances, const Use& use) {
-    MemoryBudget::Reservation memory;
-    std::vector<Point> copy;
-    if (instances.count() > 1) {
-      memory = options_.budget->reserve(points.size() * sizeof(Point), "glTF vertices");
-      copy.resize(points.size());
-    }
+  void for_each_placed(std::span<Point> points, InstanceStream instances, const Use& use) {
+    const bool several = instances.count() > 1;
+    const auto placed = several ? placed_.resize(points.size(), options_.budget) : points;
     for (uint64_t i = 0; i < instances.count(); ++i) {
       const Affine to_world = instances.next();
-      std::vector<Point>& placed = instances.count() > 1 ? copy : points;
       for (size_t v = 0; v < points.size(); ++v) placed[v] = to_world(points[v]);
-      use(placed);
+      use(std::span<const Point>(placed));
     }
   }
 
@@ -210,6 +228,7 @@ class GltfReader {
   GltfDocument document_;
   const ReadOptions& options_;
   GltfBuffers buffers_;
+  PointArray local_, placed_;
   BatchWriter out_;
 };
 
