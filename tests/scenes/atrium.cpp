@@ -70,7 +70,9 @@ void build_wall(Masonry& m, const Side& side) {
   const double length = kBay * side.bays;
   const Frame f = side.frame.moved(0, 0, -kGallery - kWall / 2);
   const double sill = kFloor[1] + 1;
-  m.block(f, {-kGallery, -0.5, -kWall / 2}, {length + kGallery, sill, kWall / 2});
+  const double end =
+      kGallery + (side.bays == kLong ? kWall : 0);  // the long walls hold the corners
+  m.block(f, {-end, -0.5, -kWall / 2}, {length + end, sill, kWall / 2});
   const Arch window{kBay, 0.6, kFloor[2] - sill - 1.4, kFloor[2] - sill, kWall};
   for (int bay = 0; bay < side.bays; ++bay) {
     const Frame g = f.moved(kBay * bay, sill, 0);
@@ -78,8 +80,8 @@ void build_wall(Masonry& m, const Side& side) {
     m.block(g, {0, 0, -kWall / 2}, {kBay / 2 - 0.6, window.spring, kWall / 2});
     m.block(g, {kBay / 2 + 0.6, 0, -kWall / 2}, {kBay, window.spring, kWall / 2});
   }
-  for (const double a : {-kGallery, length})
-    m.block(f, {a, sill, -kWall / 2}, {a + kGallery, kFloor[2], kWall / 2});
+  for (const double a : {-end, length})
+    m.block(f, {a, sill, -kWall / 2}, {a + end, kFloor[2], kWall / 2});
 }
 
 // Tiles in rows down the roof of a gallery, towards the court; mitred at the corners.
@@ -87,8 +89,8 @@ void build_roof(Masonry& m, const Side& side, std::vector<Patch>& roofs) {
   const double length = kBay * side.bays, run = kGallery + 1;
   const Frame f = side.frame.moved(0, kFloor[2] + 0.1, 0);
   const auto surface = [=](double u, double v) {
-    const double out = 0.5 - run * v, reach = kGallery * v;  // the outer edge is longer
-    const double a = 0.5 * (1 - v) - reach + (length + 2 * reach - (1 - v)) * u;
+    const double out = 0.5 - run * v;  // also where the mitre is: the outer edge is longer
+    const double a = out + (length - 2 * out) * u;
     const double wave = sin_turns(2 * a);
     return f.at(a, 1.4 * v + 0.07 * wave * wave, out);
   };

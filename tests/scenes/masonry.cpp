@@ -66,10 +66,11 @@ void Masonry::arch_face(const Frame& f, const Arch& arch, double c) {
     const Point from = corners[side], to = corners[side + 1];
     const double begin = kTurns[side], end = kTurns[side + 1];
     const auto surface = [=](double u, double v) {
-      const double turn = begin + (end - begin) * u;
+      const double t = c < 0 ? 1 - u : u;  // both faces turned outwards
+      const double turn = begin + (end - begin) * t;
       const Point arc{half + arch.radius * cos_turns(turn),
                       arch.spring + arch.radius * sin_turns(turn), c};
-      const Point p = lerp(arc, lerp(from, to, u), v);
+      const Point p = lerp(arc, lerp(from, to, t), v);
       return f.at(p.x, p.y, p.z);
     };
     add(surface, side == 1 ? arch.width : rise, half - arch.radius, side == 1 ? 8 : 4);
