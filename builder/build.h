@@ -1,0 +1,49 @@
+// A bake: scene files in, one `.svdag` out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "builder/split.h"
+#include "io/dag/format.h"
+#include "streaming/executor.h"
+#include "streaming/progress.h"
+
+namespace svdag {
+
+struct BuildConfig {
+  SceneConfig scene;
+  std::string output;
+  int levels = 0;             // -r: L of the grid; 0 if the voxel size is given instead
+  double voxel_size = 0;      // --voxel-size, in world units; 0 if the resolution is given
+  std::optional<Box> bounds;  // --bounds, in world units
+  uint64_t memory = 0;        // --memory in bytes; 0: half of the machine
+  int cell_level = -1;        // octree level of the cells; -1: chosen by the grid
+};
+
+struct BuildReport {
+  Grid grid;
+  Rule rule = Rule::kConservative;
+  SplitCounts split;
+  uint64_t cells = 0;  // visited
+  uint64_t voxels = 0;
+  std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
+  uint64_t file_bytes = 0;
+  std::string content_hash;  // 32 hex digits, as `svdag info` prints it
+  size_t threads = 0;
+  struct Seconds {
+    double bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0, total = 0;
+    double cpu = 0;  // of all threads, whole process
+  } seconds;
+  uint64_t peak_counted = 0;   // bytes, by the memory budget
+  uint64_t peak_resident = 0;  // bytes, by the kernel
+};
+
+// Throws Error; the output then holds what it held before.
+BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress);
+
+// The grid of `config` for a scene with bounding box `box`.
+Grid choose_grid(const BuildConfig& config, const Box& box);
+
+}  // namespace svdag

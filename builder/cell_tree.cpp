@@ -1,0 +1,147 @@
+#include "builder/cell_tree.h"
+
+#include <algorithm>
+
+#include "builder/overlap.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+struct CellTree::Node {
+  std::array<std::unique_ptr<Node>, 8> children;
+  std::vector<uint32_t> triangles;    // numbers in triangles_
+  std::vector<TriangleSetup> setups;  // the same, prepared; inner nodes only
+};
+
+CellTree::CellTree(const Grid& grid, int cell_level, MemoryBudget* budget)
+    : grid_(grid),
+      cell_level_(cell_level),
+      root_(std::make_unique<Node>()),
+      reservation_(budget->reserve(0, "triangles")) {
+  SVDAG_ASSERT(cell_level >= 0 && cell_level <= grid.levels - 2);
+}
+
+CellTree::~CellTree() = default;
+
+void CellTree::charge(uint64_t bytes) {
+  used_ += bytes;
+  // In steps, so that the shared counter is not touched for every triangle; vectors grow by
+  // doubling, of which half may be empty.
+  if (2 * used_ > reservation_.bytes())
+    reservation_.resize(std::max(2 * used_, reservation_.bytes() + (1U << 20)), "triangles");
+}
+
+void CellTree::add(const LatticeTriangle& triangle) {
+  if (triangles_.size() >= 0xffffffffU)
+    throw Error(ExitCode::kMemory, "more than 2^32 triangles at once: bake parts with --bounds");
+  charge(sizeof triangle);
+  triangles_.push_back(triangle);
+  TriangleSetup box;
+  for (int a = 0; a < 3; ++a) {
+    const auto& v = triangle.v;
+    box.min[a] = std::min({v[0][a], v[1][a], v[2][a]});
+    box.max[a] = std::max({v[0][a], v[1][a], v[2][a]});
+  }
+  insert(root_.get(), Cube(), uint32_t(triangles_.size() - 1), box);
+}
+
+void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const TriangleSetup& box) {
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const LatticePoint size = box.max - box.min;
+  if (cube.level == cell_level_ || std::max({size.x, size.y, size.z}) > side / 2) {
+    charge(sizeof triangle);
+    node->triangles.push_back(triangle);
+    return;
+  }
+  for (unsigned c = 0; c < 8; ++c) {
+    const Cube child = cube.child(c);
+    if (!boxes_meet(box, child.corner(grid_.levels), side / 2)) continue;
+    if (!node->children[c]) {
+      charge(sizeof(Node));
+      node->children[c] = std::make_unique<Node>();
+    }
+    insert(node->children[c].get(), child, triangle, box);
+  }
+}
+
+void CellTree::seal() {
+  prepare(root_.get(), 0);
+}
+
+void CellTree::prepare(Node* node, int level) {
+  if (level == cell_level_) return;  // the worker that bakes the cell prepares its own
+  charge(node->triangles.size() * sizeof(TriangleSetup));
+  node->setups.reserve(node->triangles.size());
+  for (const uint32_t i : node->triangles) node->setups.push_back(make_setup(triangles_[i]));
+  for (const auto& child : node->children) {
+    if (child) prepare(child.get(), level + 1);
+  }
+}
+
+std::vector<Cube> CellTree::occupied_cells() const {
+  std::vector<Cube> cells;
+  collect(root_.get(), Cube(), {}, &cells);
+  return cells;
+}
+
+void CellTree::collect(const Node* node, const Cube& cube, EntryList list,
+                       std::vector<Cube>* cells) const {
+  if (cube.level == cell_level_) {
+    if (!list.empty() || (node != nullptr && !node->triangles.empty())) cells->push_back(cube);
+    return;
+  }
+  if (node != nullptr) {
+    for (const TriangleSetup& t : node->setups) list.push_back({&t, t.edges});
+  }
+  std::array<EntryList, 8> lists;
+  divide_list(list, cube, grid_.levels, 0xff, &lists);
+  for (unsigned c = 0; c < 8; ++c) {
+    const Node* child = node != nullptr ? node->children[c].get() : nullptr;
+    if (child != nullptr || !lists[c].empty())
+      collect(child, cube.child(c), std::move(lists[c]), cells);
+  }
+}
+
+CellCursor::CellCursor(const CellTree& tree) : tree_(tree), path_(size_t(tree.cell_level() + 1)) {
+  enter(Cube(), tree.root_.get(), {});
+}
+
+void CellCursor::enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited) {
+  Step& step = path_[size_t(cube.level)];
+  step.cube = cube;
+  step.node = node;
+  step.list = inherited;
+  step.divided = false;
+  if (node == nullptr || cube.level == tree_.cell_level()) return;
+  for (const TriangleSetup& t : node->setups) step.list.push_back({&t, t.edges});
+}
+
+const EntryList& CellCursor::list(const Cube& cell) {
+  SVDAG_ASSERT(cell.level == tree_.cell_level());
+  int level = 0;  // the deepest step that is on the way to `cell`
+  while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
+  for (; level < cell.level; ++level) {
+    Step& step = path_[size_t(level)];
+    if (!step.divided) divide_list(step.list, step.cube, tree_.grid().levels, 0xff, &step.children);
+    step.divided = true;
+    const Cube next = ancestor(cell, level + 1);
+    const unsigned c = unsigned(morton(next.coordinate) & 7);
+    enter(next, step.node != nullptr ? step.node->children[c].get() : nullptr, step.children[c]);
+  }
+  depth_ = cell.level;
+  return prepare(path_[size_t(cell.level)]);
+}
+
+const EntryList& CellCursor::prepare(const Step& cell) {
+  list_ = cell.list;
+  setups_.clear();
+  if (cell.node == nullptr) return list_;
+  setups_.reserve(cell.node->triangles.size());  // entries point into it
+  for (const uint32_t i : cell.node->triangles) {
+    setups_.push_back(make_setup(tree_.triangles_[i]));
+    list_.push_back({&setups_.back(), setups_.back().edges});
+  }
+  return list_;
+}
+
+}  // namespace svdag

@@ -1,0 +1,81 @@
+// The top of the octree, filled by the split: which triangles concern which cells.
+//
+// A cell is a cube of level `cell_level`, the unit of work. A triangle whose box is larger than
+// half of an inner cube stays at that cube instead of being copied into thousands of cells below;
+// the others go down to each child that their box meets. Lists at inner nodes are divided on the
+// way to a cell (CellCursor). Rejected: a flat list per cell (a floor of two triangles would stand
+// in every cell it crosses).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "builder/cell.h"
+#include "builder/descend.h"
+#include "streaming/memory_budget.h"
+
+namespace svdag {
+
+class CellTree {
+ public:
+  CellTree(const Grid& grid, int cell_level, MemoryBudget* budget);
+  ~CellTree();
+
+  // Adds a triangle whose box meets the closed grid.
+  void add(const LatticeTriangle& triangle);
+  // Prepares the triangles of inner nodes; none may be added after this.
+  void seal();
+
+  const Grid& grid() const { return grid_; }
+  int cell_level() const { return cell_level_; }
+  // The cells that triangles may touch, in Morton order.
+  std::vector<Cube> occupied_cells() const;
+
+ private:
+  friend class CellCursor;
+  struct Node;
+
+  void insert(Node* node, const Cube& cube, uint32_t triangle, const TriangleSetup& box);
+  void prepare(Node* node, int level);
+  void collect(const Node* node, const Cube& cube, EntryList list, std::vector<Cube>* cells) const;
+  void charge(uint64_t bytes);
+
+  Grid grid_;
+  int cell_level_;
+  std::unique_ptr<Node> root_;
+  std::vector<LatticeTriangle> triangles_;
+  MemoryBudget::Reservation reservation_;
+  uint64_t used_ = 0;
+};
+
+// Gives a worker the lists of cells, one after the other. Cells in Morton order share most of their
+// path, so the divided lists along the path are kept from one cell to the next.
+class CellCursor {
+ public:
+  explicit CellCursor(const CellTree& tree);
+
+  // The list of `cell`; valid until the next call.
+  const EntryList& list(const Cube& cell);
+
+ private:
+  struct Step {
+    Cube cube;
+    const CellTree::Node* node;  // null: nothing of its own here and below
+    EntryList list;              // what concerns the cube from inner nodes
+    bool divided = false;        // `children` holds the divided list
+    std::array<EntryList, 8> children;
+  };
+
+  void enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited);
+  const EntryList& prepare(const Step& cell);
+
+  const CellTree& tree_;
+  std::vector<Step> path_;             // [k] is at level k
+  int depth_ = 0;                      // path_[0 .. depth_] are valid
+  std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
+  EntryList list_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,106 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "builder/commands/commands.h"
+#include "io/units.h"
+#include "streaming/atomic_file.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json grid_json(const Grid& g) {
+  const Point corner = g.corner();
+  return {{"kind", g.kind == Grid::Kind::kBox ? "box" : "lattice"},
+          {"resolution", g.resolution()},
+          {"levels", g.levels},
+          {"fraction_bits", g.fraction()},
+          {"voxel_size", g.voxel_size},
+          {"corner", {corner.x, corner.y, corner.z}},
+          {"k0", {g.k0.x, g.k0.y, g.k0.z}},
+          {"bounded", g.bounded}};
+}
+
+double bits_per_voxel(const BuildReport& r) {
+  return r.voxels == 0 ? 0 : 8.0 * double(r.file_bytes) / double(r.voxels);
+}
+
+std::string report_json(const BuildCommandConfig& config, const BuildReport& r) {
+  const auto& s = r.seconds;
+  Json json = {
+      {"svdag", SVDAG_VERSION},
+      {"scene", config.build.scene.paths},
+      {"output", config.build.output},
+      {"grid", grid_json(r.grid)},
+      {"rule", "conservative"},
+      {"triangles", r.split.scene.triangles},
+      {"triangles_outside", r.split.outside},
+      {"triangles_degenerate", r.split.degenerate},
+      {"triangles_invalid", r.split.scene.invalid},
+      {"largest_snap_voxels", r.split.largest_snap},
+      {"cells", r.cells},
+      {"voxels", r.voxels},
+      {"nodes", r.nodes},
+      {"file_bytes", r.file_bytes},
+      {"bits_per_voxel", bits_per_voxel(r)},
+      {"content_hash", r.content_hash},
+      {"threads", r.threads},
+      {"seconds",
+       {{"bounds", s.bounds}, {"split", s.split}, {"voxelize", s.voxelize}, {"sort", s.sort},
+        {"merge", s.merge}, {"write", s.write}, {"total", s.total}, {"cpu", s.cpu}}},
+      {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
+  return json.dump(2) + "\n";
+}
+
+void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
+  uint64_t nodes = 0;
+  for (const uint64_t n : r.nodes) nodes += n;
+  std::printf("%s: %s^3, %s triangles, %s voxels, %s nodes, %s (%.3g bits per voxel), %.1f s\n",
+              config.build.output.c_str(), format_resolution(uint64_t(r.grid.resolution())).c_str(),
+              format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
+              format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
+              r.seconds.total);
+  if (!config.output.verbose) return;
+  const auto& s = r.seconds;
+  std::printf("  triangles: %s outside the grid, %s of zero area, %s dropped as invalid\n",
+              format_count(r.split.outside).c_str(), format_count(r.split.degenerate).c_str(),
+              format_count(r.split.scene.invalid).c_str());
+  std::printf("  largest snap move %.3g voxel; %s cells visited\n", r.split.largest_snap,
+              format_count(r.cells).c_str());
+  std::printf("  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
+              "CPU %.2f on %zu threads\n",
+              s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
+  std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),
+              format_bytes(r.peak_resident).c_str());
+}
+
+void refuse_overwriting_inputs(const BuildCommandConfig& config) {
+  for (const std::string& input : config.build.scene.paths) {
+    for (const std::string& output : {config.build.output, config.report}) {
+      if (!output.empty() && same_file(input, output))
+        fail_usage(output + " is also an input, which is never overwritten: choose another output");
+    }
+  }
+  if (config.build.output == config.report)
+    fail_usage("the output and the report have the same name: choose another --report");
+}
+
+}  // namespace
+
+int run_build(const BuildCommandConfig& config) {
+  refuse_overwriting_inputs(config);
+  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
+  Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
+  const BuildReport report = build(config.build, &executor, &progress);
+  if (!config.report.empty()) {
+    AtomicFile file(config.report);
+    file.append(report_json(config, report));
+    file.commit();
+  }
+  if (!config.output.quiet) print_summary(config, report);
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

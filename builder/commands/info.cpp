@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "builder/commands/commands.h"
+#include "io/dag/dag_stats.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_dag(const std::string& path) {
+  const File file = File::open_read(path);
+  std::array<std::byte, sizeof kMagic> head{};
+  file.read_some_at(0, head);
+  return std::memcmp(head.data(), kMagic, sizeof kMagic) == 0;
+}
+
+Json dag_json(const DagFile& file, const DagStats& stats) {
+  Json json = Json::parse(file.metadata());
+  json["file_bytes"] = file.header().file_bytes;
+  json["svo_nodes"] = stats.svo_nodes();
+  json["dag_nodes"] = stats.dag_nodes();
+  json["paper_dag_nodes"] = stats.paper_dag_nodes();
+  json["bits_per_voxel"] =
+      stats.voxels == 0 ? 0 : 8.0 * double(file.header().file_bytes) / double(stats.voxels);
+  for (const LevelStats& level : stats.levels)
+    json["level_table"].push_back(
+        {{"svo_nodes", level.svo_nodes}, {"dag_nodes", level.dag_nodes}, {"bytes", level.bytes}});
+  json["blocks"] = {{"svo_nodes", stats.blocks}, {"dag_nodes", stats.unique_blocks}};
+  return json;
+}
+
+void print_levels(const DagStats& stats) {
+  std::printf("\n  level %18s %14s %14s\n", "SVO nodes", "DAG nodes", "bytes");
+  for (size_t k = 0; k < stats.levels.size(); ++k) {
+    const LevelStats& level = stats.levels[k];
+    std::printf("  %5zu %18s %14s %14s%s\n", k, format_count(level.svo_nodes).c_str(),
+                format_count(level.dag_nodes).c_str(), format_count(level.bytes).c_str(),
+                k + 1 == stats.levels.size() ? "  (4x4x4 bricks)" : "");
+  }
+  std::printf("  %5zu %18s %14s %14s  (2x2x2 blocks, inside the bricks)\n", stats.levels.size(),
+              format_count(stats.blocks).c_str(), format_count(stats.unique_blocks).c_str(), "");
+}
+
+void info_dag(const InfoConfig& config) {
+  const DagFile file = DagFile::open(config.paths.front());
+  const DagStats stats = compute_stats(file);
+  if (config.json) return void(std::printf("%s\n", dag_json(file, stats).dump(2).c_str()));
+  const Header& h = file.header();
+  const Grid grid = file.grid();
+  std::printf("%s: %s^3 voxels, rule %s\n", file.path().c_str(),
+              format_resolution(uint64_t(grid.resolution())).c_str(),
+              file.rule() == Rule::kThin ? "thin" : "conservative");
+  std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
+              format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
+              format_double(h.corner[2]).c_str(), h.bounded ? ", restricted by --bounds" : "");
+  std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
+              format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
+              format_count(stats.dag_nodes()).c_str(), format_count(stats.paper_dag_nodes()).c_str());
+  std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
+              stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
+              format_bytes(stats.svo_nodes()).c_str());
+  std::printf("  content hash %016llx%016llx\n", static_cast<unsigned long long>(h.content_hash[1]),
+              static_cast<unsigned long long>(h.content_hash[0]));
+  if (config.levels) print_levels(stats);
+}
+
+}  // namespace
+
+void info_scene(const InfoConfig& config);
+
+int run_info(const InfoConfig& config) {
+  if (config.paths.size() == 1 && is_dag(config.paths.front())) {
+    info_dag(config);
+  } else {
+    info_scene(config);
+  }
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

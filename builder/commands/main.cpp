@@ -1,0 +1,123 @@
+// The program `svdag`: the command line, and the one place where an Error is caught.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+void add_output_options(CLI::App* app, OutputConfig* output) {
+  app->add_flag("-q,--quiet", output->quiet, "Print errors only");
+  app->add_flag("-v,--verbose", output->verbose, "Print seconds and memory per phase");
+  app->add_flag_callback("--progress", [output] { output->progress = Progress::Mode::kOn; },
+                         "Show progress even if stderr is no terminal");
+  app->add_flag_callback("--no-progress", [output] { output->progress = Progress::Mode::kOff; },
+                         "Never show progress");
+}
+
+void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid) {
+  app->add_option("--include", names->include, "Only parts whose name matches a pattern (*, ?, [..])")
+      ->type_name("PATTERN");
+  app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
+      ->type_name("PATTERN");
+  app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
+}
+
+Box parse_bounds(const std::string& text) {
+  double v[6];
+  int used = 0;
+  const int n = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3],
+                            &v[4], &v[5], &used);
+  bool good = n == 6 && used == int(text.size());
+  for (int a = 0; good && a < 3; ++a) good = v[a] <= v[a + 3];
+  if (!good)
+    fail_usage("--bounds: \"" + text + "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+void set_up_build(CLI::App* app, BuildCommandConfig* config) {
+  BuildConfig* build = &config->build;
+  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")->required();
+  app->add_option("-o,--output", build->output, "The .svdag to write")->required();
+  CLI::Option_group* grid = app->add_option_group("grid");
+  grid->add_option_function<std::string>(
+          "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
+          "Voxels along the longest side: 8 ... 1M, a power of two")
+      ->type_name("N");
+  grid->add_option_function<double>(
+          "-s,--voxel-size", [build](double s) { build->voxel_size = s; if (s == 0) fail_usage("--voxel-size: 0 is not a size"); },
+          "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
+      ->type_name("S");
+  grid->require_option(1);
+  app->add_option_function<std::string>(
+         "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
+         "Bake only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
+  app->add_option_function<std::string>(
+         "-m,--memory", [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
+         "Memory budget, for example 4G (default: half of the machine)")
+      ->type_name("SIZE");
+  app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
+      ->check(CLI::Range(size_t(1), size_t(1024)));
+  app->add_option("--report", config->report, "Write a report of the bake as JSON")->type_name("FILE");
+  add_output_options(app, &config->output);
+  app->footer("Examples:\n"
+              "  svdag build city.glb -o city.svdag -r 64K\n"
+              "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+}
+
+void set_up_info(CLI::App* app, InfoConfig* config) {
+  app->add_option("FILE", config->paths, "A .svdag file, or the files of a scene")->required();
+  app->add_flag("--json", config->json, "Print JSON");
+  app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
+  add_scene_options(app, &config->names, &config->skip_invalid);
+  app->add_option_function<std::string>(
+         "-m,--memory", [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
+         "Memory budget (default: half of the machine)")
+      ->type_name("SIZE");
+  app->footer("Examples:\n  svdag info city.svdag --levels\n  svdag info city.glb");
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
+  app.set_version_flag("--version", "svdag " SVDAG_VERSION);
+  app.require_subcommand(1);
+  app.footer("svdag COMMAND --help explains a command.");
+  BuildCommandConfig build;
+  InfoConfig info;
+  CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
+  CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag or a scene contains");
+  set_up_build(build_app, &build);
+  set_up_info(info_app, &info);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fail_usage(std::string(error.what()) + "; see svdag --help");
+  }
+  return build_app->parsed() ? run_build(build) : run_info(info);
+}
+
+}  // namespace
+}  // namespace svdag
+
+int main(int argc, char** argv) {
+  try {
+    return svdag::run_program(argc, argv);
+  } catch (const svdag::Error& error) {
+    std::fprintf(stderr, "svdag: %s\n", error.what());
+    return int(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "svdag: the machine has no memory left: give less with --memory or free some\n");
+    return int(svdag::ExitCode::kMemory);
+  }
+}

@@ -1,0 +1,81 @@
+#include "builder/descend.h"
+
+#include <bit>
+
+#include "builder/overlap.h"
+
+namespace svdag {
+
+void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wanted,
+                 std::array<EntryList, 8>* children) {
+  const LatticePoint corner = cube.corner(levels);
+  const int64_t side = int64_t(1) << cube.side_log2(levels);
+  for (EntryList& child : *children) child.clear();
+  for (const Entry& entry : list) {
+    const ChildOverlap overlap = overlap_children(entry, corner, side);
+    for (unsigned left = overlap.touched & wanted; left != 0; left &= left - 1) {
+      const int c = std::countr_zero(left);
+      (*children)[size_t(c)].push_back({entry.triangle, overlap.edges[c]});
+    }
+  }
+}
+
+Descent::Descent(const Grid& grid, NodeTable* table)
+    : grid_(grid), table_(table), scratch_(size_t(grid.levels)) {}
+
+SubDag Descent::run(const Cube& cube, const EntryList& list) {
+  if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
+  if (cube.level == table_->brick_level()) return brick(cube, list);
+  std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
+  divide_list(list, cube, grid_.levels, 0xff, &lists);
+  NodeKey key;
+  uint64_t voxels = 0;
+  for (unsigned c = 0; c < 8; ++c) {
+    const SubDag child = run(cube.child(c), lists[c]);
+    key[c] = child.root;
+    voxels += child.voxels;
+  }
+  if (voxels == 0) return {};
+  return {table_->add_node(cube.level, key), voxels};
+}
+
+SubDag Descent::brick(const Cube& cube, const EntryList& list) {
+  const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
+  const LatticePoint corner = cube.corner(grid_.levels);
+  Brick voxels = 0;
+  for (const Entry& entry : list) {
+    voxels |= overlap_brick(entry, corner, grid_.fraction());
+    if (voxels == ~Brick(0)) break;  // nothing can be added to a full brick
+  }
+  voxels &= wanted;
+  if (voxels == 0) return {};
+  return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
+}
+
+bool Descent::outside_selection(const Cube& cube) const {
+  const int shift = grid_.levels - cube.level;  // log2 of the side in voxels
+  for (int a = 0; a < 3; ++a) {
+    const int64_t low = cube.coordinate[a] << shift;
+    if (low >= grid_.selection.max[a] || low + (int64_t(1) << shift) <= grid_.selection.min[a])
+      return true;
+  }
+  return false;
+}
+
+Brick Descent::selected_voxels(const Cube& cube) const {
+  const auto inside = [&](int a, unsigned i) {
+    const int64_t k = 4 * cube.coordinate[a] + i;
+    return k >= grid_.selection.min[a] && k < grid_.selection.max[a];
+  };
+  Brick voxels = 0;
+  for (unsigned x = 0; x < 4; ++x) {
+    for (unsigned y = 0; y < 4; ++y) {
+      for (unsigned z = 0; z < 4; ++z) {
+        if (inside(0, x) && inside(1, y) && inside(2, z)) voxels |= Brick(1) << brick_bit(x, y, z);
+      }
+    }
+  }
+  return voxels;
+}
+
+}  // namespace svdag

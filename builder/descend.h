@@ -1,0 +1,40 @@
+// From a cube and its triangles to the cube's sub-DAG: the octree descent.
+//
+// Invariant: the list of a cube holds every triangle that touches it (perhaps some that do not,
+// never twice the same). Empty space is never visited: a child without triangles ends the descent.
+// The result depends on the voxels alone, since only bricks decide and they decide exactly.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "builder/cell.h"
+#include "builder/node_table.h"
+#include "io/grid.h"
+
+namespace svdag {
+
+// Divides `list`, the list of `cube`, among the children whose bit is set in `wanted`.
+void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wanted,
+                 std::array<EntryList, 8>* children);
+
+class Descent {
+ public:
+  // Nodes go to `table`, which must outlive the descent.
+  Descent(const Grid& grid, NodeTable* table);
+
+  // The sub-DAG of `cube` (level <= brick level), whose triangles are in `list`.
+  SubDag run(const Cube& cube, const EntryList& list);
+
+ private:
+  SubDag brick(const Cube& cube, const EntryList& list);
+  Brick selected_voxels(const Cube& cube) const;
+  bool outside_selection(const Cube& cube) const;
+
+  Grid grid_;
+  NodeTable* table_;
+  std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
+};
+
+}  // namespace svdag

@@ -1,0 +1,34 @@
+// Which children of a cube, and which voxels of a brick, a triangle touches.
+//
+// Invariant of both: the triangle's bounding box meets the closed cube, and every edge function
+// that is not in `edges` holds everywhere in it. Children are decided on the safe side (an unsure
+// one counts as touched, an unsure edge stays on); voxels are decided exactly.
+#pragma once
+
+#include "builder/cell.h"
+#include "io/brick.h"
+
+namespace svdag {
+
+struct ChildOverlap {
+  uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
+  EdgeMask edges[8];  // the still undecided edge functions in each touched child
+};
+
+// `corner` and `side` of the parent cube in lattice units.
+ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
+                              int64_t side) noexcept;
+
+// The voxels of the brick with minimum corner `corner` that the triangle touches; voxels have side
+// 2^fraction.
+Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction) noexcept;
+
+// Whether the bounding boxes of the triangle and the closed cube meet.
+inline bool boxes_meet(const TriangleSetup& t, const LatticePoint& corner, int64_t side) noexcept {
+  for (int a = 0; a < 3; ++a) {
+    if (t.min[a] > corner[a] + side || t.max[a] < corner[a]) return false;
+  }
+  return true;
+}
+
+}  // namespace svdag

@@ -1,0 +1,51 @@
+// A snapped triangle, prepared for the overlap test.
+//
+// After Schwarz and Seidel, "Fast Parallel Surface and Solid Voxelization on GPUs" (2010), made
+// exact: the closed triangle meets a closed cube iff none of these separates them (separating axis
+// theorem):
+//   box      the three box axes,
+//   plane    the triangle's plane: n . (x - v0) must not have one strict sign on the cube,
+//   edges    per projection along w = x, y, z with n_w != 0 and per edge e: the cube's projected
+//   square
+//            must reach the inner side f >= 0 of the edge.
+//
+// Notation: edge e runs from vertex from[e] to to[e], d = to - from. In the projection along w with
+// the other axes u = w+1, v = w+2 (cyclic): f(x) = sign(n_w) * (d_u (x_v - a_v) - d_v (x_u - a_u)),
+// a = vertex from[e]. Edge functions are numbered k = 3w + e; a 9-bit mask says which are
+// undecided.
+//
+// A projection with n_w = 0 has its edge functions off: they are parallel to the plane's normal,
+// which the plane test already covers. A triangle of zero area is a segment (a "polygon" with the
+// two edges a->b and b->a, all projections on, plane trivially met) or a point (box test alone).
+//
+// Every value is first computed in double with an error bound; only an unsure sign that decides
+// output is computed exactly (builder/exact.h). Rejected: integers everywhere (1.4x slower),
+// epsilons (wrong).
+#pragma once
+
+#include <cstdint>
+
+#include "io/triangle.h"
+
+namespace svdag {
+
+using EdgeMask = uint16_t;
+
+struct TriangleSetup {
+  LatticeTriangle triangle;
+  LatticePoint min, max;  // bounding box
+  double normal[3];       // n, exact in integers and rounded once
+  double edge_u[9];       // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v)
+  double edge_v[9];
+  double normal_error;  // error of n.(x - v0) is <= normal_error * (extent + 2 * cube side)
+  double edge_error;    // likewise for edge functions
+  double extent;        // largest side of the bounding box
+  uint8_t from[3], to[3];
+  EdgeMask edges;  // edge functions that this triangle has
+  bool wide;       // some |q| >= 2^41: exact tests need 256-bit integers
+};
+
+// |q| < 2^62 on every axis (the snap has checked it).
+TriangleSetup make_setup(const LatticeTriangle& triangle) noexcept;
+
+}  // namespace svdag

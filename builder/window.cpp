@@ -1,0 +1,36 @@
+#include "builder/window.h"
+
+#include "builder/overlap.h"
+
+namespace svdag {
+namespace {
+
+void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSink& sink) {
+  if (node == 0) return;
+  if (cube.level == table.brick_level()) return sink(cube.coordinate, table.bricks()[node - 1]);
+  const NodeKey& children = table.nodes(cube.level)[node - 1];
+  for (unsigned c = 0; c < 8; ++c) emit(table, cube.child(c), children[c], sink);
+}
+
+}  // namespace
+
+uint64_t voxelize_window(const Grid& grid, const Cube& window,
+                         std::span<const LatticeTriangle> triangles, const BrickSink& sink) {
+  MemoryBudget budget;
+  NodeTable table(grid.levels, &budget);
+  std::vector<TriangleSetup> setups;
+  setups.reserve(triangles.size());
+  EntryList list;
+  const LatticePoint corner = window.corner(grid.levels);
+  const int64_t side = int64_t(1) << window.side_log2(grid.levels);
+  for (const LatticeTriangle& triangle : triangles) {
+    setups.push_back(make_setup(triangle));
+    if (boxes_meet(setups.back(), corner, side))
+      list.push_back({&setups.back(), setups.back().edges});
+  }
+  const SubDag result = Descent(grid, &table).run(window, list);
+  emit(table, window, result.root, sink);
+  return result.voxels;
+}
+
+}  // namespace svdag

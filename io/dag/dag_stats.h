@@ -1,0 +1,36 @@
+// What a DAG contains: the figures of the paper's tables.
+//
+// Notation: the SVO is the tree before reduction; the number of its nodes that one DAG node stands for is
+// the number of paths from the root to it, computed top-down, one level at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/dag/dag_file.h"
+
+namespace svdag {
+
+struct LevelStats {
+  uint64_t svo_nodes = 0;  // cubes of this level with a set voxel
+  uint64_t dag_nodes = 0;  // unique ones
+  uint64_t bytes = 0;      // of the section
+};
+
+struct DagStats {
+  std::vector<LevelStats> levels;  // 0 .. L-2; the last one counts bricks
+  uint64_t blocks = 0;             // nonempty 2x2x2 blocks (level L-1 of the SVO)
+  uint64_t unique_blocks = 0;      // different ones: the leaves of the paper's convention
+  uint64_t voxels = 0;
+
+  // Nodes of the SVO with 2x2x2 leaves, as the paper counts (1 byte each).
+  uint64_t svo_nodes() const;
+  // Nodes of the DAG with bricks as leaves, as this file stores it.
+  uint64_t dag_nodes() const;
+  // Nodes of the DAG with 2x2x2 leaves, as the paper counts.
+  uint64_t paper_dag_nodes() const { return dag_nodes() + unique_blocks; }
+};
+
+DagStats compute_stats(const DagFile& file);
+
+}  // namespace svdag

@@ -1,0 +1,40 @@
+// Exact quotients of integers: all the arithmetic that the judge's clipping needs.
+//
+// A point where a triangle is cut is a rational number. The judge never compares two of them: a
+// minimum is only asked for the voxel at or below it, and ceil and floor are monotone, so
+// ceil(min of all) = min of all ceils. One division per point, no tolerance, no common denominator.
+#pragma once
+
+#include <cstdint>
+
+namespace svdag {
+
+__extension__ typedef __int128 Int128;
+
+// A rational number, seen from the integers: floor == ceil iff it is one.
+struct Rounded {
+  int64_t floor;
+  int64_t ceil;
+};
+
+// quotient * divisor + remainder == dividend and 0 <= remainder < divisor, for divisor > 0.
+template <class Int>
+struct Division {
+  Int quotient;
+  Int remainder;
+
+  Division(const Int& dividend, const Int& divisor)
+      : quotient(dividend / divisor), remainder(dividend - quotient * divisor) {
+    if (remainder < 0) {
+      quotient -= 1;
+      remainder += divisor;
+    }
+  }
+  // base + dividend / divisor, where the result is known to fit 64 bits.
+  Rounded plus(int64_t base) const {
+    const int64_t floor = base + static_cast<int64_t>(quotient);
+    return {floor, floor + (remainder != 0 ? 1 : 0)};
+  }
+};
+
+}  // namespace svdag
