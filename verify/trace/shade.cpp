@@ -7,8 +7,8 @@
 namespace svdag {
 namespace {
 
-const Vec3 kClay{{0.66, 0.62, 0.56}};
-const Vec3 kSun{{1.05, 0.98, 0.86}};
+const Vec3 kClay{{0.50, 0.46, 0.40}};
+const Vec3 kSun{{1.15, 1.06, 0.92}};
 const Vec3 kSky{{0.42, 0.50, 0.62}};
 const Vec3 kGround{{0.24, 0.21, 0.19}};
 
