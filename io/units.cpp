@@ -54,7 +54,7 @@ std::string format_bytes(uint64_t bytes) {
 
 std::string format_count(uint64_t count) {
   std::string text = std::to_string(count);
-  for (int at = int(text.size()) - 3; at > 0; at -= 3) text.insert(size_t(at), ",");
+  for (int at = int(text.size()) - 3; at > 0; at -= 3) text.insert(size_t(at), 1, ',');
   return text;
 }
 

@@ -1,0 +1,81 @@
+// svdag-scene: makes test scenes of any size. Not installed.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "io/units.h"
+#include "streaming/error.h"
+#include "tests/scenes/kinds.h"
+#include "tests/scenes/ply_writer.h"
+
+namespace {
+
+using namespace svdag;
+
+struct Config {
+  std::string kind;
+  std::string triangles;
+  std::string output;
+  scenes::PlyOptions ply;
+  bool quiet = false;
+};
+
+// Decimal counts here, unlike in the programs: "10M" means ten million triangles.
+uint64_t parse_triangles(const std::string& text) {
+  if (text.empty()) return 0;
+  char* end = nullptr;
+  errno = 0;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string suffix = end;
+  const double unit = suffix == "" ? 1 : suffix == "K" ? 1e3 : suffix == "M" ? 1e6 : 0;
+  if (end == text.c_str() || unit == 0 || !(value * unit >= 1 && value * unit <= 1e12))
+    fail_usage("--triangles: \"" + text + "\" is not a number like 5000, 260K or 10M");
+  return uint64_t(value * unit);
+}
+
+void run(const Config& config) {
+  const auto mesh =
+      scenes::make_scene(config.kind, parse_triangles(config.triangles), config.ply.seed);
+  scenes::write_ply(*mesh, config.ply, config.output);
+  if (!config.quiet)
+    std::printf("%s: %s triangles, %s vertices\n", config.output.c_str(),
+                format_count(mesh->faces()).c_str(), format_count(mesh->vertices()).c_str());
+}
+
+void declare(CLI::App& app, Config& config) {
+  std::string names;
+  for (const auto& kind : scenes::kinds())
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  app.add_option("kind", config.kind, names)->required();
+  app.add_option("-n,--triangles", config.triangles,
+                 "about how many: 5000, 260K, 10M (each kind has a default)");
+  app.add_option("--seed", config.ply.seed, "another scene of the same kind");
+  app.add_option("--yaw", config.ply.yaw, "rotate about the y axis, in degrees");
+  app.add_flag("--shuffle", config.ply.shuffle, "vertices and faces in random order");
+  app.add_flag("--double", config.ply.double_precision, "64-bit coordinates");
+  app.add_flag("-q,--quiet", config.quiet, "print nothing");
+  app.add_option("-o,--output", config.output, "the PLY file to write")->required();
+  app.footer("Example: svdag-scene city -n 1M --yaw 30 -o city.ply");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Config config;
+  CLI::App app("Makes a test scene as a binary PLY file, the same bytes on every machine",
+               "svdag-scene");
+  declare(app, config);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    std::fprintf(stderr, "svdag-scene: %s (try --help)\n", error.what());
+    return int(ExitCode::kUsage);
+  }
+  try {
+    run(config);
+    return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "svdag-scene: %s\n", error.what());
+    return int(error.code());
+  }
+}

@@ -1,0 +1,36 @@
+// A mesh given by index: vertex(i) and face(i) are pure functions, so that a mesh of any size is
+// written without being held, in any order, and comes out the same on every machine.
+//
+// World: y is up, lengths fit |x| < 128. Coordinates are rounded to multiples of 2^-16 when they
+// are written (ply_writer.h), so that float and double files hold the same geometry.
+// Rejected: generators that emit triangles (cannot be shuffled without holding them).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "io/triangle.h"
+
+namespace svdag::scenes {
+
+using Face = std::array<uint64_t, 3>;
+
+class Mesh {
+ public:
+  virtual ~Mesh() = default;
+  virtual uint64_t vertices() const = 0;
+  virtual uint64_t faces() const = 0;
+  virtual Point vertex(uint64_t i) const = 0;  // i < vertices()
+  virtual Face face(uint64_t i) const = 0;     // i < faces(); three different vertices
+};
+
+// Face i of a grid of quads, `columns` quads in a row, vertices numbered row by row from 0. Each
+// quad gives two faces that share the diagonal from its lower left to its upper right corner.
+inline Face quad_face(uint64_t columns, uint64_t i) {
+  const uint64_t quad = i / 2, row = quad / columns, column = quad % columns;
+  const uint64_t a = row * (columns + 1) + column, b = a + columns + 1;
+  return i % 2 == 0 ? Face{a, a + 1, b + 1} : Face{a, b + 1, b};
+}
+
+}  // namespace svdag::scenes
