@@ -75,6 +75,8 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   progress->phase("split", 0);
   CellTree tree(report.grid, choose_cell_level(config, report.grid), &budget);
   report.split = split(scene, &tree);
+  if (report.split.scene.triangles == 0)
+    fail_input(config.scene.paths.front(), "the scene has no triangles to bake");
   report.seconds.split = phase.lap();
 
   VoxelizedCells cells = voxelize(tree, &budget, executor, progress);

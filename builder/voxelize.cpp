@@ -19,15 +19,13 @@ VoxelizedCells voxelize(const CellTree& tree, MemoryBudget* budget, Executor* ex
   progress->phase("voxelize", cells.size());
   VoxelizedCells result;
   result.cells = cells.size();
-  result.tables.resize(executor->workers());
+  for (size_t w = 0; w < executor->workers(); ++w)
+    result.tables.push_back(std::make_unique<NodeTable>(tree.grid().levels, budget));
   std::vector<std::optional<Worker>> workers(executor->workers());
   std::vector<SubDag> subdags(cells.size());
   std::vector<uint32_t> baked_by(cells.size());
   executor->for_each(cells.size(), [&](size_t w, size_t i) {
-    if (!workers[w]) {
-      result.tables[w] = std::make_unique<NodeTable>(tree.grid().levels, budget);
-      workers[w].emplace(tree, result.tables[w].get());
-    }
+    if (!workers[w]) workers[w].emplace(tree, result.tables[w].get());
     subdags[i] = workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
     baked_by[i] = uint32_t(w);
     progress->advance();
@@ -44,7 +42,7 @@ std::vector<Run> freeze(VoxelizedCells* cells, Executor* executor) {
   std::vector<Run> runs(cells->tables.size());
   std::vector<Ranks> ranks(runs.size());
   executor->for_each(runs.size(), [&](size_t, size_t r) {
-    if (cells->tables[r]) runs[r] = freeze(cells->tables[r].get(), &ranks[r]);
+    runs[r] = freeze(cells->tables[r].get(), &ranks[r]);
     cells->tables[r].reset();
   });
   for (CellRoot& root : cells->roots)

@@ -16,7 +16,7 @@
 namespace svdag {
 
 struct VoxelizedCells {
-  std::vector<std::unique_ptr<NodeTable>> tables;  // [worker]; null where it had no cell
+  std::vector<std::unique_ptr<NodeTable>> tables;  // [worker]
   std::vector<CellRoot> roots;                     // rank: still the provisional number
   uint64_t cells = 0;                              // with at least one triangle near them
   uint64_t voxels = 0;

@@ -29,28 +29,33 @@ double bits_per_voxel(const BuildReport& r) {
 
 std::string report_json(const BuildCommandConfig& config, const BuildReport& r) {
   const auto& s = r.seconds;
-  Json json = {
-      {"svdag", SVDAG_VERSION},
-      {"scene", config.build.scene.paths},
-      {"output", config.build.output},
-      {"grid", grid_json(r.grid)},
-      {"rule", "conservative"},
-      {"triangles", r.split.scene.triangles},
-      {"triangles_outside", r.split.outside},
-      {"triangles_degenerate", r.split.degenerate},
-      {"triangles_invalid", r.split.scene.invalid},
-      {"largest_snap_voxels", r.split.largest_snap},
-      {"cells", r.cells},
-      {"voxels", r.voxels},
-      {"nodes", r.nodes},
-      {"file_bytes", r.file_bytes},
-      {"bits_per_voxel", bits_per_voxel(r)},
-      {"content_hash", r.content_hash},
-      {"threads", r.threads},
-      {"seconds",
-       {{"bounds", s.bounds}, {"split", s.split}, {"voxelize", s.voxelize}, {"sort", s.sort},
-        {"merge", s.merge}, {"write", s.write}, {"total", s.total}, {"cpu", s.cpu}}},
-      {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
+  Json json = {{"svdag", SVDAG_VERSION},
+               {"scene", config.build.scene.paths},
+               {"output", config.build.output},
+               {"grid", grid_json(r.grid)},
+               {"rule", "conservative"},
+               {"triangles", r.split.scene.triangles},
+               {"triangles_outside", r.split.outside},
+               {"triangles_degenerate", r.split.degenerate},
+               {"triangles_invalid", r.split.scene.invalid},
+               {"largest_snap_voxels", r.split.largest_snap},
+               {"cells", r.cells},
+               {"voxels", r.voxels},
+               {"nodes", r.nodes},
+               {"file_bytes", r.file_bytes},
+               {"bits_per_voxel", bits_per_voxel(r)},
+               {"content_hash", r.content_hash},
+               {"threads", r.threads},
+               {"seconds",
+                {{"bounds", s.bounds},
+                 {"split", s.split},
+                 {"voxelize", s.voxelize},
+                 {"sort", s.sort},
+                 {"merge", s.merge},
+                 {"write", s.write},
+                 {"total", s.total},
+                 {"cpu", s.cpu}}},
+               {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
   return json.dump(2) + "\n";
 }
 
@@ -69,9 +74,10 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               format_count(r.split.scene.invalid).c_str());
   std::printf("  largest snap move %.3g voxel; %s cells visited\n", r.split.largest_snap,
               format_count(r.cells).c_str());
-  std::printf("  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
-              "CPU %.2f on %zu threads\n",
-              s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
+  std::printf(
+      "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
+      "CPU %.2f on %zu threads\n",
+      s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
   std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),
               format_bytes(r.peak_resident).c_str());
 }

@@ -1,4 +1,5 @@
-// The sub-commands of `svdag`: each a Config that main.cpp fills from the command line, and a run().
+// The sub-commands of `svdag`: each a Config that main.cpp fills from the command line, and a
+// run().
 #pragma once
 
 #include <string>
@@ -25,10 +26,10 @@ struct BuildCommandConfig {
 struct InfoConfig {
   std::vector<std::string> paths;  // one .svdag, or the files of one scene
   bool json = false;
-  bool levels = false;             // a table of levels
-  NameFilter names;                // for scenes
+  bool levels = false;  // a table of levels
+  NameFilter names;     // for scenes
   bool skip_invalid = false;
-  uint64_t memory = 0;             // budget in bytes; 0: half of the machine
+  uint64_t memory = 0;  // budget in bytes; 0: half of the machine
 };
 
 // Each returns the exit code and throws Error for everything that went wrong.

@@ -62,7 +62,8 @@ void info_dag(const InfoConfig& config) {
               format_double(h.corner[2]).c_str(), h.bounded ? ", restricted by --bounds" : "");
   std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
               format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
-              format_count(stats.dag_nodes()).c_str(), format_count(stats.paper_dag_nodes()).c_str());
+              format_count(stats.dag_nodes()).c_str(),
+              format_count(stats.paper_dag_nodes()).c_str());
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());

@@ -12,14 +12,17 @@ namespace {
 void add_output_options(CLI::App* app, OutputConfig* output) {
   app->add_flag("-q,--quiet", output->quiet, "Print errors only");
   app->add_flag("-v,--verbose", output->verbose, "Print seconds and memory per phase");
-  app->add_flag_callback("--progress", [output] { output->progress = Progress::Mode::kOn; },
-                         "Show progress even if stderr is no terminal");
-  app->add_flag_callback("--no-progress", [output] { output->progress = Progress::Mode::kOff; },
-                         "Never show progress");
+  app->add_flag_callback(
+      "--progress", [output] { output->progress = Progress::Mode::kOn; },
+      "Show progress even if stderr is no terminal");
+  app->add_flag_callback(
+      "--no-progress", [output] { output->progress = Progress::Mode::kOff; },
+      "Never show progress");
 }
 
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid) {
-  app->add_option("--include", names->include, "Only parts whose name matches a pattern (*, ?, [..])")
+  app->add_option("--include", names->include,
+                  "Only parts whose name matches a pattern (*, ?, [..])")
       ->type_name("PATTERN");
   app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
       ->type_name("PATTERN");
@@ -40,7 +43,8 @@ Box parse_bounds(const std::string& text) {
 
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
-  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")->required();
+  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
+      ->required();
   app->add_option("-o,--output", build->output, "The .svdag to write")->required();
   CLI::Option_group* grid = app->add_option_group("grid");
   grid->add_option_function<std::string>(
@@ -48,7 +52,11 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
           "Voxels along the longest side: 8 ... 1M, a power of two")
       ->type_name("N");
   grid->add_option_function<double>(
-          "-s,--voxel-size", [build](double s) { build->voxel_size = s; if (s == 0) fail_usage("--voxel-size: 0 is not a size"); },
+          "-s,--voxel-size",
+          [build](double s) {
+            build->voxel_size = s;
+            if (s == 0) fail_usage("--voxel-size: 0 is not a size");
+          },
           "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
       ->type_name("S");
   grid->require_option(1);
@@ -58,16 +66,19 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->type_name("x0,y0,z0,x1,y1,z1");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
   app->add_option_function<std::string>(
-         "-m,--memory", [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
+         "-m,--memory",
+         [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
          "Memory budget, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
       ->check(CLI::Range(size_t(1), size_t(1024)));
-  app->add_option("--report", config->report, "Write a report of the bake as JSON")->type_name("FILE");
+  app->add_option("--report", config->report, "Write a report of the bake as JSON")
+      ->type_name("FILE");
   add_output_options(app, &config->output);
-  app->footer("Examples:\n"
-              "  svdag build city.glb -o city.svdag -r 64K\n"
-              "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+  app->footer(
+      "Examples:\n"
+      "  svdag build city.glb -o city.svdag -r 64K\n"
+      "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
 }
 
 void set_up_info(CLI::App* app, InfoConfig* config) {
@@ -76,7 +87,8 @@ void set_up_info(CLI::App* app, InfoConfig* config) {
   app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
   add_scene_options(app, &config->names, &config->skip_invalid);
   app->add_option_function<std::string>(
-         "-m,--memory", [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
+         "-m,--memory",
+         [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
          "Memory budget (default: half of the machine)")
       ->type_name("SIZE");
   app->footer("Examples:\n  svdag info city.svdag --levels\n  svdag info city.glb");
@@ -117,7 +129,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "svdag: %s\n", error.what());
     return int(error.code());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "svdag: the machine has no memory left: give less with --memory or free some\n");
+    std::fprintf(stderr,
+                 "svdag: the machine has no memory left: give less with --memory or free some\n");
     return int(svdag::ExitCode::kMemory);
   }
 }

@@ -62,8 +62,8 @@ LatticePoint awkward_point(std::mt19937_64& random, int64_t reach) {
 // One triangle of a family: 0 general, 1 in a plane of constant coordinate, 2 sliver, 3 segment,
 // 4 point, 5 double point, 6 on plane x+y+z = c, 7 all coordinates whole voxels.
 LatticeTriangle family_triangle(std::mt19937_64& random, int family, int64_t reach) {
-  LatticeTriangle t{{awkward_point(random, reach), awkward_point(random, reach),
-                     awkward_point(random, reach)}};
+  LatticeTriangle t{
+      {awkward_point(random, reach), awkward_point(random, reach), awkward_point(random, reach)}};
   switch (family) {
     case 1:
       for (int a = 0, w = int(random() % 3); a < 3; ++a) t.v[a][w] = t.v[0][w];
@@ -197,7 +197,8 @@ TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
   for (int i = 0; i < 500; ++i) {
     const LatticeTriangle t = family_triangle(random, i % 8, 20 * kSide);
     VoxelSet parents;
-    for (const auto& [x, y, z] : clipped_voxels(t, kShift, {whole.min * int64_t(4), whole.max * int64_t(4)})) {
+    for (const auto& [x, y, z] :
+         clipped_voxels(t, kShift, {whole.min * int64_t(4), whole.max * int64_t(4)})) {
       parents.emplace(x >> 2, y >> 2, z >> 2);
     }
     ASSERT_EQ(clipped_voxels(t, kShift + 2, whole), parents) << i;

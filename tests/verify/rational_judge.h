@@ -41,7 +41,8 @@ inline std::vector<RationalPoint> clip(const std::vector<RationalPoint>& polygon
 
 inline bool rational_touches(const LatticeTriangle& t, int shift, const LatticePoint& voxel) {
   std::vector<RationalPoint> polygon;
-  for (const LatticePoint& p : t.v) polygon.push_back({Rational(p.x), Rational(p.y), Rational(p.z)});
+  for (const LatticePoint& p : t.v)
+    polygon.push_back({Rational(p.x), Rational(p.y), Rational(p.z)});
   for (int axis = 0; axis < 3; ++axis) {
     const Rational side = Rational(int64_t(1) << shift);
     polygon = clip(polygon, axis, voxel[axis] * side, -1);

@@ -1,0 +1,241 @@
+// glTF 2.0 and GLB: streams the triangles of every drawn primitive in world space.
+//
+// Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
+// triangles. Only the positions of an indexed primitive are held; indices, unindexed positions and
+// instances pass through small windows. Skinned meshes come as stored (bind pose under the node's
+// transform); morph targets, points and lines are ignored. A Draco primitive that also has plain
+// data is read from the plain data, which is exact.
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "io/scene/draco.h"
+#include "io/scene/gltf_buffers.h"
+#include "io/scene/gltf_document.h"
+#include "io/scene/gltf_elements.h"
+#include "io/scene/gltf_nodes.h"
+#include "io/scene/mesh_reader.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+enum Mode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+
+static_assert(sizeof(Point) == 3 * sizeof(double));
+std::span<double> as_numbers(std::span<Point> points) {
+  return {reinterpret_cast<double*>(points.data()), points.size() * 3};
+}
+
+// Reserved memory for points, kept from one primitive to the next: fresh pages cost more than the
+// triangles of a small mesh.
+class PointArray {
+ public:
+  std::span<Point> resize(uint64_t count, MemoryBudget* budget) {
+    if (count > capacity_) {
+      points_.reset();
+      memory_.release();
+      memory_ = budget->reserve(count * sizeof(Point), "glTF vertices");
+      points_ = std::make_unique_for_overwrite<Point[]>(size_t(count));
+      capacity_ = count;
+    }
+    return {points_.get(), size_t(count)};
+  }
+
+ private:
+  MemoryBudget::Reservation memory_;
+  std::unique_ptr<Point[]> points_;
+  uint64_t capacity_ = 0;
+};
+
+// The corners of an unindexed primitive, transformed.
+class SoupCorners {
+ public:
+  SoupCorners(const Accessor& positions, const Affine& to_world)
+      : stream_(positions), to_world_(to_world) {}
+
+  Point operator()() {
+    if (next_ == filled_) {
+      filled_ = stream_.read(as_numbers(window_));
+      next_ = 0;
+    }
+    return to_world_(window_[next_++]);
+  }
+
+ private:
+  ElementStream stream_;
+  Affine to_world_;
+  std::array<Point, 1024> window_;
+  size_t next_ = 0, filled_ = 0;
+};
+
+// The corners of an indexed primitive; `points` are in world space already.
+class IndexedCorners {
+ public:
+  IndexedCorners(const Accessor& indices, std::span<const Point> points)
+      : stream_(indices), points_(points), path_(indices.path) {}
+
+  const Point& operator()() {
+    if (next_ == filled_) {
+      filled_ = stream_.read(std::span<uint32_t>(window_));
+      next_ = 0;
+    }
+    const uint32_t index = window_[next_++];
+    if (index >= points_.size()) fail(index);
+    return points_[index];
+  }
+
+ private:
+  // Out of line, so that the loop above stays small enough to be inlined.
+  [[noreturn, gnu::noinline]] void fail(uint32_t index) const {
+    fail_input(*path_, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
+                           std::to_string(points_.size()) + " vertices");
+  }
+
+  ElementStream stream_;
+  std::span<const Point> points_;
+  const std::string* path_;
+  std::array<uint32_t, 4096> window_;
+  size_t next_ = 0, filled_ = 0;
+};
+
+// Makes triangles of `count` corners, in the order of section 3.7.2.1 of the specification.
+template <class Corners>
+void assemble(uint64_t mode, uint64_t count, Corners& corner, BatchWriter& out) {
+  if (mode == kTriangles) {
+    for (uint64_t i = 0; i + 2 < count; i += 3) {
+      const Point a = corner(), b = corner();
+      out.add(a, b, corner());
+    }
+    return;
+  }
+  if (count < 3) return;
+  const Point first = corner();
+  Point a = first, b = corner();
+  for (uint64_t i = 0; i + 2 < count; ++i) {
+    const Point c = corner();
+    if (mode == kTriangleFan) {
+      out.add(b, c, first);
+    } else if (i % 2 == 0) {
+      out.add(a, b, c);
+    } else {
+      out.add(a, c, b);
+    }
+    a = b;
+    b = c;
+  }
+}
+
+class GltfReader {
+ public:
+  GltfReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
+      : document_(load_gltf(file, options.budget)),
+        options_(options),
+        buffers_(document_, options.budget),
+        out_(sink) {}
+
+  void read() {
+    visit_nodes(document_, options_,
+                [this](const JsonObject& node, const std::string& name, const Affine& world) {
+                  read_node(node, name, world);
+                });
+    out_.flush();
+  }
+
+ private:
+  void read_node(const JsonObject& node, const std::string& name, const Affine& world) {
+    const JsonObject mesh = document_.element("meshes", node.count("mesh"));
+    out_.mesh(name.empty() ? mesh.text("name") : name);
+    for (const auto& value : mesh.array("primitives")) {
+      const JsonObject primitive(value, document_.file->path());
+      const uint64_t mode = primitive.count("mode", kTriangles);
+      if (mode > kTriangleFan) fail_input(primitive.path(), "has a primitive of unknown mode");
+      const JsonObject attributes = primitive.object("attributes");
+      if (mode < kTriangles || !attributes.has("POSITION")) continue;
+      read_primitive(primitive, mode, InstanceStream(node, world, &buffers_));
+    }
+  }
+
+  void read_primitive(const JsonObject& primitive, uint64_t mode, InstanceStream instances) {
+    const uint64_t index = primitive.object("attributes").count("POSITION");
+    const bool plain = document_.element("accessors", index).has("bufferView");
+    if (const auto draco = primitive.extension("KHR_draco_mesh_compression"); draco && !plain) {
+      return read_draco_primitive(*draco, index, std::move(instances));
+    }
+    const Accessor positions = buffers_.accessor(index, "VEC3");
+    if (positions.base.type == ComponentType::kUnsignedInt) {
+      fail_input(primitive.path(), "has positions of a component type that glTF does not allow");
+    }
+    if (!primitive.has("indices")) {
+      check_count(mode, positions.count());
+      for (uint64_t i = 0; i < instances.count(); ++i) {
+        SoupCorners corners(positions, instances.next());
+        assemble(mode, positions.count(), corners, out_);
+      }
+      return;
+    }
+    const Accessor indices = buffers_.accessor(primitive.count("indices"), "SCALAR");
+    check_indices(indices);
+    check_count(mode, indices.count());
+    std::span<Point> points = local_.resize(positions.count(), options_.budget);
+    ElementStream(positions).read(as_numbers(points));
+    for_each_placed(points, std::move(instances), [&](std::span<const Point> placed) {
+      IndexedCorners corners(indices, placed);
+      assemble(mode, indices.count(), corners, out_);
+    });
+  }
+
+  void read_draco_primitive(const JsonObject& draco, uint64_t accessor, InstanceStream instances) {
+    MemoryBudget::Reservation memory;
+    const auto bytes = buffers_.view_bytes(draco.count("bufferView"), &memory);
+    const DracoSource source{bytes, draco.path(), draco.object("attributes").count("POSITION"),
+                             document_.element("accessors", accessor).flag("normalized")};
+    DracoMesh mesh = decode_draco(source, options_.budget);
+    const std::vector<uint32_t>& indices = mesh.indices;
+    for_each_placed(mesh.positions, std::move(instances), [&](std::span<const Point> placed) {
+      for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
+      }
+    });
+  }
+
+  // Calls use(points in world space) for every instance; a second copy only if there are several.
+  template <class Use>
+  void for_each_placed(std::span<Point> points, InstanceStream instances, const Use& use) {
+    const bool several = instances.count() > 1;
+    const auto placed = several ? placed_.resize(points.size(), options_.budget) : points;
+    for (uint64_t i = 0; i < instances.count(); ++i) {
+      const Affine to_world = instances.next();
+      for (size_t v = 0; v < points.size(); ++v) placed[v] = to_world(points[v]);
+      use(std::span<const Point>(placed));
+    }
+  }
+
+  void check_indices(const Accessor& indices) const {
+    const ComponentType type = indices.base.type;
+    const bool whole = type == ComponentType::kUnsignedByte ||
+                       type == ComponentType::kUnsignedShort || type == ComponentType::kUnsignedInt;
+    if (!whole) fail_input(*indices.path, "has vertex indices that are not unsigned integers");
+  }
+
+  void check_count(uint64_t mode, uint64_t corners) const {
+    if (mode != kTriangles || corners % 3 == 0) return;
+    fail_input(document_.file->path(), "has a triangle list of " + std::to_string(corners) +
+                                           " corners, which is no multiple of three");
+  }
+
+  GltfDocument document_;
+  const ReadOptions& options_;
+  GltfBuffers buffers_;
+  PointArray local_, placed_;
+  BatchWriter out_;
+};
+
+}  // namespace
+
+void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  GltfReader(file, options, sink).read();
+}
+
+}  // namespace svdag

@@ -1,0 +1,197 @@
+#include "io/scene/mesh_stats.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "io/scene/collinear.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+using Position = std::array<float, 3>;
+using Face = std::array<uint32_t, 3>;
+
+constexpr double kLargeCoordinate = 1e5;
+
+// The rounded mean of all corners if a coordinate is large, else the origin.
+Point find_centre(const Scene& scene) {
+  Point sum{0};
+  double largest = 0;
+  uint64_t corners = 0;
+  scene.stream([&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles) {
+      for (const Point& p : t.v) {
+        sum += p;
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      }
+    }
+    corners += 3 * batch.triangles.size();
+  });
+  if (largest <= kLargeCoordinate) return Point(0);
+  const double n = double(corners);
+  return {std::nearbyint(sum.x / n), std::nearbyint(sum.y / n), std::nearbyint(sum.z / n)};
+}
+
+Position round_position(const Point& p, const Point& centre) {
+  Position r;
+  for (int c = 0; c < 3; ++c) {
+    const double value = p[c] - centre[c];
+    if (std::abs(value) > double(std::numeric_limits<float>::max())) {
+      throw Error(ExitCode::kBadInput, "the mesh diagnostics cannot take coordinates above 3e38");
+    }
+    r[size_t(c)] = float(value) + 0.0f;  // -0 becomes 0
+  }
+  return r;
+}
+
+// The sorted set of positions. Corners come in any number: whenever the array is full the repeats
+// leave it, and it grows only if more than half of it was new.
+class PositionSet {
+ public:
+  explicit PositionSet(MemoryBudget* budget) : memory_(budget->reserve(0, "mesh positions")) {
+    grow(size_t(1) << 16);
+  }
+
+  void add(const Position& p) {
+    if (positions_.size() == capacity_) {
+      compact();
+      if (positions_.size() > capacity_ / 2) grow(2 * capacity_);
+    }
+    positions_.push_back(p);
+  }
+
+  void compact() {
+    std::sort(positions_.begin(), positions_.end());
+    positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
+  }
+
+  size_t size() const { return positions_.size(); }
+  uint32_t id(const Position& p) const {
+    return uint32_t(std::lower_bound(positions_.begin(), positions_.end(), p) - positions_.begin());
+  }
+
+ private:
+  void grow(size_t capacity) {
+    // While the array moves, old and new are there at once.
+    memory_.resize((capacity_ + capacity) * sizeof(Position), "mesh positions");
+    positions_.reserve(capacity);
+    capacity_ = capacity;
+    memory_.resize(capacity_ * sizeof(Position), "mesh positions");
+  }
+
+  MemoryBudget::Reservation memory_;
+  std::vector<Position> positions_;
+  size_t capacity_ = 0;
+};
+
+// Union-find with path halving.
+class Components {
+ public:
+  explicit Components(size_t n) : parent_(n), count_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  uint32_t root(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    parent_[std::max(a, b)] = std::min(a, b);
+    --count_;
+  }
+  uint64_t count() const { return count_; }
+
+ private:
+  std::vector<uint32_t> parent_;
+  uint64_t count_;
+};
+
+// Calls use(length) for every run of equal elements of a sorted array.
+template <class T, class Use>
+void for_each_run(const std::vector<T>& sorted, const Use& use) {
+  for (size_t i = 0, end = 0; i < sorted.size(); i = end) {
+    for (end = i; end < sorted.size() && sorted[end] == sorted[i];) ++end;
+    use(end - i);
+  }
+}
+
+void count_edges(const std::vector<Face>& faces, MemoryBudget* budget, MeshStats* stats) {
+  const auto memory = budget->reserve(faces.size() * 3 * sizeof(uint64_t), "mesh edges");
+  std::vector<uint64_t> edges;
+  edges.reserve(faces.size() * 3);
+  for (const Face& f : faces) {  // corners ascend, so each edge has one key
+    edges.push_back(uint64_t(f[0]) << 32 | f[1]);
+    edges.push_back(uint64_t(f[1]) << 32 | f[2]);
+    edges.push_back(uint64_t(f[0]) << 32 | f[2]);
+  }
+  std::sort(edges.begin(), edges.end());
+  for_each_run(edges, [&](size_t uses) {
+    stats->open_edges += uses == 1;
+    stats->non_manifold_edges += uses > 2;
+  });
+}
+
+// Second look at every triangle, with the positions numbered: what one triangle alone can tell.
+std::vector<Face> number_faces(const Scene& scene, const Point& centre, const PositionSet& set,
+                               Components* components, MeshStats* stats) {
+  std::vector<Face> faces;
+  faces.reserve(stats->triangles);
+  scene.stream([&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles) {
+      std::array<Position, 3> p;
+      Face f;
+      for (size_t i = 0; i < 3; ++i) {
+        p[i] = round_position(t.v[i], centre);
+        f[i] = set.id(p[i]);
+      }
+      components->join(f[0], f[1]);
+      components->join(f[0], f[2]);
+      stats->zero_area += collinear(p[0], p[1], p[2]);
+      std::sort(f.begin(), f.end());
+      if (f[0] == f[1] || f[1] == f[2]) {
+        ++stats->repeated;
+      } else {
+        faces.push_back(f);
+      }
+    }
+  });
+  return faces;
+}
+
+}  // namespace
+
+MeshStats compute_mesh_stats(const Scene& scene, MemoryBudget* budget) {
+  const Point centre = find_centre(scene);
+  PositionSet set(budget);
+  MeshStats stats;
+  stats.triangles = scene
+                        .stream([&](const TriangleBatch& batch) {
+                          for (const Triangle& t : batch.triangles) {
+                            for (const Point& p : t.v) set.add(round_position(p, centre));
+                          }
+                        })
+                        .triangles;
+  set.compact();
+  stats.positions = set.size();
+  if (set.size() > UINT32_MAX) {
+    throw Error(ExitCode::kBadInput, "the mesh diagnostics cannot number over 2^32 positions");
+  }
+  const auto memory =
+      budget->reserve(stats.triangles * sizeof(Face) + set.size() * sizeof(uint32_t), "mesh faces");
+  Components components(set.size());
+  std::vector<Face> faces = number_faces(scene, centre, set, &components, &stats);
+  stats.components = components.count();
+  std::sort(faces.begin(), faces.end());
+  for_each_run(faces, [&](size_t copies) { stats.duplicates += copies - 1; });
+  count_edges(faces, budget, &stats);
+  return stats;
+}
+
+}  // namespace svdag

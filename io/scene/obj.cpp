@@ -1,0 +1,145 @@
+// Wavefront OBJ: polygons and groups, in one pass.
+//
+// A face may use the vertices that stand before it, counted from 1, or backwards from -1. Texture
+// coordinates, normals and materials are skipped; free-form surfaces are refused, for they would be
+// missing from the scene. A face belongs to the last `o` and to all names of the last `g`: it is
+// wanted if none of these names is excluded and one of them is included.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "io/scene/mesh_reader.h"
+#include "io/scene/positions.h"
+#include "io/scene/text_scan.h"
+#include "io/scene/triangulate.h"
+
+namespace svdag {
+namespace {
+
+// Statements without surface, or about its looks.
+constexpr std::array<std::string_view, 28> kSkipped = {
+    "vt",       "vn",  "usemtl",     "s",         "l",      "p",     "mtllib",
+    "vp",       "mg",  "lod",        "usemap",    "maplib", "bevel", "c_interp",
+    "d_interp", "deg", "bmat",       "step",      "cstype", "curv",  "curv2",
+    "parm",     "end", "shadow_obj", "trace_obj", "ctech",  "stech", "sp"};
+
+class ObjReader {
+ public:
+  ObjReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
+      : options_(options),
+        stream_(file),
+        scanner_(&stream_, {'#', true}),
+        positions_(options.budget, Positions::Precision::kDouble),
+        triangulator_(options.budget),
+        writer_(sink) {}
+
+  void read() {
+    choose();
+    while (!scanner_.at_end()) {
+      const std::string_view statement = scanner_.word();
+      if (statement == "v") {
+        read_vertex();
+      } else if (statement == "f" || statement == "fo") {
+        read_face();
+      } else if (statement == "g") {
+        read_groups();
+      } else if (statement == "o") {
+        object_ = scanner_.rest_of_line();
+        choose();
+      } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
+        refuse(statement);
+      }
+      scanner_.next_line();
+    }
+    writer_.flush();
+  }
+
+ private:
+  [[noreturn]] void refuse(std::string_view statement) const {
+    std::string name(statement.substr(0, 40));
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c < ' '; }, '?');
+    scanner_.fail("has a statement \"" + name + "\", which svdag does not read");
+  }
+
+  // What follows x, y, z (a weight, colours) is skipped.
+  void read_vertex() {
+    Point p;
+    for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
+    positions_.add(p);
+  }
+
+  void read_face() {
+    if (!wanted_) return;
+    std::array<Point, 3> first;
+    size_t corners = 0;
+    for (; !scanner_.at_line_end(); ++corners) {
+      const Point p = position(scanner_.integer('/'));
+      if (!scanner_.at_word_end()) skip_references();
+      if (corners < 3) {
+        first[corners] = p;
+        continue;
+      }
+      if (corners == 3)
+        std::for_each(first.begin(), first.end(), [&](const Point& q) { triangulator_.corner(q); });
+      triangulator_.corner(p);
+    }
+    if (corners == 3) writer_.add(first[0], first[1], first[2]);
+    if (corners > 3) triangulator_.finish(writer_);
+  }
+
+  // The "/2/3" of a corner "1/2/3".
+  void skip_references() {
+    scanner_.skip_while([](char c) { return (c >= '/' && c <= '9') || c == '-' || c == '+'; });
+    if (!scanner_.at_word_end())
+      scanner_.fail("has a corner of a face that is no index/index/index");
+  }
+
+  Point position(int64_t index) const {
+    const uint64_t count = positions_.size();
+    const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
+    if (i >= count)
+      scanner_.fail("has a face with vertex " + std::to_string(index) + ", but " +
+                    std::to_string(count) + " vertices stand before it");
+    return positions_[i];
+  }
+
+  void read_groups() {
+    groups_.clear();
+    while (!scanner_.at_line_end()) groups_.emplace_back(scanner_.word());
+    choose();
+  }
+
+  // Decides about the faces that follow, and names their mesh.
+  void choose() {
+    std::vector<std::string> names = groups_;
+    if (!object_.empty() || names.empty()) names.push_back(object_);
+    const auto wants = [&](const std::string& name) { return options_.wants(name); };
+    const auto excluded = [&](const std::string& name) { return options_.names->excludes(name); };
+    wanted_ = std::any_of(names.begin(), names.end(), wants) &&
+              std::none_of(names.begin(), names.end(), excluded);
+    const std::string& mesh = names.front();
+    if (mesh != mesh_) writer_.mesh(mesh);
+    mesh_ = mesh;
+  }
+
+  const ReadOptions& options_;
+  ByteStream stream_;
+  TextScanner scanner_;
+  Positions positions_;
+  Triangulator triangulator_;
+  BatchWriter writer_;
+  std::string object_;
+  std::vector<std::string> groups_;
+  std::string mesh_;
+  bool wanted_ = true;
+};
+
+}  // namespace
+
+void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  ObjReader(file, options, sink).read();
+}
+
+}  // namespace svdag

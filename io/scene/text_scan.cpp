@@ -1,0 +1,80 @@
+#include "io/scene/text_scan.h"
+
+#include <cstdlib>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+void TextScanner::refill() {
+  if (here_ != begin_) stream_->skip(size_t(here_ - begin_));
+  const auto bytes = stream_->peek(kLookAhead);
+  begin_ = here_ = reinterpret_cast<const char*>(bytes.data());
+  end_ = begin_ + bytes.size();
+  last_ = bytes.size() == stream_->remaining();
+}
+
+void TextScanner::take_line_end() {
+  const bool pair = end_ - here_ > 1 && here_[0] == '\r' && here_[1] == '\n';
+  here_ += pair ? 2 : 1;
+  ++line_;
+}
+
+void TextScanner::skip_rest_of_line() {
+  // A comment that ends with a backslash (a path, say) does not swallow the next line.
+  const bool comment = at_line_end() && here_ != end_ && *here_ == syntax_.comment;
+  for (bool joins = false;;) {
+    while (here_ != end_ && !is_line_end(*here_)) joins = *here_++ == '\\';
+    if (end_ - here_ < 2 && !last_) {
+      refill();
+    } else if (here_ == end_) {
+      return;
+    } else {
+      take_line_end();
+      if (!joins || comment || !syntax_.continuation) return;
+      joins = false;
+    }
+  }
+}
+
+std::string_view TextScanner::rest_of_line() {
+  skip_blanks();
+  const char* start = here_;
+  while (here_ != end_ && !is_line_end(*here_)) {
+    if (size_t(here_ - start) >= kLongestWord) fail("has a line that is too long");
+    ++here_;
+  }
+  const char* last = here_;
+  while (last != start && is_blank(last[-1])) --last;
+  return {start, size_t(last - start)};
+}
+
+// from_chars gives no value beyond the range of T; the nearest one is infinity, a subnormal or 0.
+template <class T>
+T TextScanner::beyond_range(const char* end) const {
+  const std::string digits(here_, end);
+  if constexpr (sizeof(T) == sizeof(float)) {
+    return std::strtof(digits.c_str(), nullptr);
+  } else {
+    return std::strtod(digits.c_str(), nullptr);
+  }
+}
+template float TextScanner::beyond_range<float>(const char*) const;
+template double TextScanner::beyond_range<double>(const char*) const;
+
+void TextScanner::fail_word(const char* wanted) {
+  if (at_line_end())
+    fail(std::string(here_ == end_ ? "ends" : "has a line that ends") + " where " + wanted +
+         " should be");
+  std::string found(word().substr(0, 40));
+  for (char& c : found) {
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  }
+  fail("has \"" + found + "\" where " + wanted + " should be");
+}
+
+void TextScanner::fail(const std::string& sentence) const {
+  fail_input(stream_->file().path(), sentence + " (line " + std::to_string(line_) + ")");
+}
+
+}  // namespace svdag

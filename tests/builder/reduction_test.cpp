@@ -1,0 +1,112 @@
+// The pieces of the reduction: unique sets, frozen runs, merge.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+#include "builder/merge.h"
+#include "builder/run.h"
+#include "builder/unique_set.h"
+#include "io/dag/dag_file.h"
+#include "tests/reference_reduction.h"
+#include "tests/soup.h"
+
+namespace svdag {
+namespace {
+
+struct WeakHash {  // many collisions: whole keys must be compared
+  uint64_t operator()(uint64_t key) const { return key % 7; }
+};
+
+TEST(UniqueSet, NumbersKeysInOrderOfArrivalEvenIfHashesCollide) {
+  MemoryBudget budget;
+  UniqueSet<uint64_t, WeakHash> set(&budget);
+  std::map<uint64_t, uint32_t> expected;
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const uint64_t key = random() % 1500;
+    const uint32_t number = expected.try_emplace(key, expected.size()).first->second;
+    EXPECT_EQ(set.insert(key), number);
+  }
+  EXPECT_EQ(set.keys().size(), expected.size());
+  EXPECT_GT(budget.peak(), 1500 * sizeof(uint64_t));
+}
+
+// Adds random octree content of `bricks` to a table, cell by cell at `cell_level`, and remembers
+// it.
+struct RandomCells {
+  RandomCells(int levels, uint64_t seed) : levels_(levels), random_(seed) {}
+
+  uint32_t fill(NodeTable* table, const Cube& cube) {
+    if (cube.level == levels_ - 2) {
+      const Brick brick = random_() % 3 == 0 ? random_() % 5 : 0;
+      if (brick == 0) return 0;
+      bricks[{uint32_t(cube.coordinate.x), uint32_t(cube.coordinate.y),
+              uint32_t(cube.coordinate.z)}] = brick;
+      return table->add_brick(brick);
+    }
+    NodeKey key{};
+    bool any = false;
+    for (unsigned c = 0; c < 8; ++c) {
+      key[c] = random_() % 2 ? fill(table, cube.child(c)) : 0;
+      any = any || key[c] != 0;
+    }
+    return any ? table->add_node(cube.level, key) : 0;
+  }
+
+  BrickMap bricks;
+
+ private:
+  int levels_;
+  std::mt19937_64 random_;
+};
+
+TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
+  const TemporaryFolder folder;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const int levels = 5 + int(seed % 3), cell_level = int(seed % 3);
+    const size_t workers = 1 + seed % 4;
+    MemoryBudget budget;
+    std::vector<std::unique_ptr<NodeTable>> tables;
+    for (size_t w = 0; w < workers; ++w)
+      tables.push_back(std::make_unique<NodeTable>(levels, &budget));
+    RandomCells cells(levels, seed);
+    std::vector<CellRoot> roots;
+    const int64_t side = int64_t(1) << cell_level;
+    for (int64_t i = 0; i < side * side * side; ++i) {
+      const Cube cube{cell_level, {i / side / side, i / side % side, i % side}};
+      const uint32_t w = uint32_t(size_t(i * 7 + 3) % workers);
+      const uint32_t root = cells.fill(tables[w].get(), cube);
+      if (root != 0) roots.push_back({cube, w, root - 1});
+    }
+    std::vector<svdag::Run> runs;
+    std::vector<Ranks> ranks(workers);
+    for (size_t w = 0; w < workers; ++w) {
+      runs.push_back(freeze(tables[w].get(), &ranks[w]));
+      EXPECT_TRUE(std::is_sorted(runs[w].bricks.begin(), runs[w].bricks.end()));
+      for (const auto& level : runs[w].nodes) {
+        EXPECT_EQ(std::adjacent_find(level.begin(), level.end(), std::greater_equal<>()),
+                  level.end());
+      }
+    }
+    for (CellRoot& root : roots) root.rank = ranks[root.run][size_t(cell_level)][root.rank];
+    Grid grid;
+    grid.levels = levels;
+    grid.selection = grid.whole();
+    const std::string path = folder.file("out.svdag");
+    DagWriter writer(path, grid, Rule::kConservative);
+    merge(runs, roots, levels, &writer);
+    writer.finish(0, 0);
+    const DagFile file = DagFile::open(path);
+    EXPECT_EQ(bricks_of(file.view()), cells.bricks) << seed;
+    std::vector<uint64_t> nodes;
+    for (uint32_t k = 0; k < file.header().section_count; ++k)
+      nodes.push_back(file.header().sections[k].nodes);
+    EXPECT_EQ(nodes, reference_node_counts(cells.bricks, levels)) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace svdag

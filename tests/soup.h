@@ -1,0 +1,101 @@
+// Triangle soups for tests: made in memory, written as binary STL where a file is needed.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "io/triangle.h"
+
+namespace svdag {
+
+// A folder of its own for each test, removed afterwards.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "svdag-test-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+inline void write_stl(const std::string& path, const std::vector<Triangle>& triangles) {
+  std::ofstream out(path, std::ios::binary);
+  const uint32_t count = uint32_t(triangles.size());
+  out << std::string(80, ' ');
+  out.write(reinterpret_cast<const char*>(&count), 4);
+  for (const Triangle& t : triangles) {
+    float values[12] = {};
+    for (int i = 0; i < 9; ++i) values[3 + i] = float(t.v[size_t(i / 3)][i % 3]);
+    out.write(reinterpret_cast<const char*>(values), 48);
+    out.write("\0\0", 2);
+  }
+}
+
+inline std::string read_bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// `count` triangles of size about `size` with corners in the unit cube; portable random numbers.
+inline std::vector<Triangle> random_soup(size_t count, double size, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
+  std::vector<Triangle> soup(count);
+  for (Triangle& t : soup) {
+    const Point centre(unit(), unit(), unit());
+    for (Point& p : t.v) p = centre + size * Point(unit() - 0.5, unit() - 0.5, unit() - 0.5);
+  }
+  return soup;
+}
+
+// A sphere of 2 * stacks * stacks triangles with bumps.
+inline std::vector<Triangle> bumpy_sphere(int stacks) {
+  const auto at = [&](int i, int j) {
+    const double theta = M_PI * i / stacks, phi = M_PI * (j % (2 * stacks)) / stacks;
+    const double r = 1 + 0.1 * std::sin(5 * theta) * std::cos(4 * phi);
+    return Point(r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi),
+                 r * std::cos(theta));
+  };
+  std::vector<Triangle> mesh;
+  for (int i = 0; i < stacks; ++i) {
+    for (int j = 0; j < 2 * stacks; ++j) {
+      mesh.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}});
+      mesh.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}});
+    }
+  }
+  return mesh;
+}
+
+// Axis-aligned boxes and a big slanted quad: large triangles that stay at inner nodes.
+inline std::vector<Triangle> boxes_and_quad(int boxes, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
+  std::vector<Triangle> mesh = {{{Point(0, 0, 0), Point(1, 0, 0.3), Point(1, 1, 0.9)}},
+                                {{Point(0, 0, 0), Point(1, 1, 0.9), Point(0, 1, 0.6)}}};
+  static constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                       {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+  for (int b = 0; b < boxes; ++b) {
+    const Point low(unit(), unit(), unit()), size = 0.05 + 0.15 * Point(unit(), unit(), unit());
+    Point p[8];
+    for (int i = 0; i < 8; ++i)
+      p[i] = low + Point(i & 4 ? size.x : 0, i & 2 ? size.y : 0, i & 1 ? size.z : 0);
+    for (const auto& f : kFaces) {
+      mesh.push_back({{p[f[0]], p[f[1]], p[f[2]]}});
+      mesh.push_back({{p[f[0]], p[f[2]], p[f[3]]}});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace svdag

@@ -1,0 +1,175 @@
+// Every way in which a file can be sound and still not be the minimal canonical DAG is named.
+#include "verify/integrity.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "io/dag/dag_file.h"
+#include "streaming/error.h"
+#include "tests/verify/raw_dag.h"
+
+namespace svdag {
+namespace {
+
+VoxelSet random_voxels(int levels, int count, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  VoxelSet voxels;
+  const uint64_t mask = (uint64_t(1) << levels) - 1;
+  for (int i = 0; i < count; ++i) voxels.emplace(random() & mask, random() & mask, random() & mask);
+  return voxels;
+}
+
+RawDag good_dag() {
+  return raw_dag(test_grid(6), random_voxels(6, 500, 7));
+}
+
+IntegrityReport inspect_raw(const RawDag& raw) {
+  const RawFile file(raw);
+  return inspect(file.header(), file.view(), file.metadata());
+}
+
+// Whether one of the defects contains `words`.
+::testing::AssertionResult names(const IntegrityReport& report, const std::string& words) {
+  std::string all;
+  for (const std::string& defect : report.defects) {
+    if (defect.find(words) != std::string::npos) return ::testing::AssertionSuccess();
+    all += defect + "; ";
+  }
+  return ::testing::AssertionFailure() << "\"" << words << "\" is not in: " << all;
+}
+
+TEST(Integrity, MinimalDagIsSoundAndCounted) {
+  for (int levels = 3; levels <= 8; ++levels) {
+    for (const int count : {1, 20, 3000}) {
+      const VoxelSet voxels = random_voxels(levels, count, uint64_t(levels));
+      const RawDag raw = raw_dag(test_grid(levels), voxels);
+      const IntegrityReport report = inspect_raw(raw);
+      EXPECT_TRUE(report.sound()) << levels << ", " << count << ": " << report.defects.front();
+      EXPECT_EQ(report.voxels, voxels.size());
+      EXPECT_EQ(report.nodes, raw.nodes);
+    }
+  }
+}
+
+TEST(Integrity, EmptyGridIsSound) {
+  EXPECT_TRUE(inspect_raw(raw_dag(test_grid(5), {})).sound());
+}
+
+TEST(Integrity, HandMadeFileIsAcceptedByTheReader) {
+  const std::string path = ::testing::TempDir() + "integrity_good.svdag";
+  RawFile(good_dag()).write(path);
+  const DagFile file = DagFile::open(path);
+  EXPECT_TRUE(inspect(file.header(), file.view(), file.metadata()).sound());
+}
+
+TEST(Integrity, BricksOutOfOrderOrRepeatedOrEmpty) {
+  RawDag raw = good_dag();
+  std::swap(raw.bricks[3], raw.bricks[4]);
+  EXPECT_TRUE(names(inspect_raw(raw), "level 4 has 1 bricks that are empty, repeated"));
+  raw = good_dag();
+  raw.bricks[4] = raw.bricks[3];
+  EXPECT_TRUE(names(inspect_raw(raw), "bricks that are empty, repeated"));
+  raw = good_dag();
+  raw.bricks[0] = 0;
+  EXPECT_TRUE(names(inspect_raw(raw), "bricks that are empty, repeated"));
+}
+
+TEST(Integrity, NodesOutOfOrder) {
+  // Two nodes of level 3 with one child each, exchanged together with the pointers to them: the
+  // same voxels, every node used, only the order is wrong.
+  RawDag raw = raw_dag(test_grid(4), {{0, 0, 0}, {8, 8, 8}, {12, 12, 13}});
+  ASSERT_EQ(raw.nodes[1], 2U);
+  std::vector<uint32_t>& words = raw.words[1];
+  ASSERT_EQ(words.size(), 5U);  // {mask, a, b} and {mask, c}, or the other way round
+  const uint32_t first = 1 + uint32_t(std::popcount(words[0]));
+  std::rotate(words.begin(), words.begin() + first, words.end());
+  for (size_t i = 1; i < raw.words[0].size(); ++i)
+    raw.words[0][i] = raw.words[0][i] == 0 ? 5 - first : 0;
+  const IntegrityReport report = inspect_raw(raw);
+  EXPECT_TRUE(names(report, "level 1 has 1 nodes that are repeated or out of order"));
+  EXPECT_EQ(report.defects.size(), 1U);
+  EXPECT_EQ(report.voxels, 3U);
+}
+
+TEST(Integrity, RepeatedNodeIsNotReduced) {
+  // Both children of the root are equal, and each has a copy of its own.
+  RawDag raw = raw_dag(test_grid(4), {{0, 0, 0}, {8, 8, 8}});
+  ASSERT_EQ(raw.nodes[1], 1U);
+  const std::vector<uint32_t> node = raw.words[1];
+  raw.words[1].insert(raw.words[1].end(), node.begin(), node.end());
+  raw.nodes[1] = 2;
+  raw.words[0][2] = uint32_t(node.size());
+  const IntegrityReport report = inspect_raw(raw);
+  EXPECT_TRUE(names(report, "level 1 has 1 nodes that are repeated or out of order"));
+  EXPECT_EQ(report.defects.size(), 1U);
+}
+
+TEST(Integrity, UnusedBrickAndUnusedNodeAreNotMinimal) {
+  RawDag raw = good_dag();
+  raw.bricks.push_back(~uint64_t(0));
+  ++raw.nodes.back();
+  EXPECT_TRUE(names(inspect_raw(raw), "level 4 has 1 nodes that no node uses"));
+  raw = good_dag();
+  const uint32_t last = uint32_t(raw.bricks.size() - 1);
+  for (const uint32_t word : {0x01U, last}) raw.words[3].push_back(word);
+  ++raw.nodes[3];
+  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 nodes that no node uses"));
+}
+
+TEST(Integrity, WrongCountsInTheHeader) {
+  RawDag raw = good_dag();
+  ++raw.voxels;
+  EXPECT_TRUE(names(inspect_raw(raw), "the header counts 501 voxels"));
+  raw = good_dag();
+  ++raw.nodes[2];
+  EXPECT_TRUE(names(inspect_raw(raw), "level 2 has"));
+}
+
+TEST(Integrity, PointersIntoTheMiddleOfANodeOrBeyond) {
+  RawDag raw = good_dag();
+  raw.words[0][1] += 1;
+  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 1 pointers that hit no node"));
+  raw = good_dag();
+  raw.words[3][1] = uint32_t(raw.bricks.size());
+  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 pointers that hit no node"));
+}
+
+TEST(Integrity, SecondRoot) {
+  RawDag raw = good_dag();
+  raw.words[0].insert(raw.words[0].end(), {0x80U, 0U});
+  ++raw.nodes[0];
+  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 2 nodes instead of one"));
+}
+
+TEST(Integrity, VoxelOutsideTheSelection) {
+  RawDag raw = good_dag();
+  raw.grid.bounded = true;
+  EXPECT_TRUE(inspect_raw(raw).sound());
+  raw.grid.selection.max.y = 33;
+  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+}
+
+TEST(Integrity, SnapLargerThanHalfALatticeStep) {
+  RawDag raw = good_dag();
+  raw.largest_snap = 0.25;
+  EXPECT_TRUE(names(inspect_raw(raw), "largest snap"));
+}
+
+TEST(Integrity, MetadataThatSaysSomethingElse) {
+  const RawFile file(good_dag());
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = file.metadata();
+    text.replace(text.find(from), from.size(), to);
+    return metadata_defects(file.header(), text);
+  };
+  EXPECT_TRUE(metadata_defects(file.header(), file.metadata()).empty());
+  EXPECT_EQ(with("\"voxels\":500", "\"voxels\":501").size(), 1U);
+  EXPECT_EQ(with("\"box\"", "\"lattice\"").size(), 1U);
+  EXPECT_EQ(with("\"rule\":", "\"ruler\":").size(), 2U);  // one lacks, one is unknown
+  EXPECT_EQ(metadata_defects(file.header(), "{"),
+            std::vector<std::string>{"the metadata is not a JSON object"});
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,60 @@
+#include "verify/commands/check.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/integrity.h"
+
+namespace svdag {
+namespace {
+
+void print_json(const DagFile& file, const IntegrityReport& report) {
+  char hash[33];
+  std::snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, file.header().content_hash[1],
+                file.header().content_hash[0]);
+  const nlohmann::json json = {{"command", "check"},      {"file", file.path()},
+                               {"ok", report.sound()},    {"defects", report.defects},
+                               {"voxels", report.voxels}, {"nodes", report.nodes},
+                               {"content_hash", hash},    {"bytes", file.header().file_bytes}};
+  std::printf("%s\n", json.dump().c_str());
+}
+
+void print_text(const DagFile& file, const IntegrityReport& report) {
+  uint64_t nodes = 0;
+  for (const uint64_t n : report.nodes) nodes += n;
+  std::printf("grid    %s\n", describe_grid(file).c_str());
+  std::printf("bytes   %s in %s blocks, every checksum right\n",
+              format_count(file.header().file_bytes).c_str(),
+              format_count(file.header().checksum_bytes / 8).c_str());
+  std::printf("nodes   %s on %zu levels, %s of them bricks\n", format_count(nodes).c_str(),
+              report.nodes.size(), format_count(report.nodes.back()).c_str());
+  std::printf("voxels  %s\n", format_count(report.voxels).c_str());
+  for (const std::string& defect : report.defects) std::printf("defect  %s\n", defect.c_str());
+  std::printf(
+      report.sound() ? "ok: sound, in canonical order and minimal\n" : "not ok: %zu defects\n",
+      report.defects.size());
+}
+
+}  // namespace
+
+int run(const CheckConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  Progress progress(config.common.progress);
+  progress.phase("checksums", 0);
+  const DagFile file = DagFile::open(config.file);
+  progress.phase("order and minimality", 0);
+  const IntegrityReport report = inspect(file.header(), file.view(), file.metadata());
+  progress.finish();
+  if (config.common.json) {
+    print_json(file, report);
+  } else if (!config.common.quiet) {
+    print_text(file, report);
+  }
+  return int(report.sound() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag

@@ -1,0 +1,33 @@
+#include "verify/commands/common.h"
+
+#include <cstdio>
+
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/memory_budget.h"
+
+namespace svdag {
+
+Stopwatch::Stopwatch(const CommonConfig& config)
+    : enabled_(config.verbose), start_(std::chrono::steady_clock::now()) {}
+
+Stopwatch::~Stopwatch() {
+  if (!enabled_) return;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+  std::fprintf(stderr, "%.2f s, peak memory %s\n", seconds.count(),
+               format_bytes(peak_resident_bytes()).c_str());
+}
+
+std::string describe_grid(const DagFile& file) {
+  const Grid grid = file.grid();
+  const Point corner = grid.corner();
+  std::string text = format_resolution(uint64_t(grid.resolution())) + "^3 " +
+                     (grid.kind == Grid::Kind::kBox ? "box" : "lattice") + ", voxel size " +
+                     format_double(grid.voxel_size) + ", corner (" + format_double(corner.x) +
+                     ", " + format_double(corner.y) + ", " + format_double(corner.z) + "), rule " +
+                     (file.rule() == Rule::kThin ? "thin" : "conservative");
+  if (grid.bounded) text += ", bounded";
+  return text;
+}
+
+}  // namespace svdag

@@ -1,0 +1,35 @@
+// What the commands share: how they talk, and the shape of each one's configuration.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "streaming/progress.h"
+
+namespace svdag {
+
+struct CommonConfig {
+  bool quiet = false;    // results on stdout only as an exit code
+  bool verbose = false;  // seconds and memory on stderr
+  bool json = false;     // results as one JSON object
+  Progress::Mode progress = Progress::Mode::kAuto;
+  uint64_t threads = 0;  // 0: all processors
+};
+
+// Prints seconds and peak memory on stderr when it dies, if asked to.
+class Stopwatch {
+ public:
+  explicit Stopwatch(const CommonConfig& config);
+  ~Stopwatch();
+
+ private:
+  bool enabled_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+// "1,024^3 box, voxel size 0.5, corner (0, 0, 0), conservative", for people.
+class DagFile;
+std::string describe_grid(const DagFile& file);
+
+}  // namespace svdag

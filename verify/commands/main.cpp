@@ -1,0 +1,146 @@
+// svdag-verify: the independent judge of what `svdag build` wrote.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/commands/check.h"
+#include "verify/commands/mesh.h"
+#include "verify/commands/render.h"
+
+namespace svdag {
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 ok, 1 differs, 2 usage, 3 bad input, 4 disk or output, 5 memory.";
+
+void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
+  command->add_flag("-q,--quiet", config->quiet, "Print nothing but errors");
+  command->add_flag("-v,--verbose", config->verbose, "Also print seconds and memory");
+  if (with_json) command->add_flag("--json", config->json, "Print the result as one JSON object");
+  command->add_flag_callback(
+      "--progress", [config] { config->progress = Progress::Mode::kOn; },
+      "Show progress even if stderr is no terminal");
+  command->add_flag_callback(
+      "--no-progress", [config] { config->progress = Progress::Mode::kOff; },
+      "Never show progress");
+}
+
+void add_threads(CLI::App* command, CommonConfig* config) {
+  command->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
+
+void add_check(CLI::App* app, int* result) {
+  auto config = std::make_shared<CheckConfig>();
+  CLI::App* command =
+      app->add_subcommand("check", "Prove every checksum and pointer, order and minimality");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify check scene.svdag\n") + kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_mesh(CLI::App* app, int* result) {
+  auto config = std::make_shared<MeshConfig>();
+  CLI::App* command = app->add_subcommand(
+      "mesh", "Voxelize the scene again, by other means, and compare every voxel");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("SCENE", config->scene.paths, "The scene files it was baked from")
+      ->required();
+  command->add_option("--judge", config->judge, "Who decides: integer (exact clipping)")
+      ->check(CLI::IsMember({"integer"}));
+  command
+      ->add_option_function<std::string>(
+          "--sample",
+          [config](const std::string& text) { config->sample = parse_count(text, "--sample"); },
+          "Compare N drawn bricks instead of all, and bound the error rate")
+      ->type_name("N");
+  command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
+  command
+      ->add_option("--include", config->scene.names.include,
+                   "Only parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command
+      ->add_option("--exclude", config->scene.names.exclude,
+                   "No parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command->add_flag("--skip-invalid", config->scene.skip_invalid,
+                    "Drop triangles with NaN or infinity, as in the bake");
+  add_threads(command, &config->common);
+  add_common(command, &config->common, true);
+  command->footer(
+      std::string("Examples: svdag-verify mesh sponza.svdag sponza.glb\n"
+                  "          svdag-verify mesh --sample 100000 city.svdag city.ply --json\n") +
+      kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_render(CLI::App* app, int* result) {
+  auto config = std::make_shared<RenderCommandConfig>();
+  CLI::App* command =
+      app->add_subcommand("render", "Make a picture by tracing rays through the DAG");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("-o,--output", config->output, "The PNG to write")
+      ->required()
+      ->type_name("X.png");
+  command->add_option("--mode", config->mode, "primary, normal or depth (default primary)");
+  command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
+  command
+      ->add_option("--camera", config->camera,
+                   "px,py,pz,tx,ty,tz[,fov]: position, target, degrees (default: frames all)")
+      ->delimiter(',')
+      ->expected(6, 7)
+      ->type_name("");
+  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
+  command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
+  add_threads(command, &config->common);
+  add_common(command, &config->common, false);
+  command->footer(
+      std::string(
+          "Examples: svdag-verify render scene.svdag -o scene.png\n"
+          "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
+      kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Judges .svdag files independently of the builder.", "svdag-verify");
+  app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("Example: svdag-verify mesh scene.svdag scene.ply\n") + kExitCodes);
+  int result = 0;
+  add_check(&app, &result);
+  add_mesh(&app, &result);
+  add_render(&app, &result);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : int(ExitCode::kUsage);
+  }
+  if (std::fflush(stdout) != 0)
+    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
+  return result;
+}
+
+}  // namespace
+}  // namespace svdag
+
+int main(int argc, char** argv) {
+  try {
+    return svdag::run_program(argc, argv);
+  } catch (const svdag::Error& error) {
+    std::fprintf(stderr, "svdag-verify: %s\n", error.what());
+    return int(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "svdag-verify: this machine has too little memory for that\n");
+    return int(svdag::ExitCode::kMemory);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "svdag-verify: internal error: %s; please report this\n", error.what());
+    return int(svdag::ExitCode::kInternal);
+  }
+}

@@ -1,0 +1,141 @@
+#include "verify/commands/mesh.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/compare.h"
+#include "verify/sample.h"
+#include "verify/snapped_scene.h"
+#include "verify/statistics.h"
+
+namespace svdag {
+namespace {
+
+struct Judgement {
+  GridJudgement grid;
+  SceneCounts counts;
+  Comparison comparison;
+  bool sampled = false;
+  double rate_bound = 0;  // of wrong bricks, 95 %; only if sampled
+
+  bool ok() const { return grid.defects.empty() && comparison.agrees(); }
+};
+
+std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid) {
+  std::vector<LatticeTriangle> triangles;
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+    triangles.insert(triangles.end(), batch.begin(), batch.end());
+    if (triangles.size() > UINT32_MAX)
+      fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
+  });
+  return triangles;
+}
+
+Judgement judge(const MeshConfig& config, const DagFile& file) {
+  MemoryBudget budget;
+  const Scene scene(config.scene, &budget);
+  const Grid grid = file.grid();
+  Progress progress(config.common.progress);
+  progress.phase("reading the scene's bounds", 0);
+  Judgement result;
+  const Box bounds = scene.bounds(&result.counts);
+  result.grid = judge_grid(grid, bounds);
+  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  result.sampled = config.sample > 0;
+  if (result.sampled) {
+    result.comparison =
+        compare_sample(scene, file.view(), grid, config.sample, config.seed, executor, progress);
+    result.rate_bound = rate_upper_bound(result.comparison.wrong_bricks, result.comparison.bricks);
+  } else {
+    progress.phase("reading the scene", 0);
+    const std::vector<LatticeTriangle> triangles = load(scene, grid);
+    result.comparison = compare_all(file.view(), grid, triangles, executor, progress);
+    if (result.comparison.file_voxels != file.header().voxels)
+      result.grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
+                                    " voxels, the file holds " +
+                                    format_count(result.comparison.file_voxels));
+  }
+  return result;
+}
+
+void print_wrong(const Grid& grid, const WrongVoxel& wrong) {
+  const Point corner = grid.corner();
+  const LatticePoint& v = wrong.voxel;
+  const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
+  std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
+              wrong.missing ? "missing" : "extra  ", static_cast<long long>(v.x),
+              static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
+              world(2));
+}
+
+void print_text(const DagFile& file, const Judgement& j) {
+  const Comparison& c = j.comparison;
+  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
+              j.grid.recomputed ? ", as the scene's bounds give it" : "");
+  for (const std::string& defect : j.grid.defects) std::printf("defect     %s\n", defect.c_str());
+  std::printf("triangles  %s", format_count(j.counts.triangles).c_str());
+  if (j.counts.invalid > 0)
+    std::printf(", %s invalid ones skipped", format_count(j.counts.invalid).c_str());
+  std::printf("\nbricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
+              j.sampled ? "sampled" : "(all)", format_count(c.wrong_bricks).c_str());
+  std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
+              format_count(c.judge_voxels).c_str());
+  std::printf("missing    %s\nextra      %s\n", format_count(c.missing).c_str(),
+              format_count(c.extra).c_str());
+  for (const WrongVoxel& wrong : c.first) print_wrong(file.grid(), wrong);
+  if (j.sampled)
+    std::printf(
+        "rate       at most %.3g of all bricks are wrong (95 %% confidence, %s voxels tested)\n",
+        j.rate_bound, format_count(64 * c.bricks).c_str());
+  std::printf("%s\n", j.ok() ? (j.sampled ? "ok: no sampled voxel differs"
+                                          : "ok: every voxel agrees with the scene")
+                             : "not ok: file and scene differ");
+}
+
+void print_json(const DagFile& file, const Judgement& j) {
+  const Comparison& c = j.comparison;
+  nlohmann::json wrong = nlohmann::json::array();
+  for (const WrongVoxel& w : c.first)
+    wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
+  nlohmann::json json = {{"command", "mesh"},
+                         {"file", file.path()},
+                         {"ok", j.ok()},
+                         {"judge", "integer"},
+                         {"grid_defects", j.grid.defects},
+                         {"grid_recomputed", j.grid.recomputed},
+                         {"triangles", j.counts.triangles},
+                         {"invalid_triangles", j.counts.invalid},
+                         {"sampled", j.sampled},
+                         {"bricks", c.bricks},
+                         {"wrong_bricks", c.wrong_bricks},
+                         {"file_voxels", c.file_voxels},
+                         {"judge_voxels", c.judge_voxels},
+                         {"missing", c.missing},
+                         {"extra", c.extra},
+                         {"first_wrong", wrong}};
+  if (j.sampled) json["wrong_brick_rate_bound_95"] = j.rate_bound;
+  std::printf("%s\n", json.dump().c_str());
+}
+
+}  // namespace
+
+int run(const MeshConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  const DagFile file = DagFile::open(config.file);
+  if (file.rule() != Rule::kConservative)
+    fail_usage(file.path() +
+               ": was baked with the rule thin, which this judge cannot judge yet: "
+               "bake with --rule conservative to compare");
+  const Judgement judgement = judge(config, file);
+  if (config.common.json) {
+    print_json(file, judgement);
+  } else if (!config.common.quiet) {
+    print_text(file, judgement);
+  }
+  return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag

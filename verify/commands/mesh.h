@@ -1,0 +1,21 @@
+// svdag-verify mesh FILE SCENE...: voxelizes the scene again and compares the occupancy.
+#pragma once
+
+#include "io/scene/scene.h"
+#include "verify/commands/common.h"
+
+namespace svdag {
+
+struct MeshConfig {
+  CommonConfig common;
+  std::string file;
+  SceneConfig scene;
+  std::string judge = "integer";
+  uint64_t sample = 0;  // bricks to draw; 0: compare all
+  uint64_t seed = 1;
+};
+
+// kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene.
+int run(const MeshConfig& config);
+
+}  // namespace svdag

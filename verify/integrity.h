@@ -1,0 +1,37 @@
+// Is a sound file also *the* DAG of its voxels: canonical, minimal, and told truly by its header?
+//
+// DagFile::open proves that the bytes are the ones written and that no pointer leads astray. This
+// proves the rest, in one pass per level from the bricks up, again without trust in a pointer:
+//   * no brick and no node is empty;
+//   * bricks ascend as numbers; nodes ascend by their eight children, child 0 first, 0 for none and
+//     1 + index else. Strictly ascending means that no two are equal, so the DAG is reduced;
+//   * every node but the root is some node's child, and the root stands alone. Reduced and fully
+//     used is minimal;
+//   * the voxels summed over the DAG are the voxels of the header, and none lies outside the
+//     selection;
+//   * the metadata says the same as the header.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/dag/dag_view.h"
+
+namespace svdag {
+
+struct IntegrityReport {
+  uint64_t voxels = 0;               // counted, not read from the header
+  std::vector<uint64_t> nodes;       // counted, per level; the last are bricks
+  std::vector<std::string> defects;  // one sentence each, at most one of a kind per level
+
+  bool sound() const { return defects.empty(); }
+};
+
+IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata);
+
+// Where the JSON text of the metadata and the header differ; empty if nowhere.
+std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata);
+
+}  // namespace svdag

@@ -1,0 +1,120 @@
+#include "verify/sample.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace svdag {
+namespace {
+
+// Triangles gathered before they are shared out to the workers.
+constexpr size_t kGather = size_t(1) << 16;
+constexpr size_t kShare = 1024;
+
+// The bricks that the triangle's box touches, cut to those of the grid.
+VoxelBox brick_box(const LatticeTriangle& t, const Grid& grid) {
+  const int shift = grid.fraction() + 2;
+  VoxelBox box;
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
+    box.min[a] = std::max<int64_t>(-((-low) >> shift) - 1, 0);
+    box.max[a] = std::min<int64_t>((high >> shift) + 1, grid.resolution() / kBrickSide);
+  }
+  return box;
+}
+
+}  // namespace
+
+BrickJudge::BrickJudge(const Grid& grid, std::vector<uint64_t> codes)
+    : grid_(grid), codes_(std::move(codes)), bricks_(codes_.size()) {}
+
+void BrickJudge::add(const LatticeTriangle& triangle, Clipper& clipper) {
+  const VoxelBox box = brick_box(triangle, grid_);
+  if (box.empty()) return;
+  // The smallest octree cell that holds the whole box: the common prefix of its corners' codes.
+  const uint64_t low = cell_code(box.min), high = cell_code(box.max - int64_t(1));
+  const int height = int(std::bit_width(low ^ high) + 2) / 3;
+  const auto begin = std::lower_bound(codes_.begin(), codes_.end(), low);
+  const auto end = std::upper_bound(begin, codes_.end(), high);
+  descend(triangle, clipper, low >> (3 * height), height, size_t(begin - codes_.begin()),
+          size_t(end - codes_.begin()));
+}
+
+// The sampled bricks begin .. end are those inside `cell`, which is 2^height bricks wide, that the
+// triangle may touch.
+void BrickJudge::descend(const LatticeTriangle& triangle, Clipper& clipper, uint64_t cell,
+                         int height, size_t begin, size_t end) {
+  if (begin == end) return;
+  if (end - begin <= 2) {
+    for (size_t i = begin; i < end; ++i) fill(triangle, clipper, i);
+    return;
+  }
+  if (!clipper.touches(triangle, grid_.fraction() + 2 + height, cell_of_code(cell))) return;
+  for (uint64_t child = cell << 3; child < (cell + 1) << 3; ++child) {
+    const auto first = codes_.begin() + ptrdiff_t(begin);
+    const uint64_t beyond = (child + 1) << (3 * (height - 1));
+    const size_t middle =
+        size_t(std::lower_bound(first, codes_.begin() + ptrdiff_t(end), beyond) - codes_.begin());
+    descend(triangle, clipper, child, height - 1, begin, middle);
+    begin = middle;
+  }
+}
+
+void BrickJudge::fill(const LatticeTriangle& triangle, Clipper& clipper, size_t index) {
+  const LatticePoint corner = cell_of_code(codes_[index]) * int64_t(kBrickSide);
+  VoxelBox window;
+  for (int a = 0; a < 3; ++a) {
+    window.min[a] = std::max(corner[a], grid_.selection.min[a]);
+    window.max[a] = std::min(corner[a] + kBrickSide, grid_.selection.max[a]);
+  }
+  Brick brick = 0;
+  clipper.run(triangle, grid_.fraction(), window, [&](const CellRun& run) {
+    LatticePoint p = run.first - corner;
+    for (int64_t i = 0; i < run.count; ++i, ++p[run.axis])
+      brick |= Brick(1) << brick_bit(unsigned(p.x), unsigned(p.y), unsigned(p.z));
+  });
+  if (brick != 0) std::atomic_ref(bricks_[index]).fetch_or(brick, std::memory_order_relaxed);
+}
+
+Comparison BrickJudge::compare(const DagView& dag) const {
+  Comparison result;
+  for (size_t i = 0; i < codes_.size(); ++i) {
+    const LatticePoint brick = cell_of_code(codes_[i]);
+    const Brick file = dag_brick(dag, uint32_t(brick.x), uint32_t(brick.y), uint32_t(brick.z));
+    result.add(bricks_[i], file, brick * int64_t(kBrickSide));
+  }
+  return result;
+}
+
+Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
+                          uint64_t seed, Executor& executor, Progress& progress) {
+  Random random(seed);
+  progress.phase("drawing bricks", 0);
+  std::vector<uint64_t> codes = sample_dag(dag, count - count / 2, random);
+  const std::vector<uint64_t> along = sample_scene(scene, grid, count / 2, random);
+  codes.insert(codes.end(), along.begin(), along.end());
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+
+  BrickJudge judge(grid, std::move(codes));
+  std::vector<Clipper> clippers(executor.workers());
+  std::vector<LatticeTriangle> gathered;
+  const auto flush = [&] {
+    executor.for_each((gathered.size() + kShare - 1) / kShare, [&](size_t worker, size_t share) {
+      const size_t end = std::min(gathered.size(), (share + 1) * kShare);
+      for (size_t i = share * kShare; i < end; ++i) judge.add(gathered[i], clippers[worker]);
+    });
+    progress.advance(gathered.size());
+    gathered.clear();
+  };
+  progress.phase("judging triangles", 0);
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+    gathered.insert(gathered.end(), batch.begin(), batch.end());
+    if (gathered.size() >= kGather) flush();
+  });
+  flush();
+  progress.finish();
+  return judge.compare(dag);
+}
+
+}  // namespace svdag

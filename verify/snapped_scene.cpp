@@ -1,0 +1,80 @@
+#include "verify/snapped_scene.h"
+
+#include "io/lattice.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+bool box_meets_grid(const LatticeTriangle& t, int64_t side) {
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
+    if (high < 0 || low > side) return false;
+  }
+  return true;
+}
+
+// The grid that a bake of the whole scene would choose, or nothing where none fits.
+bool follows_from(const Grid& grid, const Box& bounds) {
+  if (grid.bounded) return false;
+  try {
+    const Grid own = grid.kind == Grid::Kind::kBox ? divide_box(bounds, grid.levels)
+                                                   : cover_lattice(bounds, grid.voxel_size);
+    return own == grid;
+  } catch (const Error&) {
+    return false;  // the scene has no extent, or is too large for this voxel size
+  }
+}
+
+}  // namespace
+
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink) {
+  const Lattice lattice(grid);
+  const int64_t side = grid.resolution() << grid.fraction();
+  SnapCounts counts;
+  std::vector<LatticeTriangle> snapped;
+  counts.scene = scene.stream([&](const TriangleBatch& batch) {
+    snapped.clear();
+    for (const Triangle& t : batch.triangles) {
+      LatticeTriangle q;
+      for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &counts.largest_move);
+      if (box_meets_grid(q, side)) {
+        snapped.push_back(q);
+      } else {
+        ++counts.outside;
+      }
+    }
+    if (!snapped.empty()) sink(snapped);
+  });
+  counts.largest_move /= double(int64_t(1) << grid.fraction());
+  return counts;
+}
+
+GridJudgement judge_grid(const Grid& grid, const Box& bounds) {
+  GridJudgement judgement;
+  judgement.recomputed = follows_from(grid, bounds);
+  if (grid.kind == Grid::Kind::kLattice) {
+    for (int a = 0; a < 3; ++a) {
+      if (grid.k0[a] % 1024 != 0)
+        judgement.defects.push_back("the corner of the grid, plane " + std::to_string(grid.k0[a]) +
+                                    ", is not a multiple of 1024");
+    }
+  }
+  if (grid.bounded) return judgement;
+  const Lattice lattice(grid);
+  const LatticePoint low = lattice.snap(bounds.min), high = lattice.snap(bounds.max);
+  for (int a = 0; a < 3; ++a) {
+    const int64_t side = grid.resolution() << grid.fraction();
+    if (low[a] >= 0 && high[a] <= side) continue;
+    const double from = grid.corner()[a];
+    const double to = from + double(grid.resolution()) * grid.voxel_size;
+    judgement.defects.push_back(std::string("the grid does not hold the scene: on ") + "xyz"[a] +
+                                " the scene reaches from " + format_double(bounds.min[a]) + " to " +
+                                format_double(bounds.max[a]) + ", the grid from " +
+                                format_double(from) + " to " + format_double(to));
+  }
+  return judgement;
+}
+
+}  // namespace svdag

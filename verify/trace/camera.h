@@ -1,0 +1,35 @@
+// A pinhole camera in voxel coordinates.
+#pragma once
+
+#include "verify/trace/vector.h"
+
+namespace svdag {
+
+struct VoxelBounds {
+  Vec3 min{{0, 0, 0}};
+  Vec3 max{{0, 0, 0}};
+};
+
+struct Camera {
+  static constexpr double kDefaultFov = 40;  // degrees, vertical
+
+  Vec3 position;
+  Vec3 right, up, forward;  // orthonormal
+  double slope;             // tangent of half the vertical angle of view
+  double aspect;            // width / height
+
+  // The ray through image position (x, y), both 0 .. 1 from the upper left corner; its direction
+  // has length 1.
+  Ray ray(double x, double y) const;
+};
+
+// From `position` towards `target`; `up` is an axis (0 .. 2) of the world.
+Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect);
+
+// A three-quarter view from above on `box` that just holds it.
+Camera frame_box(const VoxelBounds& box, int up, double fov, double aspect);
+
+// The box of what is set, to within 1/256 of the grid: good enough to frame a picture.
+VoxelBounds occupied_bounds(const DagView& dag);
+
+}  // namespace svdag

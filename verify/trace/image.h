@@ -1,0 +1,27 @@
+// A picture, and its way to disk as PNG.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "verify/trace/traverse.h"
+
+namespace svdag {
+
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgb;  // row after row from the top, 3 bytes a pixel
+
+  Image(int w, int h) : width(w), height(h), rgb(size_t(w) * size_t(h) * 3) {}
+  // Stores linear light as sRGB.
+  void set(int x, int y, const Vec3& linear);
+  // Stores values as they are, for normals and depths.
+  void set_raw(int x, int y, const Vec3& value);
+};
+
+// Replaces `path` atomically. A failure is an Error (kOutput).
+void write_png(const Image& image, const std::string& path);
+
+}  // namespace svdag
