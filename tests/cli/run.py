@@ -46,7 +46,7 @@ def run_script(script, programs):
 
 def judge(script, code, outputs):
     """The complaints about one run."""
-    complaints = []
+    complaints = [] if code != 127 else ["a program is missing"]
     exit_file = script.with_suffix(".exit")
     expected = int(exit_file.read_text()) if exit_file.exists() else 0
     if code != expected:
@@ -94,7 +94,7 @@ def main():
     failed = 0
     for script, (code, out, err) in zip(scripts, runs):
         outputs = {"stdout": out, "stderr": err}
-        if options.update:
+        if options.update and code != 127:
             update(script, code, outputs)
         complaints = judge(script, code, outputs)
         failed += bool(complaints)
