@@ -36,4 +36,7 @@ struct InfoConfig {
 int run_build(const BuildCommandConfig& config);
 int run_info(const InfoConfig& config);
 
+// The part of run_info that looks at scenes.
+void info_scene(const InfoConfig& config);
+
 }  // namespace svdag

@@ -74,8 +74,6 @@ void info_dag(const InfoConfig& config) {
 
 }  // namespace
 
-void info_scene(const InfoConfig& config);
-
 int run_info(const InfoConfig& config) {
   if (config.paths.size() == 1 && is_dag(config.paths.front())) {
     info_dag(config);
