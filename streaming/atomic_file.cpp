@@ -5,7 +5,7 @@
 namespace svdag {
 
 AtomicFile::AtomicFile(const std::string& target)
-    : target_(target), file_(File::create_anonymous(folder_of(target))) {}
+    : target_(target), file_(File::create_anonymous(folder_of(target), target)) {}
 
 void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
   file_.write_at(offset, bytes);

@@ -68,10 +68,11 @@ File File::open_read(const std::string& path) {
   return file;
 }
 
-File File::create_anonymous(const std::string& folder) {
+File File::create_anonymous(const std::string& folder, const std::string& shown_as) {
+  const std::string& shown = shown_as.empty() ? folder : shown_as;
   int fd = retry_interrupted(
       [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
-  if (fd >= 0) return File(fd, folder);
+  if (fd >= 0) return File(fd, shown);
   if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)
     fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   if (::access(folder.c_str(), F_OK) != 0)
@@ -81,7 +82,7 @@ File File::create_anonymous(const std::string& folder) {
     return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   });
   if (fd < 0) fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  File file(fd, folder);
+  File file(fd, shown);
   file.temporary_ = name;
   return file;
 }

@@ -21,7 +21,8 @@ class File {
   // Opens an anonymous file in `folder` for writing (O_TMPFILE, mode 0600): it has no name and
   // vanishes with the process until link_as() gives it one. Falls back to a random, exclusively
   // created name where the file system has no O_TMPFILE.
-  static File create_anonymous(const std::string& folder);
+  // Errors speak of it as `shown_as`, the folder if that is empty.
+  static File create_anonymous(const std::string& folder, const std::string& shown_as = {});
 
   File() = default;
   File(File&& other) noexcept;

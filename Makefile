@@ -1,0 +1,70 @@
+# svdag: `make demo` and `make test` work on a fresh Debian 12 with nothing but git and make.
+#
+#   deps    install the packages below (as root, through sudo, or print the line)
+#   build   build/release/svdag, svdag-verify, svdag-scene
+#   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
+#   test    build and run every test, then once more under ASan and UBSan
+#   stress  the long forms: TSan, every compiler and flag, fuzzers
+#   bench   the tables and plots of docs/performance.md
+#   cuda    the tracer for NVIDIA GPUs
+#   clean   remove build/ and demo/
+
+PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
+  libxxhash-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libgtest-dev \
+  librapidcheck-dev python3 python3-numpy python3-xxhash
+BENCH_PACKAGES = python3-matplotlib
+STRESS_PACKAGES = clang libclang-rt-14-dev
+
+PRESET = release
+PROGRAMS = build/$(PRESET)
+PYTHON = /usr/bin/python3 -B
+
+.PHONY: all deps build demo test stress bench cuda clean
+all: build
+
+# $(call install,PACKAGES): nothing if all are there; never a prompt.
+define install
+	@missing=$$(for p in $(1); do \
+	  dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+	[ -z "$$missing" ] && exit 0; \
+	missing=$$(echo $$missing); \
+	if [ "$$(id -u)" = 0 ]; then sudo=; \
+	elif sudo -n true 2>/dev/null; then sudo="sudo -n"; \
+	else echo "Some packages are missing; install them with:"; \
+	  echo "  apt-get install -y --no-install-recommends $$missing"; exit 1; fi; \
+	echo "Installing $$missing"; \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -qq update && \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
+	  $$missing >/dev/null
+endef
+
+deps:
+	$(call install,$(PACKAGES))
+
+build: deps
+	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
+	@cmake --build --preset $(PRESET)
+
+demo: build
+	@sh tests/demo.sh $(PROGRAMS) demo
+
+test: deps
+	@$(PYTHON) tests/run_tests.py
+
+stress: deps
+	$(call install,$(STRESS_PACKAGES))
+	@sh tests/stress/stress.sh
+
+bench: build
+	$(call install,$(BENCH_PACKAGES))
+	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS)
+
+cuda:
+	@if [ -f verify/trace/cuda.cu ] && command -v nvcc >/dev/null; then \
+	  cmake --preset cuda && cmake --build --preset cuda --target svdag-trace; \
+	elif [ -f verify/trace/cuda.cu ]; then \
+	  echo "There is no nvcc on PATH: svdag-trace was not built."; \
+	else echo "The CUDA tracer is not written yet: nothing was built."; fi
+
+clean:
+	rm -rf build demo

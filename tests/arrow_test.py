@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Fails when an include breaks the arrow of the house, or a file or function outgrows its limit.
+
+ALLOWED lists, per folder, the folders whose headers its files may include; a folder may always
+include itself. LIBRARIES lists the files that alone may name a heavy library. Both are rules about
+text: what a compiler would accept is not good enough here.
+"""
+import pathlib
+import re
+import statistics
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = ["streaming", "io", "io/scene", "io/dag", "io/formats", "builder", "builder/farm",
+           "builder/commands", "verify", "verify/trace", "verify/commands"]
+
+READERS = ["streaming", "io", "io/scene", "io/dag"]
+ALLOWED = {
+    "streaming": [],
+    "io": ["streaming"],
+    "io/scene": ["streaming", "io"],
+    "io/dag": ["streaming", "io"],
+    "io/formats": ["streaming", "io", "io/dag"],
+    "builder": READERS,
+    "builder/farm": READERS + ["builder"],
+    "builder/commands": READERS + ["io/formats", "builder", "builder/farm"],
+    "verify": READERS + ["io/formats"],
+    "verify/trace": READERS,
+    "verify/commands": READERS + ["io/formats", "verify", "verify/trace"],
+}
+
+# Files whose includes are fixed one by one: they compile for the GPU or without any dependency.
+EXACT = {
+    "io/dag/format.h": [],
+    "io/dag/dag_view.h": ["io/dag/format.h"],
+    "verify/trace/traverse.h": ["io/dag/dag_view.h"],
+}
+
+LIBRARIES = {
+    r"CLI/": r"(builder|verify)/commands/main\.cpp|tests/scenes/main\.cpp",
+    r"OpenMesh/": r"io/scene/openmesh\.cpp",
+    r"draco/": r"io/scene/draco\.cpp|tests/.*",
+    r"stb_?|stb/": r"verify/trace/image\.cpp",
+    r"CGAL/": r"verify/judge_cgal\.cpp",
+    r"openvdb/": r"verify/judge_vdb\.cpp|io/formats/vdb\.cpp",
+    r"nanovdb/": r"io/formats/nvdb\.cpp",
+    r"embree": r"verify/trace/embree\.cpp",
+    r"hwy/": r"builder/(brick_kernel|descend)\w*\.(h|cpp)",
+    r"zstd|xxhash": r"streaming/\w+\.cpp",
+    r"nlohmann/": r"io/.*\.cpp|builder/.*|verify/commands/\w+\.cpp|tests/.*",
+}
+
+MAX_FILE = 350
+MAX_FUNCTION = 70
+
+
+def folder_of(path):
+    parent = str(pathlib.PurePosixPath(path).parent)
+    return parent if parent in FOLDERS else None
+
+
+def breaches(path, text):
+    """The sentences about what the includes of one file break."""
+    found = []
+    folder = folder_of(path)
+    for line in text.splitlines():
+        include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+        if not include:
+            continue
+        quoted, target = include.group(1) == '"', include.group(2)
+        for library, owners in LIBRARIES.items():
+            if re.match(library, target) and not re.fullmatch(owners, path):
+                found.append(f"{path}: <{target}> belongs in {owners} only")
+        if folder is None or not (quoted or folder_of(target)):
+            continue
+        if path in EXACT:
+            if target not in EXACT[path]:
+                found.append(f"{path}: may not include {target}")
+        elif folder_of(target) is None:
+            found.append(f"{path}: {target} is not in a folder of the house")
+        elif folder_of(target) != folder and folder_of(target) not in ALLOWED[folder]:
+            found.append(f"{path}: {folder} may not include {folder_of(target)} ({target})")
+    return found
+
+
+def sources():
+    for top in ["streaming", "io", "builder", "verify", "tests"]:
+        for path in sorted((ROOT / top).rglob("*")):
+            if path.suffix in (".h", ".cpp", ".cu"):
+                yield str(path.relative_to(ROOT)), path.read_text()
+
+
+def functions(text):
+    """(first line, lines) of every function body that begins at the left margin or in a class.
+
+    Follows the layout of clang-format: a line that ends in ") {" (or ") const {" and the like)
+    and its closing brace in the same column. Control statements are left out.
+    """
+    lines = text.splitlines()
+    for i, line in enumerate(lines):
+        if not re.search(r"\)[\w\s>:&*-]*\{$", line):
+            continue
+        start = i
+        while start > 0 and lines[start].startswith("    ") and not lines[start - 1].rstrip().endswith((";", "{", "}")):
+            start -= 1
+        indent = len(lines[start]) - len(lines[start].lstrip())
+        if re.match(r"\s*(\}? ?else|if|for|while|switch|do|catch|const auto|auto|return|TEST)\b", lines[start]):
+            continue
+        for j in range(i + 1, len(lines)):
+            if re.match(r" {%d}\}" % indent, lines[j]):
+                yield start + 1, j - start + 1
+                break
+
+
+class Arrow(unittest.TestCase):
+    def test_every_include_follows_the_arrow(self):
+        self.assertEqual([b for path, text in sources() for b in breaches(path, text)], [])
+
+    def test_planted_breaches_are_caught(self):
+        for path, include in [("streaming/file.cpp", '"io/grid.h"'),
+                              ("io/grid.cpp", '"io/dag/format.h"'),
+                              ("io/scene/ply.cpp", '"io/dag/dag_view.h"'),
+                              ("io/scene/ply.cpp", '"io/formats/vox.h"'),
+                              ("io/formats/vox.cpp", '"io/scene/scene.h"'),
+                              ("builder/build.cpp", '"verify/occupancy.h"'),
+                              ("builder/build.cpp", '"tests/scenes/mesh.h"'),
+                              ("verify/occupancy.cpp", '"builder/overlap.h"'),
+                              ("verify/occupancy.cpp", '<builder/overlap.h>'),
+                              ("verify/trace/traverse.h", '"io/grid.h"'),
+                              ("io/dag/dag_view.h", '"streaming/error.h"'),
+                              ("builder/build.cpp", "<CLI/CLI.hpp>"),
+                              ("io/scene/ply.cpp", "<OpenMesh/Core/IO/MeshIO.hh>"),
+                              ("io/scene/gltf.cpp", "<draco/compression/decode.h>"),
+                              ("verify/compare.cpp", "<CGAL/Exact_predicates_exact_constructions_kernel.h>"),
+                              ("verify/compare.cpp", "<openvdb/openvdb.h>"),
+                              ("verify/trace/cpu.cpp", "<stb/stb_image_write.h>"),
+                              ("verify/trace/cpu.cpp", "<embree3/rtcore.h>")]:
+            self.assertEqual(len(breaches(path, f"#pragma once\n#include {include}\n")), 1, (path, include))
+
+    def test_honest_includes_are_not_caught(self):
+        for path, include in [("io/grid.cpp", '"io/grid.h"'), ("io/grid.cpp", "<vector>"),
+                              ("builder/build.cpp", '"io/scene/scene.h"'),
+                              ("verify/trace/traverse.h", '"io/dag/dag_view.h"'),
+                              ("tests/builder/build_test.cpp", '"verify/occupancy.h"')]:
+            self.assertEqual(breaches(path, f"#include {include}\n"), [], (path, include))
+
+    def test_the_rules_are_about_a_tree_that_exists(self):
+        self.assertGreater(len(list(sources())), 40)
+
+
+class Sizes(unittest.TestCase):
+    def test_no_file_is_longer_than_its_limit(self):
+        sizes = {path: len(text.splitlines()) for path, text in sources()}
+        print(f"{len(sizes)} files, median {statistics.median(sizes.values()):.0f} lines, "
+              f"longest {max(sizes.values())}", file=sys.stderr)
+        self.assertEqual({p: n for p, n in sizes.items() if n > MAX_FILE}, {})
+
+    def test_no_function_is_longer_than_its_limit(self):
+        sizes = {(path, line): n for path, text in sources() for line, n in functions(text)}
+        self.assertGreater(len(sizes), 100)
+        print(f"{len(sizes)} functions, median {statistics.median(sizes.values()):.0f} lines, "
+              f"longest {max(sizes.values())}", file=sys.stderr)
+        self.assertEqual({at: n for at, n in sizes.items() if n > MAX_FUNCTION}, {})
+
+    def test_a_long_function_is_seen(self):
+        body = "  step();\n" * (MAX_FUNCTION + 1)
+        text = f"namespace a {{\nvoid f(int x,\n       int y) {{\n  if (x) {{\n{body}  }}\n}}\n}}\n"
+        self.assertEqual([n for _, n in functions(text)], [MAX_FUNCTION + 6])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,1 @@
+svdag build r.ply -r 1000 -o r.svdag

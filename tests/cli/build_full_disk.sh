@@ -1,0 +1,10 @@
+# A limit on the file size stands for a full disk: the old file stays, nothing else is left.
+svdag-scene city -n 60K -q -o city.ply
+echo old > city.svdag
+trap '' XFSZ
+ulimit -f 8
+code=0
+svdag build city.ply -r 1K -o city.svdag -q || code=$?
+cat city.svdag
+ls
+exit $code

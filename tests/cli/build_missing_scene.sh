@@ -1,0 +1,1 @@
+svdag build missing.ply -r 64 -o r.svdag

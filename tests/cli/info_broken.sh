@@ -1,0 +1,5 @@
+# One damaged byte is found, and the place is named.
+svdag-scene rectangle -q -o r.ply
+svdag build r.ply -r 64 -o r.svdag -q
+printf 'X' | dd of=r.svdag bs=1 seek=1100 conv=notrunc 2>/dev/null
+svdag info r.svdag

@@ -1,0 +1,9 @@
+# A limit on the file size stands for a full disk; the old file stays.
+printf old > city.ply
+trap '' XFSZ
+ulimit -f 8
+code=0
+svdag-scene city -n 100K -o city.ply || code=$?
+cat city.ply
+ls
+exit $code

@@ -1,0 +1,1 @@
+svdag-scene city -n 120 -o missing/city.ply

@@ -1,0 +1,1 @@
+svdag-scene atrium -n 100 -o t.ply

@@ -1,0 +1,2 @@
+svdag --version
+svdag-verify --version

@@ -1,0 +1,2 @@
+svdag-scene rectangle -q -o r.ply
+svdag-verify check r.ply

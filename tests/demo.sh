@@ -1,0 +1,27 @@
+#!/bin/sh
+# make demo: a scene from the generator, baked at 16K, verified, reported, rendered.
+# Usage: demo.sh PROGRAMS FOLDER
+set -eu
+programs=$1
+folder=$2
+mkdir -p "$folder"
+start=$(date +%s)
+step() { printf '%4d s  %s\n' $(($(date +%s) - start)) "$1"; }
+
+step "generate the atrium"
+"$programs"/svdag-scene atrium -o "$folder"/atrium.ply
+step "bake it at 16K"
+"$programs"/svdag build "$folder"/atrium.ply -r 16K -o "$folder"/atrium.svdag \
+  --report "$folder"/atrium.json
+step "bake it at 1K"
+"$programs"/svdag build "$folder"/atrium.ply -r 1K -o "$folder"/atrium-1k.svdag
+step "check the file: checksums, pointers, order, minimality"
+"$programs"/svdag-verify check "$folder"/atrium.svdag
+step "voxelize again by other means: every brick at 1K"
+"$programs"/svdag-verify mesh "$folder"/atrium-1k.svdag "$folder"/atrium.ply
+step "and 100,000 drawn bricks at 16K"
+"$programs"/svdag-verify mesh --sample 100000 "$folder"/atrium.svdag "$folder"/atrium.ply
+step "render"
+"$programs"/svdag-verify render "$folder"/atrium.svdag -o "$folder"/atrium.png -q \
+  --camera=-10.5,2.2,1.8,6,3.4,-1.2,75
+step "done: $folder/atrium.svdag, atrium.json, atrium.png"

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""The Python reader, written from docs/format.md, and the C++ readers see the same file."""
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import read_svdag
+
+PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
+
+
+def run(program, *arguments):
+    done = subprocess.run([PROGRAMS / program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(f"{program} {arguments}: {done.stderr}")
+    return done.stdout
+
+
+class Reader(unittest.TestCase):
+    def bake(self, kind, count, *grid):
+        folder = tempfile.TemporaryDirectory(prefix="svdag-reader-")
+        self.addCleanup(folder.cleanup)
+        scene, dag = pathlib.Path(folder.name, "scene.ply"), pathlib.Path(folder.name, "scene.svdag")
+        run("svdag-scene", kind, "-n", count, "-q", "-o", scene)
+        run("svdag", "build", scene, "-o", dag, "-q", *grid)
+        return dag
+
+    def expect_same_voxels(self, dag):
+        voxels = read_svdag.Svdag(dag.read_bytes()).voxels()
+        text = "".join(f"{x} {y} {z}\n" for x, y, z in voxels)
+        self.assertEqual(text, run("tests/dump_voxels", dag))
+        return len(voxels)
+
+    def test_both_readers_see_the_same_voxels(self):
+        for kind, count, grid in [("rectangle", 2, ["-r", "8"]), ("scan", 1000, ["-r", "64"]),
+                                  ("city", 1200, ["-r", "128"]), ("hairball", 5000, ["-r", "128"]),
+                                  ("terrain", 2000, ["--voxel-size", "1.5"])]:
+            with self.subTest(kind=kind):
+                self.assertGreater(self.expect_same_voxels(self.bake(kind, count, *grid)), 20)
+
+    def test_a_part_of_a_grid_and_an_empty_part(self):
+        dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")
+        self.assertGreater(self.expect_same_voxels(dag), 20)
+        dag = self.bake("city", 1200, "-r", "64", "--bounds=500,500,500,501,501,501")
+        self.assertEqual(self.expect_same_voxels(dag), 0)
+
+    def test_every_flipped_bit_is_seen_by_both(self):
+        dag = self.bake("rectangle", 2, "-r", "32")
+        good = dag.read_bytes()
+        chance = random.Random(1)
+        for _ in range(60):
+            damaged = bytearray(good)
+            damaged[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
+            with self.assertRaises(read_svdag.Broken):
+                read_svdag.Svdag(bytes(damaged))
+            dag.write_bytes(damaged)
+            with self.assertRaises(AssertionError):
+                run("tests/dump_voxels", dag)
+
+    def test_a_truncated_or_longer_file_is_seen(self):
+        good = self.bake("rectangle", 2, "-r", "8").read_bytes()
+        for bad in [b"", good[:1000], good[:1024], good[:-1], good + b"\0", good[1:]]:
+            with self.assertRaises(read_svdag.Broken):
+                read_svdag.Svdag(bad)
+
+
+if __name__ == "__main__":
+    unittest.main()

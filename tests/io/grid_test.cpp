@@ -1,0 +1,129 @@
+#include "io/grid.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+#include "io/lattice.h"
+#include "tests/expect_error.h"
+#include "tests/io/generators.h"
+
+namespace svdag {
+namespace {
+
+Box box_of(const Point& a, const Point& b) {
+  Box box;
+  box.add(a);
+  box.add(b);
+  return box;
+}
+
+TEST(FractionBits, AreMin23And39MinusLAndFit128BitTests) {
+  for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
+    EXPECT_EQ(fraction_bits(levels), levels <= 16 ? 23 : 39 - levels) << levels;
+    EXPECT_LE(levels + fraction_bits(levels), 39);
+    Grid grid;
+    grid.levels = levels;
+    EXPECT_EQ(grid.fraction(), fraction_bits(levels));
+    EXPECT_EQ(grid.resolution(), int64_t(1) << levels);
+  }
+}
+
+RC_GTEST_PROP(DividedBox, HasItsOutermostFacesMidVoxel, ()) {
+  const Box box = *boxes();
+  const Grid grid = divide_box(box, *level_counts());
+  const Lattice lattice(grid);
+  const LatticePoint low = lattice.snap(box.min), high = lattice.snap(box.max);
+  const int64_t half = int64_t(1) << (grid.fraction() - 1);
+  bool fills_an_axis = false;
+  for (int a = 0; a < 3; ++a) {
+    // The origin is rounded in world units: far from zero that is more than one lattice step.
+    const double world = std::max(std::abs(box.min[a]), std::abs(box.max[a]));
+    const double slack =
+        2 + 4 * 0x1p-52 * world / grid.voxel_size * std::ldexp(1.0, grid.fraction());
+    RC_ASSERT(std::abs(double(low[a] - half)) <= slack);
+    const int64_t end = (grid.resolution() << grid.fraction()) - half;
+    RC_ASSERT(double(high[a] - end) <= slack);
+    fills_an_axis = fills_an_axis || std::abs(double(high[a] - end)) <= slack;
+  }
+  RC_ASSERT(fills_an_axis);
+  RC_ASSERT(grid.selection == grid.whole());
+}
+
+TEST(DividedBox, WithoutAnExtentOrANormalVoxelSizeIsAUsageError) {
+  EXPECT_SVDAG_ERROR(divide_box(box_of({1, 2, 3}, {1, 2, 3}), 10), ExitCode::kUsage,
+                     "voxel size would be 0");
+  EXPECT_SVDAG_ERROR(divide_box(box_of({0, 0, 0}, {1e-306, 0, 0}), 12), ExitCode::kUsage,
+                     "not a positive normal");
+  EXPECT_SVDAG_ERROR(divide_box(box_of({-1.5e308, 0, 0}, {1.5e308, 0, 0}), 3), ExitCode::kUsage,
+                     "would be inf");
+}
+
+TEST(CoveredLattice, RefusesVoxelSizesThatAreNotPositiveNormalNumbers) {
+  const Box box = box_of({0, 0, 0}, {1, 1, 1});
+  for (const double size : {0.0, -1.0, 1e-310, std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_SVDAG_ERROR(cover_lattice(box, size), ExitCode::kUsage, "not a positive normal number");
+}
+
+TEST(CoveredLattice, RefusesMoreThanAMillionVoxels) {
+  EXPECT_SVDAG_ERROR(cover_lattice(box_of({0, 0, 0}, {2e6, 1, 1}), 1), ExitCode::kUsage,
+                     "more than 1M voxels");
+  EXPECT_SVDAG_ERROR(cover_lattice(box_of({0, 0, 0}, {1e300, 1, 1}), 1e-300), ExitCode::kUsage,
+                     "away from zero");
+}
+
+RC_GTEST_PROP(CoveredLattice, IsTheSmallestThatHoldsEveryTouchedVoxel, ()) {
+  const Box box = *boxes();
+  const double size = divide_box(box, *rc::gen::inRange(3, 18)).voxel_size;
+  const Grid grid = cover_lattice(box, size);
+  const Lattice lattice(grid);
+  const LatticePoint low = lattice.snap(box.min), high = lattice.snap(box.max);
+  bool needed = grid.levels == kMinLevels;
+  for (int a = 0; a < 3; ++a) {
+    RC_ASSERT(grid.k0[a] % 1024 == 0);
+    RC_ASSERT(lattice.first_voxel(low[a]) >= 0 && lattice.first_voxel(low[a]) < 1024);
+    RC_ASSERT(lattice.last_voxel(high[a]) < grid.resolution());
+    // One level fewer would not do on some axis; its finer lattice may move q by one voxel.
+    needed = needed || lattice.last_voxel(high[a]) >= grid.resolution() / 2 - 1;
+  }
+  RC_ASSERT(needed);
+}
+
+// By brute force: the open voxel (k, k + 1) meets the closed interval [low, high].
+RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
+  Grid grid = divide_box(box_of({0, 0, 0}, {15, 15, 15}), 4);  // voxels of size 1 from -1/2
+  const auto quarter = [] { return double(*rc::gen::inRange(-12, 80)) / 4; };
+  const Box bounds = box_of({quarter(), quarter(), quarter()}, {quarter(), quarter(), quarter()});
+  const Grid selected = select_bounds(grid, bounds);
+  RC_ASSERT(selected.bounded);
+  bool empty = false;
+  for (int a = 0; a < 3; ++a) {
+    int meeting = 0;
+    for (int k = 0; k < 16; ++k) meeting += k - 0.5 < bounds.max[a] && k + 0.5 > bounds.min[a];
+    empty = empty || meeting == 0;
+  }
+  RC_ASSERT(selected.selection.empty() == empty);
+  if (empty) {
+    RC_ASSERT(selected.selection == VoxelBox{});
+  } else {
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 16; ++k)
+        RC_ASSERT((k - 0.5 < bounds.max[a] && k + 0.5 > bounds.min[a]) ==
+                  (selected.selection.min[a] <= k && k < selected.selection.max[a]));
+  }
+  grid.selection = selected.selection;
+  grid.bounded = true;
+  RC_ASSERT(grid == selected);  // the lattice itself did not move
+}
+
+TEST(Corner, IsTheWorldPositionOfTheFirstVoxelsCorner) {
+  Grid grid = divide_box(box_of({0, 0, 0}, {7, 7, 7}), 3);
+  EXPECT_EQ(grid.corner(), Point(-0.5));
+  grid = cover_lattice(box_of({3000, 0, -3000}, {3001, 1, -2999}), 1);
+  EXPECT_EQ(grid.corner(), Point(2048.5, -1023.5, -3071.5));
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""`make test`: builds, runs every test tier by tier, prints the seconds of each and one total.
+
+Tests are ctest entries with the label of their tier. What they count is read from GoogleTest's own
+JSON and from the summary lines of the Python tests; a program that dies before it can count is one
+failure. SVDAG_SCENES names the folder of shared real scenes: set but missing is a failure.
+"""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as xml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TIERS = [("unit", "unit"), ("command line", "cli"), ("shared scenes", "shared")]
+
+
+class Counts:
+    def __init__(self, passed=0, failed=0, skipped=0):
+        self.passed, self.failed, self.skipped = passed, failed, skipped
+
+    def __add__(self, other):
+        return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped)
+
+    def __str__(self):
+        return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
+
+
+def counts_of_gtest(path):
+    report = json.loads(path.read_text())
+    tests = [test for suite in report["testsuites"] for test in suite["testsuite"]]
+    skipped = sum(test["result"] == "SKIPPED" for test in tests)
+    failed = sum("failures" in test for test in tests)
+    return Counts(len(tests) - skipped - failed, failed, skipped)
+
+
+def counts_of_text(text):
+    """From a summary line; one passed test if there is none (a program that only succeeds)."""
+    found = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", text, re.M)
+    if found:
+        return Counts(*map(int, found[-1]))
+    ran = re.search(r"^Ran (\d+) tests? in", text, re.M)
+    if not ran:
+        return Counts(1)
+    bad = sum(int(n) for n in re.findall(r"(?:failures|errors)=(\d+)", text))
+    skipped = sum(int(n) for n in re.findall(r"skipped=(\d+)", text))
+    return Counts(int(ran.group(1)) - bad - skipped, bad, skipped)
+
+
+def counts_of_case(case, results):
+    gtest = results / f"{case.get('name')}.json"
+    counts = Counts(0)
+    if gtest.exists():
+        counts = counts_of_gtest(gtest)
+    elif case.get("status") == "run":
+        counts = counts_of_text(case.findtext("system-out") or "")
+    if case.get("status") != "run" and counts.failed == 0:
+        counts = counts + Counts(failed=1)
+    return counts
+
+
+def build(preset):
+    start = time.monotonic()
+    for command in (["cmake", "--preset", preset, "--log-level=WARNING"], ["cmake", "--build", "--preset", preset]):
+        done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{done.stdout}\nThe build of {preset} failed.")
+    return time.monotonic() - start
+
+
+def run(preset, label, environment):
+    """Runs the tests of one label: (counts, seconds)."""
+    folder = ROOT / "build" / preset
+    results = folder / "results" / label
+    subprocess.run(["rm", "-rf", results])
+    results.mkdir(parents=True)
+    start = time.monotonic()
+    subprocess.run(["ctest", "--test-dir", folder, "-L", f"^{label}$", "-j", str(os.cpu_count()), "-Q",
+                    "--output-junit", results / "ctest.xml", "--test-output-size-passed", "1000000",
+                    "--test-output-size-failed", "1000000"],
+                   env=dict(environment, GTEST_OUTPUT=f"json:{results}/"))
+    seconds = time.monotonic() - start
+    counts = Counts()
+    for case in xml.parse(results / "ctest.xml").getroot().iter("testcase"):
+        counts += counts_of_case(case, results)
+        if case.get("status") != "run":
+            print(f"--- {case.get('name')} failed:\n{case.findtext('system-out')}")
+    return counts, seconds
+
+
+def say(tier, seconds, counts=""):
+    print(f"{tier:<16} {seconds:6.0f} s  {counts}", flush=True)
+
+
+def main():
+    environment = dict(os.environ)
+    scenes = environment.get("SVDAG_SCENES")
+    if scenes is not None and not os.path.isdir(scenes):
+        print(f"SVDAG_SCENES: {scenes} is not a folder: unset it, or give the folder of the shared scenes")
+        print("0 passed, 1 failed, 0 skipped")
+        return 1
+    say("build", build("release"))
+    total = Counts()
+    for tier, label in TIERS:
+        counts, seconds = run("release", label, environment)
+        say(tier, seconds, counts)
+        total += counts
+    say("build sanitized", build("asan-ubsan"))
+    environment.pop("SVDAG_SCENES", None)  # real scenes under ASan are for `make stress`
+    counts, seconds = run("asan-ubsan", "unit", environment)
+    say("sanitizers", seconds, counts)
+    total += Counts(counts.passed, counts.failed)
+    if scenes is None:
+        print(f"SVDAG_SCENES is not set: {total.skipped} tests were skipped")
+    print(total)
+    return total.failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,94 @@
+#include "streaming/atomic_file.h"
+
+#include <sys/stat.h>
+
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+mode_t mode_of(const std::string& path) {
+  struct stat status {};
+  EXPECT_EQ(stat(path.c_str(), &status), 0);
+  return status.st_mode & 0777;
+}
+
+TEST(AtomicFile, NothingIsLeftBehindWithoutCommit) {
+  const TempFolder folder;
+  { AtomicFile(folder.file("out")).append("half of it"); }
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(AtomicFile, TheOldFileStaysUntilCommit) {
+  const TempFolder folder;
+  folder.write("out", "old");
+  AtomicFile file(folder.file("out"));
+  file.append("new");
+  EXPECT_EQ(folder.read("out"), "old");
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(AtomicFile, AnAbandonedFileLeavesTheOldOneAlone) {
+  const TempFolder folder;
+  folder.write("out", "old");
+  { AtomicFile(folder.file("out")).append("new"); }
+  EXPECT_EQ(folder.read("out"), "old");
+}
+
+TEST(AtomicFile, WhoHasTheOldFileOpenKeepsReadingIt) {
+  const TempFolder folder;
+  const File reader = File::open_read(folder.write("out", "old"));
+  AtomicFile file(folder.file("out"));
+  file.append("new");
+  file.commit();
+  std::string text(3, '\0');
+  reader.read_at(0, std::as_writable_bytes(std::span(text)));
+  EXPECT_EQ(text, "old");
+}
+
+TEST(AtomicFile, PermissionsFollowTheUmask) {
+  const TempFolder folder;
+  const mode_t before = umask(027);
+  AtomicFile file(folder.file("out"));
+  file.commit();
+  umask(before);
+  EXPECT_EQ(mode_of(folder.file("out")), 0640U);
+}
+
+TEST(AtomicFile, SizeIsTheFurthestByteWritten) {
+  const TempFolder folder;
+  AtomicFile file(folder.file("out"));
+  file.append("0123456789");
+  file.write_at(2, std::as_bytes(std::span(std::string_view("ab"))));
+  EXPECT_EQ(file.size(), 10U);
+  file.append("x");
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "01ab456789x");
+}
+
+TEST(AtomicFile, ASymlinkIsReplacedAndNotFollowed) {
+  const TempFolder folder;
+  folder.write("precious", "keep");
+  std::filesystem::create_symlink(folder.file("precious"), folder.file("out"));
+  AtomicFile file(folder.file("out"));
+  file.append("new");
+  file.commit();
+  EXPECT_EQ(folder.read("precious"), "keep");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.file("out")));
+}
+
+TEST(AtomicFile, AFolderOfThatNameIsAnOutputErrorAndLeavesNothing) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.file("out"));
+  {
+    AtomicFile file(folder.file("out"));
+    EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kOutput, "out: cannot be replaced");
+  }
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,25 @@
+#!/bin/sh
+# make stress: what takes too long for every change.
+set -eu
+cd "$(dirname "$0")/../.."
+seconds=${FUZZ_SECONDS:-60}
+
+echo "TSan"
+cmake --preset tsan --log-level=WARNING >/dev/null
+cmake --build --preset tsan
+env -u SVDAG_SCENES ctest --test-dir build/tsan -L '^unit$' --output-on-failure
+
+echo "Every compiler and flag gives the same bytes"
+bash tests/stress/one_hash.sh
+
+echo "Fuzzers, $seconds s each"
+cmake --preset fuzz --log-level=WARNING >/dev/null
+cmake --build --preset fuzz
+for fuzzer in build/fuzz/tests/*_fuzz; do
+  [ -x "$fuzzer" ] || continue
+  name=$(basename "$fuzzer")
+  corpus=build/fuzz/corpus/$name
+  mkdir -p "$corpus"
+  "$fuzzer" "$corpus" tests/fuzz/corpus/"$name" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20
+done
+echo "All of it passed."
