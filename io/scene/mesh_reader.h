@@ -29,7 +29,8 @@ struct TriangleBatch {
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
 // Which named parts of a scene are wanted: shell patterns (*, ?, [..]) against glTF node names (a
-// node is chosen if it or an ancestor matches), OBJ group and object names, and file names.
+// node is chosen if it or an ancestor matches), OBJ group and object names, names of solids in text
+// STL, and file names. Parts without a name have the name "".
 struct NameFilter {
   std::vector<std::string> include;  // if not empty, only what matches one of these
   std::vector<std::string> exclude;  // never what matches one of these

@@ -12,6 +12,22 @@ void TextScanner::refill() {
   begin_ = here_ = reinterpret_cast<const char*>(bytes.data());
   end_ = begin_ + bytes.size();
   last_ = bytes.size() == stream_->remaining();
+  plenty_ = last_ ? end_ : end_ - kLookAhead + 1;
+}
+
+// At the end of the window, and where lines are joined.
+void TextScanner::skip_blanks_with_care() {
+  for (;;) {
+    while (here_ != end_ && is_blank(*here_)) ++here_;
+    if (here_ >= plenty_ && !last_) {
+      refill();
+    } else if (here_ == end_ || !at_continuation(here_)) {
+      return;
+    } else {
+      ++here_;
+      take_line_end();
+    }
+  }
 }
 
 void TextScanner::take_line_end() {

@@ -84,10 +84,9 @@ class TextScanner {
     if (p != end_ && (*p == '-' || *p == '+')) ++p;
     const char* first = p;
     int64_t value = 0;
-    while (p != end_ && *p >= '0' && *p <= '9' && p - first <= kMostDigits)
+    while (p != end_ && *p >= '0' && *p <= '9' && p - first < kMostDigits)
       value = 10 * value + (*p++ - '0');
-    if (p == first || p - first > kMostDigits ||
-        !(ends_word(p) || (p != end_ && *p == stop && stop != '\0')))
+    if (p == first || !(ends_word(p) || (p != end_ && *p == stop && stop != '\0')))
       fail_word("an integer");
     here_ = p;
     return negative ? -value : value;
@@ -111,20 +110,12 @@ class TextScanner {
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
   void skip_blanks() {
-    for (;;) {
-      const char* p = here_;
-      while (p != end_ && is_blank(*p)) ++p;
-      here_ = p;
-      if (size_t(end_ - here_) < kLookAhead && !last_) {
-        refill();
-      } else if (here_ == end_ || *here_ != '\\' || !at_continuation(here_)) {
-        return;
-      } else {
-        ++here_;
-        take_line_end();
-      }
-    }
+    const char* p = here_;
+    while (p < plenty_ && is_blank(*p)) ++p;
+    here_ = p;
+    if (p >= plenty_ || *p == '\\') skip_blanks_with_care();
   }
+  void skip_blanks_with_care();
   bool at_continuation(const char* p) const {
     return syntax_.continuation && *p == '\\' && p + 1 != end_ && is_line_end(p[1]);
   }
@@ -167,6 +158,7 @@ class TextScanner {
   const char* here_ = nullptr;
   const char* end_ = nullptr;
   bool last_ = false;
+  const char* plenty_ = nullptr;  // before this a whole word is visible
 };
 
 }  // namespace svdag

@@ -72,7 +72,8 @@ TEST(Obj, TrianglesAreNumberedWithinTheirGroup) {
 }
 
 TEST(Obj, IndicesThatPointNowhereAreRefusedWithTheirLine) {
-  for (const char* index : {"0", "5", "-5", "999999999999999999", "-999999999999999999"}) {
+  for (const char* index :
+       {"0", "5", "-5", "999999999999999999", "-999999999999999999", "9223372036854775808"}) {
     const std::string text = std::string(kVertices) + "f 1 2 " + index + "\nv 9 9 9\n";
     EXPECT_NE(refusal(read_obj, text).find("(line 5)"), std::string::npos) << index;
   }

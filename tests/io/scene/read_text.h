@@ -58,7 +58,7 @@ inline std::string refusal(Reader reader, std::string_view bytes) {
   return {};
 }
 
-// Every file that is cut short is refused, or still gives a prefix of the triangles.
+// Every file that is cut short by more than `harmless_tail` bytes is refused.
 inline void expect_no_truncation_goes_unnoticed(Reader reader, std::string_view bytes,
                                                 size_t harmless_tail) {
   ASSERT_FALSE(read(reader, bytes).triangles.empty());
