@@ -88,14 +88,14 @@ void add_render(CLI::App* app, int* result) {
   command->add_option("-o,--output", config->output, "The PNG to write")
       ->required()
       ->type_name("X.png");
-  command->add_option("--mode", config->mode, "primary, normal or depth (default primary)");
+  command->add_option("--mode", config->mode, "primary, shadow, normal or depth (default primary)");
   command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
   command
       ->add_option("--camera", config->camera,
-                   "px,py,pz,tx,ty,tz[,fov]: position, target, degrees (default: frames all)")
+                   "Position, target and angle of view in degrees (default: frames all)")
       ->delimiter(',')
-      ->expected(6, 7)
-      ->type_name("");
+      ->allow_extra_args(false)
+      ->type_name("px,py,pz,tx,ty,tz[,fov]");
   command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
   command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
   add_threads(command, &config->common);

@@ -12,9 +12,10 @@ namespace {
 
 ShadeMode parse_mode(const std::string& mode) {
   if (mode == "primary") return ShadeMode::kPrimary;
+  if (mode == "shadow") return ShadeMode::kShadow;
   if (mode == "normal") return ShadeMode::kNormal;
   if (mode == "depth") return ShadeMode::kDepth;
-  fail_usage("--mode: \"" + mode + "\" is not primary, normal or depth");
+  fail_usage("--mode: \"" + mode + "\" is not primary, shadow, normal or depth");
 }
 
 // The camera of --camera, given in the world, or one that frames everything.

@@ -12,7 +12,7 @@ struct RenderCommandConfig {
   CommonConfig common;
   std::string file;
   std::string output;
-  std::string mode = "primary";  // primary, normal, depth
+  std::string mode = "primary";  // primary, shadow, normal, depth
   std::string size = "1280x720";
   std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in the world; empty: framed
   std::string up = "y";

@@ -19,7 +19,7 @@ Image render(const DagView& dag, const Camera& camera, const Shading& shading,
   executor.for_each(size_t(config.height), [&](size_t, size_t y) {
     for (int x = 0; x < config.width; ++x) {
       const Vec3 colour = pixel(x, int(y));
-      if (shading.mode == ShadeMode::kPrimary) {
+      if (shading.mode == ShadeMode::kPrimary || shading.mode == ShadeMode::kShadow) {
         image.set(x, int(y), colour);
       } else {
         image.set_raw(x, int(y), colour);

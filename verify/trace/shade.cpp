@@ -7,8 +7,8 @@
 namespace svdag {
 namespace {
 
-const Vec3 kClay{{0.66, 0.62, 0.56}};
-const Vec3 kSun{{1.05, 0.98, 0.86}};
+const Vec3 kClay{{0.50, 0.46, 0.40}};
+const Vec3 kSun{{1.15, 1.06, 0.92}};
 const Vec3 kSky{{0.42, 0.50, 0.62}};
 const Vec3 kGround{{0.24, 0.21, 0.19}};
 
@@ -19,9 +19,18 @@ Vec3 background(const Shading& shading, const Vec3& direction) {
   return Vec3{{0.62, 0.66, 0.71}} * (1 - h) + Vec3{{0.86, 0.89, 0.93}} * h;
 }
 
+// Whether something stands between the hit and the light. The ray starts a little off the surface,
+// by more than the thickness of a voxelized sheet, so that a wall does not shade itself.
+bool in_shadow(const Shading& shading, const DagView& dag, const Ray& ray, const Hit& hit,
+               const Vec3& normal) {
+  constexpr double kOff = 2.0;  // voxels
+  const Vec3 start = ray.origin + ray.direction * hit.t + (normal + shading.light) * kOff;
+  return trace_closest(dag, {start, shading.light}, 1e300).found;
+}
+
 // Lambert under one sun and a sky that is bright above and dim below.
-Vec3 clay(const Shading& shading, const Vec3& normal) {
-  const double sun = std::max(0.0, dot(normal, shading.light));
+Vec3 clay(const Shading& shading, const Vec3& normal, bool lit) {
+  const double sun = lit ? std::max(0.0, dot(normal, shading.light)) : 0;
   const double sky = 0.5 + 0.5 * dot(normal, shading.up);
   const Vec3 light = kSun * sun + kSky * sky + kGround * (1 - sky);
   return {{kClay[0] * light[0], kClay[1] * light[1], kClay[2] * light[2]}};
@@ -60,7 +69,8 @@ Vec3 shade(const Shading& shading, const DagView& dag, const Ray& ray, const Hit
   }
   const Vec3 normal = surface_normal(dag, hit, ray.direction);
   if (shading.mode == ShadeMode::kNormal) return normal * 0.5 + Vec3{{0.5, 0.5, 0.5}};
-  return clay(shading, normal);
+  const bool lit = shading.mode != ShadeMode::kShadow || !in_shadow(shading, dag, ray, hit, normal);
+  return clay(shading, normal, lit);
 }
 
 }  // namespace svdag

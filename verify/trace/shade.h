@@ -5,7 +5,8 @@
 
 namespace svdag {
 
-enum class ShadeMode { kPrimary, kNormal, kDepth };
+// kShadow is kPrimary with the shadow that the key light casts.
+enum class ShadeMode { kPrimary, kShadow, kNormal, kDepth };
 
 // What is the same for every ray of a picture.
 struct Shading {

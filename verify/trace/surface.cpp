@@ -12,40 +12,75 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 // Sums of 1, p and p p^T over the set voxels within kRadius of the hit, p relative to it.
 struct Moments {
-  double count = 0;
-  Vec3 first{};
-  Matrix second{};
+  int count = 0;
+  int first[3] = {};
+  int second[6] = {};  // xx, yy, zz, xy, yz, zx
 
   void add(int x, int y, int z) {
     if (x * x + y * y + z * z > kRadius * kRadius) return;
-    const double p[3] = {double(x), double(y), double(z)};
     ++count;
+    const int p[3] = {x, y, z};
     for (int a = 0; a < 3; ++a) {
       first[a] += p[a];
-      for (int b = 0; b < 3; ++b) second[a][b] += p[a] * p[b];
+      second[a] += p[a] * p[a];
+      second[3 + a] += p[a] * p[(a + 1) % 3];
     }
+  }
+  Matrix covariance() const {
+    Matrix m;
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        const int sum = a == b ? second[a] : second[3 + (b == (a + 1) % 3 ? a : b)];
+        m[size_t(a)][size_t(b)] = sum - double(first[a]) * first[b] / count;
+      }
+    }
+    return m;
   }
 };
 
-Moments gather(const DagView& dag, const Hit& hit) {
-  Moments moments;
-  const int n = int(dag.resolution() / 4);
-  const int bx = int(hit.voxel[0] / 4), by = int(hit.voxel[1] / 4), bz = int(hit.voxel[2] / 4);
-  for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, n - 1); ++x) {
-    for (int y = std::max(by - 1, 0); y <= std::min(by + 1, n - 1); ++y) {
-      for (int z = std::max(bz - 1, 0); z <= std::min(bz + 1, n - 1); ++z) {
-        uint64_t brick = dag_brick(dag, uint32_t(x), uint32_t(y), uint32_t(z));
-        for (; brick != 0; brick &= brick - 1) {
-          const int bit = __builtin_ctzll(brick);
-          moments.add(4 * x + (bit >> 4 & 2) + (bit >> 2 & 1) - int(hit.voxel[0]),
-                      4 * y + (bit >> 3 & 2) + (bit >> 1 & 1) - int(hit.voxel[1]),
-                      4 * z + (bit >> 2 & 2) + (bit & 1) - int(hit.voxel[2]));
-        }
-      }
+// Collects the moments in one descent that leaves out everything beyond the bricks next to the
+// hit's; the way down is shared by all of them.
+class Gather {
+ public:
+  Gather(const DagView& dag, const Hit& hit) : dag_(dag) {
+    for (int a = 0; a < 3; ++a) {
+      voxel_[a] = int(hit.voxel[a]);
+      low_[a] = voxel_[a] / 4 - 1;
+      high_[a] = voxel_[a] / 4 + 1;
     }
   }
-  return moments;
-}
+
+  // The node covers 2^(brick level - level) bricks a side from brick (x, y, z) on.
+  void visit(uint32_t level, uint32_t node, int x, int y, int z) {
+    if (level == dag_.brick_level()) return add_brick(dag_.bricks[node], 4 * x, 4 * y, 4 * z);
+    const int half = 1 << (dag_.brick_level() - level - 1);
+    for (unsigned c = 0; c < 8; ++c) {
+      const int cx = x + (c & 4 ? half : 0), cy = y + (c & 2 ? half : 0),
+                cz = z + (c & 1 ? half : 0);
+      if (!near(cx, half, 0) || !near(cy, half, 1) || !near(cz, half, 2)) continue;
+      const uint32_t child = dag_child(dag_, level, node, c);
+      if (child != kNoChild) visit(level + 1, child, cx, cy, cz);
+    }
+  }
+  const Moments& moments() const { return moments_; }
+
+ private:
+  bool near(int from, int size, int axis) const {
+    return from <= high_[axis] && from + size > low_[axis];
+  }
+  void add_brick(uint64_t brick, int x, int y, int z) {
+    for (; brick != 0; brick &= brick - 1) {
+      const int bit = __builtin_ctzll(brick);
+      moments_.add(x + (bit >> 4 & 2) + (bit >> 2 & 1) - voxel_[0],
+                   y + (bit >> 3 & 2) + (bit >> 1 & 1) - voxel_[1],
+                   z + (bit >> 2 & 2) + (bit & 1) - voxel_[2]);
+    }
+  }
+
+  const DagView& dag_;
+  int voxel_[3], low_[3], high_[3];
+  Moments moments_;
+};
 
 // Makes m diagonal by Jacobi rotations; the columns of the result are the eigenvectors.
 Matrix diagonalize(Matrix* m) {
@@ -80,12 +115,9 @@ Matrix diagonalize(Matrix* m) {
 Vec3 surface_normal(const DagView& dag, const Hit& hit, const Vec3& direction) {
   Vec3 normal{};
   normal[hit.axis] = direction[hit.axis] < 0 ? 1 : -1;
-  const Moments moments = gather(dag, hit);
-  Matrix covariance = moments.second;
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b)
-      covariance[a][b] -= moments.first[a] * moments.first[b] / moments.count;
-  }
+  Gather gather(dag, hit);
+  gather.visit(0, 0, 0, 0, 0);
+  Matrix covariance = gather.moments().covariance();
   const Matrix axes = diagonalize(&covariance);
   std::array<size_t, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(),

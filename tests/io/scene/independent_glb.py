@@ -2,8 +2,9 @@
 """An independent GLB reader, written from the glTF 2.0 specification alone (no Draco, no sparse).
 
 Prints the number of triangles of a GLB file and the SHA-256 of all corners as little-endian
-float64, three corners of x, y, z per triangle, in stream order. The C++ reader must agree bit by
-bit, so this is the order of every floating-point operation (all in double, no fused operations):
+float64, three corners of x, y, z per triangle, in stream order; or, as
+`--against PROGRAM SCENE...`, compares these with what PROGRAM dumps. The C++ reader must agree bit
+by bit, so this is the order of every floating-point operation (all in double, no fused operations):
 
   stream order   nodes depth first from the default scene, a node before its children; within a
                  node its primitives, then its triangles as section 3.7.2.1 of the specification
@@ -18,7 +19,9 @@ bit, so this is the order of every floating-point operation (all in double, no f
 """
 import hashlib
 import json
+import os
 import struct
+import subprocess
 import sys
 
 import numpy as np
@@ -124,13 +127,31 @@ def triangles(glb):
             yield points[corners(len(points), primitive.get("mode", 4))]
 
 
-def main():
+def summary(path):
     digest, count = hashlib.sha256(), 0
-    for points in triangles(Glb(sys.argv[1])):
+    for points in triangles(Glb(path)):
         digest.update(np.ascontiguousarray(points, "<f8").tobytes())
         count += len(points) // 3
-    print(count, digest.hexdigest())
+    return count, digest.hexdigest()
+
+
+def compare(program, names):
+    """Whether `program`, which dumps the corners of a scene, agrees on the shared scenes."""
+    folder = os.environ.get("SVDAG_SCENES")
+    if folder is None:
+        print("SVDAG_SCENES is not set")
+        return 77
+    for name in names:
+        path = os.path.join(folder, name)
+        dump = subprocess.run([program, path], check=True, capture_output=True).stdout
+        ours, theirs = summary(path), (len(dump) // 72, hashlib.sha256(dump).hexdigest())
+        print(name, ours, "same" if ours == theirs else f"DIFFERS from {theirs}")
+        if ours != theirs:
+            return 1
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1] == "--against":
+        sys.exit(compare(sys.argv[2], sys.argv[3:]))
+    print(*summary(sys.argv[1]))

@@ -67,7 +67,7 @@ TEST(Traverse, FindsTheSameFirstVoxelAsTryingAll) {
   std::mt19937_64 random(1);
   for (const int levels : {3, 5, 7}) {
     const Grid grid = test_grid(levels);
-    const VoxelSet voxels = soup_voxels(grid, random_soup(grid, 12, uint64_t(levels), 8));
+    const VoxelSet voxels = soup_voxels(grid, random_soup(grid, 40, uint64_t(levels), 30));
     const RawFile file(raw_dag(grid, voxels));
     int hits = 0;
     for (int i = 0; i < 400; ++i) {

@@ -1,0 +1,30 @@
+// The common body of the readers' fuzz targets: any bytes are a scene or an Error (bad input, or
+// more memory than the budget), and nothing else.
+#pragma once
+
+#include <cstdlib>
+
+#include "io/scene/mesh_reader.h"
+#include "streaming/error.h"
+#include "tests/memory_file.h"
+
+namespace svdag {
+
+inline int fuzz_reader(void (*reader)(const File&, const ReadOptions&, const TriangleSink&),
+                       const uint8_t* data, size_t size) {
+  const MemoryFile memory(std::as_bytes(std::span(data, size)));
+  MemoryBudget budget(uint64_t(64) << 20);
+  const NameFilter names;
+  try {
+    reader(memory.file(), {&names, false, &budget}, [](const TriangleBatch& batch) {
+      if (batch.triangles.empty() || batch.triangles.size() > BatchWriter::kBatch) std::abort();
+    });
+  } catch (const Error& error) {
+    const bool expected = error.code() == ExitCode::kBadInput || error.code() == ExitCode::kMemory;
+    if (!expected || std::string(error.what()).empty()) std::abort();
+  }
+  if (budget.used() != 0) std::abort();
+  return 0;
+}
+
+}  // namespace svdag

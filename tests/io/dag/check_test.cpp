@@ -1,0 +1,173 @@
+// A damaged file is never taken for a sound one: every bit, every truncation, every appended byte.
+#include "io/dag/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <span>
+
+#include "io/dag/dag_file.h"
+#include "io/dag/dag_writer.h"
+#include "streaming/checksum.h"
+#include "streaming/error.h"
+#include "tests/soup.h"
+
+namespace svdag {
+namespace {
+
+// A file with random (sorted) content on every level, of about 16 KiB.
+std::string make_file(const std::string& path, int levels = 6, size_t width = 180) {
+  Grid grid;
+  grid.levels = levels;
+  grid.selection = grid.whole();
+  DagWriter writer(path, grid, Rule::kConservative);
+  std::mt19937_64 random(5);
+  std::vector<uint32_t> below;
+  writer.begin_level(levels - 2);
+  for (size_t i = 0; i < width; ++i) below.push_back(writer.add_brick(1 + 3 * i));
+  for (int level = levels - 3; level >= 0; --level) {
+    writer.begin_level(level);
+    std::vector<NodeKey> keys(level == 0 ? 1 : width);
+    for (NodeKey& key : keys) {
+      for (uint32_t& child : key)
+        child = random() % 3 == 0 ? 0 : 1 + below[random() % below.size()];
+      key[7] = 1 + below[0];
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    below.clear();
+    for (const NodeKey& key : keys) below.push_back(writer.add_node(key));
+  }
+  writer.finish(42, 0.25);
+  return read_bytes(path);
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc)
+      .write(bytes.data(), std::streamsize(bytes.size()));
+}
+
+bool is_sound(const std::string& path) {
+  try {
+    check_dag(File::open_read(path));
+    return true;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+    return false;
+  }
+}
+
+TEST(CheckDag, FindsEveryFlippedBit) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.svdag");
+  std::string bytes = make_file(path);
+  ASSERT_GE(bytes.size(), 16384U);
+  ASSERT_TRUE(is_sound(path));
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  size_t missed = 0;
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (int bit = 0; bit < 8; ++bit) {
+      file.seekp(std::streamoff(i)).put(char(bytes[i] ^ (1 << bit))).flush();
+      missed += is_sound(path);
+    }
+    file.seekp(std::streamoff(i)).put(bytes[i]).flush();
+  }
+  EXPECT_EQ(missed, 0U) << "of " << 8 * bytes.size();
+  EXPECT_TRUE(is_sound(path));
+}
+
+TEST(CheckDag, FindsEveryTruncationAndEveryAppendedLength) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.svdag");
+  const std::string bytes = make_file(path, 4, 20);
+  for (size_t length = 0; length < bytes.size(); ++length) {
+    write_bytes(path, bytes.substr(0, length));
+    EXPECT_FALSE(is_sound(path)) << length;
+  }
+  for (size_t more = 1; more < 200; ++more) {
+    write_bytes(path, bytes + std::string(more, '\0'));
+    EXPECT_FALSE(is_sound(path)) << more;
+  }
+}
+
+// Changes one field and repairs all checksums, as a hostile writer would.
+void forge(std::string bytes, const std::string& path, size_t offset, uint32_t word) {
+  std::memcpy(bytes.data() + offset, &word, 4);
+  Header h;
+  std::memcpy(&h, bytes.data(), sizeof h);
+  const auto part = [&](size_t begin, size_t size) {
+    return std::as_bytes(std::span(bytes.data() + begin, size));
+  };
+  if (h.checksum_offset < bytes.size() && h.checksum_offset >= sizeof h &&
+      h.checksum_bytes <= bytes.size() - h.checksum_offset) {
+    for (size_t i = 0; i < h.checksum_bytes / 8; ++i) {
+      const size_t begin = sizeof h + i * kChecksumBlock;
+      if (begin >= h.checksum_offset) break;
+      const uint64_t sum =
+          checksum64(part(begin, std::min<size_t>(kChecksumBlock, h.checksum_offset - begin)));
+      std::memcpy(bytes.data() + h.checksum_offset + 8 * i, &sum, 8);
+    }
+    h.content_hash[0] = h.content_hash[1] = h.header_checksum = 0;
+    Hasher128 hasher;
+    hasher.update(std::as_bytes(std::span(&h, 1)));
+    hasher.update(part(h.checksum_offset, h.checksum_bytes));
+    const Hash128 hash = hasher.digest();
+    std::memcpy(h.content_hash, hash.data(), 16);
+  }
+  h.header_checksum =
+      checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(Header, header_checksum)));
+  std::memcpy(bytes.data(), &h, sizeof h);
+  write_bytes(path, bytes);
+}
+
+TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.svdag");
+  const std::string bytes = make_file(path, 5, 30);
+  Header h;
+  std::memcpy(&h, bytes.data(), sizeof h);
+  size_t accepted = 0;
+  const auto try_word = [&](size_t offset, uint32_t word) {
+    forge(bytes, path, offset, word);
+    if (!is_sound(path)) return;
+    ++accepted;
+    // Whatever is accepted can be walked (the sanitizers watch).
+    const DagFile file = DagFile::open(path);
+    for (uint32_t x = 0; x < file.view().resolution() / 4; ++x) dag_brick(file.view(), x, x, x / 2);
+  };
+  for (size_t offset = 8; offset < sizeof(Header) - 8; offset += 4) {
+    for (const uint32_t word : {0U, 1U, 0x7fffffffU, 0x80000000U, 0xffffffffU})
+      try_word(offset, word);
+  }
+  for (size_t offset = sizeof(Header); offset + 4 <= h.metadata_offset; offset += 4) {
+    for (const uint32_t word : {0U, 0xffU, 0x100U, 3U, 0x80000000U, 0xffffffffU})
+      try_word(offset, word);
+  }
+  EXPECT_GT(accepted, 0U);  // some changes are other valid files
+}
+
+TEST(CheckDag, SaysWhatTheFileIsInstead) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.svdag");
+  write_bytes(path, std::string(5000, 'x'));
+  try {
+    check_dag(File::open_read(path));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 (path + ": is not a svdag file (its first bytes are not \\x89SVDAG)").c_str());
+  }
+  std::string newer = make_file(path, 4, 10);
+  newer[8] = 2;
+  write_bytes(path, newer);
+  try {
+    check_dag(File::open_read(path));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("has format version 2"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace svdag

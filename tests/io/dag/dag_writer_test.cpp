@@ -1,0 +1,82 @@
+#include "io/dag/dag_writer.h"
+
+#include <gtest/gtest.h>
+
+#include "io/dag/dag_file.h"
+#include "io/dag/dag_stats.h"
+#include "streaming/error.h"
+#include "tests/soup.h"
+
+namespace svdag {
+namespace {
+
+Grid small_grid() {
+  Grid grid;
+  grid.levels = 4;
+  grid.voxel_size = 0.1;
+  grid.origin = {1, 2, 3};
+  grid.selection = grid.whole();
+  return grid;
+}
+
+// Two voxels: (0, 0, 0) and (15, 15, 15).
+void write_two_voxels(const std::string& path) {
+  DagWriter writer(path, small_grid(), Rule::kConservative);
+  writer.begin_level(2);
+  const uint32_t low = writer.add_brick(1), high = writer.add_brick(uint64_t(1) << 63);
+  writer.begin_level(1);
+  NodeKey first{}, last{};
+  last[7] = 1 + high;
+  first[0] = 1 + low;
+  const uint32_t b = writer.add_node(last), a = writer.add_node(first);
+  writer.begin_level(0);
+  NodeKey root{};
+  root[0] = 1 + a;
+  root[7] = 1 + b;
+  writer.add_node(root);
+  writer.finish(2, 0.125);
+}
+
+TEST(DagWriter, WhatIsWrittenIsRead) {
+  const TemporaryFolder folder;
+  write_two_voxels(folder.file("a.svdag"));
+  const DagFile file = DagFile::open(folder.file("a.svdag"));
+  EXPECT_EQ(file.grid(), small_grid());
+  EXPECT_EQ(file.rule(), Rule::kConservative);
+  for (uint32_t x = 0; x < 16; ++x) {
+    for (uint32_t y = 0; y < 16; ++y) {
+      for (uint32_t z = 0; z < 16; ++z)
+        EXPECT_EQ(dag_voxel(file.view(), x, y, z), (x == y && y == z && (x == 0 || x == 15)));
+    }
+  }
+  EXPECT_EQ(file.metadata(),
+            "{\"format\":\"svdag\",\"version\":1,\"levels\":4,\"resolution\":16,\"rule\":"
+            "\"conservative\","
+            "\"fraction_bits\":23,\"grid\":{\"kind\":\"box\",\"corner\":[1,2,3],\"voxel_size\":0.1,"
+            "\"k0\":[0,0,0],\"bounded\":false,\"selection\":[0,0,0,16,16,16]},\"voxels\":2,"
+            "\"nodes\":[1,2,2],\"largest_snap\":0.125}\n");
+}
+
+TEST(DagStats, CountTreeAndDag) {
+  const TemporaryFolder folder;
+  write_two_voxels(folder.file("a.svdag"));
+  const DagStats stats = compute_stats(DagFile::open(folder.file("a.svdag")));
+  EXPECT_EQ(stats.voxels, 2U);
+  EXPECT_EQ(stats.svo_nodes(), 1U + 2 + 2 + 2);
+  EXPECT_EQ(stats.dag_nodes(), 1U + 2 + 2);
+  EXPECT_EQ(stats.paper_dag_nodes(), 1U + 2 + 2 + 2);
+}
+
+TEST(DagWriter, RefusesWhatTheFormatForbids) {
+  const TemporaryFolder folder;
+  DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative);
+  EXPECT_THROW(writer.begin_level(1), Error);
+  writer.begin_level(2);
+  EXPECT_THROW(writer.add_brick(0), Error);
+  EXPECT_THROW(writer.add_node({}), Error);
+  EXPECT_THROW(writer.finish(0, 0), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.svdag")));
+}
+
+}  // namespace
+}  // namespace svdag
