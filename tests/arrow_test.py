@@ -48,7 +48,7 @@ LIBRARIES = {
     r"embree": r"verify/trace/embree\.cpp",
     r"hwy/": r"builder/(brick_kernel|descend)\w*\.(h|cpp)",
     r"zstd|xxhash": r"streaming/\w+\.cpp",
-    r"nlohmann/": r"io/.*\.cpp|builder/.*|verify/commands/\w+\.cpp|tests/.*",
+    r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/(commands/)?\w+\.cpp|tests/.*",
 }
 
 MAX_FILE = 350

@@ -51,7 +51,8 @@ void Masonry::turned(const Frame& f, const Profile& profile) {
     const double r = r0 + (r1 - r0) * t;
     return f.at(r * cos_turns(u), y0 + (y1 - y0) * t, -r * sin_turns(u));
   };
-  add(surface, 6.28 * widest, height, kRound, uint32_t(pieces));
+  // Three times as fine as what is flat, so that it looks round.
+  add(surface, 3 * 6.28 * widest, height, kRound, uint32_t(pieces));
 }
 
 // The wall between the arc and its frame, in three patches that meet in the frame's upper corners.

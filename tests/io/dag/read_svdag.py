@@ -16,7 +16,7 @@ import numpy
 import xxhash
 
 BLOCK = 65536
-HEADER = struct.Struct("<8s8I4d3q2I6IQd5Q")
+HEADER = struct.Struct("<8s6I4d3q8IQd5Q")
 
 
 class Broken(Exception):
@@ -45,11 +45,12 @@ class Svdag:
         self.check_metadata()
 
     def read_header(self):
-        (magic, self.version, size, self.L, self.F, self.rule, self.kind, *self.corner, self.voxel_size,
-         k0x, k0y, k0z, self.bounded, count, *rest) = HEADER.unpack_from(self.data)
-        self.k0, self.selection = [k0x, k0y, k0z], rest[:6]
+        fields = HEADER.unpack_from(self.data)
+        (magic, self.version, size, self.L, self.F, self.rule, self.kind) = fields[:7]
+        self.corner, self.voxel_size, self.k0 = list(fields[7:10]), fields[10], list(fields[11:14])
+        self.bounded, count, self.selection = fields[14], fields[15], list(fields[16:22])
         (self.voxel_count, self.largest_snap, self.metadata_at, self.metadata_size, self.table_at,
-         self.table_size, self.file_size) = rest[6:]
+         self.table_size, self.file_size) = fields[22:]
         demand(magic == b"\x89SVDAG\r\n", "not a .svdag file")
         demand(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
                "header checksum")
