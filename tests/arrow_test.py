@@ -39,7 +39,7 @@ EXACT = {
 
 LIBRARIES = {
     r"CLI/": r"(builder|verify)/commands/main\.cpp|tests/scenes/main\.cpp",
-    r"OpenMesh/": r"io/scene/openmesh\.cpp",
+    r"OpenMesh/": r"io/scene/openmesh\.cpp|tests/io/scene/openmesh_test\.cpp",
     r"draco/": r"io/scene/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",
     r"CGAL/": r"verify/judge_cgal\.cpp",

@@ -38,13 +38,13 @@ def counts_of_gtest(path):
 
 
 def counts_of_text(text):
-    """From a summary line; one passed test if there is none (a program that only succeeds)."""
+    """From a summary line; one test if there is none (a program that only succeeds or fails)."""
     found = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", text, re.M)
     if found:
         return Counts(*map(int, found[-1]))
     ran = re.search(r"^Ran (\d+) tests? in", text, re.M)
     if not ran:
-        return Counts(1)
+        return Counts()
     bad = sum(int(n) for n in re.findall(r"(?:failures|errors)=(\d+)", text))
     skipped = sum(int(n) for n in re.findall(r"skipped=(\d+)", text))
     return Counts(int(ran.group(1)) - bad - skipped, bad, skipped)
@@ -52,14 +52,19 @@ def counts_of_text(text):
 
 def counts_of_case(case, results):
     gtest = results / f"{case.get('name')}.json"
-    counts = Counts(0)
-    if gtest.exists():
-        counts = counts_of_gtest(gtest)
-    elif case.get("status") == "run":
-        counts = counts_of_text(case.findtext("system-out") or "")
-    if case.get("status") != "run" and counts.failed == 0:
-        counts = counts + Counts(failed=1)
-    return counts
+    counts = counts_of_gtest(gtest) if gtest.exists() else counts_of_text(case.findtext("system-out") or "")
+    passed = case.get("status") == "run"
+    if passed and str(counts) == str(Counts()):
+        return Counts(passed=1)
+    return counts if passed or counts.failed else counts + Counts(failed=1)
+
+
+def tell_failure(case):
+    """What a failed test said, without the lines about what went well."""
+    print(f"--- {case.get('name')} failed:")
+    for line in (case.findtext("system-out") or "").splitlines():
+        if not re.match(r"\[( RUN |       OK |  SKIPPED |-----)|.*: Skipped$|SVDAG_SCENES is not set$|$", line):
+            print(line)
 
 
 def build(preset):
@@ -87,7 +92,7 @@ def run(preset, label, environment):
     for case in xml.parse(results / "ctest.xml").getroot().iter("testcase"):
         counts += counts_of_case(case, results)
         if case.get("status") != "run":
-            print(f"--- {case.get('name')} failed:\n{case.findtext('system-out')}")
+            tell_failure(case)
     return counts, seconds
 
 
