@@ -3,37 +3,14 @@
 // its own sake: edge functions cost 16 evaluations for 64 voxels, the plane only what the others
 // have left.
 #include <algorithm>
-#include <array>
 #include <bit>
 
+#include "builder/brick_tables.h"
 #include "builder/exact.h"
 #include "builder/overlap.h"
 
 namespace svdag {
 namespace {
-
-struct BrickTables {
-  std::array<std::array<uint64_t, 4>, 3> slab{};        // [axis][i]: voxels with coordinate i
-  std::array<std::array<uint8_t, 3>, 64> coordinate{};  // of each bit
-};
-
-constexpr BrickTables make_tables() {
-  BrickTables t;
-  for (unsigned x = 0; x < 4; ++x) {
-    for (unsigned y = 0; y < 4; ++y) {
-      for (unsigned z = 0; z < 4; ++z) {
-        const unsigned bit = brick_bit(x, y, z);
-        t.slab[0][x] |= uint64_t(1) << bit;
-        t.slab[1][y] |= uint64_t(1) << bit;
-        t.slab[2][z] |= uint64_t(1) << bit;
-        t.coordinate[bit] = {uint8_t(x), uint8_t(y), uint8_t(z)};
-      }
-    }
-  }
-  return t;
-}
-
-constexpr BrickTables kTables = make_tables();
 
 // Voxel i touches [min, max] iff i * 2^F <= max and (i + 1) * 2^F >= min, relative to the corner.
 Brick voxels_in_box(const TriangleSetup& t, const LatticePoint& corner, int fraction) noexcept {
@@ -43,7 +20,7 @@ Brick voxels_in_box(const TriangleSetup& t, const LatticePoint& corner, int frac
     for (int64_t i = 0; i < 4; ++i) {
       const int64_t low = corner[a] + (i << fraction);
       if (low <= t.max[a] && low + (int64_t(1) << fraction) >= t.min[a])
-        slabs |= kTables.slab[a][i];
+        slabs |= kBrickTables.slab[a][i];
     }
     voxels &= slabs;
   }
@@ -76,9 +53,9 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner,
     for (int j = 0; j < 4; ++j) {
       const double value = f + ((double(i) * su + double(j) * sv) + high);
       if (value > error || (value >= -error && edge_reaches(t, k, corner, fraction, i, j)))
-        row |= kTables.slab[v][j];
+        row |= kBrickTables.slab[v][j];
     }
-    voxels |= row & kTables.slab[u][i];
+    voxels |= row & kBrickTables.slab[u][i];
   }
   return voxels;
 }
@@ -105,7 +82,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
   const double low = (std::min(s[0], 0.0) + std::min(s[1], 0.0)) + std::min(s[2], 0.0);
   for (Brick left = voxels; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
-    const auto& p = kTables.coordinate[bit];
+    const auto& p = kBrickTables.coordinate[bit];
     const double offset = (double(p[0]) * s[0] + double(p[1]) * s[1]) + double(p[2]) * s[2];
     const double highest = f + (offset + high), lowest = f + (offset + low);
     if (highest > error && lowest < -error) continue;

@@ -20,8 +20,8 @@ void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wa
   }
 }
 
-Descent::Descent(const Grid& grid, NodeTable* table)
-    : grid_(grid), table_(table), scratch_(size_t(grid.levels)) {}
+Descent::Descent(const Grid& grid, Rule rule, NodeTable* table)
+    : grid_(grid), rule_(rule), table_(table), scratch_(size_t(grid.levels)) {}
 
 SubDag Descent::run(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
@@ -44,7 +44,8 @@ SubDag Descent::brick(const Cube& cube, const EntryList& list) {
   const LatticePoint corner = cube.corner(grid_.levels);
   Brick voxels = 0;
   for (const Entry& entry : list) {
-    voxels |= overlap_brick(entry, corner, grid_.fraction());
+    voxels |= rule_ == Rule::kThin ? overlap_brick_thin(entry, corner, grid_.fraction())
+                                   : overlap_brick(entry, corner, grid_.fraction());
     if (voxels == ~Brick(0)) break;  // nothing can be added to a full brick
   }
   voxels &= wanted;

@@ -22,7 +22,7 @@ void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wa
 class Descent {
  public:
   // Nodes go to `table`, which must outlive the descent.
-  Descent(const Grid& grid, NodeTable* table);
+  Descent(const Grid& grid, Rule rule, NodeTable* table);
 
   // The sub-DAG of `cube` (level <= brick level), whose triangles are in `list`.
   SubDag run(const Cube& cube, const EntryList& list);
@@ -33,6 +33,7 @@ class Descent {
   bool outside_selection(const Cube& cube) const;
 
   Grid grid_;
+  Rule rule_;
   NodeTable* table_;
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
 };

@@ -23,6 +23,9 @@ ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
 // 2^fraction.
 Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction) noexcept;
 
+// The voxels that the triangle sets under rule thin (builder/brick_thin.cpp).
+Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction) noexcept;
+
 // Whether the bounding boxes of the triangle and the closed cube meet.
 inline bool boxes_meet(const TriangleSetup& t, const LatticePoint& corner, int64_t side) noexcept {
   for (int a = 0; a < 3; ++a) {

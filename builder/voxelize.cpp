@@ -6,14 +6,15 @@ namespace svdag {
 namespace {
 
 struct Worker {
-  Worker(const CellTree& tree, NodeTable* table) : cursor(tree), descent(tree.grid(), table) {}
+  Worker(const CellTree& tree, Rule rule, NodeTable* table)
+      : cursor(tree), descent(tree.grid(), rule, table) {}
   CellCursor cursor;
   Descent descent;
 };
 
 }  // namespace
 
-VoxelizedCells voxelize(const CellTree& tree, MemoryBudget* budget, Executor* executor,
+VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, Executor* executor,
                         Progress* progress) {
   const std::vector<Cube> cells = tree.occupied_cells();
   progress->phase("voxelize", cells.size());
@@ -25,7 +26,7 @@ VoxelizedCells voxelize(const CellTree& tree, MemoryBudget* budget, Executor* ex
   std::vector<SubDag> subdags(cells.size());
   std::vector<uint32_t> baked_by(cells.size());
   executor->for_each(cells.size(), [&](size_t w, size_t i) {
-    if (!workers[w]) workers[w].emplace(tree, result.tables[w].get());
+    if (!workers[w]) workers[w].emplace(tree, rule, result.tables[w].get());
     subdags[i] = workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
     baked_by[i] = uint32_t(w);
     progress->advance();

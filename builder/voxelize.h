@@ -22,7 +22,7 @@ struct VoxelizedCells {
   uint64_t voxels = 0;
 };
 
-VoxelizedCells voxelize(const CellTree& tree, MemoryBudget* budget, Executor* executor,
+VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, Executor* executor,
                         Progress* progress);
 
 // Third phase: sorts the tables into runs and makes `rank` of the roots what its name says.

@@ -33,7 +33,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"scene", config.build.scene.paths},
                {"output", config.build.output},
                {"grid", grid_json(r.grid)},
-               {"rule", "conservative"},
+               {"rule", r.rule == Rule::kThin ? "thin" : "conservative"},
                {"triangles", r.split.scene.triangles},
                {"triangles_outside", r.split.outside},
                {"triangles_degenerate", r.split.degenerate},

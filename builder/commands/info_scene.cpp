@@ -33,16 +33,19 @@ void print_text(const InfoConfig& config, const Box& box, const SceneCounts& cou
   };
   std::printf("%s", config.paths.front().c_str());
   if (config.paths.size() > 1) std::printf(" and %zu more", config.paths.size() - 1);
-  std::printf(": %s triangles, %s positions, %s components\n", format_count(stats.triangles).c_str(),
-              format_count(stats.positions).c_str(), format_count(stats.components).c_str());
+  std::printf(": %s triangles, %s positions, %s components\n",
+              format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
+              format_count(stats.components).c_str());
   std::printf("  bounds %s .. %s\n", point(box.min).c_str(), point(box.max).c_str());
-  std::printf("  %s triangles of zero area, %s of them with two equal corners; %s repeated triangles\n",
-              format_count(stats.zero_area).c_str(), format_count(stats.repeated).c_str(),
-              format_count(stats.duplicates).c_str());
+  std::printf(
+      "  %s triangles of zero area, %s of them with two equal corners; %s repeated triangles\n",
+      format_count(stats.zero_area).c_str(), format_count(stats.repeated).c_str(),
+      format_count(stats.duplicates).c_str());
   std::printf("  %s open edges, %s non-manifold edges\n", format_count(stats.open_edges).c_str(),
               format_count(stats.non_manifold_edges).c_str());
   if (counts.invalid > 0)
-    std::printf("  %s triangles with NaN or infinity left out\n", format_count(counts.invalid).c_str());
+    std::printf("  %s triangles with NaN or infinity left out\n",
+                format_count(counts.invalid).c_str());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The program `svdag`: the command line, and the one place where an Error is caught.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 
 #include "builder/commands/commands.h"
 #include "io/units.h"
@@ -64,6 +65,14 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
+  static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
+                                                     {"thin", Rule::kThin}};
+  app->add_option(
+         "--rule", build->rule,
+         "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
+         "about 1.8 times fewer voxels")
+      ->transform(CLI::CheckedTransformer(kRules).description(""))
+      ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
   app->add_option_function<std::string>(
          "-m,--memory",

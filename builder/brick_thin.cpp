@@ -1,0 +1,140 @@
+// Rule thin: the 64 voxels of a brick against one triangle.
+//
+// After the "three axis-parallel centre segments" target of Laine, "A Topological Approach to
+// Voxelization" (2013), which is 6-separating. Notation: S = 2^F; voxel k has centre c = (k + 1/2)
+// S and, per axis w, the segment from c - S/2 w to c + S/2 w. All targets are shifted by d = (e,
+// e^2, e^3), e infinitesimal, so nothing ever lies exactly on anything. Voxel k is set iff for some
+// w the shifted segment crosses the triangle:
+//   inside   the shifted centre, projected along w, is inside the projected triangle: all edge
+//   functions
+//            are positive there; an exact 0 is decided by the coefficient of the dominant axis (x
+//            before y before z), which is what the shift adds first;
+//   crossed  n . (x - v0) has different signs at the two shifted ends; an exact 0 is decided by the
+//   first
+//            nonzero of n_x, n_y, n_z.
+// So each line of centres that meets the projected triangle sets exactly one voxel of the line, and
+// the segments of one line share no point: shared edges and vertices neither leak nor count twice.
+// A triangle of zero area sets nothing. Rejected: the dominant axis alone (leaks in 177 of 1,500
+// tetrahedra), ties by epsilon.
+#include <algorithm>
+#include <bit>
+
+#include "builder/brick_tables.h"
+#include "builder/exact.h"
+#include "builder/overlap.h"
+
+namespace svdag {
+namespace {
+
+// Edge function k at the shifted point x: never zero, since an edge that is not a point in the
+// projection has a nonzero coefficient, and one that is a point belongs to a projection of no area.
+bool edge_holds_exactly(const TriangleSetup& t, int k, const LatticePoint& x) noexcept {
+  const int sign = exact_edge_sign(t, k, x);
+  if (sign != 0) return sign > 0;
+  const int u = (k / 3 + 1) % 3, v = (k / 3 + 2) % 3;
+  const double by_u = t.edge_u[k], by_v = t.edge_v[k];
+  const double first = u < v ? by_u : by_v, second = u < v ? by_v : by_u;
+  return first != 0 ? first > 0 : second > 0;
+}
+
+bool plane_is_above_exactly(const TriangleSetup& t, const LatticePoint& x) noexcept {
+  const int sign = exact_plane_sign(t, x);
+  if (sign != 0) return sign > 0;
+  const double* n = t.normal;
+  return n[0] != 0 ? n[0] > 0 : (n[1] != 0 ? n[1] > 0 : n[2] > 0);
+}
+
+// Values of one function at a point of the brick, in double with an error bound, and the exact sign
+// where the double cannot tell.
+struct PlaneSide {
+  const TriangleSetup& t;
+  LatticePoint corner;
+  double at_corner;
+  double error;
+
+  bool operator()(const LatticePoint& offset) const noexcept {  // from the brick's corner
+    const double value =
+        at_corner + ((t.normal[0] * double(offset.x) + t.normal[1] * double(offset.y)) +
+                     t.normal[2] * double(offset.z));
+    if (value > error) return true;
+    if (value < -error) return false;
+    return plane_is_above_exactly(t, corner + offset);
+  }
+};
+
+PlaneSide plane_side(const TriangleSetup& t, const LatticePoint& corner, double side) noexcept {
+  const LatticePoint r = corner - t.triangle.v[0];
+  const double f =
+      t.normal[0] * double(r.x) + t.normal[1] * double(r.y) + t.normal[2] * double(r.z);
+  return {t, corner, f, t.normal_error * (t.extent + 8 * side)};
+}
+
+// Voxels whose shifted centre is inside edge k.
+Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& corner,
+                          int fraction) noexcept {
+  const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
+  const int64_t half = int64_t(1) << (fraction - 1);
+  const double error = t.edge_error * (t.extent + 8 * double(2 * half));
+  const LatticePoint r = corner - t.triangle.v[t.from[k % 3]];
+  const double f = t.edge_u[k] * double(r[u]) + t.edge_v[k] * double(r[v]);
+  Brick voxels = 0;
+  for (int i = 0; i < 4; ++i) {
+    Brick row = 0;
+    for (int j = 0; j < 4; ++j) {
+      LatticePoint offset(0);
+      offset[u] = (2 * i + 1) * half;
+      offset[v] = (2 * j + 1) * half;
+      const double value = f + (t.edge_u[k] * double(offset[u]) + t.edge_v[k] * double(offset[v]));
+      if (value > error || (value >= -error && edge_holds_exactly(t, k, corner + offset)))
+        row |= kBrickTables.slab[v][j];
+    }
+    voxels |= row & kBrickTables.slab[u][i];
+  }
+  return voxels;
+}
+
+// Those of `voxels` whose shifted centre segment along w crosses the plane. The upper end of a
+// segment is the lower end of the next, so 5 ends serve the 4 voxels of a line.
+Brick segments_crossing(const PlaneSide& above, int w, int fraction, Brick voxels) noexcept {
+  const int u = (w + 1) % 3, v = (w + 2) % 3;
+  const int64_t half = int64_t(1) << (fraction - 1);
+  Brick crossed = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const Brick line = voxels & kBrickTables.slab[u][i] & kBrickTables.slab[v][j];
+      if (line == 0) continue;
+      LatticePoint end(0);
+      end[u] = (2 * i + 1) * half;
+      end[v] = (2 * j + 1) * half;
+      bool lower = above(end);
+      for (int h = 0; h < 4; ++h) {
+        end[w] += 2 * half;
+        const bool upper = above(end);
+        if (lower != upper) crossed |= line & kBrickTables.slab[w][h];
+        lower = upper;
+      }
+    }
+  }
+  return crossed;
+}
+
+}  // namespace
+
+Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction) noexcept {
+  const TriangleSetup& t = *entry.triangle;
+  const PlaneSide above = plane_side(t, corner, double(int64_t(1) << fraction));
+  const Brick near = overlap_brick(entry, corner, fraction);  // a set voxel is touched as well
+  Brick voxels = 0;
+  for (int w = 0; w < 3; ++w) {
+    if (t.normal[w] == 0) continue;
+    Brick inside = near & ~voxels;
+    for (int e = 0; e < 3 && inside != 0; ++e) {
+      const int k = 3 * w + e;
+      if (entry.edges >> k & 1) inside &= centres_inside_edge(t, k, corner, fraction);
+    }
+    if (inside != 0) voxels |= segments_crossing(above, w, fraction, inside);
+  }
+  return voxels;
+}
+
+}  // namespace svdag
