@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/verify/rational_judge.h"
+#include "verify/judge.h"
 
 namespace svdag {
 namespace {
@@ -206,13 +207,13 @@ TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
 }
 
 TEST(Occupancy, TouchesIsTheOneCellWindow) {
-  Clipper clipper;
+  const auto judge = make_judge({});
   const LatticeTriangle t{{scaled(0, 0, 0), scaled(4, 0, 0), scaled(0, 4, 0)}};
-  EXPECT_TRUE(clipper.touches(t, kShift, {0, 0, 0}));
-  EXPECT_TRUE(clipper.touches(t, kShift, {0, 0, -1}));
-  EXPECT_FALSE(clipper.touches(t, kShift, {0, 0, 1}));
-  EXPECT_TRUE(clipper.touches(t, kShift, {2, 2, 0}));  // its corner is on the diagonal
-  EXPECT_FALSE(clipper.touches(t, kShift, {3, 3, 0}));
+  EXPECT_TRUE(judge->touches(t, kShift, {0, 0, 0}));
+  EXPECT_TRUE(judge->touches(t, kShift, {0, 0, -1}));
+  EXPECT_FALSE(judge->touches(t, kShift, {0, 0, 1}));
+  EXPECT_TRUE(judge->touches(t, kShift, {2, 2, 0}));  // its corner is on the diagonal
+  EXPECT_FALSE(judge->touches(t, kShift, {3, 3, 0}));
 }
 
 // Winding, order of vertices and whole-voxel translation change nothing.
