@@ -40,7 +40,7 @@ void compare_whole(const Scene& scene, const DagFile& file, const JudgeChoice& c
   const uint64_t count = result->counts.triangles;
   if (count > UINT32_MAX)
     fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
-  const auto reservation = budget.reserve(count * sizeof(LatticeTriangle), "the snapped triangles");
+  const auto reservation = budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
   progress.phase("reading the scene", 0);
   const std::vector<LatticeTriangle> triangles = load(scene, file.grid(), count);
   Comparison& comparison = result->comparison;
