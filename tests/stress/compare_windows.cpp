@@ -65,7 +65,9 @@ Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangl
   Tally tally;
   const VoxelRegion ours = voxelized(spot, rule, triangles, &tally.extras);
   const VoxelRegion truth = judged(spot, rule, triangles);
-  tally.decisions = truth.dilated().count();
+  const VoxelRegion surface =
+      rule == Rule::kConservative ? truth : judged(spot, Rule::kConservative, triangles);
+  tally.decisions = surface.dilated().count();
   tally.misses = truth.count_without(ours);
   tally.extras += ours.count_without(truth);
   return tally;

@@ -1,8 +1,9 @@
 // The same question put to the voxelizer and to the judges, and the answers compared bit by bit.
 //
-// A decision is one voxel of a compared region that is set by the judge or has a set voxel among
-// its 26 neighbours in the region: the voxels within one voxel of the surface, where errors happen.
-// The other voxels of the region are compared as well and not counted.
+// A decision is one voxel of a compared region that touches the surface or has a voxel that does
+// among its 26 neighbours in the region (by the conservative judge, for either rule): the voxels
+// within one voxel of the surface, where errors happen. The other voxels of the region are compared
+// as well and not counted.
 #pragma once
 
 #include <span>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct Family {
     return unit_grid(levels);
   };
 };
+
+// How GoogleTest names a family.
+inline void PrintTo(const Family& family, std::ostream* out) {
+  *out << family.name;
+}
 
 std::vector<Family> shape_families();       // small, giant, slivers, degenerate
 std::vector<Family> plane_families();       // exactly on, and next to, the planes of the grid

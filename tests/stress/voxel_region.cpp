@@ -68,4 +68,19 @@ VoxelRegion VoxelRegion::dilated() const {
   return result;
 }
 
+VoxelRegion VoxelRegion::dilated_by_faces() const {
+  VoxelRegion result(box_);
+  for (int64_t x = box_.min.x; x < box_.max.x; ++x) {
+    for (int64_t y = box_.min.y; y < box_.max.y; ++y) {
+      const uint64_t r = row(x, y);
+      result.row(x, y) |= (r | r << 1 | r >> 1) & full_row_;
+      if (x > box_.min.x) result.row(x - 1, y) |= r;
+      if (x + 1 < box_.max.x) result.row(x + 1, y) |= r;
+      if (y > box_.min.y) result.row(x, y - 1) |= r;
+      if (y + 1 < box_.max.y) result.row(x, y + 1) |= r;
+    }
+  }
+  return result;
+}
+
 }  // namespace svdag

@@ -32,6 +32,8 @@ class VoxelRegion {
   uint64_t count_without(const VoxelRegion& other) const;
   // These voxels and their 26 neighbours, within the box.
   VoxelRegion dilated() const;
+  // These voxels and their 6 neighbours, within the box.
+  VoxelRegion dilated_by_faces() const;
 
   // The bits of the voxels (x, y, box.min.z + i), i the bit; x and y in the box.
   uint64_t row(int64_t x, int64_t y) const { return rows_[index(x, y)]; }
