@@ -9,6 +9,11 @@ cmake --preset tsan --log-level=WARNING >/dev/null
 cmake --build --preset tsan
 env -u SVDAG_SCENES ctest --test-dir build/tsan -L '^unit$' --output-on-failure
 
+echo "Families: 10^7 decisions per family, grid and rule"
+cmake --preset release --log-level=WARNING >/dev/null
+cmake --build --preset release --target stress_test
+SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
+
 echo "Every compiler and flag gives the same bytes"
 bash tests/stress/one_hash.sh
 

@@ -1,0 +1,76 @@
+#include "tests/stress/compare_windows.h"
+
+#include <algorithm>
+
+#include "tests/stress/centre_lines.h"
+#include "verify/occupancy.h"
+
+namespace svdag {
+namespace {
+
+// Whether a descent over the whole start cube stays cheap: every triangle is small.
+bool all_small(const Spot& spot, std::span<const LatticeTriangle> triangles) {
+  for (const LatticeTriangle& t : triangles) {
+    for (int a = 0; a < 3; ++a) {
+      const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
+      if (high - low > 24 * spot.voxel()) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Tally& Tally::operator+=(const Tally& other) {
+  decisions += other.decisions;
+  misses += other.misses;
+  extras += other.extras;
+  return *this;
+}
+
+VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles,
+                      uint64_t* outside) {
+  Grid grid = spot.grid;
+  // The parity of the region's corner stands for a coin, so small triangles are asked both ways.
+  const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0;
+  if (!whole) {
+    grid.bounded = true;
+    grid.selection = spot.region;
+  }
+  VoxelRegion region(spot.region);
+  uint64_t elsewhere = 0;
+  voxelize_window(grid, rule, spot.start, triangles,
+                  [&](const LatticePoint& at, Brick b) { elsewhere += region.set_brick(at, b); });
+  if (outside != nullptr && !whole) *outside += elsewhere;
+  return region;
+}
+
+VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles) {
+  VoxelRegion region(spot.region);
+  Clipper clipper;
+  for (const LatticeTriangle& t : triangles) {
+    if (rule == Rule::kThin) {
+      add_thin_voxels(t, spot.grid.fraction(), &region);
+      continue;
+    }
+    clipper.run(t, spot.grid.fraction(), spot.region, [&](const CellRun& run) {
+      LatticePoint voxel = run.first;
+      for (int64_t i = 0; i < run.count; ++i, ++voxel[run.axis]) region.set(voxel);
+    });
+  }
+  return region;
+}
+
+Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles) {
+  Tally tally;
+  const VoxelRegion ours = voxelized(spot, rule, triangles, &tally.extras);
+  const VoxelRegion truth = judged(spot, rule, triangles);
+  const VoxelRegion surface =
+      rule == Rule::kConservative ? truth : judged(spot, Rule::kConservative, triangles);
+  tally.decisions = surface.dilated().count();
+  tally.misses = truth.count_without(ours);
+  tally.extras += ours.count_without(truth);
+  return tally;
+}
+
+}  // namespace svdag

@@ -1,0 +1,34 @@
+// The same question put to the voxelizer and to the judges, and the answers compared bit by bit.
+//
+// A decision is one voxel of a compared region that touches the surface or has a voxel that does
+// among its 26 neighbours in the region (by the conservative judge, for either rule): the voxels
+// within one voxel of the surface, where errors happen. The other voxels of the region are compared
+// as well and not counted.
+#pragma once
+
+#include <span>
+
+#include "io/dag/format.h"
+#include "tests/stress/spot.h"
+
+namespace svdag {
+
+struct Tally {
+  uint64_t decisions = 0;
+  uint64_t misses = 0;  // set by the judge only
+  uint64_t extras = 0;  // set by the voxelizer only, or outside of what was selected
+
+  Tally& operator+=(const Tally& other);
+};
+
+// The region as the voxelizer (builder/window.h) sets it. `outside`, if given, grows by the voxels
+// set outside the region although only the region was selected.
+VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles,
+                      uint64_t* outside = nullptr);
+// The region as the judge sets it: conservative by clipping (verify/occupancy.h), thin by the
+// crossings of centre lines (tests/stress/centre_lines.h).
+VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
+
+Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
+
+}  // namespace svdag

@@ -1,0 +1,80 @@
+// Every family on every grid at every depth and for both rules: nothing missed, nothing extra.
+//
+// SVDAG_STRESS_DECISIONS sets the decisions per family, grid and rule (2*10^5; `make stress` 10^7).
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
+#include "tests/stress/compare_windows.h"
+#include "tests/stress/family.h"
+
+namespace svdag {
+namespace {
+
+constexpr int kGrids[4] = {10, 13, 16, 20};  // effective 1K^3, 8K^3, 64K^3, 1M^3
+constexpr int64_t kRegionSide = 32;
+
+uint64_t wanted_decisions() {
+  const char* text = std::getenv("SVDAG_STRESS_DECISIONS");
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : 200'000;
+}
+
+struct Outcome {
+  Tally tally;
+  std::set<int> depths;  // at which a descent started that had something to decide
+  uint64_t windows = 0;
+};
+
+Outcome stress(const Family& family, int levels, Rule rule, uint64_t decisions) {
+  Random random(uint64_t(levels) * 1000 + uint64_t(rule));
+  Outcome outcome;
+  const size_t depths = size_t(levels - 1);  // 0 .. L-2
+  const uint64_t most = 1000 + decisions;    // of a family that misses its own regions
+  while ((outcome.tally.decisions < decisions || outcome.depths.size() < depths) &&
+         outcome.windows < most) {
+    const int depth = int(outcome.windows++ % depths);
+    const Grid grid = family.grid(levels, &random);
+    const Spot spot = draw_spot(grid, depth, kRegionSide, family.place, &random);
+    const Tally tally = compare_window(spot, rule, family.draw(spot, &random));
+    if (tally.decisions != 0) outcome.depths.insert(depth);
+    outcome.tally += tally;
+  }
+  return outcome;
+}
+
+class Families : public ::testing::TestWithParam<Family> {};
+
+TEST_P(Families, GiveTheVoxelsOfTheJudgeOnEveryGridAtEveryDepth) {
+  const uint64_t decisions = wanted_decisions();
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    std::printf("%-24s %-12s", GetParam().name.c_str(),
+                rule == Rule::kThin ? "thin" : "conservative");
+    Tally sum;
+    for (const int levels : kGrids) {
+      const Outcome outcome = stress(GetParam(), levels, rule, decisions);
+      EXPECT_EQ(outcome.tally.misses, 0U) << levels;
+      EXPECT_EQ(outcome.tally.extras, 0U) << levels;
+      EXPECT_GE(outcome.tally.decisions, decisions) << levels;
+      EXPECT_EQ(outcome.depths.size(), size_t(levels - 1)) << levels;
+      std::printf(" %10llu", static_cast<unsigned long long>(outcome.tally.decisions));
+      sum += outcome.tally;
+    }
+    std::printf(" %8llu %8llu\n", static_cast<unsigned long long>(sum.misses),
+                static_cast<unsigned long long>(sum.extras));
+  }
+}
+
+std::string name_of(const ::testing::TestParamInfo<Family>& instance) {
+  std::string name = instance.param.name;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(all_families()), name_of);
+
+}  // namespace
+}  // namespace svdag

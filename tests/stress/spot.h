@@ -1,0 +1,48 @@
+// Where the stress suite asks: a cube of the octree at which the descent starts, and a small region
+// of voxels in it that is compared.
+//
+// "At every cell depth": the descent starts at each level 0 .. L-2. A cube of a million voxels has
+// too many voxels to compare, so a deep descent is asked for the voxels of the region only, by
+// the grid's own selection (--bounds): the list of triangles is divided at every level from the
+// start down, exactly as in a whole bake, and only the subtrees beside the path are left out.
+// Where the triangles are small, the whole cube is asked and the region compared.
+#pragma once
+
+#include "builder/window.h"
+#include "tests/stress/random.h"
+#include "tests/stress/voxel_region.h"
+
+namespace svdag {
+
+struct Spot {
+  Grid grid;
+  Cube start;
+  VoxelBox region;  // inside `start`
+
+  int64_t voxel() const { return int64_t(1) << grid.fraction(); }  // in lattice steps
+  // A lattice point of the closed region.
+  LatticePoint anchor(Random* random) const {
+    LatticePoint p;
+    for (int a = 0; a < 3; ++a)
+      p[a] = random->between(region.min[a] << grid.fraction(), region.max[a] << grid.fraction());
+    return p;
+  }
+  // A corner of a voxel of the closed region.
+  LatticePoint corner(Random* random) const {
+    LatticePoint p;
+    for (int a = 0; a < 3; ++a)
+      p[a] = random->between(region.min[a], region.max[a]) << grid.fraction();
+    return p;
+  }
+};
+
+// Which part of the grid a family is about.
+enum class Place { kAnywhere, kBorder, kMiddle };
+
+// A spot whose descent starts at `depth`; the region is a cube of at most `side` voxels.
+Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, Random* random);
+
+// A grid whose world and voxels are the same but for F: voxel size 1, corner at zero.
+Grid unit_grid(int levels);
+
+}  // namespace svdag
