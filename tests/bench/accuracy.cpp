@@ -21,6 +21,13 @@ namespace {
 constexpr int kRounds = 5;
 constexpr int kBakeRounds = 2;
 
+// What the command line asks for, for profiles: `accuracy_bench [PART-OF-CASE [METHOD [ROUNDS]]]`.
+struct Wanted {
+  std::string case_part;
+  std::string method;
+  int rounds = kRounds;
+};
+
 struct Measured {
   uint64_t cells = 0, pairs = 0, voxels = 0;
   Difference error;
@@ -63,8 +70,11 @@ void print(const Case& c, const std::string& method, const char* input, const Me
   std::fflush(stdout);
 }
 
-void run_case(const Case& c, int rounds) {
-  const std::vector<Method> methods = make_methods(c.grid);
+void run_case(const Case& c, int rounds, const Wanted& wanted) {
+  if (c.name.find(wanted.case_part) == std::string::npos) return;
+  std::vector<Method> methods = make_methods(c.grid);
+  std::erase_if(methods,
+                [&](const Method& m) { return !wanted.method.empty() && m.name != wanted.method; });
   std::vector<Measured> world(methods.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < methods.size(); ++i) {
@@ -82,29 +92,33 @@ void run_case(const Case& c, int rounds) {
   }
 }
 
-int run() {
+int run(const Wanted& wanted) {
   std::puts(
       "case,group,grid,method,input,cells,voxels,pairs,misses,extras,cpu_seconds,ns_per_pair");
 #ifndef SVDAG_HAS_CGAL
   std::fputs("CGAL was not found when this was built: its two methods are skipped.\n", stderr);
 #endif
-  for (const Case& c : family_cases()) run_case(c, kRounds);
+  for (const Case& c : family_cases()) run_case(c, wanted.rounds, wanted);
   const char* folder = std::getenv("SVDAG_SCENES");
   if (folder == nullptr) {
     std::fputs("SVDAG_SCENES is not set: the real scenes are skipped.\n", stderr);
     return 0;
   }
-  for (const Case& c : scene_cases(folder)) run_case(c, kRounds);
-  run_case(bake_case(folder), kBakeRounds);
+  for (const Case& c : scene_cases(folder)) run_case(c, wanted.rounds, wanted);
+  run_case(bake_case(folder), kBakeRounds, wanted);
   return 0;
 }
 
 }  // namespace
 }  // namespace svdag::bench
 
-int main() {
+int main(int count, char** arguments) {
+  svdag::bench::Wanted wanted;
+  if (count > 1) wanted.case_part = arguments[1];
+  if (count > 2) wanted.method = arguments[2];
+  if (count > 3) wanted.rounds = std::atoi(arguments[3]);
   try {
-    return svdag::bench::run();
+    return svdag::bench::run(wanted);
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

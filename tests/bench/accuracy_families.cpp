@@ -9,7 +9,7 @@
 namespace svdag::bench {
 namespace {
 
-constexpr int kSceneCells = 250;
+constexpr int kSceneCells = 150;
 
 struct Space {
   Grid grid;
@@ -122,7 +122,7 @@ std::vector<Case> family_cases() {
           family("faces on voxel planes", dyadic, block(dyadic, 2000, 40, on_a_plane), 60),
           family("vertices on voxel corners", dyadic, block(dyadic, 4000, 12, on_corners), 60),
           family("plane x+y+z=c", dyadic, corner_planes(dyadic), 60),
-          family("plane x+y+z=c, 1M", million, corner_planes(million), 60),
+          family("plane x+y+z=c", million, corner_planes(million), 60),
           family("UTM offsets", utm, block(utm, 6000, 8, as_drawn), 60),
           family("scene × 2^50", huge, block(huge, 6000, 8, as_drawn), 60)};
 }
