@@ -4,6 +4,7 @@
 // have left.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "builder/brick_tables.h"
 #include "builder/exact.h"
@@ -38,8 +39,8 @@ bool edge_reaches(const TriangleSetup& t, int k, const LatticePoint& corner, int
   return exact_edge_sign(t, k, x) >= 0;
 }
 
-Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner,
-                     int fraction) noexcept {
+Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
+                     DecisionCounts* counts) noexcept {
   const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
   const double side = double(int64_t(1) << fraction);
   const double error = t.edge_error * (t.extent + 8 * side);
@@ -47,17 +48,19 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner,
   const double f = t.edge_u[k] * double(r[u]) + t.edge_v[k] * double(r[v]);
   const double su = t.edge_u[k] * side, sv = t.edge_v[k] * side;
   const double high = std::max(su, 0.0) + std::max(sv, 0.0);
-  Brick voxels = 0;
-  for (int i = 0; i < 4; ++i) {
-    Brick row = 0;
-    for (int j = 0; j < 4; ++j) {
-      const double value = f + ((double(i) * su + double(j) * sv) + high);
-      if (value > error || (value >= -error && edge_reaches(t, k, corner, fraction, i, j)))
-        row |= kBrickTables.slab[v][j];
-    }
-    voxels |= row & kBrickTables.slab[u][i];
+  unsigned reached = 0, unsure = 0;  // bit 4i + j
+  for (int q = 0; q < 16; ++q) {
+    const double value = f + ((double(q >> 2) * su + double(q & 3) * sv) + high);
+    reached |= unsigned(value > error) << q;
+    unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  return voxels;
+  counts->asked += 16;
+  counts->exact += unsigned(std::popcount(unsure));
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const int q = std::countr_zero(unsure);
+    reached |= unsigned(edge_reaches(t, k, corner, fraction, q >> 2, q & 3)) << q;
+  }
+  return expand_columns(w, reached);
 }
 
 // Exactly: the plane meets the closed voxel iff its two extreme corners are not strictly on one
@@ -71,7 +74,7 @@ bool plane_meets(const TriangleSetup& t, const LatticePoint& low, int fraction) 
 }
 
 Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
-                      Brick voxels) noexcept {
+                      Brick voxels, DecisionCounts* counts) noexcept {
   const double side = double(int64_t(1) << fraction);
   const double error = t.normal_error * (t.extent + 8 * side);
   const LatticePoint r = corner - t.triangle.v[0];
@@ -80,6 +83,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
   const double s[3] = {n[0] * side, n[1] * side, n[2] * side};
   const double high = (std::max(s[0], 0.0) + std::max(s[1], 0.0)) + std::max(s[2], 0.0);
   const double low = (std::min(s[0], 0.0) + std::min(s[1], 0.0)) + std::min(s[2], 0.0);
+  counts->asked += uint64_t(std::popcount(voxels));
   for (Brick left = voxels; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
     const auto& p = kBrickTables.coordinate[bit];
@@ -89,6 +93,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
     const bool apart = highest < -error || lowest > error;
     const LatticePoint at{int64_t(p[0]) << fraction, int64_t(p[1]) << fraction,
                           int64_t(p[2]) << fraction};
+    counts->exact += !apart;
     if (apart || !plane_meets(t, corner + at, fraction)) voxels &= ~(Brick(1) << bit);
   }
   return voxels;
@@ -96,12 +101,13 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
 
 }  // namespace
 
-Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction) noexcept {
+Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction,
+                    DecisionCounts* counts) noexcept {
   const TriangleSetup& t = *entry.triangle;
   Brick voxels = voxels_in_box(t, corner, fraction);
   for (unsigned left = entry.edges; left != 0 && voxels != 0; left &= left - 1)
-    voxels &= voxels_at_edge(t, std::countr_zero(left), corner, fraction);
-  return voxels != 0 ? voxels_on_plane(t, corner, fraction, voxels) : 0;
+    voxels &= voxels_at_edge(t, std::countr_zero(left), corner, fraction, counts);
+  return voxels != 0 ? voxels_on_plane(t, corner, fraction, voxels, counts) : 0;
 }
 
 }  // namespace svdag

@@ -11,6 +11,8 @@ namespace svdag {
 struct BrickTables {
   std::array<std::array<Brick, 4>, 3> slab{};           // [axis][i]: voxels with coordinate i
   std::array<std::array<uint8_t, 3>, 64> coordinate{};  // of each bit
+  // [w][i][m]: voxels with coordinate i on axis w+1 and, on axis w+2, one of the coordinates in m
+  std::array<std::array<std::array<Brick, 16>, 4>, 3> columns{};
 };
 
 constexpr BrickTables make_brick_tables() {
@@ -26,9 +28,26 @@ constexpr BrickTables make_brick_tables() {
       }
     }
   }
+  for (unsigned w = 0; w < 3; ++w) {
+    for (unsigned i = 0; i < 4; ++i) {
+      for (unsigned m = 0; m < 16; ++m) {
+        for (unsigned j = 0; j < 4; ++j) {
+          if (m >> j & 1) t.columns[w][i][m] |= t.slab[(w + 1) % 3][i] & t.slab[(w + 2) % 3][j];
+        }
+      }
+    }
+  }
   return t;
 }
 
 inline constexpr BrickTables kBrickTables = make_brick_tables();
+
+// The voxels whose column along w is in `columns`, bit 4i + j for coordinate i on axis w+1, j on
+// w+2.
+constexpr Brick expand_columns(int w, unsigned columns) {
+  const auto& table = kBrickTables.columns[size_t(w)];
+  return table[0][columns & 15] | table[1][columns >> 4 & 15] | table[2][columns >> 8 & 15] |
+         table[3][columns >> 12];
+}
 
 }  // namespace svdag

@@ -18,6 +18,7 @@
 // tetrahedra), ties by epsilon.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "builder/brick_tables.h"
 #include "builder/exact.h"
@@ -51,46 +52,53 @@ struct PlaneSide {
   LatticePoint corner;
   double at_corner;
   double error;
+  DecisionCounts* counts;
 
   bool operator()(const LatticePoint& offset) const noexcept {  // from the brick's corner
     const double value =
         at_corner + ((t.normal[0] * double(offset.x) + t.normal[1] * double(offset.y)) +
                      t.normal[2] * double(offset.z));
+    ++counts->asked;
     if (value > error) return true;
     if (value < -error) return false;
+    ++counts->exact;
     return plane_is_above_exactly(t, corner + offset);
   }
 };
 
-PlaneSide plane_side(const TriangleSetup& t, const LatticePoint& corner, double side) noexcept {
+PlaneSide plane_side(const TriangleSetup& t, const LatticePoint& corner, double side,
+                     DecisionCounts* counts) noexcept {
   const LatticePoint r = corner - t.triangle.v[0];
   const double f =
       t.normal[0] * double(r.x) + t.normal[1] * double(r.y) + t.normal[2] * double(r.z);
-  return {t, corner, f, t.normal_error * (t.extent + 8 * side)};
+  return {t, corner, f, t.normal_error * (t.extent + 8 * side), counts};
 }
 
 // Voxels whose shifted centre is inside edge k.
-Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& corner,
-                          int fraction) noexcept {
+Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
+                          DecisionCounts* counts) noexcept {
   const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
   const int64_t half = int64_t(1) << (fraction - 1);
   const double error = t.edge_error * (t.extent + 8 * double(2 * half));
   const LatticePoint r = corner - t.triangle.v[t.from[k % 3]];
   const double f = t.edge_u[k] * double(r[u]) + t.edge_v[k] * double(r[v]);
-  Brick voxels = 0;
-  for (int i = 0; i < 4; ++i) {
-    Brick row = 0;
-    for (int j = 0; j < 4; ++j) {
-      LatticePoint offset(0);
-      offset[u] = (2 * i + 1) * half;
-      offset[v] = (2 * j + 1) * half;
-      const double value = f + (t.edge_u[k] * double(offset[u]) + t.edge_v[k] * double(offset[v]));
-      if (value > error || (value >= -error && edge_holds_exactly(t, k, corner + offset)))
-        row |= kBrickTables.slab[v][j];
-    }
-    voxels |= row & kBrickTables.slab[u][i];
+  unsigned inside = 0, unsure = 0;  // bit 4i + j
+  for (int q = 0; q < 16; ++q) {
+    const double value = f + (t.edge_u[k] * double((2 * (q >> 2) + 1) * half) +
+                              t.edge_v[k] * double((2 * (q & 3) + 1) * half));
+    inside |= unsigned(value > error) << q;
+    unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  return voxels;
+  counts->asked += 16;
+  counts->exact += unsigned(std::popcount(unsure));
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const int q = std::countr_zero(unsure);
+    LatticePoint x = corner;
+    x[u] += (2 * (q >> 2) + 1) * half;
+    x[v] += (2 * (q & 3) + 1) * half;
+    inside |= unsigned(edge_holds_exactly(t, k, x)) << q;
+  }
+  return expand_columns(w, inside);
 }
 
 // Those of `voxels` whose shifted centre segment along w crosses the plane. The upper end of a
@@ -120,17 +128,19 @@ Brick segments_crossing(const PlaneSide& above, int w, int fraction, Brick voxel
 
 }  // namespace
 
-Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction) noexcept {
+Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction,
+                         DecisionCounts* counts) noexcept {
   const TriangleSetup& t = *entry.triangle;
-  const PlaneSide above = plane_side(t, corner, double(int64_t(1) << fraction));
-  const Brick near = overlap_brick(entry, corner, fraction);  // a set voxel is touched as well
+  const PlaneSide above = plane_side(t, corner, double(int64_t(1) << fraction), counts);
+  const Brick near =
+      overlap_brick(entry, corner, fraction, counts);  // a set voxel is touched as well
   Brick voxels = 0;
   for (int w = 0; w < 3; ++w) {
     if (t.normal[w] == 0) continue;
     Brick inside = near & ~voxels;
     for (int e = 0; e < 3 && inside != 0; ++e) {
       const int k = 3 * w + e;
-      if (entry.edges >> k & 1) inside &= centres_inside_edge(t, k, corner, fraction);
+      if (entry.edges >> k & 1) inside &= centres_inside_edge(t, k, corner, fraction, counts);
     }
     if (inside != 0) voxels |= segments_crossing(above, w, fraction, inside);
   }

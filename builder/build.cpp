@@ -83,6 +83,7 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   VoxelizedCells cells = voxelize(tree, config.rule, &budget, executor, progress);
   report.cells = cells.cells;
   report.voxels = cells.voxels;
+  report.decisions = cells.decisions;
   report.seconds.voxelize = phase.lap();
 
   progress->phase("sort", 0);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "builder/overlap.h"
 #include "builder/split.h"
 #include "io/dag/format.h"
 #include "streaming/executor.h"
@@ -27,6 +28,7 @@ struct BuildReport {
   Grid grid;
   Rule rule = Rule::kConservative;
   SplitCounts split;
+  DecisionCounts decisions;
   uint64_t cells = 0;  // visited
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks

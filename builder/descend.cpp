@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include "builder/overlap.h"
-
 namespace svdag {
 
 void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wanted,
@@ -44,8 +42,9 @@ SubDag Descent::brick(const Cube& cube, const EntryList& list) {
   const LatticePoint corner = cube.corner(grid_.levels);
   Brick voxels = 0;
   for (const Entry& entry : list) {
-    voxels |= rule_ == Rule::kThin ? overlap_brick_thin(entry, corner, grid_.fraction())
-                                   : overlap_brick(entry, corner, grid_.fraction());
+    voxels |= rule_ == Rule::kThin
+                  ? overlap_brick_thin(entry, corner, grid_.fraction(), &decisions_)
+                  : overlap_brick(entry, corner, grid_.fraction(), &decisions_);
     if (voxels == ~Brick(0)) break;  // nothing can be added to a full brick
   }
   voxels &= wanted;

@@ -11,6 +11,7 @@
 
 #include "builder/cell.h"
 #include "builder/node_table.h"
+#include "builder/overlap.h"
 #include "io/grid.h"
 
 namespace svdag {
@@ -27,6 +28,8 @@ class Descent {
   // The sub-DAG of `cube` (level <= brick level), whose triangles are in `list`.
   SubDag run(const Cube& cube, const EntryList& list);
 
+  const DecisionCounts& decisions() const { return decisions_; }
+
  private:
   SubDag brick(const Cube& cube, const EntryList& list);
   Brick selected_voxels(const Cube& cube) const;
@@ -34,6 +37,7 @@ class Descent {
 
   Grid grid_;
   Rule rule_;
+  DecisionCounts decisions_;
   NodeTable* table_;
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
 };

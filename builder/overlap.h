@@ -19,12 +19,21 @@ struct ChildOverlap {
 ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
                               int64_t side) noexcept;
 
+// How often the sign of a separating function at a voxel was asked for, and how often double could
+// not tell it.
+struct DecisionCounts {
+  uint64_t asked = 0;
+  uint64_t exact = 0;
+};
+
 // The voxels of the brick with minimum corner `corner` that the triangle touches; voxels have side
 // 2^fraction.
-Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction) noexcept;
+Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction,
+                    DecisionCounts* counts) noexcept;
 
 // The voxels that the triangle sets under rule thin (builder/brick_thin.cpp).
-Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction) noexcept;
+Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction,
+                         DecisionCounts* counts) noexcept;
 
 // Whether the bounding boxes of the triangle and the closed cube meet.
 inline bool boxes_meet(const TriangleSetup& t, const LatticePoint& corner, int64_t side) noexcept {

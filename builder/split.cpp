@@ -9,14 +9,20 @@
 namespace svdag {
 namespace {
 
-bool box_meets_grid(const LatticeTriangle& t, const Grid& grid) {
-  const int64_t end = grid.resolution() << grid.fraction();
+enum class Place { kInside, kClipped, kOutside };
+
+// Where the triangle's box lies in relation to the closed box of the voxels that may be set.
+Place place_of(const LatticeTriangle& t, const Grid& grid) {
+  Place place = Place::kInside;
   for (int a = 0; a < 3; ++a) {
+    const int64_t begin = grid.selection.min[a] << grid.fraction();
+    const int64_t end = grid.selection.max[a] << grid.fraction();
     const int64_t low = std::min({t.v[0][a], t.v[1][a], t.v[2][a]});
     const int64_t high = std::max({t.v[0][a], t.v[1][a], t.v[2][a]});
-    if (high < 0 || low > end) return false;
+    if (high < begin || low > end) return Place::kOutside;
+    if (low < begin || high > end) place = Place::kClipped;
   }
-  return true;
+  return place;
 }
 
 bool zero_area(const LatticeTriangle& t) {
@@ -40,10 +46,10 @@ SplitCounts split(const Scene& scene, CellTree* tree) {
       LatticeTriangle snapped;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
-      if (!box_meets_grid(snapped, grid)) {
-        ++counts.outside;
-        continue;
-      }
+      const Place place = place_of(snapped, grid);
+      counts.outside += place == Place::kOutside;
+      counts.clipped += place == Place::kClipped;
+      if (place == Place::kOutside) continue;
       counts.degenerate += zero_area(snapped);
       largest_move = std::max(largest_move, move);
       tree->add(snapped);

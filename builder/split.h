@@ -8,6 +8,7 @@ namespace svdag {
 
 struct SplitCounts {
   SceneCounts scene;
+  uint64_t clipped = 0;     // kept, but reaching outside the grid or the selection
   uint64_t outside = 0;     // triangles whose box misses the grid: dropped
   uint64_t degenerate = 0;  // of the others: zero area after the snap
   double largest_snap = 0;  // in voxels, over the triangles that were kept

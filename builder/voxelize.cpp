@@ -31,6 +31,11 @@ VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, E
     baked_by[i] = uint32_t(w);
     progress->advance();
   });
+  for (const auto& worker : workers) {
+    if (!worker) continue;
+    result.decisions.asked += worker->descent.decisions().asked;
+    result.decisions.exact += worker->descent.decisions().exact;
+  }
   for (size_t i = 0; i < cells.size(); ++i) {
     if (subdags[i].root == 0) continue;
     result.roots.push_back({cells[i], baked_by[i], subdags[i].root - 1});

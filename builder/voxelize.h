@@ -20,6 +20,7 @@ struct VoxelizedCells {
   std::vector<CellRoot> roots;                     // rank: still the provisional number
   uint64_t cells = 0;                              // with at least one triangle near them
   uint64_t voxels = 0;
+  DecisionCounts decisions;
 };
 
 VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, Executor* executor,

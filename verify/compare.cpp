@@ -37,8 +37,11 @@ size_t chunks(size_t count, size_t chunk) {
   return (count + chunk - 1) / chunk;
 }
 
+using Judges = std::vector<std::unique_ptr<Judge>>;  // one per worker
+
 std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const LatticeTriangle> all,
-                                         Executor& executor, Progress& progress) {
+                                         const Judges& judges, Executor& executor,
+                                         Progress& progress) {
   const int levels = tile_levels(grid.levels);
   const int shift = grid.fraction() + levels;
   VoxelBox window;
@@ -47,12 +50,11 @@ std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const Latti
     window.max[a] = ((grid.selection.max[a] - 1) >> levels) + 1;
   }
   if (grid.selection.empty()) window = {};
-  std::vector<Clipper> clippers(executor.workers());
   std::vector<std::vector<TileTriangle>> lists(executor.workers());
   executor.for_each(chunks(all.size(), kTriangleChunk), [&](size_t worker, size_t chunk) {
     const size_t end = std::min(all.size(), (chunk + 1) * kTriangleChunk);
     for (size_t i = chunk * kTriangleChunk; i < end; ++i) {
-      clippers[worker].run(all[i], shift, window, [&](const CellRun& run) {
+      judges[worker]->cells(all[i], shift, window, [&](const CellRun& run) {
         LatticePoint tile = run.first;
         for (int64_t n = 0; n < run.count; ++n, ++tile[run.axis])
           lists[worker].push_back({cell_code(tile), uint32_t(i)});
@@ -99,13 +101,13 @@ std::vector<TileWork> plan_work(std::span<const TileTriangle> triangles,
 }
 
 // One worker's place to compare a tile in.
-class TileJudge {
+class TileComparison {
  public:
-  TileJudge(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
-            std::span<const TileTriangle> lists)
-      : dag_(dag), grid_(grid), triangles_(triangles), lists_(lists) {}
+  TileComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
+                 std::span<const TileTriangle> lists, Judge& judge)
+      : dag_(dag), grid_(grid), triangles_(triangles), lists_(lists), judge_(judge) {}
 
-  void judge(const TileWork& work, Comparison* result) {
+  void compare(const TileWork& work, Comparison* result) {
     const int levels = tile_levels(grid_.levels);
     const LatticePoint corner = cell_of_code(work.tile) << int64_t(levels);
     own_->clear();
@@ -130,14 +132,14 @@ class TileJudge {
       own_->set({run.first - corner, run.axis, run.count});
     };
     for (size_t i = work.begin; i < work.end; ++i)
-      clipper_.run(triangles_[lists_[i].triangle], grid_.fraction(), window, sink);
+      judge_.voxels(triangles_[lists_[i].triangle], grid_.fraction(), window, sink);
   }
 
   const DagView& dag_;
   const Grid& grid_;
   std::span<const LatticeTriangle> triangles_;
   std::span<const TileTriangle> lists_;
-  Clipper clipper_;
+  Judge& judge_;
   std::unique_ptr<Tile> own_ = std::make_unique<Tile>();
   std::unique_ptr<Tile> file_ = std::make_unique<Tile>();
 };
@@ -172,22 +174,26 @@ void Comparison::append(const Comparison& later) {
 }
 
 Comparison compare_all(const DagView& dag, const Grid& grid,
-                       std::span<const LatticeTriangle> triangles, Executor& executor,
-                       Progress& progress) {
+                       std::span<const LatticeTriangle> triangles, const JudgeChoice& choice,
+                       Executor& executor, Progress& progress) {
+  const Judges judges = make_judges(choice, executor.workers());
   progress.phase("sorting triangles into tiles", triangles.size());
-  const std::vector<TileTriangle> lists = tile_triangles(grid, triangles, executor, progress);
+  const std::vector<TileTriangle> lists =
+      tile_triangles(grid, triangles, judges, executor, progress);
   std::vector<TileNode> nodes;
   const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
   if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
   const std::vector<TileWork> work = plan_work(lists, nodes);
 
   progress.phase("comparing", work.size());
-  std::vector<TileJudge> judges;
-  for (size_t i = 0; i < executor.workers(); ++i) judges.emplace_back(dag, grid, triangles, lists);
+  std::vector<TileComparison> places;
+  for (size_t i = 0; i < executor.workers(); ++i)
+    places.emplace_back(dag, grid, triangles, lists, *judges[i]);
   std::vector<Comparison> parts(chunks(work.size(), kTileChunk));
   executor.for_each(parts.size(), [&](size_t worker, size_t chunk) {
     const size_t end = std::min(work.size(), (chunk + 1) * kTileChunk);
-    for (size_t i = chunk * kTileChunk; i < end; ++i) judges[worker].judge(work[i], &parts[chunk]);
+    for (size_t i = chunk * kTileChunk; i < end; ++i)
+      places[worker].compare(work[i], &parts[chunk]);
     progress.advance(end - chunk * kTileChunk);
   });
   progress.finish();

@@ -1,9 +1,9 @@
-// All bricks: the file's occupancy against the judge's own, voxel by voxel.
+// All bricks: the file's occupancy against a judge's own, voxel by voxel.
 //
 // The grid is cut into tiles. A tile is visited iff a triangle meets its closed cube or the DAG has
 // a node for it; everything else is empty on both sides. The triangles of a tile are found by the
-// same exact clipping, with the tile as the cell: a triangle that touches a voxel touches its tile,
-// so no list misses one.
+// same judge, with the tile as the cell: a triangle that touches a voxel touches its tile, so no
+// list misses one.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "io/grid.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
+#include "verify/judge.h"
 
 namespace svdag {
 
@@ -42,7 +43,7 @@ struct Comparison {
 };
 
 Comparison compare_all(const DagView& dag, const Grid& grid,
-                       std::span<const LatticeTriangle> triangles, Executor& executor,
-                       Progress& progress);
+                       std::span<const LatticeTriangle> triangles, const JudgeChoice& choice,
+                       Executor& executor, Progress& progress);
 
 }  // namespace svdag

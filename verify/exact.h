@@ -7,9 +7,22 @@
 
 #include <cstdint>
 
+#include "io/triangle.h"
+
 namespace svdag {
 
 __extension__ typedef __int128 Int128;
+
+// Whether every intermediate value about this triangle fits 128 bits (occupancy.h counts them).
+inline bool fits_int128(const LatticeTriangle& t) {
+  constexpr int64_t kNarrow = int64_t(1) << 41;
+  for (const LatticePoint& p : t.v) {
+    for (int a = 0; a < 3; ++a) {
+      if (p[a] <= -kNarrow || p[a] >= kNarrow) return false;
+    }
+  }
+  return true;
+}
 
 // A rational number, seen from the integers: floor == ceil iff it is one.
 struct Rounded {

@@ -10,7 +10,6 @@ namespace {
 
 using Int256 = boost::multiprecision::int256_t;
 
-constexpr int64_t kNarrow = int64_t(1) << 41;
 constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
 
 // Any axis is right; this one makes few and long columns: the smallest component of the normal,
@@ -29,15 +28,6 @@ int best_axis(const LatticeTriangle& t) {
     }
   }
   return best;
-}
-
-bool narrow(const LatticeTriangle& t) {
-  for (const LatticePoint& p : t.v) {
-    for (int a = 0; a < 3; ++a) {
-      if (p[a] <= -kNarrow || p[a] >= kNarrow) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -255,17 +245,11 @@ void Clipper::run(const LatticeTriangle& triangle, int shift, const VoxelBox& wi
                   const Sink& sink, int axis) {
   if (window.empty()) return;
   if (axis == kBestAxis) axis = best_axis(triangle);
-  if (narrow(triangle)) {
+  if (fits_int128(triangle)) {
     ColumnClip<Int128>(triangle, shift, window, axis, this).run(sink);
   } else {
     ColumnClip<Int256>(triangle, shift, window, axis, this).run(sink);
   }
-}
-
-bool Clipper::touches(const LatticeTriangle& triangle, int shift, const LatticePoint& cell) {
-  bool hit = false;
-  run(triangle, shift, {cell, cell + int64_t(1)}, [&](const CellRun&) { hit = true; });
-  return hit;
 }
 
 }  // namespace svdag

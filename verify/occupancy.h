@@ -54,8 +54,6 @@ class Clipper {
   // Hands every occupied cell of side 2^shift inside `window` (in cells) to `sink`, once.
   void run(const LatticeTriangle& triangle, int shift, const VoxelBox& window, const Sink& sink,
            int axis = kBestAxis);
-  // Whether the triangle meets the closed cell.
-  bool touches(const LatticeTriangle& triangle, int shift, const LatticePoint& cell);
 
  private:
   struct Span {

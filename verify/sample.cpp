@@ -25,10 +25,10 @@ VoxelBox brick_box(const LatticeTriangle& t, const Grid& grid) {
 
 }  // namespace
 
-BrickJudge::BrickJudge(const Grid& grid, std::vector<uint64_t> codes)
+BrickSample::BrickSample(const Grid& grid, std::vector<uint64_t> codes)
     : grid_(grid), codes_(std::move(codes)), bricks_(codes_.size()) {}
 
-void BrickJudge::add(const LatticeTriangle& triangle, Clipper& clipper) {
+void BrickSample::add(const LatticeTriangle& triangle, Judge& judge) {
   const VoxelBox box = brick_box(triangle, grid_);
   if (box.empty()) return;
   // The smallest octree cell that holds the whole box: the common prefix of its corners' codes.
@@ -36,31 +36,31 @@ void BrickJudge::add(const LatticeTriangle& triangle, Clipper& clipper) {
   const int height = int(std::bit_width(low ^ high) + 2) / 3;
   const auto begin = std::lower_bound(codes_.begin(), codes_.end(), low);
   const auto end = std::upper_bound(begin, codes_.end(), high);
-  descend(triangle, clipper, low >> (3 * height), height, size_t(begin - codes_.begin()),
+  descend(triangle, judge, low >> (3 * height), height, size_t(begin - codes_.begin()),
           size_t(end - codes_.begin()));
 }
 
 // The sampled bricks begin .. end are those inside `cell`, which is 2^height bricks wide, that the
 // triangle may touch.
-void BrickJudge::descend(const LatticeTriangle& triangle, Clipper& clipper, uint64_t cell,
-                         int height, size_t begin, size_t end) {
+void BrickSample::descend(const LatticeTriangle& triangle, Judge& judge, uint64_t cell, int height,
+                          size_t begin, size_t end) {
   if (begin == end) return;
   if (end - begin <= 2) {
-    for (size_t i = begin; i < end; ++i) fill(triangle, clipper, i);
+    for (size_t i = begin; i < end; ++i) fill(triangle, judge, i);
     return;
   }
-  if (!clipper.touches(triangle, grid_.fraction() + 2 + height, cell_of_code(cell))) return;
+  if (!judge.touches(triangle, grid_.fraction() + 2 + height, cell_of_code(cell))) return;
   for (uint64_t child = cell << 3; child < (cell + 1) << 3; ++child) {
     const auto first = codes_.begin() + ptrdiff_t(begin);
     const uint64_t beyond = (child + 1) << (3 * (height - 1));
     const size_t middle =
         size_t(std::lower_bound(first, codes_.begin() + ptrdiff_t(end), beyond) - codes_.begin());
-    descend(triangle, clipper, child, height - 1, begin, middle);
+    descend(triangle, judge, child, height - 1, begin, middle);
     begin = middle;
   }
 }
 
-void BrickJudge::fill(const LatticeTriangle& triangle, Clipper& clipper, size_t index) {
+void BrickSample::fill(const LatticeTriangle& triangle, Judge& judge, size_t index) {
   const LatticePoint corner = cell_of_code(codes_[index]) * int64_t(kBrickSide);
   VoxelBox window;
   for (int a = 0; a < 3; ++a) {
@@ -68,7 +68,7 @@ void BrickJudge::fill(const LatticeTriangle& triangle, Clipper& clipper, size_t 
     window.max[a] = std::min(corner[a] + kBrickSide, grid_.selection.max[a]);
   }
   Brick brick = 0;
-  clipper.run(triangle, grid_.fraction(), window, [&](const CellRun& run) {
+  judge.voxels(triangle, grid_.fraction(), window, [&](const CellRun& run) {
     LatticePoint p = run.first - corner;
     for (int64_t i = 0; i < run.count; ++i, ++p[run.axis])
       brick |= Brick(1) << brick_bit(unsigned(p.x), unsigned(p.y), unsigned(p.z));
@@ -76,7 +76,7 @@ void BrickJudge::fill(const LatticeTriangle& triangle, Clipper& clipper, size_t 
   if (brick != 0) std::atomic_ref(bricks_[index]).fetch_or(brick, std::memory_order_relaxed);
 }
 
-Comparison BrickJudge::compare(const DagView& dag) const {
+Comparison BrickSample::compare(const DagView& dag) const {
   Comparison result;
   for (size_t i = 0; i < codes_.size(); ++i) {
     const LatticePoint brick = cell_of_code(codes_[i]);
@@ -87,7 +87,9 @@ Comparison BrickJudge::compare(const DagView& dag) const {
 }
 
 Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
-                          uint64_t seed, Executor& executor, Progress& progress) {
+                          uint64_t seed, const JudgeChoice& choice, Executor& executor,
+                          Progress& progress) {
+  const std::vector<std::unique_ptr<Judge>> judges = make_judges(choice, executor.workers());
   Random random(seed);
   progress.phase("drawing bricks", 0);
   std::vector<uint64_t> codes = sample_dag(dag, count - count / 2, random);
@@ -96,13 +98,12 @@ Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& gr
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
 
-  BrickJudge judge(grid, std::move(codes));
-  std::vector<Clipper> clippers(executor.workers());
+  BrickSample sample(grid, std::move(codes));
   std::vector<LatticeTriangle> gathered;
   const auto flush = [&] {
     executor.for_each((gathered.size() + kShare - 1) / kShare, [&](size_t worker, size_t share) {
       const size_t end = std::min(gathered.size(), (share + 1) * kShare);
-      for (size_t i = share * kShare; i < end; ++i) judge.add(gathered[i], clippers[worker]);
+      for (size_t i = share * kShare; i < end; ++i) sample.add(gathered[i], *judges[worker]);
     });
     progress.advance(gathered.size());
     gathered.clear();
@@ -114,7 +115,7 @@ Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& gr
   });
   flush();
   progress.finish();
-  return judge.compare(dag);
+  return sample.compare(dag);
 }
 
 }  // namespace svdag

@@ -16,7 +16,7 @@
 #include "io/dag/dag_view.h"
 #include "verify/cell_code.h"
 #include "verify/compare.h"
-#include "verify/occupancy.h"
+#include "verify/judge.h"
 #include "verify/snapped_scene.h"
 
 namespace svdag {
@@ -43,18 +43,18 @@ std::vector<uint64_t> sample_scene(const Scene& scene, const Grid& grid, uint64_
                                    Random& random);
 
 // Voxelizes exactly the given bricks (sorted, without repetition) while triangles go by.
-class BrickJudge {
+class BrickSample {
  public:
-  BrickJudge(const Grid& grid, std::vector<uint64_t> codes);
+  BrickSample(const Grid& grid, std::vector<uint64_t> codes);
 
-  // Adds what a triangle sets; calls may run at once if each has its own clipper.
-  void add(const LatticeTriangle& triangle, Clipper& clipper);
+  // Adds what a triangle sets; calls may run at once if each has its own judge.
+  void add(const LatticeTriangle& triangle, Judge& judge);
   Comparison compare(const DagView& dag) const;
 
  private:
-  void descend(const LatticeTriangle& triangle, Clipper& clipper, uint64_t cell, int height,
+  void descend(const LatticeTriangle& triangle, Judge& judge, uint64_t cell, int height,
                size_t begin, size_t end);
-  void fill(const LatticeTriangle& triangle, Clipper& clipper, size_t index);
+  void fill(const LatticeTriangle& triangle, Judge& judge, size_t index);
 
   Grid grid_;
   std::vector<uint64_t> codes_;
@@ -63,6 +63,7 @@ class BrickJudge {
 
 // The whole: `count` bricks drawn with `seed`, judged on all workers.
 Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
-                          uint64_t seed, Executor& executor, Progress& progress);
+                          uint64_t seed, const JudgeChoice& choice, Executor& executor,
+                          Progress& progress);
 
 }  // namespace svdag

@@ -27,6 +27,11 @@ double bits_per_voxel(const BuildReport& r) {
   return r.voxels == 0 ? 0 : 8.0 * double(r.file_bytes) / double(r.voxels);
 }
 
+// Share of the decisions at voxels that double could not make and integers made.
+double exact_share(const BuildReport& r) {
+  return r.decisions.asked == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.asked);
+}
+
 std::string report_json(const BuildCommandConfig& config, const BuildReport& r) {
   const auto& s = r.seconds;
   Json json = {{"svdag", SVDAG_VERSION},
@@ -36,9 +41,13 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"rule", r.rule == Rule::kThin ? "thin" : "conservative"},
                {"triangles", r.split.scene.triangles},
                {"triangles_outside", r.split.outside},
+               {"triangles_clipped", r.split.clipped},
                {"triangles_degenerate", r.split.degenerate},
                {"triangles_invalid", r.split.scene.invalid},
                {"largest_snap_voxels", r.split.largest_snap},
+               {"quantisation_voxels", r.split.scene.quantisation / r.grid.voxel_size},
+               {"decisions", r.decisions.asked},
+               {"decisions_exact_share", exact_share(r)},
                {"cells", r.cells},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
@@ -69,11 +78,18 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               r.seconds.total);
   if (!config.output.verbose) return;
   const auto& s = r.seconds;
-  std::printf("  triangles: %s outside the grid, %s of zero area, %s dropped as invalid\n",
-              format_count(r.split.outside).c_str(), format_count(r.split.degenerate).c_str(),
-              format_count(r.split.scene.invalid).c_str());
-  std::printf("  largest snap move %.3g voxel; %s cells visited\n", r.split.largest_snap,
-              format_count(r.cells).c_str());
+  std::printf(
+      "  triangles: %s outside the grid, %s clipped by it, %s of zero area, %s dropped as "
+      "invalid\n",
+      format_count(r.split.outside).c_str(), format_count(r.split.clipped).c_str(),
+      format_count(r.split.degenerate).c_str(), format_count(r.split.scene.invalid).c_str());
+  std::printf(
+      "  accuracy: largest snap move %.3g voxel; %.3g %% of %s decisions made in integers\n",
+      r.split.largest_snap, 100 * exact_share(r), format_count(r.decisions.asked).c_str());
+  if (r.split.scene.quantisation > 0)
+    std::printf("  the scene's positions are quantised in steps of %.3g voxel (Draco)\n",
+                r.split.scene.quantisation / r.grid.voxel_size);
+  std::printf("  %s cells visited\n", format_count(r.cells).c_str());
   std::printf(
       "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
       "CPU %.2f on %zu threads\n",

@@ -260,6 +260,7 @@ void read_draco(const File& file, const ReadOptions& options, const TriangleSink
   file.read_at(0, bytes);
   const DracoMesh mesh = decode_draco({bytes, file.path()}, options.budget);
   BatchWriter out(sink);
+  out.quantisation(mesh.step);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     out.add(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
             mesh.positions[mesh.indices[i + 2]]);

@@ -180,7 +180,7 @@ class GltfReader {
     check_count(mode, indices.count());
     std::span<Point> points = local_.resize(positions.count(), options_.budget);
     ElementStream(positions).read(as_numbers(points));
-    for_each_placed(points, std::move(instances), [&](std::span<const Point> placed) {
+    for_each_placed(points, std::move(instances), [&](std::span<const Point> placed, double) {
       IndexedCorners corners(indices, placed);
       assemble(mode, indices.count(), corners, out_);
     });
@@ -193,14 +193,18 @@ class GltfReader {
                              document_.element("accessors", accessor).flag("normalized")};
     DracoMesh mesh = decode_draco(source, options_.budget);
     const std::vector<uint32_t>& indices = mesh.indices;
-    for_each_placed(mesh.positions, std::move(instances), [&](std::span<const Point> placed) {
-      for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-        out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
-      }
-    });
+    for_each_placed(
+        mesh.positions, std::move(instances), [&](std::span<const Point> placed, double stretch) {
+          out_.quantisation(mesh.step * stretch);
+          for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+            out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
+          }
+        });
+    out_.quantisation(0);
   }
 
-  // Calls use(points in world space) for every instance; a second copy only if there are several.
+  // Calls use(points in world space, axis_stretch of the transform) for every instance; a second
+  // copy only if there are several.
   template <class Use>
   void for_each_placed(std::span<Point> points, InstanceStream instances, const Use& use) {
     const bool several = instances.count() > 1;
@@ -208,7 +212,7 @@ class GltfReader {
     for (uint64_t i = 0; i < instances.count(); ++i) {
       const Affine to_world = instances.next();
       for (size_t v = 0; v < points.size(); ++v) placed[v] = to_world(points[v]);
-      use(std::span<const Point>(placed));
+      use(std::span<const Point>(placed), axis_stretch(to_world));
     }
   }
 

@@ -1,6 +1,18 @@
 #include "io/scene/gltf_transform.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace svdag {
+
+double axis_stretch(const Affine& a) {
+  double longest = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const double square = (a.m[0][c] * a.m[0][c] + a.m[1][c] * a.m[1][c]) + a.m[2][c] * a.m[2][c];
+    longest = std::max(longest, square);
+  }
+  return std::sqrt(longest);
+}
 
 Affine compose(const Affine& parent, const Affine& local) {
   Affine result;

@@ -27,6 +27,9 @@ struct Affine {
   }
 };
 
+// The longest image of a unit vector along an axis: by how much a step on an axis may grow.
+double axis_stretch(const Affine& a);
+
 Affine compose(const Affine& parent, const Affine& local);
 
 // Scale, then rotation (a quaternion x, y, z, w of any non-zero length), then translation.

@@ -29,9 +29,15 @@ void BatchWriter::mesh(std::string_view name) {
   first_ = 0;
 }
 
+void BatchWriter::quantisation(double step) {
+  if (step == quantisation_) return;
+  flush();
+  quantisation_ = step;
+}
+
 void BatchWriter::flush() {
   if (batch_.empty()) return;
-  sink_({mesh_, first_, batch_});
+  sink_({mesh_, first_, batch_, quantisation_});
   first_ += batch_.size();
   batch_.clear();
 }

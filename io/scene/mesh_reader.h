@@ -24,6 +24,7 @@ struct TriangleBatch {
   std::string_view mesh;  // glTF node or OBJ group, "" where the format has no names
   uint64_t first = 0;     // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
+  double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
 };
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
@@ -68,6 +69,8 @@ class BatchWriter {
   explicit BatchWriter(const TriangleSink& sink) : sink_(sink) { batch_.reserve(kBatch); }
   // Starts the next mesh: flushes, and counts triangles from 0 again.
   void mesh(std::string_view name);
+  // The quantisation step of the triangles from here on.
+  void quantisation(double step);
   void add(const Point& a, const Point& b, const Point& c) {
     batch_.push_back({{a, b, c}});
     if (batch_.size() == kBatch) flush();
@@ -78,6 +81,7 @@ class BatchWriter {
   const TriangleSink& sink_;
   std::string mesh_;
   uint64_t first_ = 0;
+  double quantisation_ = 0;
   std::vector<Triangle> batch_;
 };
 

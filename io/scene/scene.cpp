@@ -31,12 +31,13 @@ class FiniteFilter {
     kept_.clear();
     std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
     counts_->invalid += batch.triangles.size() - kept_.size();
-    pass({batch.mesh, batch.first, kept_});
+    pass({batch.mesh, batch.first, kept_, batch.quantisation});
   }
 
  private:
   void pass(const TriangleBatch& batch) {
     counts_->triangles += batch.triangles.size();
+    counts_->quantisation = std::max(counts_->quantisation, batch.quantisation);
     if (!batch.triangles.empty()) sink_(batch);
   }
   [[noreturn]] void refuse(const TriangleBatch& batch, uint64_t index) const {

@@ -19,6 +19,7 @@ struct SceneConfig {
 
 struct SceneCounts {
   uint64_t triangles = 0;  // handed to the sink
+  double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;    // dropped: a coordinate was NaN or infinite
 };
 

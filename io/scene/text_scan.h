@@ -27,6 +27,8 @@ class TextScanner {
   TextScanner(ByteStream* stream, Syntax syntax, uint64_t line = 1)
       : stream_(stream), syntax_(syntax), line_(line) {
     refill();
+    if (line == 1 && std::string_view(here_, size_t(end_ - here_)).starts_with("\xEF\xBB\xBF"))
+      here_ += 3;  // the byte order mark that some editors put before UTF-8 text
   }
 
   uint64_t line() const { return line_; }

@@ -13,7 +13,7 @@ Comparison compare(const Grid& grid, const std::vector<LatticeTriangle>& soup,
   const RawFile file(raw_dag(grid, in_file));
   ParallelExecutor executor(threads);
   Progress progress;
-  return compare_all(file.view(), grid, soup, executor, progress);
+  return compare_all(file.view(), grid, soup, {}, executor, progress);
 }
 
 TEST(Compare, RightFileAgreesOnEveryGrid) {

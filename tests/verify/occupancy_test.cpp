@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <random>
-
+#include "tests/verify/families.h"
 #include "tests/verify/rational_judge.h"
+#include "verify/judge.h"
 
 namespace svdag {
 namespace {
 
-constexpr int kShift = 4;  // 16 lattice steps a voxel: planes, edges and corners are hit often
-constexpr int64_t kSide = 1 << kShift;
 constexpr VoxelBox kWindow{LatticePoint(-64), LatticePoint(64)};
 
 LatticePoint scaled(int64_t x, int64_t y, int64_t z) {
@@ -40,59 +38,6 @@ std::vector<LatticeTriangle> box_soup(const LatticePoint& low, const LatticePoin
     }
   }
   return soup;
-}
-
-// Coordinates with a bias to what goes wrong: voxel planes, their neighbours, equal values.
-int64_t awkward(std::mt19937_64& random, int64_t reach) {
-  const int64_t q = int64_t(random() % uint64_t(2 * reach + 1)) - reach;
-  switch (random() % 4) {
-    case 0:
-      return q >> kShift << kShift;
-    case 1:
-      return (q >> kShift << kShift) + int64_t(random() % 3) - 1;
-    default:
-      return q;
-  }
-}
-
-LatticePoint awkward_point(std::mt19937_64& random, int64_t reach) {
-  return {awkward(random, reach), awkward(random, reach), awkward(random, reach)};
-}
-
-// One triangle of a family: 0 general, 1 in a plane of constant coordinate, 2 sliver, 3 segment,
-// 4 point, 5 double point, 6 on plane x+y+z = c, 7 all coordinates whole voxels.
-LatticeTriangle family_triangle(std::mt19937_64& random, int family, int64_t reach) {
-  LatticeTriangle t{
-      {awkward_point(random, reach), awkward_point(random, reach), awkward_point(random, reach)}};
-  switch (family) {
-    case 1:
-      for (int a = 0, w = int(random() % 3); a < 3; ++a) t.v[a][w] = t.v[0][w];
-      break;
-    case 2:
-      t.v[2] = t.v[1];
-      t.v[2][int(random() % 3)] += int64_t(random() % 3) - 1;
-      break;
-    case 3: {
-      const LatticePoint d = t.v[1] - t.v[0];
-      t.v[2] = t.v[0] + d * int64_t(random() % 4);
-      break;
-    }
-    case 4:
-      t.v[1] = t.v[2] = t.v[0];
-      break;
-    case 5:
-      t.v[random() % 3] = t.v[random() % 3];
-      break;
-    case 6:
-      for (LatticePoint& p : t.v) p.z = 5 * kSide - p.x - p.y;
-      break;
-    case 7:
-      for (LatticePoint& p : t.v) p = (p / kSide) * kSide;
-      break;
-    default:
-      break;
-  }
-  return t;
 }
 
 TEST(Occupancy, PointFillsEightFourTwoOrOneVoxels) {
@@ -130,7 +75,7 @@ TEST(Occupancy, BoxShellIsTwoVoxelsThickOnPlanesAndOneBetween) {
 
 TEST(Occupancy, AgreesWithRationalClippingOnEveryFamilyAndAxis) {
   std::mt19937_64 random(1);
-  for (int family = 0; family < 8; ++family) {
+  for (int family = 0; family < kFamilies; ++family) {
     for (int i = 0; i < 60; ++i) {
       const LatticeTriangle t = family_triangle(random, family, 3 * kSide);
       const VoxelSet expected = rational_voxels(t, kShift, kWindow);
@@ -169,7 +114,7 @@ TEST(Occupancy, LargeTrianglesAgreeWithRationalClippingInSmallWindows) {
 TEST(Occupancy, EveryAxisGivesTheSameVoxels) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 2000; ++i) {
-    const LatticeTriangle t = family_triangle(random, i % 8, 40 * kSide);
+    const LatticeTriangle t = family_triangle(random, i % kFamilies, 40 * kSide);
     const VoxelSet voxels = clipped_voxels(t, kShift, kWindow, 0);
     ASSERT_EQ(clipped_voxels(t, kShift, kWindow, 1), voxels) << i;
     ASSERT_EQ(clipped_voxels(t, kShift, kWindow, 2), voxels) << i;
@@ -179,7 +124,7 @@ TEST(Occupancy, EveryAxisGivesTheSameVoxels) {
 TEST(Occupancy, WindowsCutTheWholeWithoutChangingIt) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
-    const LatticeTriangle t = family_triangle(random, i % 8, 20 * kSide);
+    const LatticeTriangle t = family_triangle(random, i % kFamilies, 20 * kSide);
     VoxelSet pieces;
     for (int x = -32; x < 32; x += 16) {
       for (int y = -32; y < 32; y += 16) {
@@ -195,7 +140,7 @@ TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
   std::mt19937_64 random(5);
   const VoxelBox whole{LatticePoint(-64), LatticePoint(64)};
   for (int i = 0; i < 500; ++i) {
-    const LatticeTriangle t = family_triangle(random, i % 8, 20 * kSide);
+    const LatticeTriangle t = family_triangle(random, i % kFamilies, 20 * kSide);
     VoxelSet parents;
     for (const auto& [x, y, z] :
          clipped_voxels(t, kShift, {whole.min * int64_t(4), whole.max * int64_t(4)})) {
@@ -206,19 +151,19 @@ TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
 }
 
 TEST(Occupancy, TouchesIsTheOneCellWindow) {
-  Clipper clipper;
+  const auto judge = make_judge({});
   const LatticeTriangle t{{scaled(0, 0, 0), scaled(4, 0, 0), scaled(0, 4, 0)}};
-  EXPECT_TRUE(clipper.touches(t, kShift, {0, 0, 0}));
-  EXPECT_TRUE(clipper.touches(t, kShift, {0, 0, -1}));
-  EXPECT_FALSE(clipper.touches(t, kShift, {0, 0, 1}));
-  EXPECT_TRUE(clipper.touches(t, kShift, {2, 2, 0}));  // its corner is on the diagonal
-  EXPECT_FALSE(clipper.touches(t, kShift, {3, 3, 0}));
+  EXPECT_TRUE(judge->touches(t, kShift, {0, 0, 0}));
+  EXPECT_TRUE(judge->touches(t, kShift, {0, 0, -1}));
+  EXPECT_FALSE(judge->touches(t, kShift, {0, 0, 1}));
+  EXPECT_TRUE(judge->touches(t, kShift, {2, 2, 0}));  // its corner is on the diagonal
+  EXPECT_FALSE(judge->touches(t, kShift, {3, 3, 0}));
 }
 
 // Winding, order of vertices and whole-voxel translation change nothing.
 RC_GTEST_PROP(Occupancy, IsInvariant, (uint64_t seed, uint8_t family)) {
   std::mt19937_64 random(seed);
-  const LatticeTriangle t = family_triangle(random, family % 8, 6 * kSide);
+  const LatticeTriangle t = family_triangle(random, family % kFamilies, 6 * kSide);
   const VoxelSet voxels = clipped_voxels(t, kShift, kWindow);
   RC_ASSERT(clipped_voxels({{t.v[2], t.v[1], t.v[0]}}, kShift, kWindow) == voxels);
   RC_ASSERT(clipped_voxels({{t.v[1], t.v[2], t.v[0]}}, kShift, kWindow) == voxels);

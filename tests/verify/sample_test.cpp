@@ -29,34 +29,34 @@ TEST(CellCode, GoesThereAndBack) {
   }
 }
 
-TEST(BrickJudge, AllBricksTogetherAreTheFullComparison) {
+TEST(BrickSample, AllBricksTogetherAreTheFullComparison) {
   const Grid grid = test_grid(7);
   for (const int64_t side : {2, 30, 300}) {
     const auto soup = random_soup(grid, 50, uint64_t(side), side);
     VoxelSet voxels = soup_voxels(grid, soup);
     voxels.erase(voxels.begin());
     const RawFile file(raw_dag(grid, voxels));
-    BrickJudge judge(grid, all_codes(grid));
-    Clipper clipper;
-    for (const LatticeTriangle& t : soup) judge.add(t, clipper);
-    const Comparison sampled = judge.compare(file.view());
+    BrickSample sample(grid, all_codes(grid));
+    const auto judge = make_judge({});
+    for (const LatticeTriangle& t : soup) sample.add(t, *judge);
+    const Comparison sampled = sample.compare(file.view());
     EXPECT_EQ(sampled.missing, 1U);
     EXPECT_EQ(sampled.extra, 0U);
     EXPECT_EQ(sampled.judge_voxels, voxels.size() + 1);
   }
 }
 
-TEST(BrickJudge, FewBricksGetExactlyTheirVoxels) {
+TEST(BrickSample, FewBricksGetExactlyTheirVoxels) {
   const Grid grid = test_grid(7);
   const auto soup = random_soup(grid, 300, 9, 40);
   const VoxelSet voxels = soup_voxels(grid, soup);
   const RawFile file(raw_dag(grid, voxels));
   std::vector<uint64_t> codes;
   for (uint64_t code = 5; code < 32768; code += 97) codes.push_back(code);
-  BrickJudge judge(grid, codes);
-  Clipper clipper;
-  for (const LatticeTriangle& t : soup) judge.add(t, clipper);
-  const Comparison result = judge.compare(file.view());
+  BrickSample sample(grid, codes);
+  const auto judge = make_judge({});
+  for (const LatticeTriangle& t : soup) sample.add(t, *judge);
+  const Comparison result = sample.compare(file.view());
   EXPECT_EQ(result.bricks, codes.size());
   EXPECT_TRUE(result.agrees());
   EXPECT_GT(result.judge_voxels, 0U);
@@ -99,7 +99,7 @@ class SampledScene : public ::testing::Test {
     const RawFile file(raw_dag(grid, in_file));
     ParallelExecutor executor(2);
     Progress progress;
-    return compare_sample(scene(), file.view(), grid, count, 1, executor, progress);
+    return compare_sample(scene(), file.view(), grid, count, 1, {}, executor, progress);
   }
 
   std::string path_;

@@ -50,8 +50,12 @@ void add_mesh(CLI::App* app, int* result) {
   command->add_option("FILE", config->file, "The .svdag file")->required();
   command->add_option("SCENE", config->scene.paths, "The scene files it was baked from")
       ->required();
-  command->add_option("--judge", config->judge, "Who decides: integer (exact clipping)")
-      ->check(CLI::IsMember({"integer"}));
+  command
+      ->add_option("--judge", config->judge,
+                   "Who decides: integer (our exact clipping, the default) or cgal (CGAL's exact "
+                   "kernel; slow)")
+      ->check(CLI::IsMember({"integer", "cgal"}))
+      ->type_name("JUDGE");
   command
       ->add_option_function<std::string>(
           "--sample",
@@ -71,6 +75,12 @@ void add_mesh(CLI::App* app, int* result) {
       ->type_name("PATTERN");
   command->add_flag("--skip-invalid", config->scene.skip_invalid,
                     "Drop triangles with NaN or infinity, as in the bake");
+  command
+      ->add_option_function<std::string>(
+          "-m,--memory",
+          [config](const std::string& text) { config->memory = parse_count(text, "--memory"); },
+          "Memory budget of the readers and the triangles held (default: half of the machine)")
+      ->type_name("SIZE");
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
   command->footer(

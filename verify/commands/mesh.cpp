@@ -6,6 +6,7 @@
 #include "io/dag/dag_file.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/memory_budget.h"
 #include "verify/compare.h"
 #include "verify/sample.h"
 #include "verify/snapped_scene.h"
@@ -24,18 +25,34 @@ struct Judgement {
   bool ok() const { return grid.defects.empty() && comparison.agrees(); }
 };
 
-std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid) {
+std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t count) {
   std::vector<LatticeTriangle> triangles;
+  triangles.reserve(count);
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     triangles.insert(triangles.end(), batch.begin(), batch.end());
-    if (triangles.size() > UINT32_MAX)
-      fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
   });
   return triangles;
 }
 
-Judgement judge(const MeshConfig& config, const DagFile& file) {
-  MemoryBudget budget;
+void compare_whole(const Scene& scene, const DagFile& file, const JudgeChoice& choice,
+                   MemoryBudget& budget, Executor& executor, Progress& progress,
+                   Judgement* result) {
+  const uint64_t count = result->counts.triangles;
+  if (count > UINT32_MAX)
+    fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
+  const auto reservation = budget.reserve(count * sizeof(LatticeTriangle), "the snapped triangles");
+  progress.phase("reading the scene", 0);
+  const std::vector<LatticeTriangle> triangles = load(scene, file.grid(), count);
+  Comparison& comparison = result->comparison;
+  comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, progress);
+  if (comparison.file_voxels != file.header().voxels)
+    result->grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
+                                   " voxels, the file holds " +
+                                   format_count(comparison.file_voxels));
+}
+
+Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file) {
+  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
   const Scene scene(config.scene, &budget);
   const Grid grid = file.grid();
   Progress progress(config.common.progress);
@@ -46,17 +63,11 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
   result.sampled = config.sample > 0;
   if (result.sampled) {
-    result.comparison =
-        compare_sample(scene, file.view(), grid, config.sample, config.seed, executor, progress);
+    result.comparison = compare_sample(scene, file.view(), grid, config.sample, config.seed, choice,
+                                       executor, progress);
     result.rate_bound = rate_upper_bound(result.comparison.wrong_bricks, result.comparison.bricks);
   } else {
-    progress.phase("reading the scene", 0);
-    const std::vector<LatticeTriangle> triangles = load(scene, grid);
-    result.comparison = compare_all(file.view(), grid, triangles, executor, progress);
-    if (result.comparison.file_voxels != file.header().voxels)
-      result.grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
-                                    " voxels, the file holds " +
-                                    format_count(result.comparison.file_voxels));
+    compare_whole(scene, file, choice, budget, executor, progress, &result);
   }
   return result;
 }
@@ -71,11 +82,13 @@ void print_wrong(const Grid& grid, const WrongVoxel& wrong) {
               world(2));
 }
 
-void print_text(const DagFile& file, const Judgement& j) {
+void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
   const Comparison& c = j.comparison;
   std::printf("grid       %s%s\n", describe_grid(file).c_str(),
               j.grid.recomputed ? ", as the scene's bounds give it" : "");
   for (const std::string& defect : j.grid.defects) std::printf("defect     %s\n", defect.c_str());
+  std::printf("judge      %s: %s\n", name_of(choice.kind),
+              description_of(choice.kind, choice.rule));
   std::printf("triangles  %s", format_count(j.counts.triangles).c_str());
   if (j.counts.invalid > 0)
     std::printf(", %s invalid ones skipped", format_count(j.counts.invalid).c_str());
@@ -95,7 +108,7 @@ void print_text(const DagFile& file, const Judgement& j) {
                              : "not ok: file and scene differ");
 }
 
-void print_json(const DagFile& file, const Judgement& j) {
+void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
   const Comparison& c = j.comparison;
   nlohmann::json wrong = nlohmann::json::array();
   for (const WrongVoxel& w : c.first)
@@ -103,7 +116,8 @@ void print_json(const DagFile& file, const Judgement& j) {
   nlohmann::json json = {{"command", "mesh"},
                          {"file", file.path()},
                          {"ok", j.ok()},
-                         {"judge", "integer"},
+                         {"rule", choice.rule == Rule::kThin ? "thin" : "conservative"},
+                         {"judge", name_of(choice.kind)},
                          {"grid_defects", j.grid.defects},
                          {"grid_recomputed", j.grid.recomputed},
                          {"triangles", j.counts.triangles},
@@ -125,15 +139,13 @@ void print_json(const DagFile& file, const Judgement& j) {
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   const DagFile file = DagFile::open(config.file);
-  if (file.rule() != Rule::kConservative)
-    fail_usage(file.path() +
-               ": was baked with the rule thin, which this judge cannot judge yet: "
-               "bake with --rule conservative to compare");
-  const Judgement judgement = judge(config, file);
+  const JudgeChoice choice{parse_judge(config.judge), file.rule()};
+  make_judge(choice);  // a judge that this build lacks is refused before the scene is read
+  const Judgement judgement = judge(config, choice, file);
   if (config.common.json) {
-    print_json(file, judgement);
+    print_json(file, choice, judgement);
   } else if (!config.common.quiet) {
-    print_text(file, judgement);
+    print_text(file, choice, judgement);
   }
   return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
 }

@@ -10,9 +10,10 @@ struct MeshConfig {
   CommonConfig common;
   std::string file;
   SceneConfig scene;
-  std::string judge = "integer";
+  std::string judge = "integer";  // or "cgal"
   uint64_t sample = 0;  // bricks to draw; 0: compare all
   uint64_t seed = 1;
+  uint64_t memory = 0;  // 0: half of what the machine allows
 };
 
 // kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene.

@@ -25,6 +25,11 @@ TEST(Obj, ReadsPolygons) {
   EXPECT_TRUE(faces("f 1 2\nf\nf 1\n").empty());
 }
 
+TEST(Obj, SkipsAByteOrderMark) {
+  EXPECT_EQ(read(read_obj, "\xEF\xBB\xBF" + std::string(kVertices) + "f 1 2 3").triangles,
+            std::vector<Corners>{kLower});
+}
+
 TEST(Obj, NegativeIndicesCountBackFromTheFace) {
   EXPECT_EQ(faces("v 5 5 5\nf 1 2 -1\nv 6 6 6\nf 1 2 -1\n"),
             (std::vector<Corners>{{{{0, 0, 0}, {1, 0, 0}, {5, 5, 5}}},
