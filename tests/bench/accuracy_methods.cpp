@@ -44,13 +44,14 @@ class BuilderDescent {
     const LatticePoint corner = cube.corner(grid_.levels);
     Brick voxels = 0;
     for (const Entry& entry : list) {
-      voxels |= overlap_brick(entry, corner, grid_.fraction());
+      voxels |= overlap_brick(entry, corner, grid_.fraction(), &counts_);
       if (voxels == ~Brick(0)) break;
     }
     if (voxels != 0) out->push_back({morton(cube.coordinate), voxels});
   }
 
   Grid grid_;
+  DecisionCounts counts_;  // not read: the kernel counts for the report of a bake
   std::vector<std::array<EntryList, 8>> lists_;
 };
 
