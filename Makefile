@@ -6,6 +6,7 @@
 #   test    build and run every test, then once more under ASan and UBSan
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
+#   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
 
@@ -19,7 +20,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench cuda clean
+.PHONY: all deps build demo test stress bench bench-accuracy cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -58,6 +59,12 @@ stress: deps
 bench: build
 	$(call install,$(BENCH_PACKAGES))
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS)
+
+bench-accuracy: deps
+	$(call install,$(BENCH_PACKAGES))
+	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
+	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
+	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
 
 cuda:
 	@if [ -f verify/trace/cuda.cu ] && command -v nvcc >/dev/null; then \

@@ -1,0 +1,22 @@
+// CGAL's do_intersect(triangle, box) with two kernels; in a library of its own, because CGAL's
+// target imposes -frounding-math on whoever links it.
+//   EPICK  double coordinates, filtered exact predicates, constructions in double
+//   EPECK  lazy exact numbers throughout
+// A triangle of zero area is outside do_intersect's precondition: it goes in as a segment or a
+// point. Voxel units in double.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "io/grid.h"
+#include "tests/bench/peers/cube_descent.h"
+
+namespace svdag::bench {
+
+void cgal_epick(const Grid& grid, std::span<const Triangle> triangles, const LatticePoint& corner,
+                int log2, BrickList* out);
+void cgal_epeck(const Grid& grid, std::span<const Triangle> triangles, const LatticePoint& corner,
+                int log2, BrickList* out);
+
+}  // namespace svdag::bench
