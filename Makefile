@@ -44,7 +44,7 @@ deps:
 
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET)
+	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene
 
 demo: build
 	@sh tests/demo.sh $(PROGRAMS) demo
