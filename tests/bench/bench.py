@@ -17,6 +17,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OUT = ROOT / "build" / "bench"
 PAGE = ROOT / "docs" / "performance.md"
+README = ROOT / "README.md"
 RESOLUTIONS = ["512", "1K", "2K", "4K", "8K", "16K"]
 GENERATED = {"atrium": [], "scan": []}
 SHARED = {"sponza": "crytek_sponza.glb", "dragon": "stanford_dragon.ply"}
@@ -98,10 +99,28 @@ def level_table(levels):
     return "\n\n".join(parts)
 
 
+def figures(rows):
+    """The rows of the highest resolution, for the README."""
+    last = {r["scene"]: r for r in rows}.values()
+    return table(
+        ["scene", "grid", "triangles", "voxels", "as SVO", "DAG nodes", "file", "bits per voxel", "seconds", "peak memory"],
+        [[r["scene"], f"{r['resolution']}³", f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_mb']:.0f} MB",
+          f"{r['dag_nodes_bricks']:,}", f"{r['bytes'] / 1e6:.1f} MB", f"{r['bits_per_voxel']:.3f}", f"{r['s_total']:.1f}",
+          f"{r['peak_mib']:.0f} MiB"] for r in last])
+
+
+def machine():
+    """Processor and compiler, for people who compare times."""
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+    return (f"{model.group(1) if model else 'unknown processor'}, {os.cpu_count()} cores, all used. "
+            f"Compiler: {compiler}, release build, baseline x86-64 (SSE2, two doubles wide).")
+
+
 def fill(text, marker, content):
     pattern = re.compile(rf"(<!-- {marker} -->\n).*?(<!-- end {marker} -->)", re.S)
     if not pattern.search(text):
-        sys.exit(f"{PAGE}: the markers of \"{marker}\" are missing")
+        sys.exit(f"the markers of \"{marker}\" are missing in a page")
     return pattern.sub(lambda m: m.group(1) + content + "\n" + m.group(2), text)
 
 
@@ -149,9 +168,10 @@ def main():
         return
     sizes, times = bake_tables(rows)
     text = PAGE.read_text()
-    for marker, content in [("sizes", sizes), ("times", times), ("levels", level_table(levels))]:
+    for marker, content in [("machine", machine()), ("sizes", sizes), ("times", times), ("levels", level_table(levels))]:
         text = fill(text, marker, content)
     PAGE.write_text(text)
+    README.write_text(fill(README.read_text(), "figures", figures(rows)))
     plot(rows, "seconds", lambda r: r["s_total"], "seconds")
     plot(rows, "nodes", lambda r: r["dag_nodes_bricks"], "DAG nodes (4³ leaves)")
 
