@@ -9,8 +9,8 @@
 
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_writer.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "tests/repair_checksums.h"
 #include "tests/soup.h"
 
 namespace svdag {
@@ -94,30 +94,7 @@ TEST(CheckDag, FindsEveryTruncationAndEveryAppendedLength) {
 // Changes one field and repairs all checksums, as a hostile writer would.
 void forge(std::string bytes, const std::string& path, size_t offset, uint32_t word) {
   std::memcpy(bytes.data() + offset, &word, 4);
-  Header h;
-  std::memcpy(&h, bytes.data(), sizeof h);
-  const auto part = [&](size_t begin, size_t size) {
-    return std::as_bytes(std::span(bytes.data() + begin, size));
-  };
-  if (h.checksum_offset < bytes.size() && h.checksum_offset >= sizeof h &&
-      h.checksum_bytes <= bytes.size() - h.checksum_offset) {
-    for (size_t i = 0; i < h.checksum_bytes / 8; ++i) {
-      const size_t begin = sizeof h + i * kChecksumBlock;
-      if (begin >= h.checksum_offset) break;
-      const uint64_t sum =
-          checksum64(part(begin, std::min<size_t>(kChecksumBlock, h.checksum_offset - begin)));
-      std::memcpy(bytes.data() + h.checksum_offset + 8 * i, &sum, 8);
-    }
-    h.content_hash[0] = h.content_hash[1] = h.header_checksum = 0;
-    Hasher128 hasher;
-    hasher.update(std::as_bytes(std::span(&h, 1)));
-    hasher.update(part(h.checksum_offset, h.checksum_bytes));
-    const Hash128 hash = hasher.digest();
-    std::memcpy(h.content_hash, hash.data(), 16);
-  }
-  h.header_checksum =
-      checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(Header, header_checksum)));
-  std::memcpy(bytes.data(), &h, sizeof h);
+  repair_checksums(&bytes);
   write_bytes(path, bytes);
 }
 

@@ -1,0 +1,44 @@
+// Makes a damaged `.svdag` look genuine: recomputes its checksums and hashes, as a hostile writer
+// would.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "io/dag/format.h"
+#include "streaming/checksum.h"
+
+namespace svdag {
+
+// What the header places outside of `bytes` stays as it is; so does a text shorter than a header.
+inline void repair_checksums(std::string* bytes) {
+  Header h;
+  if (bytes->size() < sizeof h) return;
+  std::memcpy(&h, bytes->data(), sizeof h);
+  const auto part = [&](size_t begin, size_t size) {
+    return std::as_bytes(std::span(bytes->data() + begin, size));
+  };
+  if (h.checksum_offset >= sizeof h && h.checksum_offset <= bytes->size() &&
+      h.checksum_bytes <= bytes->size() - h.checksum_offset) {
+    for (size_t i = 0; i < h.checksum_bytes / 8; ++i) {
+      const size_t begin = sizeof h + i * kChecksumBlock;
+      if (begin >= h.checksum_offset) break;
+      const size_t size = std::min<size_t>(kChecksumBlock, h.checksum_offset - begin);
+      const uint64_t sum = checksum64(part(begin, size));
+      std::memcpy(bytes->data() + h.checksum_offset + 8 * i, &sum, 8);
+    }
+    h.content_hash[0] = h.content_hash[1] = h.header_checksum = 0;
+    Hasher128 hasher;
+    hasher.update(std::as_bytes(std::span(&h, 1)));
+    hasher.update(part(h.checksum_offset, h.checksum_bytes));
+    const Hash128 hash = hasher.digest();
+    std::memcpy(h.content_hash, hash.data(), sizeof hash);
+  }
+  const auto header = std::as_bytes(std::span(&h, 1));
+  h.header_checksum = checksum64(header.first(offsetof(Header, header_checksum)));
+  std::memcpy(bytes->data(), &h, sizeof h);
+}
+
+}  // namespace svdag
