@@ -125,7 +125,10 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail_usage(std::string(error.what()) + "; see svdag --help");
   }
-  return build_app->parsed() ? run_build(build) : run_info(info);
+  const int result = build_app->parsed() ? run_build(build) : run_info(info);
+  if (std::fflush(stdout) != 0)
+    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
+  return result;
 }
 
 }  // namespace
@@ -141,5 +144,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr,
                  "svdag: the machine has no memory left: give less with --memory or free some\n");
     return int(svdag::ExitCode::kMemory);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "svdag: internal error: %s; please report this\n", error.what());
+    return int(svdag::ExitCode::kInternal);
   }
 }
