@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "builder/brick_tables.h"
-#include "builder/exact.h"
+#include "builder/exact_voxel.h"
 #include "builder/overlap.h"
 
 namespace svdag {
@@ -26,17 +26,6 @@ Brick voxels_in_box(const TriangleSetup& t, const LatticePoint& corner, int frac
     voxels &= slabs;
   }
   return voxels;
-}
-
-// Exactly: does the projected square of voxel (i, j) reach the inner side of edge k? The critical
-// corner is the one farthest inwards.
-bool edge_reaches(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction, int i,
-                  int j) noexcept {
-  const int u = (k / 3 + 1) % 3, v = (k / 3 + 2) % 3;
-  LatticePoint x = corner;
-  x[u] += int64_t(i + (t.edge_u[k] > 0)) << fraction;
-  x[v] += int64_t(j + (t.edge_v[k] > 0)) << fraction;
-  return exact_edge_sign(t, k, x) >= 0;
 }
 
 Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
@@ -58,19 +47,9 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, 
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);
-    reached |= unsigned(edge_reaches(t, k, corner, fraction, q >> 2, q & 3)) << q;
+    reached |= unsigned(column_reaches(t, k, corner, fraction, unsigned(q))) << q;
   }
   return expand_columns(w, reached);
-}
-
-// Exactly: the plane meets the closed voxel iff its two extreme corners are not strictly on one
-// side.
-bool plane_meets(const TriangleSetup& t, const LatticePoint& low, int fraction) noexcept {
-  LatticePoint farthest = low, nearest = low;
-  for (int a = 0; a < 3; ++a) {
-    (t.normal[a] > 0 ? farthest : nearest)[a] += int64_t(1) << fraction;
-  }
-  return exact_plane_sign(t, farthest) >= 0 && exact_plane_sign(t, nearest) <= 0;
 }
 
 Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
@@ -91,10 +70,8 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
     const double highest = f + (offset + high), lowest = f + (offset + low);
     if (highest > error && lowest < -error) continue;
     const bool apart = highest < -error || lowest > error;
-    const LatticePoint at{int64_t(p[0]) << fraction, int64_t(p[1]) << fraction,
-                          int64_t(p[2]) << fraction};
     counts->exact += !apart;
-    if (apart || !plane_meets(t, corner + at, fraction)) voxels &= ~(Brick(1) << bit);
+    if (apart || !voxel_meets_plane(t, corner, fraction, unsigned(bit))) voxels &= ~(Brick(1) << bit);
   }
   return voxels;
 }

@@ -21,29 +21,11 @@
 #include <cmath>
 
 #include "builder/brick_tables.h"
-#include "builder/exact.h"
+#include "builder/exact_voxel.h"
 #include "builder/overlap.h"
 
 namespace svdag {
 namespace {
-
-// Edge function k at the shifted point x: never zero, since an edge that is not a point in the
-// projection has a nonzero coefficient, and one that is a point belongs to a projection of no area.
-bool edge_holds_exactly(const TriangleSetup& t, int k, const LatticePoint& x) noexcept {
-  const int sign = exact_edge_sign(t, k, x);
-  if (sign != 0) return sign > 0;
-  const int u = (k / 3 + 1) % 3, v = (k / 3 + 2) % 3;
-  const double by_u = t.edge_u[k], by_v = t.edge_v[k];
-  const double first = u < v ? by_u : by_v, second = u < v ? by_v : by_u;
-  return first != 0 ? first > 0 : second > 0;
-}
-
-bool plane_is_above_exactly(const TriangleSetup& t, const LatticePoint& x) noexcept {
-  const int sign = exact_plane_sign(t, x);
-  if (sign != 0) return sign > 0;
-  const double* n = t.normal;
-  return n[0] != 0 ? n[0] > 0 : (n[1] != 0 ? n[1] > 0 : n[2] > 0);
-}
 
 // Values of one function at a point of the brick, in double with an error bound, and the exact sign
 // where the double cannot tell.
@@ -62,7 +44,7 @@ struct PlaneSide {
     if (value > error) return true;
     if (value < -error) return false;
     ++counts->exact;
-    return plane_is_above_exactly(t, corner + offset);
+    return is_above_plane(t, corner + offset);
   }
 };
 
@@ -93,10 +75,7 @@ Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& cor
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);
-    LatticePoint x = corner;
-    x[u] += (2 * (q >> 2) + 1) * half;
-    x[v] += (2 * (q & 3) + 1) * half;
-    inside |= unsigned(edge_holds_exactly(t, k, x)) << q;
+    inside |= unsigned(column_centre_holds(t, k, corner, fraction, unsigned(q))) << q;
   }
   return expand_columns(w, inside);
 }

@@ -63,7 +63,7 @@ Grid choose_grid(const BuildConfig& config, const Box& box) {
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   Stopwatch total, phase;
   BuildReport report;
-  report.rule = config.rule;
+  report.rule = config.descent.rule;
   MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
   const Scene scene(config.scene, &budget);
 
@@ -80,7 +80,7 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
     fail_input(config.scene.paths.front(), "the scene has no triangles to bake");
   report.seconds.split = phase.lap();
 
-  VoxelizedCells cells = voxelize(tree, config.rule, &budget, executor, progress);
+  VoxelizedCells cells = voxelize(tree, config.descent, &budget, executor, progress);
   report.cells = cells.cells;
   report.voxels = cells.voxels;
   report.decisions = cells.decisions;

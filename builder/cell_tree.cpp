@@ -94,7 +94,7 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list,
     for (const TriangleSetup& t : node->setups) list.push_back({&t, t.edges});
   }
   std::array<EntryList, 8> lists;
-  divide_list(list, cube, grid_.levels, 0xff, &lists);
+  divide_list(list, cube, grid_.levels, {}, &lists);
   for (unsigned c = 0; c < 8; ++c) {
     const Node* child = node != nullptr ? node->children[c].get() : nullptr;
     if (child != nullptr || !lists[c].empty())
@@ -102,7 +102,8 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list,
   }
 }
 
-CellCursor::CellCursor(const CellTree& tree) : tree_(tree), path_(size_t(tree.cell_level() + 1)) {
+CellCursor::CellCursor(const CellTree& tree, const DescentConfig& config)
+    : tree_(tree), config_(config), path_(size_t(tree.cell_level() + 1)) {
   enter(Cube(), tree.root_.get(), {});
 }
 
@@ -122,7 +123,7 @@ const EntryList& CellCursor::list(const Cube& cell) {
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
     Step& step = path_[size_t(level)];
-    if (!step.divided) divide_list(step.list, step.cube, tree_.grid().levels, 0xff, &step.children);
+    if (!step.divided) divide_list(step.list, step.cube, tree_.grid().levels, config_, &step.children);
     step.divided = true;
     const Cube next = ancestor(cell, level + 1);
     const unsigned c = unsigned(morton(next.coordinate) & 7);

@@ -54,7 +54,7 @@ class CellTree {
 // path, so the divided lists along the path are kept from one cell to the next.
 class CellCursor {
  public:
-  explicit CellCursor(const CellTree& tree);
+  CellCursor(const CellTree& tree, const DescentConfig& config);
 
   // The list of `cell`; valid until the next call.
   const EntryList& list(const Cube& cell);
@@ -72,6 +72,7 @@ class CellCursor {
   const EntryList& prepare(const Step& cell);
 
   const CellTree& tree_;
+  DescentConfig config_;
   std::vector<Step> path_;             // [k] is at level k
   int depth_ = 0;                      // path_[0 .. depth_] are valid
   std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself

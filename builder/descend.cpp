@@ -1,31 +1,40 @@
 #include "builder/descend.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace svdag {
 
-void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wanted,
+void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
                  std::array<EntryList, 8>* children) {
+  constexpr size_t kBatch = 64;  // answers of the kernel that stay in the first-level cache
+  std::array<ChildOverlap, kBatch> overlaps;
   const LatticePoint corner = cube.corner(levels);
   const int64_t side = int64_t(1) << cube.side_log2(levels);
   for (EntryList& child : *children) child.clear();
-  for (const Entry& entry : list) {
-    const ChildOverlap overlap = overlap_children(entry, corner, side);
-    for (unsigned left = overlap.touched & wanted; left != 0; left &= left - 1) {
-      const int c = std::countr_zero(left);
-      (*children)[size_t(c)].push_back({entry.triangle, overlap.edges[c]});
+  for (size_t begin = 0; begin < list.size(); begin += kBatch) {
+    const size_t count = std::min(kBatch, list.size() - begin);
+    config.kernels->children(&list[begin], count, corner, side, overlaps.data());
+    for (size_t i = 0; i < count; ++i) {
+      const TriangleSetup* triangle = list[begin + i].triangle;
+      for (unsigned left = overlaps[i].touched; left != 0; left &= left - 1) {
+        const int c = std::countr_zero(left);
+        EdgeMask edges = EdgeMask(overlaps[i].edges[c]);
+        if (config.covering) edges = needed_edges(*triangle, edges);
+        (*children)[size_t(c)].push_back({triangle, edges});
+      }
     }
   }
 }
 
-Descent::Descent(const Grid& grid, Rule rule, NodeTable* table)
-    : grid_(grid), rule_(rule), table_(table), scratch_(size_t(grid.levels)) {}
+Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table)
+    : grid_(grid), config_(config), table_(table), scratch_(size_t(grid.levels)) {}
 
 SubDag Descent::run(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
   if (cube.level == table_->brick_level()) return brick(cube, list);
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
-  divide_list(list, cube, grid_.levels, 0xff, &lists);
+  divide_list(list, cube, grid_.levels, config_, &lists);
   NodeKey key;
   uint64_t voxels = 0;
   for (unsigned c = 0; c < 8; ++c) {
@@ -40,14 +49,10 @@ SubDag Descent::run(const Cube& cube, const EntryList& list) {
 SubDag Descent::brick(const Cube& cube, const EntryList& list) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
-  Brick voxels = 0;
-  for (const Entry& entry : list) {
-    voxels |= rule_ == Rule::kThin
-                  ? overlap_brick_thin(entry, corner, grid_.fraction(), &decisions_)
-                  : overlap_brick(entry, corner, grid_.fraction(), &decisions_);
-    if (voxels == ~Brick(0)) break;  // nothing can be added to a full brick
-  }
-  voxels &= wanted;
+  const auto kernel =
+      config_.rule == Rule::kThin ? config_.kernels->thin : config_.kernels->conservative;
+  const Brick voxels =
+      kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
   if (voxels == 0) return {};
   return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
 }

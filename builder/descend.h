@@ -11,19 +11,26 @@
 
 #include "builder/cell.h"
 #include "builder/node_table.h"
-#include "builder/overlap.h"
+#include "builder/kernels.h"
 #include "io/grid.h"
 
 namespace svdag {
 
-// Divides `list`, the list of `cube`, among the children whose bit is set in `wanted`.
-void divide_list(const EntryList& list, const Cube& cube, int levels, uint8_t wanted,
+// What the descent may use; the result is the same bits with any of it switched off.
+struct DescentConfig {
+  Rule rule = Rule::kConservative;
+  const Kernels* kernels = &svdag::kernels();
+  bool covering = true;  // switch the edges of a triangle off where it covers a cube
+};
+
+// Divides `list`, the list of `cube`, among its children.
+void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
                  std::array<EntryList, 8>* children);
 
 class Descent {
  public:
   // Nodes go to `table`, which must outlive the descent.
-  Descent(const Grid& grid, Rule rule, NodeTable* table);
+  Descent(const Grid& grid, const DescentConfig& config, NodeTable* table);
 
   // The sub-DAG of `cube` (level <= brick level), whose triangles are in `list`.
   SubDag run(const Cube& cube, const EntryList& list);
@@ -36,7 +43,7 @@ class Descent {
   bool outside_selection(const Cube& cube) const;
 
   Grid grid_;
-  Rule rule_;
+  DescentConfig config_;
   DecisionCounts decisions_;
   NodeTable* table_;
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused

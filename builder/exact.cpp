@@ -10,6 +10,19 @@ int orientation(const TriangleSetup& t, int w) noexcept {
   return t.normal[w] < 0 ? -1 : 1;
 }
 
+// Edges below 2^30 have a normal below 2^61.
+constexpr double kSmallExtent = 0x1p30;
+
+template <class Int>
+void round_normal(const LatticeTriangle& t, double normal[3], int sign[3], int* dominant) noexcept {
+  const auto n = exact_formulas::normal<Int>(t);
+  for (int w = 0; w < 3; ++w) {
+    normal[w] = double(n.v[w]);
+    sign[w] = exact_formulas::sign(n.v[w]);
+  }
+  *dominant = exact_formulas::dominant_axis(n);
+}
+
 }  // namespace
 
 int exact_plane_sign(const TriangleSetup& t, const LatticePoint& x) noexcept {
@@ -21,13 +34,11 @@ int exact_edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) noexce
   return orientation(t, k / 3) * raw;
 }
 
-void exact_normal(const LatticeTriangle& t, bool is_wide, double normal[3], int sign[3]) noexcept {
-  if (is_wide) return wide::normal(t, normal, sign);
-  const auto n = exact_formulas::normal<__int128>(t);
-  for (int w = 0; w < 3; ++w) {
-    normal[w] = double(n.v[w]);
-    sign[w] = exact_formulas::sign(n.v[w]);
-  }
+void exact_normal(const LatticeTriangle& t, double extent, bool is_wide, double normal[3],
+                  int sign[3], int* dominant) noexcept {
+  if (is_wide) return wide::normal(t, normal, sign, dominant);
+  if (extent < kSmallExtent) return round_normal<int64_t>(t, normal, sign, dominant);
+  round_normal<__int128>(t, normal, sign, dominant);
 }
 
 }  // namespace svdag

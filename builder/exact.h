@@ -16,14 +16,17 @@ constexpr int64_t kNarrowLimit = int64_t(1) << 41;
 int exact_plane_sign(const TriangleSetup& t, const LatticePoint& x) noexcept;
 // Sign (-1, 0, 1) of edge function k at x.
 int exact_edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) noexcept;
-// The normal's components, rounded once to double; *sign gets their exact signs.
-void exact_normal(const LatticeTriangle& t, bool wide, double normal[3], int sign[3]) noexcept;
+// The normal's components, rounded once to double; `sign` gets their exact signs, *dominant the
+// (first) axis whose component is largest in magnitude, exactly. `extent` is the largest side of
+// the bounding box.
+void exact_normal(const LatticeTriangle& t, double extent, bool wide, double normal[3], int sign[3],
+                  int* dominant) noexcept;
 
 // The 256-bit versions, in a file of their own for their heavy header.
 namespace wide {
 int plane_sign(const TriangleSetup& t, const LatticePoint& x) noexcept;
 int edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) noexcept;
-void normal(const LatticeTriangle& t, double normal[3], int sign[3]) noexcept;
+void normal(const LatticeTriangle& t, double normal[3], int sign[3], int* dominant) noexcept;
 }  // namespace wide
 
 }  // namespace svdag

@@ -33,6 +33,17 @@ int sign(const Int& value) {
   return value > 0 ? 1 : (value < 0 ? -1 : 0);
 }
 
+// The first axis whose component is largest in magnitude.
+template <class Int>
+int dominant_axis(const Vector<Int>& n) {
+  const auto magnitude = [&](int w) { return n.v[w] < 0 ? Int(-n.v[w]) : n.v[w]; };
+  int dominant = 0;
+  for (int w = 1; w < 3; ++w) {
+    if (magnitude(w) > magnitude(dominant)) dominant = w;
+  }
+  return dominant;
+}
+
 template <class Int>
 int plane_sign(const TriangleSetup& t, const LatticePoint& x) {
   const Vector<Int> n = normal<Int>(t.triangle);

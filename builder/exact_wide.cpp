@@ -22,12 +22,13 @@ int edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) noexcept {
   return exact_formulas::edge_sign<Int256>(t, k, x);
 }
 
-void normal(const LatticeTriangle& t, double normal[3], int sign[3]) noexcept {
+void normal(const LatticeTriangle& t, double normal[3], int sign[3], int* dominant) noexcept {
   const auto n = exact_formulas::normal<Int256>(t);
   for (int w = 0; w < 3; ++w) {
     normal[w] = n.v[w].convert_to<double>();
     sign[w] = exact_formulas::sign(n.v[w]);
   }
+  *dominant = exact_formulas::dominant_axis(n);
 }
 
 }  // namespace svdag::wide

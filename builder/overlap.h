@@ -1,4 +1,6 @@
-// Which children of a cube, and which voxels of a brick, a triangle touches.
+// Which children of a cube, and which voxels of a brick, a triangle touches: the plain path.
+//
+// This is the reference that every kernel of builder/kernels.h is held against.
 //
 // Invariant of both: the triangle's bounding box meets the closed cube, and every edge function
 // that is not in `edges` holds everywhere in it. Children are decided on the safe side (an unsure
@@ -11,8 +13,8 @@
 namespace svdag {
 
 struct ChildOverlap {
+  uint64_t edges[8];  // the still undecided edge functions (an EdgeMask) in each touched child
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
-  EdgeMask edges[8];  // the still undecided edge functions in each touched child
 };
 
 // `corner` and `side` of the parent cube in lattice units.

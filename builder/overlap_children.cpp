@@ -88,8 +88,7 @@ ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
     const EdgeVerdict verdict = children_at_edge(t, k, corner, half, error);
     result.touched = uint8_t(result.touched & ~verdict.outside);
     for (unsigned in = verdict.inside; in != 0; in &= in - 1) {
-      EdgeMask& edges = result.edges[std::countr_zero(in)];
-      edges = EdgeMask(edges & ~(1U << k));
+      result.edges[std::countr_zero(in)] &= ~(uint64_t(1) << k);
     }
   }
   return result;

@@ -21,6 +21,10 @@
 // Every value is first computed in double with an error bound; only an unsure sign that decides
 // output is computed exactly (builder/exact.h). Rejected: integers everywhere (1.4x slower),
 // epsilons (wrong).
+//
+// Covering: where the three edge functions of the dominant axis w (largest |n_w|, exactly) hold in
+// a whole cube, the triangle meets the cube's column along w in all of its plane, so inside the
+// cube triangle and plane are the same: all nine edge functions may be switched off.
 #pragma once
 
 #include <cstdint>
@@ -32,20 +36,32 @@ namespace svdag {
 using EdgeMask = uint16_t;
 
 struct TriangleSetup {
-  LatticeTriangle triangle;
-  LatticePoint min, max;  // bounding box
-  double normal[3];       // n, exact in integers and rounded once
-  double edge_u[9];       // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v)
+  double vertex[3][3];  // exact unless wide
+  double normal[3];     // n, exact in integers and rounded once
+  double edge_u[9];     // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v)
   double edge_v[9];
-  double normal_error;  // error of n.(x - v0) is <= normal_error * (extent + 2 * cube side)
-  double edge_error;    // likewise for edge functions
-  double extent;        // largest side of the bounding box
+  double normal_error;    // error of n.(x - v0) is <= normal_error * (extent + 4 * cube side)
+  double edge_error;      // likewise for edge functions
+  double extent;          // largest side of the bounding box
+  LatticePoint min, max;  // bounding box
+  EdgeMask edges;         // edge functions that this triangle has
+  EdgeMask cover;         // those of the dominant axis; 0 for a triangle of zero area
+  uint8_t dominant;       // the axis w of largest |n_w|
+  bool wide;              // some |q| >= 2^41: exact tests need 256-bit integers
   uint8_t from[3], to[3];
-  EdgeMask edges;  // edge functions that this triangle has
-  bool wide;       // some |q| >= 2^41: exact tests need 256-bit integers
+  LatticeTriangle triangle;
 };
 
 // |q| < 2^62 on every axis (the snap has checked it).
 TriangleSetup make_setup(const LatticeTriangle& triangle) noexcept;
+
+// The edge functions still needed where only those of `edges` are undecided.
+inline EdgeMask needed_edges(const TriangleSetup& t, EdgeMask edges) noexcept {
+  return t.cover != 0 && (edges & t.cover) == 0 ? EdgeMask(0) : edges;
+}
+// Whether the triangle covers a cube in which only `edges` are undecided.
+inline bool covers(const TriangleSetup& t, EdgeMask edges) noexcept {
+  return t.cover != 0 && edges == 0;
+}
 
 }  // namespace svdag

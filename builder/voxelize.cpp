@@ -6,15 +6,15 @@ namespace svdag {
 namespace {
 
 struct Worker {
-  Worker(const CellTree& tree, Rule rule, NodeTable* table)
-      : cursor(tree), descent(tree.grid(), rule, table) {}
+  Worker(const CellTree& tree, const DescentConfig& config, NodeTable* table)
+      : cursor(tree, config), descent(tree.grid(), config, table) {}
   CellCursor cursor;
   Descent descent;
 };
 
 }  // namespace
 
-VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, Executor* executor,
+VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget, Executor* executor,
                         Progress* progress) {
   const std::vector<Cube> cells = tree.occupied_cells();
   progress->phase("voxelize", cells.size());
@@ -26,7 +26,7 @@ VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, E
   std::vector<SubDag> subdags(cells.size());
   std::vector<uint32_t> baked_by(cells.size());
   executor->for_each(cells.size(), [&](size_t w, size_t i) {
-    if (!workers[w]) workers[w].emplace(tree, rule, result.tables[w].get());
+    if (!workers[w]) workers[w].emplace(tree, config, result.tables[w].get());
     subdags[i] = workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
     baked_by[i] = uint32_t(w);
     progress->advance();

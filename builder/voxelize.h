@@ -23,7 +23,7 @@ struct VoxelizedCells {
   DecisionCounts decisions;
 };
 
-VoxelizedCells voxelize(const CellTree& tree, Rule rule, MemoryBudget* budget, Executor* executor,
+VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget, Executor* executor,
                         Progress* progress);
 
 // Third phase: sorts the tables into runs and makes `rank` of the roots what its name says.

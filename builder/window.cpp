@@ -14,7 +14,7 @@ void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSi
 
 }  // namespace
 
-uint64_t voxelize_window(const Grid& grid, Rule rule, const Cube& window,
+uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink) {
   MemoryBudget budget;
   NodeTable table(grid.levels, &budget);
@@ -28,7 +28,7 @@ uint64_t voxelize_window(const Grid& grid, Rule rule, const Cube& window,
     if (boxes_meet(setups.back(), corner, side))
       list.push_back({&setups.back(), setups.back().edges});
   }
-  const SubDag result = Descent(grid, rule, &table).run(window, list);
+  const SubDag result = Descent(grid, config, &table).run(window, list);
   emit(table, window, result.root, sink);
   return result.voxels;
 }

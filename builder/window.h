@@ -14,9 +14,9 @@ namespace svdag {
 // A brick at `coordinate`, in units of bricks from the grid's corner.
 using BrickSink = std::function<void(const LatticePoint& coordinate, Brick brick)>;
 
-// All bricks with a voxel in `window` that `triangles` set under `rule`, in Morton order; returns
+// All bricks with a voxel in `window` that `triangles` set, in Morton order; returns
 // the number of voxels. `grid.levels` bounds the window's level at grid.levels - 2.
-uint64_t voxelize_window(const Grid& grid, Rule rule, const Cube& window,
+uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink);
 
 }  // namespace svdag

@@ -68,7 +68,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
                                                      {"thin", Rule::kThin}};
   app->add_option(
-         "--rule", build->rule,
+         "--rule", build->descent.rule,
          "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
          "about 1.8 times fewer voxels")
       ->transform(CLI::CheckedTransformer(kRules).description(""))

@@ -37,16 +37,13 @@ class BuilderDescent {
     if (list.empty()) return;
     if (cube.level < grid_.levels - 2) {
       auto& lists = lists_[size_t(cube.level)];
-      divide_list(list, cube, grid_.levels, 0xff, &lists);
+      divide_list(list, cube, grid_.levels, {}, &lists);
       for (unsigned c = 0; c < 8; ++c) descend(cube.child(c), lists[c], out);
       return;
     }
-    const LatticePoint corner = cube.corner(grid_.levels);
-    Brick voxels = 0;
-    for (const Entry& entry : list) {
-      voxels |= overlap_brick(entry, corner, grid_.fraction(), &counts_);
-      if (voxels == ~Brick(0)) break;
-    }
+    const Brick voxels =
+        kernels().conservative(list.data(), list.size(), cube.corner(grid_.levels),
+                               grid_.fraction(), ~Brick(0), &counts_);
     if (voxels != 0) out->push_back({morton(cube.coordinate), voxels});
   }
 
@@ -117,7 +114,7 @@ std::vector<Method> make_methods(const Grid& grid) {
                        BuilderDescent(grid).run(work.cube, work.snapped, out);
                      }});
   methods.push_back({"svdag + reduction", false, [=](const CellWork& work, Input, BrickList* out) {
-                       voxelize_window(grid, Rule::kConservative, work.cube, work.snapped,
+                       voxelize_window(grid, {}, work.cube, work.snapped,
                                        [&](const LatticePoint& at, Brick brick) {
                                          out->push_back({morton(at), brick});
                                        });

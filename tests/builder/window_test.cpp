@@ -32,7 +32,7 @@ LatticePoint lattice_point(double x, double y, double z) {
 uint64_t count_voxels(const std::vector<LatticeTriangle>& triangles, int levels = 6) {
   uint64_t voxels = 0;
   const uint64_t total =
-      voxelize_window(test_grid(levels), Rule::kConservative, Cube(), triangles,
+      voxelize_window(test_grid(levels), {}, Cube(), triangles,
                       [&](const LatticePoint&, Brick b) { voxels += uint64_t(std::popcount(b)); });
   EXPECT_EQ(total, voxels);
   return voxels;
@@ -104,7 +104,7 @@ TEST(Window, TheSelectionClearsEverythingElse) {
   grid.bounded = true;
   grid.selection = {LatticePoint(9, 10, 11), LatticePoint(23, 22, 21)};
   uint64_t outside = 0, inside = 0;
-  voxelize_window(grid, Rule::kConservative, Cube(),
+  voxelize_window(grid, {}, Cube(),
                   box(lattice_point(5.5, 5.5, 5.5), lattice_point(12, 13, 14)),
                   [&](const LatticePoint& at, Brick b) {
                     for (unsigned i = 0; i < 64; ++i) {
@@ -146,7 +146,7 @@ Voxels by_judge(const Grid& grid, const Cube& window,
 size_t expect_same(const Grid& grid, const Cube& window,
                    const std::vector<LatticeTriangle>& triangles, const char* family) {
   Voxels ours;
-  voxelize_window(grid, Rule::kConservative, window, triangles,
+  voxelize_window(grid, {}, window, triangles,
                   [&](const LatticePoint& at, Brick b) {
                     ours[{at.x, at.y, at.z}] = b;
                   });

@@ -14,7 +14,7 @@ constexpr int kGrids[4] = {10, 13, 16, 20};
 uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
   uint64_t voxels = 0;
   const uint64_t total =
-      voxelize_window(spot.grid, rule, spot.start, soup,
+      voxelize_window(spot.grid, {.rule = rule}, spot.start, soup,
                       [&](const LatticePoint&, Brick b) { voxels += uint64_t(std::popcount(b)); });
   EXPECT_EQ(total, voxels);
   return voxels;

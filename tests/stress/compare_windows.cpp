@@ -39,7 +39,7 @@ VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriang
   }
   VoxelRegion region(spot.region);
   uint64_t elsewhere = 0;
-  voxelize_window(grid, rule, spot.start, triangles,
+  voxelize_window(grid, {.rule = rule}, spot.start, triangles,
                   [&](const LatticePoint& at, Brick b) { elsewhere += region.set_brick(at, b); });
   if (outside != nullptr && !whole) *outside += elsewhere;
   return region;

@@ -69,7 +69,7 @@ Grid bake(const std::string& scene, const std::string& output, Rule rule, const 
   config.scene.paths = {scene};
   config.output = output;
   config.voxel_size = kVoxel;
-  config.rule = rule;
+  config.descent.rule = rule;
   config.cell_level = place.cell_level;
   ParallelExecutor executor(place.threads);
   Progress progress;
