@@ -28,22 +28,48 @@ void divide_list(const EntryList& list, const Cube& cube, int levels, const Desc
 }
 
 Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table)
-    : grid_(grid), config_(config), table_(table), scratch_(size_t(grid.levels)) {}
+    : grid_(grid),
+      config_(config),
+      table_(table),
+      memo_(grid.levels, config.rule, table),
+      scratch_(size_t(grid.levels)) {}
 
 SubDag Descent::run(const Cube& cube, const EntryList& list) {
+  planes_.fill({});  // other triangles may stand at the same addresses now
+  return node(cube, list);
+}
+
+SubDag Descent::node(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
   if (cube.level == table_->brick_level()) return brick(cube, list);
+  if (config_.plane_memo && list.size() == 1 && covers(*list[0].triangle, list[0].edges)) {
+    if (const auto known = find_in_memo(cube, *list[0].triangle)) return *known;
+  }
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_, &lists);
   NodeKey key;
   uint64_t voxels = 0;
   for (unsigned c = 0; c < 8; ++c) {
-    const SubDag child = run(cube.child(c), lists[c]);
+    const SubDag child = node(cube.child(c), lists[c]);
     key[c] = child.root;
     voxels += child.voxels;
   }
   if (voxels == 0) return {};
   return {table_->add_node(cube.level, key), voxels};
+}
+
+std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleSetup& triangle) {
+  if (grid_.bounded && !inside_selection(cube)) return std::nullopt;
+  const std::optional<LatticePlane>& plane = plane_of(triangle);
+  if (!plane || cube.level < memo_.first_level(*plane)) return std::nullopt;
+  return memo_.find(triangle, *plane, cube);
+}
+
+const std::optional<LatticePlane>& Descent::plane_of(const TriangleSetup& triangle) {
+  const size_t slot = reinterpret_cast<uintptr_t>(&triangle) / sizeof triangle % planes_.size();
+  KnownPlane& known = planes_[slot];
+  if (known.triangle != &triangle) known = {&triangle, lattice_plane(triangle)};
+  return known.plane;
 }
 
 SubDag Descent::brick(const Cube& cube, const EntryList& list) {
@@ -65,6 +91,16 @@ bool Descent::outside_selection(const Cube& cube) const {
       return true;
   }
   return false;
+}
+
+bool Descent::inside_selection(const Cube& cube) const {
+  const int shift = grid_.levels - cube.level;
+  for (int a = 0; a < 3; ++a) {
+    const int64_t low = cube.coordinate[a] << shift;
+    if (low < grid_.selection.min[a] || low + (int64_t(1) << shift) > grid_.selection.max[a])
+      return false;
+  }
+  return true;
 }
 
 Brick Descent::selected_voxels(const Cube& cube) const {

@@ -41,4 +41,9 @@ void exact_normal(const LatticeTriangle& t, double extent, bool is_wide, double 
   round_normal<__int128>(t, normal, sign, dominant);
 }
 
+void narrow_normal(const LatticeTriangle& t, __int128 n[3]) noexcept {
+  const auto exact = exact_formulas::normal<__int128>(t);
+  for (int w = 0; w < 3; ++w) n[w] = exact.v[w];
+}
+
 }  // namespace svdag

@@ -21,6 +21,8 @@ int exact_edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) noexce
 // the bounding box.
 void exact_normal(const LatticeTriangle& t, double extent, bool wide, double normal[3], int sign[3],
                   int* dominant) noexcept;
+// The normal of a triangle that is not wide.
+void narrow_normal(const LatticeTriangle& t, __int128 n[3]) noexcept;
 
 // The 256-bit versions, in a file of their own for their heavy header.
 namespace wide {

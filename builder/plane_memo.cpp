@@ -1,0 +1,229 @@
+#include "builder/plane_memo.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "builder/brick_tables.h"
+
+namespace svdag {
+namespace {
+
+constexpr int64_t kFar = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
+constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offsets fit 63 bits
+constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
+constexpr size_t kPlanes = size_t(1) << 20;
+constexpr int64_t kSpan = 8;  // an entry stands in at most so many buckets
+
+uint64_t mix(uint64_t a, uint64_t b) noexcept {
+  const unsigned __int128 product =
+      static_cast<unsigned __int128>(a ^ 0xa0761d6478bd642f) * (b ^ 0xe7037ed1a0b428db);
+  return uint64_t(product) ^ uint64_t(product >> 64);
+}
+
+uint32_t tag_of(uint32_t key, int64_t bucket) noexcept {
+  const uint64_t hash = mix(key, uint64_t(bucket) * 0x9e3779b97f4a7c15);
+  return uint32_t(hash >> 32) ^ uint32_t(hash);
+}
+
+}  // namespace
+
+PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
+  asked += other.asked;
+  answered += other.answered;
+  hits += other.hits;
+  computed += other.computed;
+  return *this;
+}
+
+PlaneMemo::PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit)
+    : levels_(levels), rule_(rule), table_(table), limit_(limit) {
+  entries_.resize(1024);
+  mask_ = uint32_t(entries_.size() / kWays - 1);
+  slots_.resize(1024);
+}
+
+int PlaneMemo::first_level(const LatticePlane& plane) const {
+  if (!plane.exact) return levels_ - kLargestRounded;
+  return levels_ - (kLargestExact - fraction_bits(levels_));
+}
+
+uint32_t PlaneMemo::number(const LatticePlane& p) {
+  const auto hash = [](const int64_t n[3]) {
+    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2]));
+  };
+  size_t slot = hash(p.n) & (slots_.size() - 1);
+  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
+    const Plane& other = planes_[slots_[slot] - 1];
+    if (std::equal(p.n, p.n + 3, other.n)) return slots_[slot] - 1;
+  }
+  if (planes_.size() == kPlanes) {  // start over: numbers, and so all entries, lose their meaning
+    planes_.clear();
+    std::fill(slots_.begin(), slots_.end(), 0);
+    std::fill(entries_.begin(), entries_.end(), Entry{});
+    return number(p);
+  }
+  if (2 * (planes_.size() + 1) > slots_.size()) {
+    slots_.assign(2 * slots_.size(), 0);
+    for (size_t i = 0; i < planes_.size(); ++i) {
+      size_t s = hash(planes_[i].n) & (slots_.size() - 1);
+      while (slots_[s] != 0) s = (s + 1) & (slots_.size() - 1);
+      slots_[s] = uint32_t(i + 1);
+    }
+    return number(p);
+  }
+  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, {}, {}};
+  for (const int64_t n : p.n) (n < 0 ? plane.negative : plane.positive) += n;
+  const double sum = double(plane.positive - plane.negative);
+  for (int level = 0; level <= levels_ - 2; ++level) {
+    const double side = std::ldexp(1.0, levels_ - level);  // in voxels
+    const double contents = std::min(2 * (side + 1) * (side + 1) * (side + 1), 2 * sum * side + 1);
+    const double length = sum * std::ldexp(side, fraction_bits(levels_)) / contents;
+    plane.contents[size_t(level)] = contents;
+    plane.bucket_log2[size_t(level)] = int8_t(std::clamp(std::ilogb(length), 0, 61));
+  }
+  planes_.push_back(plane);
+  slots_[slot] = uint32_t(planes_.size());
+  return uint32_t(planes_.size() - 1);
+}
+
+std::optional<SubDag> PlaneMemo::find(const TriangleSetup& t, const LatticePlane& plane,
+                                      const Cube& cube) {
+  ++counts_.asked;
+  const int64_t side = int64_t(1) << cube.side_log2(levels_);
+  const auto range = offsets_in_column(plane, cube.corner(levels_), side);
+  if (!range) return std::nullopt;
+  const uint32_t n = number(plane);
+  const double width = std::ldexp(t.extent, -fraction_bits(levels_));  // of the triangle, in voxels
+  stored_from_ = levels_ - 4;
+  while (stored_from_ > 0) {
+    const double cubes = width * std::ldexp(1.0, stored_from_ - 1 - levels_);
+    if (planes_[n].contents[size_t(stored_from_ - 1)] > 4 * cubes * cubes) break;
+    --stored_from_;
+  }
+  Answer answer;
+  if (!node(n, cube.level, *range, &answer)) return std::nullopt;
+  ++counts_.answered;
+  return SubDag{answer.node, answer.voxels};
+}
+
+bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+  const Plane& plane = planes_[number];
+  const int side_log2 = levels_ - level + fraction_bits(levels_);
+  const int64_t low = plane.negative << side_log2, high = plane.positive << side_log2;
+  if (range.high < low || range.low > high) {  // the plane passes the cube
+    *out = range.high < low ? Answer{-kFar, low - 1, 0, 0} : Answer{high + 1, kFar, 0, 0};
+    return true;
+  }
+  if (level < stored_from_) return compute(number, level, range, out);
+  const uint32_t key = (number << 5 | uint32_t(level)) + 1;
+  const int log2 = plane.bucket_log2[size_t(level)];
+  const uint32_t tag = tag_of(key, range.low >> log2);
+  const Entry* set = set_of(tag);
+  for (size_t way = 0; way < kWays; ++way) {
+    const Entry& e = set[way];
+    if (e.key == key && e.low <= range.low && range.high <= e.high) {
+      ++counts_.hits;
+      *out = {e.low, e.high, e.node, e.voxels};
+      return true;
+    }
+  }
+  if (!compute(number, level, range, out)) return false;
+  store(key, *out, log2, range.low >> log2);
+  return true;
+}
+
+bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+  if (level == levels_ - 2) return compute_brick(planes_[number], range, out);
+  const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
+  const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
+                           planes_[number].n[2] << half_log2};
+  NodeKey key;
+  *out = {-kFar, kFar, 0, 0};
+  for (unsigned c = 0; c < 8; ++c) {
+    const int64_t shift = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
+    Answer child;
+    if (!node(number, level + 1, {range.low - shift, range.high - shift}, &child)) return false;
+    key[c] = child.node;
+    out->voxels += child.voxels;
+    out->low = std::max(out->low, child.low == -kFar ? -kFar : child.low + shift);
+    out->high = std::min(out->high, child.high == kFar ? kFar : child.high + shift);
+  }
+  if (out->voxels == 0) return true;
+  ++counts_.computed;
+  out->node = table_->add_node(level, key);
+  return true;
+}
+
+bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answer* out) {
+  const int fraction = fraction_bits(levels_);
+  // The offsets that set the voxel at the corner.
+  int64_t first = plane.negative << fraction, last = plane.positive << fraction;
+  if (rule_ == Rule::kThin) {
+    const int64_t dominant = std::max({std::abs(plane.n[0]), std::abs(plane.n[1]),
+                                       std::abs(plane.n[2])});
+    const int64_t centre = (plane.negative + plane.positive) << (fraction - 1);
+    first = centre - (dominant << (fraction - 1)) + 1;
+    last = centre + (dominant << (fraction - 1));
+  }
+  *out = {-kFar, kFar, 0, 0};
+  Brick voxels = 0;
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    const uint8_t* at = kBrickTables.coordinate[bit];
+    const int64_t shift =
+        (at[0] * plane.n[0] + at[1] * plane.n[1] + at[2] * plane.n[2]) << fraction;
+    const int64_t l = first + shift, h = last + shift;
+    if (range.high < l) {
+      out->high = std::min(out->high, l - 1);
+    } else if (range.low > h) {
+      out->low = std::max(out->low, h + 1);
+    } else if (l <= range.low && range.high <= h) {
+      out->low = std::max(out->low, l);
+      out->high = std::min(out->high, h);
+      voxels |= Brick(1) << bit;
+    } else {
+      return false;  // somewhere in the range the voxel is set, somewhere it is not
+    }
+  }
+  out->voxels = uint32_t(std::popcount(voxels));
+  if (voxels == 0) return true;
+  ++counts_.computed;
+  out->node = table_->add_brick(voxels);
+  return true;
+}
+
+// Enters the answer into every bucket that its interval meets, near the one that was asked.
+void PlaneMemo::store(uint32_t key, const Answer& answer, int bucket_log2, int64_t asked) {
+  const int64_t first = std::max(answer.low >> bucket_log2, asked - kSpan / 2);
+  const int64_t last = std::min(answer.high >> bucket_log2, asked + kSpan / 2 - 1);
+  for (int64_t bucket = first; bucket <= last; ++bucket) put(key, tag_of(key, bucket), answer);
+}
+
+void PlaneMemo::put(uint32_t key, uint32_t tag, const Answer& answer) {
+  if (2 * used_ > entries_.size() && entries_.size() < limit_) grow();
+  Entry* set = set_of(tag);
+  size_t way = 0;
+  while (way < kWays && set[way].key != 0) ++way;
+  if (way == kWays) {
+    way = tag >> 30;  // full: some other way each time
+  } else {
+    ++used_;
+  }
+  set[way] = {answer.low, answer.high, key, tag, answer.node, answer.voxels};
+}
+
+void PlaneMemo::grow() {
+  std::vector<Entry> old(2 * entries_.size());
+  old.swap(entries_);
+  mask_ = uint32_t(entries_.size() / kWays - 1);
+  for (const Entry& e : old) {
+    if (e.key == 0) continue;
+    Entry* set = set_of(e.tag);
+    size_t way = 0;
+    while (way < kWays - 1 && set[way].key != 0) ++way;
+    set[way] = e;
+  }
+}
+
+}  // namespace svdag

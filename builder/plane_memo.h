@@ -1,0 +1,102 @@
+// Plane memo: what a plane leaves in a cube is computed once per content, not once per cube.
+//
+// Where one triangle covers a cube, the cube's voxels depend on the plane alone: on its normal n_q
+// and on the offset o of the plane from the cube's corner (builder/lattice_plane.h). They stay the
+// same while o lies between neighbouring lattice values, so every node computed carries the closed
+// integer interval [low, high] of offsets with the same content:
+//   a voxel with n_q . x in [l, h] on its closed cube is set iff l <= o <= h, so a hit leaves
+//   [l, h], a miss (-inf, l-1] or [h+1, inf);
+//   rule thin: set iff o in (m - d, m + d], m at the voxel's centre, 2d = |n_q,w| * side: the
+//   dominant centre segment, which any other crossing implies;
+//   a node leaves the intersection of its children's intervals, each shifted by n_q . corner.
+// A query is a range of offsets that holds g = n_q . x over the triangle in the cube's column; an
+// entry serves iff its interval holds the range. A range that straddles a lattice value is served
+// by nobody: the caller descends. Why a range is exact although g varies: the triangle is a graph
+// over the column; if it missed a voxel with l <= g <= h throughout, it would pass above (or below)
+// the voxel's corner of largest (smallest) n_q . x, where g is beyond h (l).
+//
+// A plane P voxels wide meets (P/s)^2 cubes of side s but has at most 2(s+1)^3 contents there (an
+// axis-aligned one 2s+1), so entries are kept for sizes that repeat: s <= 16, larger where P is large.
+// Rejected: half-open intervals in double (wrong on ties); a memo of child masks (no reuse
+// between parallel planes).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "builder/cell.h"
+#include "builder/lattice_plane.h"
+#include "builder/node_table.h"
+#include "io/dag/format.h"
+
+namespace svdag {
+
+struct PlaneMemoCounts {
+  uint64_t asked = 0;     // cubes that one triangle covers, put to the memo
+  uint64_t answered = 0;  // of these: without descending
+  uint64_t hits = 0;      // nodes found, inner ones of an answer included
+  uint64_t computed = 0;  // nodes computed
+
+  PlaneMemoCounts& operator+=(const PlaneMemoCounts& other);
+};
+
+class PlaneMemo {
+ public:
+  // At most `limit` entries of 32 bytes.
+  PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit = size_t(1) << 20);
+
+  // The sub-DAG of a cube (level <= brick level) that the triangle covers; none if the memo can't
+  // tell. The plane must be the triangle's.
+  std::optional<SubDag> find(const TriangleSetup& t, const LatticePlane& plane, const Cube& cube);
+  // The largest cubes worth asking for: level >= this.
+  int first_level(const LatticePlane& plane) const;
+
+  const PlaneMemoCounts& counts() const { return counts_; }
+
+ private:
+  // Ways of a set share a cache line pair; `tag` is a hash of key and bucket.
+  struct Entry {
+    int64_t low, high;
+    uint32_t key;  // plane number * 32 + level; 0: free
+    uint32_t tag;
+    uint32_t node;
+    uint32_t voxels;
+  };
+  struct Answer {
+    int64_t low, high;
+    uint32_t node;
+    uint32_t voxels;
+  };
+  struct Plane {
+    int64_t n[3];
+    int64_t negative, positive;             // sums of the components of either sign
+    std::array<int8_t, 24> bucket_log2;     // [level]: about the length of an interval
+    std::array<double, 24> contents;        // [level]: at most so many different ones
+  };
+  static constexpr size_t kWays = 4;
+
+  uint32_t number(const LatticePlane& plane);
+  bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
+  Entry* set_of(uint32_t tag) { return &entries_[(tag & mask_) * kWays]; }
+  void store(uint32_t key, const Answer& answer, int bucket_log2, int64_t asked);
+  void put(uint32_t key, uint32_t tag, const Answer& answer);
+  void grow();
+
+  int levels_;
+  Rule rule_;
+  NodeTable* table_;
+  size_t limit_;
+  int stored_from_ = 0;  // level from which the current query keeps what it computes
+  uint64_t used_ = 0;
+  uint32_t mask_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<Plane> planes_;
+  std::vector<uint32_t> slots_;  // open addressing by normal: 1 + plane number
+  PlaneMemoCounts counts_;
+};
+
+}  // namespace svdag
