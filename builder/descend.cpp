@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace svdag {
+namespace {
+
+constexpr int kFlushLog2 = 6;  // cubes of 64^3 voxels look whether a flush is due
+
+}  // namespace
 
 void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
                  std::array<EntryList, 8>* children) {
@@ -32,11 +38,34 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
       config_(config),
       table_(table),
       memo_(grid.levels, config.rule, table),
-      scratch_(size_t(grid.levels)) {}
+      scratch_(size_t(grid.levels)),
+      path_(size_t(grid.levels)) {}
 
-SubDag Descent::run(const Cube& cube, const EntryList& list) {
-  planes_.fill({});  // other triangles may stand at the same addresses now
-  return node(cube, list);
+void Descent::run(const Cube& cube, const EntryList& list) {
+  admitted_.fill({});  // other triangles may stand at the same addresses now
+  memo_.forget();
+  cell_side_ = std::ldexp(1.0, grid_.levels - cube.level);
+  const SubDag dag = node(cube, list);
+  if (dag.root != 0) roots_.push_back({cube, dag});
+  if (table_->full()) flush(0);
+}
+
+void Descent::finish() {
+  flush(0);
+}
+
+// Between two children of cubes above `level`: their handles, the memo's and the roots' are all
+// that is held.
+void Descent::flush(int level) {
+  table_->flush();
+  for (int k = 0; k < level; ++k) {
+    for (uint32_t& child : path_[size_t(k)]) child = table_->settled(k + 1, child);
+  }
+  memo_.settle();
+  for (; settled_roots_ < roots_.size(); ++settled_roots_) {
+    Root& root = roots_[settled_roots_];
+    root.dag.root = table_->settled(root.cube.level, root.dag.root);
+  }
 }
 
 SubDag Descent::node(const Cube& cube, const EntryList& list) {
@@ -45,9 +74,11 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
   if (config_.plane_memo && list.size() == 1 && covers(*list[0].triangle, list[0].edges)) {
     if (const auto known = find_in_memo(cube, *list[0].triangle)) return *known;
   }
+  if (cube.level == grid_.levels - kFlushLog2 && table_->full()) flush(cube.level);
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_, &lists);
-  NodeKey key;
+  NodeKey& key = path_[size_t(cube.level)];
+  key.fill(0);
   uint64_t voxels = 0;
   for (unsigned c = 0; c < 8; ++c) {
     const SubDag child = node(cube.child(c), lists[c]);
@@ -60,16 +91,17 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
 
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleSetup& triangle) {
   if (grid_.bounded && !inside_selection(cube)) return std::nullopt;
-  const std::optional<LatticePlane>& plane = plane_of(triangle);
-  if (!plane || cube.level < memo_.first_level(*plane)) return std::nullopt;
-  return memo_.find(triangle, *plane, cube);
+  const std::optional<PlaneMemo::Known>& known = admitted(triangle);
+  if (!known || cube.level < known->asked_from) return std::nullopt;
+  return memo_.find(*known, cube);
 }
 
-const std::optional<LatticePlane>& Descent::plane_of(const TriangleSetup& triangle) {
-  const size_t slot = reinterpret_cast<uintptr_t>(&triangle) / sizeof triangle % planes_.size();
-  KnownPlane& known = planes_[slot];
-  if (known.triangle != &triangle) known = {&triangle, lattice_plane(triangle)};
-  return known.plane;
+const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& triangle) {
+  const size_t slot =
+      reinterpret_cast<uintptr_t>(&triangle) / sizeof triangle % admitted_.size();
+  if (admitted_[slot].triangle != &triangle)
+    admitted_[slot] = {&triangle, memo_.admit(triangle, cell_side_)};
+  return admitted_[slot].known;
 }
 
 SubDag Descent::brick(const Cube& cube, const EntryList& list) {

@@ -36,22 +36,32 @@ class Descent {
   // Nodes go to `table`, which must outlive the descent.
   Descent(const Grid& grid, const DescentConfig& config, NodeTable* table);
 
-  // The sub-DAG of `cube` (level <= brick level), whose triangles are in `list`.
-  SubDag run(const Cube& cube, const EntryList& list);
+  // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there, its
+  // sub-DAG joins roots(). Cubes must be disjoint.
+  void run(const Cube& cube, const EntryList& list);
+  // Settles all handles; nothing may run after this.
+  void finish();
+
+  // The cubes that are not empty; after finish(), root - 1 is a number.
+  struct Root {
+    Cube cube;
+    SubDag dag;
+  };
+  const std::vector<Root>& roots() const { return roots_; }
 
   const DecisionCounts& decisions() const { return decisions_; }
   const PlaneMemoCounts& memo() const { return memo_.counts(); }
 
  private:
-  // The plane of a triangle met in this cell, made when it is first asked for.
-  struct KnownPlane {
+  // What the memo said of a triangle in this cell, when it was first asked.
+  struct Admitted {
     const TriangleSetup* triangle = nullptr;
-    std::optional<LatticePlane> plane;
+    std::optional<PlaneMemo::Known> known;
   };
 
   SubDag node(const Cube& cube, const EntryList& list);
   std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleSetup& triangle);
-  const std::optional<LatticePlane>& plane_of(const TriangleSetup& triangle);
+  const std::optional<PlaneMemo::Known>& admitted(const TriangleSetup& triangle);
   SubDag brick(const Cube& cube, const EntryList& list);
   Brick selected_voxels(const Cube& cube) const;
   bool outside_selection(const Cube& cube) const;
@@ -62,8 +72,14 @@ class Descent {
   DecisionCounts decisions_;
   NodeTable* table_;
   PlaneMemo memo_;
-  std::array<KnownPlane, 64> planes_;  // direct-mapped by address
+  std::array<Admitted, 64> admitted_;  // direct-mapped by address
+  double cell_side_ = 0;               // of the cell being baked, in voxels
+  void flush(int level);
+
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
+  std::vector<NodeKey> path_;  // [level]: children (1 + handle) of the cube being divided there
+  std::vector<Root> roots_;
+  size_t settled_roots_ = 0;  // roots_ before this one hold numbers
 };
 
 }  // namespace svdag

@@ -1,7 +1,10 @@
-// The unique bricks and nodes that one worker has met, level by level, under provisional numbers.
+// The unique bricks and nodes that one worker has met, level by level.
 //
-// A table persists across the worker's cells. When it is frozen (builder/run.h) the numbers become
-// ranks in content order, so nothing of the arrival order reaches the output.
+// Handles (builder/unique_set.h) are pending until the table is flushed: bricks first, then each
+// level upwards, whose keys get their children's numbers before they are numbered themselves.
+// Whoever holds handles passes them through settled() after a flush. A table persists across the
+// worker's cells; when it is frozen (builder/run.h) the numbers become ranks in content order, so
+// nothing of the arrival order reaches the output.
 #pragma once
 
 #include <array>
@@ -14,7 +17,7 @@
 
 namespace svdag {
 
-// A sub-DAG's root: a brick or node of the table, by 1 + its number; 0 where nothing is set.
+// A sub-DAG's root: a brick or node of the table, by 1 + its handle; 0 where nothing is set.
 struct SubDag {
   uint32_t root = 0;
   uint64_t voxels = 0;
@@ -22,24 +25,42 @@ struct SubDag {
 
 class NodeTable {
  public:
-  NodeTable(int levels, MemoryBudget* budget) : levels_(levels), bricks_(budget) {
+  NodeTable(int levels, MemoryBudget* budget)
+      : levels_(levels), bricks_(budget), numbers_(size_t(levels - 1)) {
     for (int k = 0; k < levels - 2; ++k) nodes_.emplace_back(budget);
   }
 
   int levels() const { return levels_; }
   int brick_level() const { return levels_ - 2; }
 
-  // 1 + the number of a brick that is not zero.
-  uint32_t add_brick(Brick brick) { return 1 + bricks_.insert(brick); }
-  // 1 + the number of the node of `level` < brick_level() with these children.
+  // 1 + the handle of a brick that is not zero.
+  uint32_t add_brick(Brick brick) {
+    ++pending_;
+    return 1 + bricks_.add(brick);
+  }
+  // 1 + the handle of the node of `level` < brick_level() with these children (1 + handle each).
   uint32_t add_node(int level, const NodeKey& children) {
-    return 1 + nodes_[size_t(level)].insert(children);
+    ++pending_;
+    return 1 + nodes_[size_t(level)].add(children);
   }
 
-  std::span<const Brick> bricks() const { return bricks_.keys(); }
-  std::span<const NodeKey> nodes(int level) const { return nodes_[size_t(level)].keys(); }
-  std::vector<Brick> take_bricks() { return bricks_.take(); }
-  std::vector<NodeKey> take_nodes(int level) { return nodes_[size_t(level)].take(); }
+  // Whether enough is pending for a flush to repay.
+  bool full() const { return pending_ >= kBatch; }
+  void flush();
+  // What became of 1 + handle at the last flush.
+  uint32_t settled(int level, uint32_t root) const {
+    return root > kPending ? 1 + numbers_[size_t(level)][root - 1 - kPending] : root;
+  }
+
+  // Everything is settled below.
+  size_t size(int level) const {
+    return level == brick_level() ? bricks_.size() : nodes_[size_t(level)].size();
+  }
+  Brick brick(uint32_t number) const { return bricks_[number]; }
+  const NodeKey& node(int level, uint32_t number) const { return nodes_[size_t(level)][number]; }
+  void clear(int level) {
+    level == brick_level() ? bricks_.clear() : nodes_[size_t(level)].clear();
+  }
 
  private:
   // Multiply-and-fold hashes (after wyhash): the table compares whole keys, so quality only costs
@@ -60,9 +81,13 @@ class NodeTable {
     }
   };
 
+  static constexpr size_t kBatch = size_t(1) << 18;
+
   int levels_;
+  size_t pending_ = 0;  // keys added since the last flush, repetitions included
   UniqueSet<Brick, BrickHash> bricks_;
   std::vector<UniqueSet<NodeKey, NodeHash>> nodes_;
+  std::vector<std::vector<uint32_t>> numbers_;  // [level]: by pending position, of the last flush
 };
 
 }  // namespace svdag

@@ -26,6 +26,12 @@ ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
 struct DecisionCounts {
   uint64_t asked = 0;
   uint64_t exact = 0;
+
+  DecisionCounts& operator+=(const DecisionCounts& other) {
+    asked += other.asked;
+    exact += other.exact;
+    return *this;
+  }
 };
 
 // The voxels of the brick with minimum corner `corner` that the triangle touches; voxels have side

@@ -13,7 +13,8 @@ namespace {
 constexpr int64_t kFar = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
-constexpr size_t kPlanes = size_t(1) << 20;
+constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube that may be asked for
+constexpr size_t kPlanes = size_t(1) << 18;
 constexpr int64_t kSpan = 8;  // an entry stands in at most so many buckets
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
@@ -44,36 +45,57 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit)
   slots_.resize(1024);
 }
 
-int PlaneMemo::first_level(const LatticePlane& plane) const {
-  if (!plane.exact) return levels_ - kLargestRounded;
-  return levels_ - (kLargestExact - fraction_bits(levels_));
+std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
+  const double width = std::min(std::ldexp(t.extent, -fraction_bits(levels_)), side);
+  if (width < kNarrowest) return std::nullopt;
+  const std::optional<LatticePlane> plane = lattice_plane(t);
+  if (!plane) return std::nullopt;
+  const uint32_t n = number(*plane);
+  Plane& known = planes_[n];
+  known.area += 0.5 * width * width;
+  const auto repeats = [&](int level) {
+    const double s = std::ldexp(1.0, levels_ - level);
+    return known.area >= known.contents[size_t(level)] * s * s;
+  };
+  int stored_from = levels_ - 2;
+  if (!repeats(stored_from)) return std::nullopt;
+  while (stored_from > 0 && repeats(stored_from - 1)) --stored_from;
+  const int largest = plane->exact ? kLargestExact - fraction_bits(levels_) : kLargestRounded;
+  return Known{*plane, n, std::max(0, levels_ - largest), stored_from};
+}
+
+void PlaneMemo::forget() {
+  if (planes_.size() < kPlanes) return;
+  planes_.clear();
+  std::fill(slots_.begin(), slots_.end(), 0);
+  std::fill(entries_.begin(), entries_.end(), Entry{});
+  used_ = 0;
+  unsettled_.clear();
 }
 
 uint32_t PlaneMemo::number(const LatticePlane& p) {
-  const auto hash = [](const int64_t n[3]) {
-    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2]));
+  const auto slot_of = [&](const int64_t n[3]) {
+    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (slots_.size() - 1);
   };
-  size_t slot = hash(p.n) & (slots_.size() - 1);
-  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
-    const Plane& other = planes_[slots_[slot] - 1];
-    if (std::equal(p.n, p.n + 3, other.n)) return slots_[slot] - 1;
-  }
-  if (planes_.size() == kPlanes) {  // start over: numbers, and so all entries, lose their meaning
-    planes_.clear();
-    std::fill(slots_.begin(), slots_.end(), 0);
-    std::fill(entries_.begin(), entries_.end(), Entry{});
-    return number(p);
-  }
   if (2 * (planes_.size() + 1) > slots_.size()) {
     slots_.assign(2 * slots_.size(), 0);
     for (size_t i = 0; i < planes_.size(); ++i) {
-      size_t s = hash(planes_[i].n) & (slots_.size() - 1);
-      while (slots_[s] != 0) s = (s + 1) & (slots_.size() - 1);
-      slots_[s] = uint32_t(i + 1);
+      size_t slot = slot_of(planes_[i].n);
+      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = uint32_t(i + 1);
     }
-    return number(p);
   }
-  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, {}, {}};
+  size_t slot = slot_of(p.n);
+  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
+    if (std::equal(p.n, p.n + 3, planes_[slots_[slot] - 1].n)) return slots_[slot] - 1;
+  }
+  add_plane(p);
+  slots_[slot] = uint32_t(planes_.size());
+  return uint32_t(planes_.size() - 1);
+}
+
+void PlaneMemo::add_plane(const LatticePlane& p) {
+  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, 0, {}, {}};
   for (const int64_t n : p.n) (n < 0 ? plane.negative : plane.positive) += n;
   const double sum = double(plane.positive - plane.negative);
   for (int level = 0; level <= levels_ - 2; ++level) {
@@ -84,26 +106,16 @@ uint32_t PlaneMemo::number(const LatticePlane& p) {
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(std::ilogb(length), 0, 61));
   }
   planes_.push_back(plane);
-  slots_[slot] = uint32_t(planes_.size());
-  return uint32_t(planes_.size() - 1);
 }
 
-std::optional<SubDag> PlaneMemo::find(const TriangleSetup& t, const LatticePlane& plane,
-                                      const Cube& cube) {
+std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
   ++counts_.asked;
   const int64_t side = int64_t(1) << cube.side_log2(levels_);
-  const auto range = offsets_in_column(plane, cube.corner(levels_), side);
+  const auto range = offsets_in_column(known.plane, cube.corner(levels_), side);
   if (!range) return std::nullopt;
-  const uint32_t n = number(plane);
-  const double width = std::ldexp(t.extent, -fraction_bits(levels_));  // of the triangle, in voxels
-  stored_from_ = levels_ - 4;
-  while (stored_from_ > 0) {
-    const double cubes = width * std::ldexp(1.0, stored_from_ - 1 - levels_);
-    if (planes_[n].contents[size_t(stored_from_ - 1)] > 4 * cubes * cubes) break;
-    --stored_from_;
-  }
+  stored_from_ = known.stored_from;
   Answer answer;
-  if (!node(n, cube.level, *range, &answer)) return std::nullopt;
+  if (!node(known.number, cube.level, *range, &answer)) return std::nullopt;
   ++counts_.answered;
   return SubDag{answer.node, answer.voxels};
 }
@@ -211,9 +223,19 @@ void PlaneMemo::put(uint32_t key, uint32_t tag, const Answer& answer) {
     ++used_;
   }
   set[way] = {answer.low, answer.high, key, tag, answer.node, answer.voxels};
+  if (answer.node > kPending) unsettled_.push_back(uint32_t(set + way - entries_.data()));
+}
+
+void PlaneMemo::settle() {
+  for (const uint32_t i : unsettled_) {
+    Entry& e = entries_[i];
+    if (e.key != 0) e.node = table_->settled(int((e.key - 1) & 31), e.node);
+  }
+  unsettled_.clear();
 }
 
 void PlaneMemo::grow() {
+  unsettled_.clear();
   std::vector<Entry> old(2 * entries_.size());
   old.swap(entries_);
   mask_ = uint32_t(entries_.size() / kWays - 1);
@@ -223,6 +245,7 @@ void PlaneMemo::grow() {
     size_t way = 0;
     while (way < kWays - 1 && set[way].key != 0) ++way;
     set[way] = e;
+    if (e.node > kPending) unsettled_.push_back(uint32_t(set + way - entries_.data()));
   }
 }
 

@@ -15,8 +15,10 @@
 // over the column; if it missed a voxel with l <= g <= h throughout, it would pass above (or below)
 // the voxel's corner of largest (smallest) n_q . x, where g is beyond h (l).
 //
-// A plane P voxels wide meets (P/s)^2 cubes of side s but has at most 2(s+1)^3 contents there (an
-// axis-aligned one 2s+1), so entries are kept for sizes that repeat: s <= 16, larger where P is large.
+// Repaying: a plane of A square voxels meets about A/s^2 cubes of side s but has at most 2(s+1)^3
+// contents there (an axis-aligned one 2s+1). So entries are kept only for sizes that repeat, and a
+// plane is admitted only when its bricks do. A is what its triangles have brought so far, which finds the
+// tessellated wall too: no triangle of it is large.
 // Rejected: half-open intervals in double (wrong on ties); a memo of child masks (no reuse
 // between parallel planes).
 #pragma once
@@ -47,11 +49,24 @@ class PlaneMemo {
   // At most `limit` entries of 32 bytes.
   PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit = size_t(1) << 20);
 
-  // The sub-DAG of a cube (level <= brick level) that the triangle covers; none if the memo can't
-  // tell. The plane must be the triangle's.
-  std::optional<SubDag> find(const TriangleSetup& t, const LatticePlane& plane, const Cube& cube);
-  // The largest cubes worth asking for: level >= this.
-  int first_level(const LatticePlane& plane) const;
+  // What the memo knows about a triangle's plane.
+  struct Known {
+    LatticePlane plane;
+    uint32_t number;   // of n_q
+    int asked_from;    // levels from this one on may be asked for
+    int stored_from;   // levels from this one on repeat
+  };
+  // Admits the triangle, of which a cube of `side` voxels may be met; none if its plane does not
+  // repay (yet) or has no integers. Valid until forget().
+  std::optional<Known> admit(const TriangleSetup& t, double side);
+  // Forgets all planes if they have become too many.
+  void forget();
+
+  // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if the
+  // memo can't tell.
+  std::optional<SubDag> find(const Known& known, const Cube& cube);
+  // To be called after each flush of the table.
+  void settle();
 
   const PlaneMemoCounts& counts() const { return counts_; }
 
@@ -72,12 +87,14 @@ class PlaneMemo {
   struct Plane {
     int64_t n[3];
     int64_t negative, positive;             // sums of the components of either sign
+    double area;                            // square voxels that its triangles have brought
     std::array<int8_t, 24> bucket_log2;     // [level]: about the length of an interval
     std::array<double, 24> contents;        // [level]: at most so many different ones
   };
   static constexpr size_t kWays = 4;
 
   uint32_t number(const LatticePlane& plane);
+  void add_plane(const LatticePlane& plane);
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
@@ -90,10 +107,11 @@ class PlaneMemo {
   Rule rule_;
   NodeTable* table_;
   size_t limit_;
-  int stored_from_ = 0;  // level from which the current query keeps what it computes
+  int stored_from_ = 0;  // of the current query
   uint64_t used_ = 0;
   uint32_t mask_ = 0;
   std::vector<Entry> entries_;
+  std::vector<uint32_t> unsettled_;  // entries written since the last flush
   std::vector<Plane> planes_;
   std::vector<uint32_t> slots_;  // open addressing by normal: 1 + plane number
   PlaneMemoCounts counts_;

@@ -18,16 +18,15 @@ uint32_t key_word(const Numbered<NodeKey>& record, size_t i) {
   return record.key[i];
 }
 
-// Sorts `keys` and returns the rank of each former position.
+// The records sorted into *keys; returns the rank of each number.
 template <class Key>
-std::vector<uint32_t> sort_keys(std::vector<Key>* keys) {
-  std::vector<Numbered<Key>> records(keys->size());
-  for (uint32_t i = 0; i < records.size(); ++i) records[i] = {(*keys)[i], i};
+std::vector<uint32_t> sort_keys(std::vector<Numbered<Key>> records, std::vector<Key>* keys) {
   std::vector<Numbered<Key>> scratch;
   radix_sort(
       std::span(records), sizeof(Key) / 4,
       [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch);
   std::vector<uint32_t> ranks(records.size());
+  keys->resize(records.size());
   for (uint32_t i = 0; i < records.size(); ++i) {
     (*keys)[i] = records[i].key;
     ranks[records[i].number] = i;
@@ -38,20 +37,24 @@ std::vector<uint32_t> sort_keys(std::vector<Key>* keys) {
 }  // namespace
 
 Run freeze(NodeTable* table, Ranks* ranks) {
+  table->flush();
   const int brick_level = table->brick_level();
   Run run;
   run.nodes.resize(size_t(brick_level));
   ranks->resize(size_t(brick_level) + 1);
-  run.bricks = table->take_bricks();
-  (*ranks)[size_t(brick_level)] = sort_keys(&run.bricks);
+  std::vector<Numbered<Brick>> bricks(table->size(brick_level));
+  for (uint32_t i = 0; i < bricks.size(); ++i) bricks[i] = {table->brick(i), i};
+  table->clear(brick_level);
+  (*ranks)[size_t(brick_level)] = sort_keys(std::move(bricks), &run.bricks);
   for (int level = brick_level - 1; level >= 0; --level) {
-    std::vector<NodeKey>& nodes = run.nodes[size_t(level)];
-    nodes = table->take_nodes(level);
     const std::vector<uint32_t>& below = (*ranks)[size_t(level) + 1];
-    for (NodeKey& key : nodes) {
-      for (uint32_t& child : key) child = child == 0 ? 0 : 1 + below[child - 1];
+    std::vector<Numbered<NodeKey>> nodes(table->size(level));
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+      nodes[i] = {table->node(level, i), i};
+      for (uint32_t& child : nodes[i].key) child = child == 0 ? 0 : 1 + below[child - 1];
     }
-    (*ranks)[size_t(level)] = sort_keys(&nodes);
+    table->clear(level);
+    (*ranks)[size_t(level)] = sort_keys(std::move(nodes), &run.nodes[size_t(level)]);
   }
   return run;
 }

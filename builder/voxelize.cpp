@@ -23,23 +23,21 @@ VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, Memor
   for (size_t w = 0; w < executor->workers(); ++w)
     result.tables.push_back(std::make_unique<NodeTable>(tree.grid().levels, budget));
   std::vector<std::optional<Worker>> workers(executor->workers());
-  std::vector<SubDag> subdags(cells.size());
-  std::vector<uint32_t> baked_by(cells.size());
   executor->for_each(cells.size(), [&](size_t w, size_t i) {
     if (!workers[w]) workers[w].emplace(tree, config, result.tables[w].get());
-    subdags[i] = workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
-    baked_by[i] = uint32_t(w);
+    workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
     progress->advance();
   });
-  for (const auto& worker : workers) {
-    if (!worker) continue;
-    result.decisions.asked += worker->descent.decisions().asked;
-    result.decisions.exact += worker->descent.decisions().exact;
-  }
-  for (size_t i = 0; i < cells.size(); ++i) {
-    if (subdags[i].root == 0) continue;
-    result.roots.push_back({cells[i], baked_by[i], subdags[i].root - 1});
-    result.voxels += subdags[i].voxels;
+  for (size_t w = 0; w < workers.size(); ++w) {
+    if (!workers[w]) continue;
+    Descent& descent = workers[w]->descent;
+    descent.finish();
+    result.decisions += descent.decisions();
+    result.memo += descent.memo();
+    for (const Descent::Root& root : descent.roots()) {
+      result.roots.push_back({root.cube, uint32_t(w), root.dag.root - 1});
+      result.voxels += root.dag.voxels;
+    }
   }
   return result;
 }

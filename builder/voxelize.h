@@ -17,10 +17,11 @@ namespace svdag {
 
 struct VoxelizedCells {
   std::vector<std::unique_ptr<NodeTable>> tables;  // [worker]
-  std::vector<CellRoot> roots;                     // rank: still the provisional number
+  std::vector<CellRoot> roots;                     // rank: still the number in the table
   uint64_t cells = 0;                              // with at least one triangle near them
   uint64_t voxels = 0;
   DecisionCounts decisions;
+  PlaneMemoCounts memo;
 };
 
 VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget, Executor* executor,

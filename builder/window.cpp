@@ -7,8 +7,8 @@ namespace {
 
 void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSink& sink) {
   if (node == 0) return;
-  if (cube.level == table.brick_level()) return sink(cube.coordinate, table.bricks()[node - 1]);
-  const NodeKey& children = table.nodes(cube.level)[node - 1];
+  if (cube.level == table.brick_level()) return sink(cube.coordinate, table.brick(node - 1));
+  const NodeKey& children = table.node(cube.level, node - 1);
   for (unsigned c = 0; c < 8; ++c) emit(table, cube.child(c), children[c], sink);
 }
 
@@ -28,7 +28,11 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
     if (boxes_meet(setups.back(), corner, side))
       list.push_back({&setups.back(), setups.back().edges});
   }
-  const SubDag result = Descent(grid, config, &table).run(window, list);
+  Descent descent(grid, config, &table);
+  descent.run(window, list);
+  descent.finish();
+  if (descent.roots().empty()) return 0;
+  const SubDag& result = descent.roots().front().dag;
   emit(table, window, result.root, sink);
   return result.voxels;
 }
