@@ -84,6 +84,7 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   report.cells = cells.cells;
   report.voxels = cells.voxels;
   report.decisions = cells.decisions;
+  report.memo = cells.memo;
   report.seconds.voxelize = phase.lap();
 
   progress->phase("sort", 0);

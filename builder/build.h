@@ -29,6 +29,7 @@ struct BuildReport {
   Rule rule = Rule::kConservative;
   SplitCounts split;
   DecisionCounts decisions;
+  PlaneMemoCounts memo;
   uint64_t cells = 0;  // visited
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks

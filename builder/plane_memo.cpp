@@ -15,7 +15,9 @@ constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offse
 constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
 constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube that may be asked for
 constexpr size_t kPlanes = size_t(1) << 18;
-constexpr int64_t kSpan = 8;  // an entry stands in at most so many buckets
+constexpr int64_t kSpan = 3;  // an entry also stands in so many buckets before and after
+constexpr int kLargestTable = 19;  // log2 of its entries
+constexpr double kRepeats = 1.5;   // cubes per content from which on entries are kept
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -23,8 +25,8 @@ uint64_t mix(uint64_t a, uint64_t b) noexcept {
   return uint64_t(product) ^ uint64_t(product >> 64);
 }
 
-uint32_t tag_of(uint32_t key, int64_t bucket) noexcept {
-  const uint64_t hash = mix(key, uint64_t(bucket) * 0x9e3779b97f4a7c15);
+uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
+  const uint64_t hash = mix(plane, uint64_t(bucket) * 0x9e3779b97f4a7c15);
   return uint32_t(hash >> 32) ^ uint32_t(hash);
 }
 
@@ -38,11 +40,12 @@ PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
   return *this;
 }
 
-PlaneMemo::PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit)
-    : levels_(levels), rule_(rule), table_(table), limit_(limit) {
-  entries_.resize(1024);
-  mask_ = uint32_t(entries_.size() / kWays - 1);
-  slots_.resize(1024);
+PlaneMemo::PlaneMemo(int levels, Rule rule, NodeTable* table)
+    : levels_(levels), rule_(rule), table_(table), tables_(size_t(levels - 1)), slots_(1024) {
+  for (int level = 0; level <= levels - 2; ++level) {
+    const int log2 = std::min(12 + 3 * (levels - 2 - level), kLargestTable);
+    tables_[size_t(level)].limit = size_t(1) << log2;
+  }
 }
 
 std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
@@ -55,7 +58,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   known.area += 0.5 * width * width;
   const auto repeats = [&](int level) {
     const double s = std::ldexp(1.0, levels_ - level);
-    return known.area >= known.contents[size_t(level)] * s * s;
+    return known.area >= kRepeats * known.contents[size_t(level)] * s * s;
   };
   int stored_from = levels_ - 2;
   if (!repeats(stored_from)) return std::nullopt;
@@ -68,9 +71,11 @@ void PlaneMemo::forget() {
   if (planes_.size() < kPlanes) return;
   planes_.clear();
   std::fill(slots_.begin(), slots_.end(), 0);
-  std::fill(entries_.begin(), entries_.end(), Entry{});
-  used_ = 0;
-  unsettled_.clear();
+  for (Table& table : tables_) {
+    std::fill(table.entries.begin(), table.entries.end(), Entry{});
+    table.unsettled.clear();
+    table.used = 0;
+  }
 }
 
 uint32_t PlaneMemo::number(const LatticePlane& p) {
@@ -129,20 +134,24 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
     return true;
   }
   if (level < stored_from_) return compute(number, level, range, out);
-  const uint32_t key = (number << 5 | uint32_t(level)) + 1;
+  Table& table = tables_[size_t(level)];
+  if (table.entries.empty()) grow(&table);
   const int log2 = plane.bucket_log2[size_t(level)];
-  const uint32_t tag = tag_of(key, range.low >> log2);
-  const Entry* set = set_of(tag);
+  const int64_t bucket = range.low >> log2;
+  const Entry* set = set_of(&table, tag_of(number, bucket));
   for (size_t way = 0; way < kWays; ++way) {
     const Entry& e = set[way];
-    if (e.key == key && e.low <= range.low && range.high <= e.high) {
+    if (e.plane == number + 1 && e.low <= range.low && range.high <= e.high) {
       ++counts_.hits;
       *out = {e.low, e.high, e.node, e.voxels};
       return true;
     }
   }
   if (!compute(number, level, range, out)) return false;
-  store(key, *out, log2, range.low >> log2);
+  // Into every bucket that the interval meets, near the one that was asked for.
+  const int64_t first = std::max(out->low >> log2, bucket - kSpan);
+  const int64_t last = std::min(out->high >> log2, bucket + kSpan);
+  for (int64_t b = first; b <= last; ++b) put(&table, number, tag_of(number, b), *out);
   return true;
 }
 
@@ -205,47 +214,47 @@ bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answ
   return true;
 }
 
-// Enters the answer into every bucket that its interval meets, near the one that was asked.
-void PlaneMemo::store(uint32_t key, const Answer& answer, int bucket_log2, int64_t asked) {
-  const int64_t first = std::max(answer.low >> bucket_log2, asked - kSpan / 2);
-  const int64_t last = std::min(answer.high >> bucket_log2, asked + kSpan / 2 - 1);
-  for (int64_t bucket = first; bucket <= last; ++bucket) put(key, tag_of(key, bucket), answer);
+PlaneMemo::Entry* PlaneMemo::set_of(Table* table, uint32_t tag) {
+  return &table->entries[(tag & table->mask) * kWays];
 }
 
-void PlaneMemo::put(uint32_t key, uint32_t tag, const Answer& answer) {
-  if (2 * used_ > entries_.size() && entries_.size() < limit_) grow();
-  Entry* set = set_of(tag);
+void PlaneMemo::put(Table* table, uint32_t plane, uint32_t tag, const Answer& answer) {
+  if (2 * table->used > table->entries.size() && table->entries.size() < table->limit) grow(table);
+  Entry* set = set_of(table, tag);
   size_t way = 0;
-  while (way < kWays && set[way].key != 0) ++way;
+  while (way < kWays && set[way].plane != 0) ++way;
   if (way == kWays) {
-    way = tag >> 30;  // full: some other way each time
+    way = tag >> 30;  // full: one of them goes
   } else {
-    ++used_;
+    ++table->used;
   }
-  set[way] = {answer.low, answer.high, key, tag, answer.node, answer.voxels};
-  if (answer.node > kPending) unsettled_.push_back(uint32_t(set + way - entries_.data()));
+  set[way] = {answer.low, answer.high, plane + 1, tag, answer.node, answer.voxels};
+  if (answer.node > kPending)
+    table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
 }
 
 void PlaneMemo::settle() {
-  for (const uint32_t i : unsettled_) {
-    Entry& e = entries_[i];
-    if (e.key != 0) e.node = table_->settled(int((e.key - 1) & 31), e.node);
+  for (int level = 0; level <= levels_ - 2; ++level) {
+    Table& table = tables_[size_t(level)];
+    for (const uint32_t i : table.unsettled)
+      table.entries[i].node = table_->settled(level, table.entries[i].node);
+    table.unsettled.clear();
   }
-  unsettled_.clear();
 }
 
-void PlaneMemo::grow() {
-  unsettled_.clear();
-  std::vector<Entry> old(2 * entries_.size());
-  old.swap(entries_);
-  mask_ = uint32_t(entries_.size() / kWays - 1);
+void PlaneMemo::grow(Table* table) {
+  std::vector<Entry> old(std::max(size_t(256), 2 * table->entries.size()));
+  old.swap(table->entries);
+  table->mask = uint32_t(table->entries.size() / kWays - 1);
+  table->unsettled.clear();
   for (const Entry& e : old) {
-    if (e.key == 0) continue;
-    Entry* set = set_of(e.tag);
+    if (e.plane == 0) continue;
+    Entry* set = set_of(table, e.tag);
     size_t way = 0;
-    while (way < kWays - 1 && set[way].key != 0) ++way;
+    while (way < kWays - 1 && set[way].plane != 0) ++way;
     set[way] = e;
-    if (e.node > kPending) unsettled_.push_back(uint32_t(set + way - entries_.data()));
+    if (e.node > kPending)
+      table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
   }
 }
 

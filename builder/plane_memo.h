@@ -46,8 +46,7 @@ struct PlaneMemoCounts {
 
 class PlaneMemo {
  public:
-  // At most `limit` entries of 32 bytes.
-  PlaneMemo(int levels, Rule rule, NodeTable* table, size_t limit = size_t(1) << 20);
+  PlaneMemo(int levels, Rule rule, NodeTable* table);
 
   // What the memo knows about a triangle's plane.
   struct Known {
@@ -71,13 +70,20 @@ class PlaneMemo {
   const PlaneMemoCounts& counts() const { return counts_; }
 
  private:
-  // Ways of a set share a cache line pair; `tag` is a hash of key and bucket.
+  // Ways of a set share cache lines; `tag` is a hash of plane and bucket.
   struct Entry {
     int64_t low, high;
-    uint32_t key;  // plane number * 32 + level; 0: free
+    uint32_t plane;  // 1 + plane number; 0: free
     uint32_t tag;
     uint32_t node;
     uint32_t voxels;
+  };
+  // The entries of one level: small cubes have few contents, so their table stays in the cache.
+  struct Table {
+    std::vector<Entry> entries;
+    std::vector<uint32_t> unsettled;  // entries written since the last flush
+    size_t used = 0, limit = 0;
+    uint32_t mask = 0;  // sets - 1
   };
   struct Answer {
     int64_t low, high;
@@ -98,20 +104,15 @@ class PlaneMemo {
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
-  Entry* set_of(uint32_t tag) { return &entries_[(tag & mask_) * kWays]; }
-  void store(uint32_t key, const Answer& answer, int bucket_log2, int64_t asked);
-  void put(uint32_t key, uint32_t tag, const Answer& answer);
-  void grow();
+  static Entry* set_of(Table* table, uint32_t tag);
+  static void put(Table* table, uint32_t plane, uint32_t tag, const Answer& answer);
+  static void grow(Table* table);
 
   int levels_;
   Rule rule_;
   NodeTable* table_;
-  size_t limit_;
   int stored_from_ = 0;  // of the current query
-  uint64_t used_ = 0;
-  uint32_t mask_ = 0;
-  std::vector<Entry> entries_;
-  std::vector<uint32_t> unsettled_;  // entries written since the last flush
+  std::vector<Table> tables_;  // [level]
   std::vector<Plane> planes_;
   std::vector<uint32_t> slots_;  // open addressing by normal: 1 + plane number
   PlaneMemoCounts counts_;

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ class UniqueSet {
   uint32_t add(const Key& key) {
     if (recent_.empty()) recent_.assign(size_t(1) << kRecentBits, 0);
     uint32_t& recent = recent_[Hash()(key) >> (64 - kRecentBits)];
-    if (recent < pending_.size() && pending_[recent] == key) return kPending | recent;
+    if (recent < pending_.size() && same(pending_[recent], key)) return kPending | recent;
     recent = uint32_t(pending_.size());
     pending_.push_back(key);
     return kPending | recent;
@@ -87,13 +88,22 @@ class UniqueSet {
   // A slot holds 1 + a number, and above it the tag: the part of the hash that also says where the
   // slot is, so that growing needs no key.
   uint64_t* slots() const { return static_cast<uint64_t*>(memory_.data()); }
+  // Keys have no padding; the compiler turns this into a few word comparisons.
+  static bool same(const Key& a, const Key& b) {
+    constexpr size_t kWords = sizeof(Key) / sizeof(uint64_t);
+    uint64_t x[kWords], y[kWords], differing = 0;
+    std::memcpy(x, &a, sizeof a);
+    std::memcpy(y, &b, sizeof b);
+    for (size_t i = 0; i < kWords; ++i) differing |= x[i] ^ y[i];
+    return differing == 0;
+  }
   static uint32_t tag_of(const Key& key) { return uint32_t(Hash()(key)); }
 
   uint32_t insert(const Key& key, uint32_t tag) {
     size_t at = tag & mask_;
     for (uint64_t slot = slots()[at]; slot != 0; slot = slots()[at]) {
       const uint32_t number = uint32_t(slot) - 1;
-      if (slot >> 32 == tag && keys_[number] == key) return number;
+      if (slot >> 32 == tag && same(keys_[number], key)) return number;
       at = (at + 1) & mask_;
     }
     if (keys_.size() >= kLimit)
