@@ -37,7 +37,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
     : grid_(grid),
       config_(config),
       table_(table),
-      memo_(grid.levels, config.rule, table),
+      memo_(grid.levels, config.rule, config.kernels, table),
       scratch_(size_t(grid.levels)),
       path_(size_t(grid.levels)) {}
 

@@ -1,5 +1,7 @@
 #include "builder/kernels.h"
 
+#include <algorithm>
+
 namespace svdag {
 namespace {
 
@@ -17,11 +19,30 @@ Brick plain_voxels(const Entry* entries, size_t count, const LatticePoint& corne
   return voxels;
 }
 
+PlaneVoxels plain_plane(const PlaneBrick& plane, int64_t low, int64_t high) noexcept {
+  PlaneVoxels out{0, -kFarOffset, kFarOffset, false};
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    const int64_t first = plane.outer[bit >> 3] + plane.inner[bit & 7], last = first + plane.span;
+    if (high < first) {
+      out.high = std::min(out.high, first - 1);
+    } else if (low > last) {
+      out.low = std::max(out.low, last + 1);
+    } else if (first <= low && high <= last) {
+      out.low = std::max(out.low, first);
+      out.high = std::min(out.high, last);
+      out.voxels |= Brick(1) << bit;
+    } else {
+      out.straddles = true;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 const Kernels& plain_kernels() {
   static constexpr Kernels kPlain = {"plain", 1, plain_children, plain_voxels<overlap_brick>,
-                                     plain_voxels<overlap_brick_thin>};
+                                     plain_voxels<overlap_brick_thin>, plain_plane};
   return kPlain;
 }
 

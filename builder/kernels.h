@@ -11,11 +11,29 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "builder/overlap.h"
 
 namespace svdag {
+
+// A plane and a brick (builder/plane_memo.h): voxel bit 8 * o + i is set for the offsets
+// outer[o] + inner[i] + [0, span].
+struct PlaneBrick {
+  int64_t inner[8], outer[8];
+  int64_t span;
+};
+// The voxels that are set for every offset of [low, high], and the largest range around it of which
+// the same is true. `straddles`: some voxel is set for a part of [low, high] only.
+struct PlaneVoxels {
+  Brick voxels;
+  int64_t low, high;
+  bool straddles;
+};
+
+constexpr int64_t kFarOffset = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 
 struct Kernels {
   // out[i] of `count` entries: the children of the cube at `corner` with side `side` (lattice
@@ -26,11 +44,14 @@ struct Kernels {
   using Voxels = Brick (*)(const Entry* entries, size_t count, const LatticePoint& corner,
                            int fraction, Brick wanted, DecisionCounts* counts) noexcept;
 
+  using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
+
   const char* name;  // of the instruction set
   int lanes;         // doubles in a vector
   Children children;
   Voxels conservative;
   Voxels thin;
+  Plane plane;
 };
 
 // One triangle after the other, by builder/overlap.h.

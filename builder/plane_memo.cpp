@@ -10,7 +10,6 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kFar = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
 constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube that may be asked for
@@ -30,6 +29,10 @@ uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   return uint32_t(hash >> 32) ^ uint32_t(hash);
 }
 
+uint32_t pack(uint32_t x, uint32_t y, uint32_t z) noexcept {
+  return x | y << 10 | z << 20;
+}
+
 }  // namespace
 
 PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
@@ -40,8 +43,11 @@ PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
   return *this;
 }
 
-PlaneMemo::PlaneMemo(int levels, Rule rule, NodeTable* table)
-    : levels_(levels), rule_(rule), table_(table), tables_(size_t(levels - 1)), slots_(1024) {
+PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* table)
+    : levels_(levels),
+      rule_(rule),
+      kernels_(kernels),
+      table_(table), tables_(size_t(levels - 1)), slots_(1024) {
   for (int level = 0; level <= levels - 2; ++level) {
     const int log2 = std::min(12 + 3 * (levels - 2 - level), kLargestTable);
     tables_[size_t(level)].limit = size_t(1) << log2;
@@ -100,7 +106,7 @@ uint32_t PlaneMemo::number(const LatticePlane& p) {
 }
 
 void PlaneMemo::add_plane(const LatticePlane& p) {
-  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, 0, {}, {}};
+  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, 0, {}, {}, {}};
   for (const int64_t n : p.n) (n < 0 ? plane.negative : plane.positive) += n;
   const double sum = double(plane.positive - plane.negative);
   for (int level = 0; level <= levels_ - 2; ++level) {
@@ -110,18 +116,46 @@ void PlaneMemo::add_plane(const LatticePlane& p) {
     plane.contents[size_t(level)] = contents;
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(std::ilogb(length), 0, 61));
   }
+  plane.brick = plane_brick(plane);
   planes_.push_back(plane);
 }
 
+PlaneBrick PlaneMemo::plane_brick(const Plane& p) const {
+  const int fraction = fraction_bits(levels_);
+  // The offsets that set the voxel at the corner.
+  int64_t first = p.negative << fraction, last = p.positive << fraction;
+  if (rule_ == Rule::kThin) {
+    const int64_t dominant = std::max({std::abs(p.n[0]), std::abs(p.n[1]), std::abs(p.n[2])});
+    const int64_t centre = (p.negative + p.positive) << (fraction - 1);
+    first = centre - (dominant << (fraction - 1)) + 1;
+    last = centre + (dominant << (fraction - 1));
+  }
+  PlaneBrick brick;
+  brick.span = last - first;
+  for (unsigned c = 0; c < 8; ++c) {
+    const int64_t step = (c >> 2 & 1) * p.n[0] + (c >> 1 & 1) * p.n[1] + (c & 1) * p.n[2];
+    brick.inner[c] = first + (step << fraction);
+    brick.outer[c] = step << (fraction + 1);
+  }
+  return brick;
+}
+
 std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
-  ++counts_.asked;
   const int64_t side = int64_t(1) << cube.side_log2(levels_);
   const auto range = offsets_in_column(known.plane, cube.corner(levels_), side);
   if (!range) return std::nullopt;
+  Witness witness;
+  return find(known, cube, *range, &witness);
+}
+
+std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
+                                      const OffsetRange& range, Witness* witness) {
+  ++counts_.asked;
   stored_from_ = known.stored_from;
   Answer answer;
-  if (!node(known.number, cube.level, *range, &answer)) return std::nullopt;
+  if (!node(known.number, cube.level, range, &answer)) return std::nullopt;
   ++counts_.answered;
+  *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
   return SubDag{answer.node, answer.voxels};
 }
 
@@ -130,7 +164,8 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
   const int side_log2 = levels_ - level + fraction_bits(levels_);
   const int64_t low = plane.negative << side_log2, high = plane.positive << side_log2;
   if (range.high < low || range.low > high) {  // the plane passes the cube
-    *out = range.high < low ? Answer{-kFar, low - 1, 0, 0} : Answer{high + 1, kFar, 0, 0};
+    *out = range.high < low ? Answer{-kFarOffset, low - 1, 0, 0, 0}
+                            : Answer{high + 1, kFarOffset, 0, 0, 0};
     return true;
   }
   if (level < stored_from_) return compute(number, level, range, out);
@@ -143,7 +178,7 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
     const Entry& e = set[way];
     if (e.plane == number + 1 && e.low <= range.low && range.high <= e.high) {
       ++counts_.hits;
-      *out = {e.low, e.high, e.node, e.voxels};
+      *out = {e.low, e.high, e.node, e.voxels, e.witness};
       return true;
     }
   }
@@ -151,7 +186,7 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
   // Into every bucket that the interval meets, near the one that was asked for.
   const int64_t first = std::max(out->low >> log2, bucket - kSpan);
   const int64_t last = std::min(out->high >> log2, bucket + kSpan);
-  for (int64_t b = first; b <= last; ++b) put(&table, number, tag_of(number, b), *out);
+  for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);
   return true;
 }
 
@@ -161,15 +196,18 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
                            planes_[number].n[2] << half_log2};
   NodeKey key;
-  *out = {-kFar, kFar, 0, 0};
+  *out = {-kFarOffset, kFarOffset, 0, 0, 0};
+  const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
   for (unsigned c = 0; c < 8; ++c) {
     const int64_t shift = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
     Answer child;
     if (!node(number, level + 1, {range.low - shift, range.high - shift}, &child)) return false;
     key[c] = child.node;
     out->voxels += child.voxels;
-    out->low = std::max(out->low, child.low == -kFar ? -kFar : child.low + shift);
-    out->high = std::min(out->high, child.high == kFar ? kFar : child.high + shift);
+    if (child.node != 0)
+      out->witness = child.witness + pack((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
+    out->low = std::max(out->low, child.low == -kFarOffset ? -kFarOffset : child.low + shift);
+    out->high = std::min(out->high, child.high == kFarOffset ? kFarOffset : child.high + shift);
   }
   if (out->voxels == 0) return true;
   ++counts_.computed;
@@ -178,39 +216,14 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
 }
 
 bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answer* out) {
-  const int fraction = fraction_bits(levels_);
-  // The offsets that set the voxel at the corner.
-  int64_t first = plane.negative << fraction, last = plane.positive << fraction;
-  if (rule_ == Rule::kThin) {
-    const int64_t dominant = std::max({std::abs(plane.n[0]), std::abs(plane.n[1]),
-                                       std::abs(plane.n[2])});
-    const int64_t centre = (plane.negative + plane.positive) << (fraction - 1);
-    first = centre - (dominant << (fraction - 1)) + 1;
-    last = centre + (dominant << (fraction - 1));
-  }
-  *out = {-kFar, kFar, 0, 0};
-  Brick voxels = 0;
-  for (unsigned bit = 0; bit < 64; ++bit) {
-    const uint8_t* at = kBrickTables.coordinate[bit];
-    const int64_t shift =
-        (at[0] * plane.n[0] + at[1] * plane.n[1] + at[2] * plane.n[2]) << fraction;
-    const int64_t l = first + shift, h = last + shift;
-    if (range.high < l) {
-      out->high = std::min(out->high, l - 1);
-    } else if (range.low > h) {
-      out->low = std::max(out->low, h + 1);
-    } else if (l <= range.low && range.high <= h) {
-      out->low = std::max(out->low, l);
-      out->high = std::min(out->high, h);
-      voxels |= Brick(1) << bit;
-    } else {
-      return false;  // somewhere in the range the voxel is set, somewhere it is not
-    }
-  }
-  out->voxels = uint32_t(std::popcount(voxels));
-  if (voxels == 0) return true;
+  const PlaneVoxels found = kernels_->plane(plane.brick, range.low, range.high);
+  if (found.straddles) return false;
+  *out = {found.low, found.high, 0, uint32_t(std::popcount(found.voxels)), 0};
+  if (found.voxels == 0) return true;
   ++counts_.computed;
-  out->node = table_->add_brick(voxels);
+  const uint8_t* at = kBrickTables.coordinate[std::countr_zero(found.voxels)];
+  out->witness = pack(at[0], at[1], at[2]);
+  out->node = table_->add_brick(found.voxels);
   return true;
 }
 
@@ -218,7 +231,7 @@ PlaneMemo::Entry* PlaneMemo::set_of(Table* table, uint32_t tag) {
   return &table->entries[(tag & table->mask) * kWays];
 }
 
-void PlaneMemo::put(Table* table, uint32_t plane, uint32_t tag, const Answer& answer) {
+void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer) {
   if (2 * table->used > table->entries.size() && table->entries.size() < table->limit) grow(table);
   Entry* set = set_of(table, tag);
   size_t way = 0;
@@ -228,7 +241,7 @@ void PlaneMemo::put(Table* table, uint32_t plane, uint32_t tag, const Answer& an
   } else {
     ++table->used;
   }
-  set[way] = {answer.low, answer.high, plane + 1, tag, answer.node, answer.voxels};
+  set[way] = {answer.low, answer.high, answer.node, answer.voxels, answer.witness, plane + 1};
   if (answer.node > kPending)
     table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
 }
@@ -242,20 +255,14 @@ void PlaneMemo::settle() {
   }
 }
 
+// Starts again with a larger table: entries do not know all their buckets, and a table grows only a
+// few times.
 void PlaneMemo::grow(Table* table) {
-  std::vector<Entry> old(std::max(size_t(256), 2 * table->entries.size()));
-  old.swap(table->entries);
+  const size_t size = std::max(size_t(256), 4 * table->entries.size());
+  table->entries.assign(std::min(size, table->limit), Entry{});
   table->mask = uint32_t(table->entries.size() / kWays - 1);
   table->unsettled.clear();
-  for (const Entry& e : old) {
-    if (e.plane == 0) continue;
-    Entry* set = set_of(table, e.tag);
-    size_t way = 0;
-    while (way < kWays - 1 && set[way].plane != 0) ++way;
-    set[way] = e;
-    if (e.node > kPending)
-      table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
-  }
+  table->used = 0;
 }
 
 }  // namespace svdag

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "builder/cell.h"
+#include "builder/kernels.h"
 #include "builder/lattice_plane.h"
 #include "builder/node_table.h"
 #include "io/dag/format.h"
@@ -44,9 +45,14 @@ struct PlaneMemoCounts {
   PlaneMemoCounts& operator+=(const PlaneMemoCounts& other);
 };
 
+// A voxel of a cube that is set, from the cube's corner; cubes of up to 1024^3 voxels.
+struct Witness {
+  int64_t voxel[3];
+};
+
 class PlaneMemo {
  public:
-  PlaneMemo(int levels, Rule rule, NodeTable* table);
+  PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* table);
 
   // What the memo knows about a triangle's plane.
   struct Known {
@@ -64,19 +70,28 @@ class PlaneMemo {
   // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if the
   // memo can't tell.
   std::optional<SubDag> find(const Known& known, const Cube& cube);
+  // The same for any triangles whose offsets are in `range`, provided that they have no border in
+  // the cube (builder/patch.h). *witness, if the cube is not empty, is a voxel that is set.
+  std::optional<SubDag> find(const Known& known, const Cube& cube, const OffsetRange& range,
+                             Witness* witness);
   // To be called after each flush of the table.
   void settle();
 
   const PlaneMemoCounts& counts() const { return counts_; }
 
  private:
-  // Ways of a set share cache lines; `tag` is a hash of plane and bucket.
-  struct Entry {
+  struct Answer {
     int64_t low, high;
-    uint32_t plane;  // 1 + plane number; 0: free
-    uint32_t tag;
     uint32_t node;
     uint32_t voxels;
+    uint32_t witness;  // a set voxel, see Witness
+  };
+  struct Entry {
+    int64_t low, high;
+    uint32_t node;
+    uint32_t voxels;
+    uint32_t witness;
+    uint32_t plane;  // 1 + plane number; 0: free
   };
   // The entries of one level: small cubes have few contents, so their table stays in the cache.
   struct Table {
@@ -85,15 +100,11 @@ class PlaneMemo {
     size_t used = 0, limit = 0;
     uint32_t mask = 0;  // sets - 1
   };
-  struct Answer {
-    int64_t low, high;
-    uint32_t node;
-    uint32_t voxels;
-  };
   struct Plane {
     int64_t n[3];
     int64_t negative, positive;             // sums of the components of either sign
     double area;                            // square voxels that its triangles have brought
+    PlaneBrick brick;
     std::array<int8_t, 24> bucket_log2;     // [level]: about the length of an interval
     std::array<double, 24> contents;        // [level]: at most so many different ones
   };
@@ -101,15 +112,17 @@ class PlaneMemo {
 
   uint32_t number(const LatticePlane& plane);
   void add_plane(const LatticePlane& plane);
+  PlaneBrick plane_brick(const Plane& plane) const;
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
   static Entry* set_of(Table* table, uint32_t tag);
-  static void put(Table* table, uint32_t plane, uint32_t tag, const Answer& answer);
+  static void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
   static void grow(Table* table);
 
   int levels_;
   Rule rule_;
+  const Kernels* kernels_;
   NodeTable* table_;
   int stored_from_ = 0;  // of the current query
   std::vector<Table> tables_;  // [level]
