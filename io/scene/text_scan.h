@@ -1,7 +1,7 @@
 // Words and numbers of a text file, through the small window of a ByteStream.
 //
 // Lines end with "\n", "\r\n" or "\r"; blanks are spaces and tabs. Decimal numbers become the
-// nearest double (or float), whatever the locale: std::from_chars, with a leading "+" allowed.
+// nearest double (or float), whatever the locale (io/scene/decimal.h), with a leading "+" allowed.
 // Invariant: after skip_blanks() a whole word is visible, or the word is too long to be one.
 // Rejected: iostreams (20 times slower), strtod (locale), reading line by line (every byte twice).
 #pragma once
