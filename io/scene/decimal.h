@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cfloat>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 namespace svdag {
 
 static_assert(std::endian::native == std::endian::little);
+static_assert(FLT_EVAL_METHOD == 0);  // one division is one rounding
 
 // The digits at the start of eight characters: how many, and their value.
 struct Digits {
