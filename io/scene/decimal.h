@@ -1,4 +1,4 @@
-// Decimal numbers as std::from_chars reads them, bit by bit, in a third of the time.
+// Decimal numbers as std::from_chars reads them, bit by bit, the usual ones faster.
 //
 // Up to eight digits are taken at once from a 64-bit word (Lemire 2018). A number m / 10^k with
 // m <= 2^53 and k <= 22 is the quotient of two doubles that are exact, so that one division rounds
