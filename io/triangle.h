@@ -33,6 +33,17 @@ struct Box {
       if (p[a] > max[a]) max[a] = p[a];
     }
   }
+  // Finite corners, in order, as three calls would, but without a branch: of equals (0 and -0)
+  // the earlier stays.
+  void add(const Triangle& t) {
+    const auto less = [](double first, double then) { return then < first ? then : first; };
+    const auto more = [](double first, double then) { return first < then ? then : first; };
+    for (int a = 0; a < 3; ++a) {
+      const double p = t.v[0][a], q = t.v[1][a], r = t.v[2][a];
+      min[a] = less(min[a], less(less(p, q), r));
+      max[a] = more(max[a], more(more(p, q), r));
+    }
+  }
   void add(const Box& other) {
     if (other.empty()) return;
     add(other.min);

@@ -1,10 +1,10 @@
 // glTF 2.0 and GLB: streams the triangles of every drawn primitive in world space.
 //
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
-// triangles. Only the positions of an indexed primitive are held; indices, unindexed positions and
-// instances pass through small windows. Skinned meshes come as stored (bind pose under the node's
-// transform); morph targets, points and lines are ignored. A Draco primitive that also has plain
-// data is read from the plain data, which is exact.
+// triangles. Only the positions of an indexed primitive are held, and small primitives that nodes
+// share; indices, unindexed positions and instances pass through small windows. Skinned meshes come
+// as stored (bind pose under the node's transform); morph targets, points and lines are ignored. A
+// Draco primitive that also has plain data is read from the plain data, which is exact.
 #include <array>
 #include <memory>
 #include <utility>
@@ -14,6 +14,7 @@
 #include "io/scene/gltf_buffers.h"
 #include "io/scene/gltf_document.h"
 #include "io/scene/gltf_elements.h"
+#include "io/scene/gltf_kept.h"
 #include "io/scene/gltf_nodes.h"
 #include "io/scene/mesh_reader.h"
 #include "streaming/error.h"
@@ -22,11 +23,6 @@ namespace svdag {
 namespace {
 
 enum Mode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
-
-static_assert(sizeof(Point) == 3 * sizeof(double));
-std::span<double> as_numbers(std::span<Point> points) {
-  return {reinterpret_cast<double*>(points.data()), points.size() * 3};
-}
 
 // Reserved memory for points, kept from one primitive to the next: fresh pages cost more than the
 // triangles of a small mesh.
@@ -70,6 +66,12 @@ class SoupCorners {
   size_t next_ = 0, filled_ = 0;
 };
 
+// Out of line, so that the loops below stay small enough to be inlined.
+[[noreturn, gnu::noinline]] void fail_index(const std::string& path, uint32_t index, size_t count) {
+  fail_input(path, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
+                       std::to_string(count) + " vertices");
+}
+
 // The corners of an indexed primitive; `points` are in world space already.
 class IndexedCorners {
  public:
@@ -82,22 +84,35 @@ class IndexedCorners {
       next_ = 0;
     }
     const uint32_t index = window_[next_++];
-    if (index >= points_.size()) fail(index);
+    if (index >= points_.size()) fail_index(*path_, index, points_.size());
     return points_[index];
   }
 
  private:
-  // Out of line, so that the loop above stays small enough to be inlined.
-  [[noreturn, gnu::noinline]] void fail(uint32_t index) const {
-    fail_input(*path_, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
-                           std::to_string(points_.size()) + " vertices");
-  }
-
   ElementStream stream_;
   std::span<const Point> points_;
   const std::string* path_;
   std::array<uint32_t, 4096> window_;
   size_t next_ = 0, filled_ = 0;
+};
+
+// The same of a primitive whose indices are in memory.
+class KeptCorners {
+ public:
+  KeptCorners(std::span<const uint32_t> indices, std::span<const Point> points,
+              const std::string& path)
+      : next_(indices.data()), points_(points), path_(path) {}
+
+  const Point& operator()() {
+    const uint32_t index = *next_++;
+    if (index >= points_.size()) fail_index(path_, index, points_.size());
+    return points_[index];
+  }
+
+ private:
+  const uint32_t* next_;
+  std::span<const Point> points_;
+  const std::string& path_;
 };
 
 // Makes triangles of `count` corners, in the order of section 3.7.2.1 of the specification.
@@ -133,6 +148,7 @@ class GltfReader {
       : document_(load_gltf(file, options.budget)),
         options_(options),
         buffers_(document_, options.budget),
+        kept_(options.budget),
         out_(sink) {}
 
   void read() {
@@ -153,11 +169,26 @@ class GltfReader {
       if (mode > kTriangleFan) fail_input(primitive.path(), "has a primitive of unknown mode");
       const JsonObject attributes = primitive.object("attributes");
       if (mode < kTriangles || !attributes.has("POSITION")) continue;
-      read_primitive(primitive, mode, InstanceStream(node, world, &buffers_));
+      InstanceStream instances(node, world, &buffers_);
+      if (const KeptPrimitive* kept = kept_.find(value)) {
+        draw(*kept, mode, std::move(instances));
+      } else {
+        read_primitive(value, primitive, mode, std::move(instances));
+      }
     }
   }
 
-  void read_primitive(const JsonObject& primitive, uint64_t mode, InstanceStream instances) {
+  void draw(const KeptPrimitive& kept, uint64_t mode, InstanceStream instances) {
+    const auto placed = placed_.resize(kept.points.size(), options_.budget);
+    for_each_placed(kept.points, placed, std::move(instances), [&](double) {
+      KeptCorners corners(kept.indices, placed, document_.file->path());
+      assemble(mode, kept.indices.size(), corners, out_);
+    });
+  }
+
+  // `key`: the JSON value behind `primitive`.
+  void read_primitive(const nlohmann::json& key, const JsonObject& primitive, uint64_t mode,
+                      InstanceStream instances) {
     const uint64_t index = primitive.object("attributes").count("POSITION");
     const bool plain = document_.element("accessors", index).has("bufferView");
     if (const auto draco = primitive.extension("KHR_draco_mesh_compression"); draco && !plain) {
@@ -178,9 +209,13 @@ class GltfReader {
     const Accessor indices = buffers_.accessor(primitive.count("indices"), "SCALAR");
     check_indices(indices);
     check_count(mode, indices.count());
+    if (const KeptPrimitive* kept = kept_.meet(key, positions, indices)) {
+      return draw(*kept, mode, std::move(instances));
+    }
     std::span<Point> points = local_.resize(positions.count(), options_.budget);
     ElementStream(positions).read(as_numbers(points));
-    for_each_placed(points, std::move(instances), [&](std::span<const Point> placed, double) {
+    const auto placed = place_for(points, instances);
+    for_each_placed(points, placed, std::move(instances), [&](double) {
       IndexedCorners corners(indices, placed);
       assemble(mode, indices.count(), corners, out_);
     });
@@ -193,26 +228,30 @@ class GltfReader {
                              document_.element("accessors", accessor).flag("normalized")};
     DracoMesh mesh = decode_draco(source, options_.budget);
     const std::vector<uint32_t>& indices = mesh.indices;
-    for_each_placed(
-        mesh.positions, std::move(instances), [&](std::span<const Point> placed, double stretch) {
-          out_.quantisation(mesh.step * stretch);
-          for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
-          }
-        });
+    const auto placed = place_for(mesh.positions, instances);
+    for_each_placed(mesh.positions, placed, std::move(instances), [&](double stretch) {
+      out_.quantisation(mesh.step * stretch);
+      for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        out_.add(placed[indices[i]], placed[indices[i + 1]], placed[indices[i + 2]]);
+      }
+    });
     out_.quantisation(0);
   }
 
-  // Calls use(points in world space, axis_stretch of the transform) for every instance; a second
-  // copy only if there are several.
+  // Where the instances of `points` are placed: a second copy only if there are several.
+  std::span<Point> place_for(std::span<Point> points, const InstanceStream& instances) {
+    return instances.count() > 1 ? placed_.resize(points.size(), options_.budget) : points;
+  }
+
+  // Brings `points` into world space at `placed` for every instance, and calls use(axis_stretch of
+  // the transform).
   template <class Use>
-  void for_each_placed(std::span<Point> points, InstanceStream instances, const Use& use) {
-    const bool several = instances.count() > 1;
-    const auto placed = several ? placed_.resize(points.size(), options_.budget) : points;
+  void for_each_placed(std::span<const Point> points, std::span<Point> placed,
+                       InstanceStream instances, const Use& use) {
     for (uint64_t i = 0; i < instances.count(); ++i) {
       const Affine to_world = instances.next();
       for (size_t v = 0; v < points.size(); ++v) placed[v] = to_world(points[v]);
-      use(std::span<const Point>(placed), axis_stretch(to_world));
+      use(axis_stretch(to_world));
     }
   }
 
@@ -232,6 +271,7 @@ class GltfReader {
   GltfDocument document_;
   const ReadOptions& options_;
   GltfBuffers buffers_;
+  KeptPrimitives kept_;
   PointArray local_, placed_;
   BatchWriter out_;
 };

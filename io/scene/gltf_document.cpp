@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <istream>
-#include <streambuf>
 
 #include "io/scene/draco.h"
-#include "streaming/byte_stream.h"
+#include "io/scene/gltf_json.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -17,59 +15,6 @@ using nlohmann::json;
 
 constexpr uint32_t kJsonChunk = 0x4E4F534A;
 constexpr uint32_t kBinChunk = 0x004E4942;
-constexpr int kMaxNesting = 256;
-constexpr uint64_t kValueBytes = 64;  // a parsed value with its share of map and vector, measured
-
-// Lets the JSON parser read a part of a file through a window.
-class WindowBuffer : public std::streambuf {
- public:
-  WindowBuffer(const File& file, uint64_t begin, uint64_t end) : bytes_(file, begin, end) {}
-
- protected:
-  int_type underflow() override {
-    bytes_.skip(shown_);
-    const auto window = bytes_.peek();
-    shown_ = window.size();
-    if (window.empty()) return traits_type::eof();
-    // The get area wants char*, but nothing is ever put back into it.
-    char* begin = const_cast<char*>(reinterpret_cast<const char*>(window.data()));
-    setg(begin, begin, begin + window.size());
-    return traits_type::to_int_type(*begin);
-  }
-
- private:
-  ByteStream bytes_;
-  size_t shown_ = 0;
-};
-
-bool concerns_geometry(const std::string& key) {
-  constexpr std::array<std::string_view, 9> kKeys = {
-      "asset",       "scene",   "scenes",
-      "nodes",       "meshes",  "accessors",
-      "bufferViews", "buffers", "extensionsRequired"};
-  return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
-}
-
-json parse_json(const File& file, uint64_t begin, uint64_t end, MemoryBudget::Reservation* memory) {
-  uint64_t used = end - begin;  // the longest string may pass through the parser's token buffer
-  memory->resize(used, "parsed glTF nodes");
-  const auto filter = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kMaxNesting) fail_input(file.path(), "nests its JSON too deeply");
-    used += kValueBytes + (parsed.is_string() ? parsed.get_ref<const std::string&>().size() : 0);
-    if (used > memory->bytes()) memory->resize(used + used / 4, "parsed glTF nodes");
-    return event != json::parse_event_t::key || depth != 1 ||
-           concerns_geometry(parsed.get_ref<const std::string&>());
-  };
-  WindowBuffer buffer(file, begin, end);
-  std::istream text(&buffer);
-  try {
-    return json::parse(text, filter);
-  } catch (const json::parse_error& error) {
-    fail_input(file.path(), "is not valid JSON", begin + error.byte);
-  } catch (const json::exception&) {  // a number beyond the range of double
-    fail_input(file.path(), "has a number in its JSON that is too large");
-  }
-}
 
 uint32_t u32_at(const File& file, uint64_t offset) {
   std::array<unsigned char, 4> b;
@@ -101,7 +46,7 @@ void load_glb(GltfDocument* document) {
   if (end > file.size()) fail_input(file.path(), "is cut off: GLB file shorter than it says", 8);
   const Chunk text = chunk_at(file, 12, std::max<uint64_t>(end, 12));
   if (text.type != kJsonChunk) fail_input(file.path(), "does not begin with a JSON chunk", 12);
-  document->json = parse_json(file, text.begin, text.end(), &document->memory);
+  document->json = parse_gltf_json(file, text.begin, text.end(), &document->memory);
   if (text.end() == end) return;
   const Chunk binary = chunk_at(file, text.end(), end);
   if (binary.type != kBinChunk) return;
@@ -224,7 +169,7 @@ GltfDocument load_gltf(const File& file, MemoryBudget* budget) {
   if (std::memcmp(magic.data(), "glTF", 4) == 0) {
     load_glb(&document);
   } else {
-    document.json = parse_json(file, 0, file.size(), &document.memory);
+    document.json = parse_gltf_json(file, 0, file.size(), &document.memory);
   }
   check_document(document);
   return document;

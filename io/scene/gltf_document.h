@@ -1,9 +1,8 @@
 // The JSON of a glTF file: found in .gltf text or the first chunk of a GLB, parsed in bounded
 // space.
 //
-// Notation: a document is the parsed JSON with everything that says nothing about geometry
-// (materials, images, animations, skins) left out while parsing; BIN is the GLB's second chunk.
-// The text is read through a window; what the parsed values take is reserved in the budget.
+// Notation: a document is the parsed JSON without what says nothing about geometry
+// (io/scene/gltf_json.h); BIN is the GLB's second chunk.
 // Rejected: tinygltf and cgltf, which hold every buffer in memory (33 million triangles per second
 // and 37 bytes per triangle against 110+ and 19 here).
 #pragma once

@@ -20,12 +20,27 @@ T convert(const std::byte* at, bool normalized) {
   return T(value);
 }
 
+template <class Source, uint32_t kComponents, class T>
+void convert_elements(const ElementArray& array, const std::byte* in, size_t n, T* out) {
+  const uint64_t stride = array.stride;
+  const bool normalized = array.normalized;
+  for (size_t i = 0; i < n; ++i, in += stride, out += kComponents) {
+    for (uint32_t c = 0; c < kComponents; ++c) {
+      out[c] = convert<Source, T>(in + c * sizeof(Source), normalized);
+    }
+  }
+}
+
+// The loop above with a known number of components: SCALAR, VEC3, VEC4.
 template <class Source, class T>
 void convert_all(const ElementArray& array, const std::byte* in, size_t n, T* out) {
-  for (size_t i = 0; i < n; ++i, in += array.stride) {
-    for (uint32_t c = 0; c < array.components; ++c) {
-      *out++ = convert<Source, T>(in + c * sizeof(Source), array.normalized);
-    }
+  switch (array.components) {
+    case 1:
+      return convert_elements<Source, 1>(array, in, n, out);
+    case 3:
+      return convert_elements<Source, 3>(array, in, n, out);
+    default:
+      return convert_elements<Source, 4>(array, in, n, out);
   }
 }
 

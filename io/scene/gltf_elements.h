@@ -12,8 +12,14 @@
 #include <string>
 
 #include "io/scene/gltf_buffers.h"
+#include "io/triangle.h"
 
 namespace svdag {
+
+static_assert(sizeof(Point) == 3 * sizeof(double));
+inline std::span<double> as_numbers(std::span<Point> points) {
+  return {reinterpret_cast<double*>(points.data()), points.size() * 3};
+}
 
 // Reads the elements of an accessor in order.
 class ElementStream {

@@ -36,10 +36,10 @@ void BatchWriter::quantisation(double step) {
 }
 
 void BatchWriter::flush() {
-  if (batch_.empty()) return;
-  sink_({mesh_, first_, batch_, quantisation_});
-  first_ += batch_.size();
-  batch_.clear();
+  if (size_ == 0) return;
+  sink_({mesh_, first_, {batch_.get(), size_}, quantisation_});
+  first_ += size_;
+  size_ = 0;
 }
 
 }  // namespace svdag

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,14 +67,20 @@ class BatchWriter {
  public:
   static constexpr size_t kBatch = 4096;
 
-  explicit BatchWriter(const TriangleSink& sink) : sink_(sink) { batch_.reserve(kBatch); }
+  explicit BatchWriter(const TriangleSink& sink)
+      : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kBatch)) {}
   // Starts the next mesh: flushes, and counts triangles from 0 again.
   void mesh(std::string_view name);
   // The quantisation step of the triangles from here on.
   void quantisation(double step);
+  // Corner by corner to its place: a Triangle built first and copied then would be read back in
+  // other pieces than it was written in, which waits for the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
-    batch_.push_back({{a, b, c}});
-    if (batch_.size() == kBatch) flush();
+    Triangle& t = batch_[size_];
+    t.v[0] = a;
+    t.v[1] = b;
+    t.v[2] = c;
+    if (++size_ == kBatch) flush();
   }
   void flush();
 
@@ -82,7 +89,8 @@ class BatchWriter {
   std::string mesh_;
   uint64_t first_ = 0;
   double quantisation_ = 0;
-  std::vector<Triangle> batch_;
+  std::unique_ptr<Triangle[]> batch_;
+  size_t size_ = 0;
 };
 
 }  // namespace svdag

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/scene/mesh_reader.h"
+#include "io/scene/obj_plain.h"
 #include "io/scene/positions.h"
 #include "io/scene/text_scan.h"
 #include "io/scene/triangulate.h"
@@ -37,25 +38,57 @@ class ObjReader {
   void read() {
     choose();
     while (!scanner_.at_end()) {
-      const std::string_view statement = scanner_.word();
-      if (statement == "v") {
-        read_vertex();
-      } else if (statement == "f" || statement == "fo") {
-        read_face();
-      } else if (statement == "g") {
-        read_groups();
-      } else if (statement == "o") {
-        object_ = scanner_.rest_of_line();
-        choose();
-      } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
-        refuse(statement);
-      }
+      if (!read_plain_line()) read_line();
       scanner_.next_line();
     }
     writer_.flush();
   }
 
  private:
+  // A vertex or a face as nearly all files write them, or a line to skip; else false, and nothing
+  // was read.
+  bool read_plain_line() {
+    const std::string_view text = scanner_.visible();
+    const char* stop = nullptr;
+    if (text.starts_with("v ")) {
+      Point p;
+      stop = read_plain_vertex(text.substr(2), &p);
+      if (stop != nullptr) positions_.add(p);
+    } else if (text.starts_with("f ") && wanted_) {
+      PlainFace face;
+      stop = read_plain_face(text.substr(2), positions_.size(), &face);
+      if (stop != nullptr) add(face);
+    } else if (text.starts_with("vt ") || text.starts_with("vn ")) {
+      stop = text.data() + 2;
+    }
+    if (stop == nullptr) return false;
+    scanner_.skip_to(stop);
+    return true;
+  }
+
+  void add(const PlainFace& face) {
+    const auto& i = face.index;
+    if (face.corners == 3) return writer_.add(positions_[i[0]], positions_[i[1]], positions_[i[2]]);
+    for (size_t c = 0; c < face.corners; ++c) triangulator_.corner(positions_[i[c]]);
+    triangulator_.finish(writer_);
+  }
+
+  void read_line() {
+    const std::string_view statement = scanner_.word();
+    if (statement == "v") {
+      read_vertex();
+    } else if (statement == "f" || statement == "fo") {
+      read_face();
+    } else if (statement == "g") {
+      read_groups();
+    } else if (statement == "o") {
+      object_ = scanner_.rest_of_line();
+      choose();
+    } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
+      refuse(statement);
+    }
+  }
+
   [[noreturn]] void refuse(std::string_view statement) const {
     std::string name(statement.substr(0, 40));
     std::replace_if(

@@ -1,6 +1,9 @@
 #include "io/scene/text_scan.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <cstring>
 
 #include "streaming/error.h"
 
@@ -36,11 +39,31 @@ void TextScanner::take_line_end() {
   ++line_;
 }
 
+// The next '\n' or '\r', or the end of the window; eight bytes at a time while all are above 15.
+const char* TextScanner::find_line_end() const {
+  const char* p = here_;
+  while (end_ - p >= 8) {
+    uint64_t word;
+    std::memcpy(&word, p, sizeof word);
+    const uint64_t small = (word - 0x1010101010101010) & ~word & 0x8080808080808080;
+    if (small == 0) {
+      p += 8;
+      continue;
+    }
+    p += std::countr_zero(small) / 8;  // the lowest flag is right
+    if (is_line_end(*p)) return p;
+    ++p;
+  }
+  return std::find_if(p, end_, is_line_end);
+}
+
 void TextScanner::skip_rest_of_line() {
   // A comment that ends with a backslash (a path, say) does not swallow the next line.
   const bool comment = at_line_end() && here_ != end_ && *here_ == syntax_.comment;
   for (bool joins = false;;) {
-    while (here_ != end_ && !is_line_end(*here_)) joins = *here_++ == '\\';
+    const char* stop = find_line_end();
+    if (stop != here_) joins = stop[-1] == '\\';
+    here_ = stop;
     if (end_ - here_ < 2 && !last_) {
       refill();
     } else if (here_ == end_) {

@@ -1,16 +1,16 @@
 // Words and numbers of a text file, through the small window of a ByteStream.
 //
 // Lines end with "\n", "\r\n" or "\r"; blanks are spaces and tabs. Decimal numbers become the
-// nearest double (or float), whatever the locale: std::from_chars, with a leading "+" allowed.
+// nearest double (or float), whatever the locale (io/scene/decimal.h), with a leading "+" allowed.
 // Invariant: after skip_blanks() a whole word is visible, or the word is too long to be one.
 // Rejected: iostreams (20 times slower), strtod (locale), reading line by line (every byte twice).
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "io/scene/decimal.h"
 #include "streaming/byte_stream.h"
 
 namespace svdag {
@@ -101,6 +101,11 @@ class TextScanner {
     here_ = p;
   }
 
+  // For readers with a quicker way through plain lines: the bytes in the window from here on, and
+  // a place in them, on this line, to go on from.
+  std::string_view visible() const { return {here_, size_t(end_ - here_)}; }
+  void skip_to(const char* place) { here_ = place; }
+
   // A broken file: one sentence that names this line.
   [[noreturn]] void fail(const std::string& sentence) const;
 
@@ -135,7 +140,7 @@ class TextScanner {
   T decimal() {
     skip_blanks();
     T value = 0;
-    const auto [end, error] = std::from_chars(behind_plus(), end_, value);
+    const auto [end, error] = parse_decimal(behind_plus(), end_, value);
     if (error == std::errc::result_out_of_range) {
       value = beyond_range<T>(end);
     } else if (error != std::errc{}) {
@@ -147,6 +152,7 @@ class TextScanner {
   }
   template <class T>
   T beyond_range(const char* end) const;
+  const char* find_line_end() const;
   void skip_rest_of_line();
   void take_line_end();
   void refill();

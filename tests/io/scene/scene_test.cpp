@@ -73,6 +73,25 @@ TEST_F(SceneFiles, CoordinatesThatAreNotFiniteAreRefusedOrSkippedAndCounted) {
   }
 }
 
+// The check of a whole batch at once may not see an infinity where only its own sum overflows, and
+// may not miss one in any place.
+TEST_F(SceneFiles, HugeCoordinatesAreFiniteAndOneInfinityIsFoundAnywhere) {
+  const std::string huge = "v 1.7e308 1.7e308 -1.7e308\n";
+  EXPECT_EQ(stream({{write("huge.obj", huge + huge + huge + "f 1 2 3\n")}, {}, false}).triangles,
+            1U);
+  for (int place = 0; place < 9; ++place) {
+    std::string text;
+    for (int i = 0; i < 9; ++i)
+      text += std::string(i % 3 == 0 ? "\nv " : " ") + (i == place ? "-inf" : "1");
+    text += "\nv inf 0 0\nv 0 0 0\nf 5 5 5\nf 1 2 3\nf 5 5 5\n";
+    const std::string path = write("place.obj", text);
+    EXPECT_NE(refusal({{path}, {}, false}).find("triangle 1"), std::string::npos) << place;
+    EXPECT_EQ(stream({{path}, {}, true}).invalid, 1U) << place;
+  }
+  const std::string opposite = "v inf 0 0\nv -inf 0 0\nv 0 0 0\nf 1 2 3\n";
+  EXPECT_EQ(stream({{write("opposite.obj", opposite)}, {}, true}).invalid, 1U);
+}
+
 TEST_F(SceneFiles, ASceneWithoutTrianglesHasNoBounds) {
   const std::string path = write("points.obj", "v 0 0 0\n");
   EXPECT_THROW(Scene({{path}, {}, false}, &budget_).bounds(), Error);
