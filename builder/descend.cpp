@@ -7,6 +7,8 @@
 namespace svdag {
 namespace {
 
+constexpr size_t kLargestPatch = 8;  // triangles
+constexpr int64_t kLargestPatchSide = 64;  // voxels
 constexpr int kFlushLog2 = 6;  // cubes of 64^3 voxels look whether a flush is due
 
 }  // namespace
@@ -71,8 +73,8 @@ void Descent::flush(int level) {
 SubDag Descent::node(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
   if (cube.level == table_->brick_level()) return brick(cube, list);
-  if (config_.plane_memo && list.size() == 1 && covers(*list[0].triangle, list[0].edges)) {
-    if (const auto known = find_in_memo(cube, *list[0].triangle)) return *known;
+  if (config_.plane_memo && list.size() <= kLargestPatch) {
+    if (const auto known = find_in_memo(cube, list)) return *known;
   }
   if (cube.level == grid_.levels - kFlushLog2 && table_->full()) flush(cube.level);
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
@@ -89,11 +91,37 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
   return {table_->add_node(cube.level, key), voxels};
 }
 
-std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleSetup& triangle) {
+std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const EntryList& list) {
   if (grid_.bounded && !inside_selection(cube)) return std::nullopt;
-  const std::optional<PlaneMemo::Known>& known = admitted(triangle);
+  if (list.size() > 1) return config_.patches ? find_patch(cube, list) : std::nullopt;
+  if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
+  const std::optional<PlaneMemo::Known>& known = admitted(*list[0].triangle);
   if (!known || cube.level < known->asked_from) return std::nullopt;
   return memo_.find(*known, cube);
+}
+
+std::optional<SubDag> Descent::find_patch(const Cube& cube, const EntryList& list) {
+  const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
+  if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
+  const auto covering = std::find_if(list.begin(), list.end(), [](const Entry& entry) {
+    return covers(*entry.triangle, entry.edges);
+  });
+  const bool covered = covering != list.end();
+  const TriangleSetup& first = covered ? *covering->triangle : *list[0].triangle;
+  const LatticePoint corner = cube.corner(grid_.levels);
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  if (!covered && !has_no_border(list, first.dominant, corner, side, config_.patch))
+    return std::nullopt;
+  const std::optional<PlaneMemo::Known>& known = admitted(first);
+  if (!known) return std::nullopt;
+  const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
+  if (!range) return std::nullopt;
+  Witness witness;
+  const auto dag = memo_.find(*known, cube, *range, &witness);
+  if (!dag || dag->root == 0 || covered || !config_.patch.witness) return dag;
+  if (!covers_witness(list, known->plane, corner, grid_.fraction(), voxels, witness))
+    return std::nullopt;
+  return dag;
 }
 
 const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& triangle) {

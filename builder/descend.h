@@ -13,6 +13,7 @@
 
 #include "builder/cell.h"
 #include "builder/node_table.h"
+#include "builder/patch.h"
 #include "builder/plane_memo.h"
 #include "builder/kernels.h"
 #include "io/grid.h"
@@ -25,6 +26,8 @@ struct DescentConfig {
   const Kernels* kernels = &svdag::kernels();
   bool covering = true;    // switch the edges of a triangle off where it covers a cube
   bool plane_memo = true;  // answer covered cubes from a memo; needs `covering`
+  bool patches = true;     // also cubes with a near-planar patch; needs `plane_memo`
+  PatchConditions patch;   // for tests: all are needed
 };
 
 // Divides `list`, the list of `cube`, among its children.
@@ -60,7 +63,8 @@ class Descent {
   };
 
   SubDag node(const Cube& cube, const EntryList& list);
-  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleSetup& triangle);
+  std::optional<SubDag> find_in_memo(const Cube& cube, const EntryList& list);
+  std::optional<SubDag> find_patch(const Cube& cube, const EntryList& list);
   const std::optional<PlaneMemo::Known>& admitted(const TriangleSetup& triangle);
   SubDag brick(const Cube& cube, const EntryList& list);
   Brick selected_voxels(const Cube& cube) const;

@@ -70,24 +70,66 @@ std::optional<LatticePlane> lattice_plane(const TriangleSetup& t) noexcept {
   return plane;
 }
 
+namespace {
+
+// n_q . (point - corner), if it fits.
+std::optional<int64_t> offset_at(const LatticePlane& p, const LatticePoint& point,
+                                 const LatticePoint& corner) noexcept {
+  __int128 offset = 0;
+  for (int a = 0; a < 3; ++a) offset += __int128(p.n[a]) * (point[a] - corner[a]);
+  constexpr __int128 kLimit = __int128(1) << 61;
+  if (offset < -kLimit || offset > kLimit) return std::nullopt;
+  return int64_t(offset);
+}
+
+// The range of base + slope_u (x_u - v_u) + slope_v (x_v - v_v) over the column. Slopes are wrong by
+// less than slope_error, distances are below 2^42 and exact, sums lose less than 2^-50 of their
+// terms; 2 more steps make the range strictly larger.
+OffsetRange range_in_column(int64_t base, const double slope[2], double slope_error,
+                            const double from[2], double side) noexcept {
+  double low = 0, high = 0, reach = 0, largest = 0;
+  for (int i = 0; i < 2; ++i) {
+    const double a = slope[i] * from[i], b = slope[i] * (from[i] + side);
+    low += std::min(a, b);
+    high += std::max(a, b);
+    reach += std::max(std::abs(from[i]), std::abs(from[i] + side));
+    largest += std::max(std::abs(a), std::abs(b));
+  }
+  const double pad = slope_error * reach + 0x1p-50 * largest + 2;
+  return {base + int64_t(std::floor(low - pad)), base + int64_t(std::ceil(high + pad))};
+}
+
+}  // namespace
+
 std::optional<OffsetRange> offsets_in_column(const LatticePlane& p, const LatticePoint& corner,
                                              int64_t side) noexcept {
-  __int128 base = 0;
-  for (int a = 0; a < 3; ++a) base += __int128(p.n[a]) * (p.v0[a] - corner[a]);
-  constexpr __int128 kLimit = __int128(1) << 61;
-  if (base < -kLimit || base > kLimit) return std::nullopt;
-  if (p.exact) return OffsetRange{int64_t(base), int64_t(base)};
-  // Slopes are below 1 and wrong by less than 2^-23 (three roundings of a ratio below 1, times
-  // 2^28); distances are below 2^42 and exact; 2 more steps stand for the roundings here and make
-  // the range strictly larger.
-  const double u0 = double(corner[p.u] - p.v0[p.u]), u1 = u0 + double(side);
-  const double v0 = double(corner[p.v] - p.v0[p.v]), v1 = v0 + double(side);
-  const double reach = std::max(std::abs(u0), std::abs(u1)) + std::max(std::abs(v0), std::abs(v1));
-  const double pad = 0x1p-22 * reach + 2;
-  const auto [ulow, uhigh] = std::minmax({p.slope_u * u0, p.slope_u * u1});
-  const auto [vlow, vhigh] = std::minmax({p.slope_v * v0, p.slope_v * v1});
-  return OffsetRange{int64_t(base) + int64_t(std::floor((ulow + vlow) - pad)),
-                     int64_t(base) + int64_t(std::ceil((uhigh + vhigh) + pad))};
+  const auto base = offset_at(p, p.v0, corner);
+  if (!base) return std::nullopt;
+  if (p.exact) return OffsetRange{*base, *base};
+  // Three roundings of a ratio below 1, times 2^28.
+  const double slope[2] = {p.slope_u, p.slope_v};
+  const double from[2] = {double(corner[p.u] - p.v0[p.u]), double(corner[p.v] - p.v0[p.v])};
+  return range_in_column(*base, slope, 0x1p-22, from, double(side));
+}
+
+std::optional<OffsetRange> offsets_along(const LatticePlane& p, const TriangleSetup& other,
+                                         const LatticePoint& corner, int64_t side) noexcept {
+  const int w = other.dominant;
+  const LatticePoint& v0 = other.triangle.v[0];
+  const auto base = offset_at(p, v0, corner);
+  if (!base) return std::nullopt;
+  if (p.exact) {  // the same plane? then all its vertices have one offset
+    const auto second = offset_at(p, other.triangle.v[1], corner);
+    const auto third = offset_at(p, other.triangle.v[2], corner);
+    if (second == base && third == base) return OffsetRange{*base, *base};
+  }
+  const double inverse = double(p.n[w]) / other.normal[w];
+  const double slope[2] = {double(p.n[p.u]) - inverse * other.normal[p.u],
+                           double(p.n[p.v]) - inverse * other.normal[p.v]};
+  const double from[2] = {double(corner[p.u] - v0[p.u]), double(corner[p.v] - v0[p.v])};
+  // Steep against n_q: the range would not fit any entry, and its arithmetic not 63 bits.
+  if (std::max(std::abs(slope[0]), std::abs(slope[1])) > 0x1p16) return std::nullopt;
+  return range_in_column(*base, slope, 0x1p-22, from, double(side));
 }
 
 }  // namespace svdag

@@ -38,4 +38,8 @@ std::optional<LatticePlane> lattice_plane(const TriangleSetup& triangle) noexcep
 std::optional<OffsetRange> offsets_in_column(const LatticePlane& plane, const LatticePoint& corner,
                                              int64_t side) noexcept;
 
+// The same for the plane of another triangle, which has the same dominant axis and is not wide.
+std::optional<OffsetRange> offsets_along(const LatticePlane& plane, const TriangleSetup& other,
+                                         const LatticePoint& corner, int64_t side) noexcept;
+
 }  // namespace svdag

@@ -13,7 +13,7 @@ namespace {
 constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
 constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube that may be asked for
-constexpr size_t kPlanes = size_t(1) << 18;
+constexpr size_t kNormals = size_t(1) << 20;
 constexpr int64_t kSpan = 3;  // an entry also stands in so many buckets before and after
 constexpr int kLargestTable = 19;  // log2 of its entries
 constexpr double kRepeats = 1.5;   // cubes per content from which on entries are kept
@@ -55,26 +55,30 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* t
 }
 
 std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
-  const double width = std::min(std::ldexp(t.extent, -fraction_bits(levels_)), side);
+  const double width = std::min(t.extent / double(int64_t(1) << fraction_bits(levels_)), side);
   if (width < kNarrowest) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
   if (!plane) return std::nullopt;
-  const uint32_t n = number(*plane);
-  Plane& known = planes_[n];
-  known.area += 0.5 * width * width;
+  Normal& n = *normal(*plane);
+  n.area += 0.5 * width * width;
   const auto repeats = [&](int level) {
-    const double s = std::ldexp(1.0, levels_ - level);
-    return known.area >= kRepeats * known.contents[size_t(level)] * s * s;
+    const double s = double(int64_t(1) << (levels_ - level));
+    return n.area >= kRepeats * contents(n, level) * s * s;
   };
   int stored_from = levels_ - 2;
   if (!repeats(stored_from)) return std::nullopt;
   while (stored_from > 0 && repeats(stored_from - 1)) --stored_from;
+  if (n.number == 0) {
+    add_plane(n);
+    n.number = uint32_t(planes_.size());
+  }
   const int largest = plane->exact ? kLargestExact - fraction_bits(levels_) : kLargestRounded;
-  return Known{*plane, n, std::max(0, levels_ - largest), stored_from};
+  return Known{*plane, n.number - 1, std::max(0, levels_ - largest), stored_from};
 }
 
 void PlaneMemo::forget() {
-  if (planes_.size() < kPlanes) return;
+  if (normals_.size() < kNormals) return;
+  normals_.clear();
   planes_.clear();
   std::fill(slots_.begin(), slots_.end(), 0);
   for (Table& table : tables_) {
@@ -84,37 +88,43 @@ void PlaneMemo::forget() {
   }
 }
 
-uint32_t PlaneMemo::number(const LatticePlane& p) {
+PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
   const auto slot_of = [&](const int64_t n[3]) {
     return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (slots_.size() - 1);
   };
-  if (2 * (planes_.size() + 1) > slots_.size()) {
+  if (2 * (normals_.size() + 1) > slots_.size()) {
     slots_.assign(2 * slots_.size(), 0);
-    for (size_t i = 0; i < planes_.size(); ++i) {
-      size_t slot = slot_of(planes_[i].n);
+    for (size_t i = 0; i < normals_.size(); ++i) {
+      size_t slot = slot_of(normals_[i].n);
       while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
       slots_[slot] = uint32_t(i + 1);
     }
   }
   size_t slot = slot_of(p.n);
   for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
-    if (std::equal(p.n, p.n + 3, planes_[slots_[slot] - 1].n)) return slots_[slot] - 1;
+    Normal& other = normals_[slots_[slot] - 1];
+    if (std::equal(p.n, p.n + 3, other.n)) return &other;
   }
-  add_plane(p);
-  slots_[slot] = uint32_t(planes_.size());
-  return uint32_t(planes_.size() - 1);
+  normals_.push_back({{p.n[0], p.n[1], p.n[2]}, 0, 0});
+  slots_[slot] = uint32_t(normals_.size());
+  return &normals_.back();
 }
 
-void PlaneMemo::add_plane(const LatticePlane& p) {
-  Plane plane{{p.n[0], p.n[1], p.n[2]}, 0, 0, 0, {}, {}, {}};
-  for (const int64_t n : p.n) (n < 0 ? plane.negative : plane.positive) += n;
-  const double sum = double(plane.positive - plane.negative);
+// At most so many different contents has a cube of the level.
+double PlaneMemo::contents(const Normal& normal, int level) const {
+  const double s = double(int64_t(1) << (levels_ - level));
+  const double sum = double(std::abs(normal.n[0]) + std::abs(normal.n[1]) + std::abs(normal.n[2]));
+  return std::min(2 * (s + 1) * (s + 1) * (s + 1), 2 * sum * s + 1);
+}
+
+void PlaneMemo::add_plane(const Normal& normal) {
+  Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}};
+  for (const int64_t n : plane.n) (n < 0 ? plane.negative : plane.positive) += n;
   for (int level = 0; level <= levels_ - 2; ++level) {
-    const double side = std::ldexp(1.0, levels_ - level);  // in voxels
-    const double contents = std::min(2 * (side + 1) * (side + 1) * (side + 1), 2 * sum * side + 1);
-    const double length = sum * std::ldexp(side, fraction_bits(levels_)) / contents;
-    plane.contents[size_t(level)] = contents;
-    plane.bucket_log2[size_t(level)] = int8_t(std::clamp(std::ilogb(length), 0, 61));
+    const double range = std::ldexp(double(plane.positive - plane.negative),
+                                    levels_ - level + fraction_bits(levels_));
+    const int log2 = std::ilogb(range / contents(normal, level));
+    plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
   plane.brick = plane_brick(plane);
   planes_.push_back(plane);

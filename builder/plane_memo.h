@@ -57,7 +57,7 @@ class PlaneMemo {
   // What the memo knows about a triangle's plane.
   struct Known {
     LatticePlane plane;
-    uint32_t number;   // of n_q
+    uint32_t number;   // of the plane
     int asked_from;    // levels from this one on may be asked for
     int stored_from;   // levels from this one on repeat
   };
@@ -100,18 +100,24 @@ class PlaneMemo {
     size_t used = 0, limit = 0;
     uint32_t mask = 0;  // sets - 1
   };
+  // A normal that was met.
+  struct Normal {
+    int64_t n[3];
+    double area;      // square voxels that its triangles have brought
+    uint32_t number;  // 1 + its place in planes_, once it was admitted
+  };
+  // What answering needs.
   struct Plane {
     int64_t n[3];
-    int64_t negative, positive;             // sums of the components of either sign
-    double area;                            // square voxels that its triangles have brought
+    int64_t negative, positive;          // sums of the components of either sign
+    std::array<int8_t, 24> bucket_log2;  // [level]: about the length of an interval
     PlaneBrick brick;
-    std::array<int8_t, 24> bucket_log2;     // [level]: about the length of an interval
-    std::array<double, 24> contents;        // [level]: at most so many different ones
   };
   static constexpr size_t kWays = 4;
 
-  uint32_t number(const LatticePlane& plane);
-  void add_plane(const LatticePlane& plane);
+  Normal* normal(const LatticePlane& plane);
+  double contents(const Normal& normal, int level) const;
+  void add_plane(const Normal& normal);
   PlaneBrick plane_brick(const Plane& plane) const;
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
@@ -127,7 +133,8 @@ class PlaneMemo {
   int stored_from_ = 0;  // of the current query
   std::vector<Table> tables_;  // [level]
   std::vector<Plane> planes_;
-  std::vector<uint32_t> slots_;  // open addressing by normal: 1 + plane number
+  std::vector<Normal> normals_;
+  std::vector<uint32_t> slots_;  // open addressing by normal: 1 + place in normals_
   PlaneMemoCounts counts_;
 };
 
