@@ -11,9 +11,9 @@ namespace {
 // Merges sorted sequences without repeats into one; add(key) appends to the output and returns the
 // global index, which each sequence that holds the key gets into its map.
 template <class Key, class Add>
-std::vector<std::vector<uint32_t>> merge_level(const std::vector<std::span<const Key>>& sequences,
+std::vector<HugeVector<uint32_t>> merge_level(const std::vector<std::span<const Key>>& sequences,
                                                Add add) {
-  std::vector<std::vector<uint32_t>> maps(sequences.size());
+  std::vector<HugeVector<uint32_t>> maps(sequences.size());
   for (size_t s = 0; s < sequences.size(); ++s) maps[s].reserve(sequences[s].size());
   const auto head = [&](size_t s) { return sequences[s][maps[s].size()]; };
   const auto ended = [&](size_t s) { return maps[s].size() == sequences[s].size(); };
@@ -33,8 +33,8 @@ std::vector<std::vector<uint32_t>> merge_level(const std::vector<std::span<const
 }
 
 // Rewrites run-local children (1 + rank) to global ones (1 + index).
-std::vector<NodeKey> rewrite(std::span<const NodeKey> nodes, const std::vector<uint32_t>& map) {
-  std::vector<NodeKey> out(nodes.begin(), nodes.end());
+HugeVector<NodeKey> rewrite(std::span<const NodeKey> nodes, const HugeVector<uint32_t>& map) {
+  HugeVector<NodeKey> out(nodes.begin(), nodes.end());
   for (NodeKey& key : out) {
     for (uint32_t& child : key) child = child == 0 ? 0 : 1 + map[child - 1];
   }
@@ -46,7 +46,7 @@ std::vector<NodeKey> rewrite(std::span<const NodeKey> nodes, const std::vector<u
 void merge(std::span<const Run> runs, std::span<const CellRoot> roots, int levels,
            DagWriter* writer) {
   const int brick_level = levels - 2;
-  std::vector<std::vector<uint32_t>> maps;  // [run]: rank -> global index on the level below
+  std::vector<HugeVector<uint32_t>> maps;  // [run]: rank -> global index on the level below
   TopTree top(roots);
 
   writer->begin_level(brick_level);
@@ -57,13 +57,14 @@ void merge(std::span<const Run> runs, std::span<const CellRoot> roots, int level
 
   for (int level = brick_level - 1; level >= 0; --level) {
     writer->begin_level(level);
-    std::vector<std::vector<NodeKey>> rewritten;
+    std::vector<HugeVector<NodeKey>> rewritten;
     for (size_t r = 0; r < runs.size(); ++r)
       rewritten.push_back(rewrite(runs[r].nodes[size_t(level)], maps[r]));
-    rewritten.push_back(top.sorted_nodes());
+    const std::vector<NodeKey> above = top.sorted_nodes();
+    rewritten.emplace_back(above.begin(), above.end());
     std::vector<std::span<const NodeKey>> sequences(rewritten.begin(), rewritten.end());
     maps = merge_level(sequences, [&](const NodeKey& key) { return writer->add_node(key); });
-    const std::vector<uint32_t> top_map = std::move(maps.back());
+    const HugeVector<uint32_t> top_map = std::move(maps.back());
     maps.pop_back();
     top.resolve(level, maps, top_map);
   }

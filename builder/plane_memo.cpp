@@ -16,7 +16,7 @@ constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube 
 constexpr size_t kNormals = size_t(1) << 20;
 constexpr int64_t kSpan = 3;  // an entry also stands in so many buckets before and after
 constexpr int kLargestTable = 19;  // log2 of its entries
-constexpr double kRepeats = 1.5;   // cubes per content from which on entries are kept
+constexpr double kRepeats = 1.0;   // cubes per content from which on entries are kept
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -170,18 +170,10 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
 }
 
 bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
-  const Plane& plane = planes_[number];
-  const int side_log2 = levels_ - level + fraction_bits(levels_);
-  const int64_t low = plane.negative << side_log2, high = plane.positive << side_log2;
-  if (range.high < low || range.low > high) {  // the plane passes the cube
-    *out = range.high < low ? Answer{-kFarOffset, low - 1, 0, 0, 0}
-                            : Answer{high + 1, kFarOffset, 0, 0, 0};
-    return true;
-  }
   if (level < stored_from_) return compute(number, level, range, out);
   Table& table = tables_[size_t(level)];
   if (table.entries.empty()) grow(&table);
-  const int log2 = plane.bucket_log2[size_t(level)];
+  const int log2 = planes_[number].bucket_log2[size_t(level)];
   const int64_t bucket = range.low >> log2;
   const Entry* set = set_of(&table, tag_of(number, bucket));
   for (size_t way = 0; way < kWays; ++way) {
@@ -205,19 +197,31 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
                            planes_[number].n[2] << half_log2};
-  NodeKey key;
+  NodeKey key{};
+  // Beyond these offsets the plane passes a child.
+  const int64_t low = planes_[number].negative << half_log2;
+  const int64_t high = planes_[number].positive << half_log2;
   *out = {-kFarOffset, kFarOffset, 0, 0, 0};
   const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
   for (unsigned c = 0; c < 8; ++c) {
     const int64_t shift = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
+    const OffsetRange part{range.low - shift, range.high - shift};
+    if (part.high < low) {
+      out->high = std::min(out->high, low - 1 + shift);
+      continue;
+    }
+    if (part.low > high) {
+      out->low = std::max(out->low, high + 1 + shift);
+      continue;
+    }
     Answer child;
-    if (!node(number, level + 1, {range.low - shift, range.high - shift}, &child)) return false;
+    if (!node(number, level + 1, part, &child)) return false;
+    out->low = std::max(out->low, child.low + shift);
+    out->high = std::min(out->high, child.high + shift);
+    if (child.node == 0) continue;
     key[c] = child.node;
     out->voxels += child.voxels;
-    if (child.node != 0)
-      out->witness = child.witness + pack((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
-    out->low = std::max(out->low, child.low == -kFarOffset ? -kFarOffset : child.low + shift);
-    out->high = std::min(out->high, child.high == kFarOffset ? kFarOffset : child.high + shift);
+    out->witness = child.witness + pack((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
   }
   if (out->voxels == 0) return true;
   ++counts_.computed;

@@ -20,12 +20,12 @@ uint32_t key_word(const Numbered<NodeKey>& record, size_t i) {
 
 // The records sorted into *keys; returns the rank of each number.
 template <class Key>
-std::vector<uint32_t> sort_keys(std::vector<Numbered<Key>> records, std::vector<Key>* keys) {
-  std::vector<Numbered<Key>> scratch;
+HugeVector<uint32_t> sort_keys(HugeVector<Numbered<Key>> records, HugeVector<Key>* keys) {
+  HugeVector<Numbered<Key>> scratch;
   radix_sort(
       std::span(records), sizeof(Key) / 4,
       [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch);
-  std::vector<uint32_t> ranks(records.size());
+  HugeVector<uint32_t> ranks(records.size());
   keys->resize(records.size());
   for (uint32_t i = 0; i < records.size(); ++i) {
     (*keys)[i] = records[i].key;
@@ -42,13 +42,13 @@ Run freeze(NodeTable* table, Ranks* ranks) {
   Run run;
   run.nodes.resize(size_t(brick_level));
   ranks->resize(size_t(brick_level) + 1);
-  std::vector<Numbered<Brick>> bricks(table->size(brick_level));
+  HugeVector<Numbered<Brick>> bricks(table->size(brick_level));
   for (uint32_t i = 0; i < bricks.size(); ++i) bricks[i] = {table->brick(i), i};
   table->clear(brick_level);
   (*ranks)[size_t(brick_level)] = sort_keys(std::move(bricks), &run.bricks);
   for (int level = brick_level - 1; level >= 0; --level) {
-    const std::vector<uint32_t>& below = (*ranks)[size_t(level) + 1];
-    std::vector<Numbered<NodeKey>> nodes(table->size(level));
+    const HugeVector<uint32_t>& below = (*ranks)[size_t(level) + 1];
+    HugeVector<Numbered<NodeKey>> nodes(table->size(level));
     for (uint32_t i = 0; i < nodes.size(); ++i) {
       nodes[i] = {table->node(level, i), i};
       for (uint32_t& child : nodes[i].key) child = child == 0 ? 0 : 1 + below[child - 1];

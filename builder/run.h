@@ -8,16 +8,17 @@
 #include <vector>
 
 #include "builder/node_table.h"
+#include "streaming/huge_vector.h"
 
 namespace svdag {
 
 struct Run {
-  std::vector<Brick> bricks;
-  std::vector<std::vector<NodeKey>> nodes;  // [level], 0 .. L-3
+  HugeVector<Brick> bricks;
+  std::vector<HugeVector<NodeKey>> nodes;  // [level], 0 .. L-3
 };
 
 // The permutation from provisional numbers to ranks, per level (the last entry is the brick level).
-using Ranks = std::vector<std::vector<uint32_t>>;
+using Ranks = std::vector<HugeVector<uint32_t>>;
 
 // Empties `table` and sorts it, level by level from the bricks up. *ranks tells what became of the
 // provisional numbers.

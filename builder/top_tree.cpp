@@ -28,8 +28,8 @@ std::vector<NodeKey> TopTree::sorted_nodes() {
   return nodes_;
 }
 
-void TopTree::resolve(int level, const std::vector<std::vector<uint32_t>>& run_maps,
-                      const std::vector<uint32_t>& top_map) {
+void TopTree::resolve(int level, const std::vector<HugeVector<uint32_t>>& run_maps,
+                      const HugeVector<uint32_t>& top_map) {
   for (Place& place : places_) place.index = top_map[place.index];
   for (const CellRoot& root : roots_) {
     if (root.cell.level == level)

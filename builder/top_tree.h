@@ -19,8 +19,8 @@ class TopTree {
   std::vector<NodeKey> sorted_nodes();
   // After level `level` was merged: `run_maps[r]` maps ranks of run r to global indices, `top_map`
   // the nodes returned by the last sorted_nodes().
-  void resolve(int level, const std::vector<std::vector<uint32_t>>& run_maps,
-               const std::vector<uint32_t>& top_map);
+  void resolve(int level, const std::vector<HugeVector<uint32_t>>& run_maps,
+               const HugeVector<uint32_t>& top_map);
 
  private:
   struct Place {

@@ -4,59 +4,49 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <utility>
+#include <cstring>
 
 #include "streaming/error.h"
-#include "streaming/memory_budget.h"
 
 namespace svdag {
 namespace {
 
 constexpr size_t kHugePage = size_t(1) << 21;
+constexpr size_t kSmallest = 2 * kHugePage;  // smaller blocks: the heap
+
+size_t round_up(size_t bytes) {
+  return (bytes + kHugePage - 1) & ~(kHugePage - 1);
+}
 
 }  // namespace
 
-HugePages::HugePages(size_t bytes) : bytes_(bytes) {
-  if (bytes < 2 * kHugePage) {
-    data_ = std::calloc(bytes, 1);
-    if (data_ == nullptr) throw Error(ExitCode::kMemory, "the system has no memory left");
-    return;
+void* map_huge_pages(size_t bytes) {
+  if (bytes < kSmallest) {
+    void* block = std::malloc(bytes != 0 ? bytes : 1);
+    if (block == nullptr) throw Error(ExitCode::kMemory, "the system has no memory left");
+    return block;
   }
-  mapped_ = bytes + kHugePage;
-  mapping_ = mmap(nullptr, mapped_, PROT_READ | PROT_WRITE,
-                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapping_ == MAP_FAILED) throw Error(ExitCode::kMemory, "the system has no memory left");
-  const uintptr_t aligned = (reinterpret_cast<uintptr_t>(mapping_) + kHugePage - 1) & ~(kHugePage - 1);
-  data_ = reinterpret_cast<void*>(aligned);
-  madvise(data_, bytes, MADV_HUGEPAGE);  // a wish: without it everything works, slower
+  // One page more than needed, and what is not aligned given back.
+  const size_t size = round_up(bytes);
+  void* mapping = mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE,
+                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapping == MAP_FAILED) throw Error(ExitCode::kMemory, "the system has no memory left");
+  char* const begin = static_cast<char*>(mapping);
+  char* const aligned =
+      reinterpret_cast<char*>(round_up(reinterpret_cast<uintptr_t>(begin)));
+  if (aligned != begin) munmap(begin, size_t(aligned - begin));
+  munmap(aligned + size, kHugePage - size_t(aligned - begin));
+  madvise(aligned, size, MADV_HUGEPAGE);  // a wish: without it everything works, slower
+  return aligned;
 }
 
-HugePages::HugePages(HugePages&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)),
-      mapping_(std::exchange(other.mapping_, nullptr)),
-      bytes_(std::exchange(other.bytes_, 0)),
-      mapped_(std::exchange(other.mapped_, 0)) {}
-
-HugePages& HugePages::operator=(HugePages&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  data_ = std::exchange(other.data_, nullptr);
-  mapping_ = std::exchange(other.mapping_, nullptr);
-  bytes_ = std::exchange(other.bytes_, 0);
-  mapped_ = std::exchange(other.mapped_, 0);
-  return *this;
+void unmap_huge_pages(void* block, size_t bytes) noexcept {
+  if (bytes < kSmallest) return std::free(block);
+  munmap(block, round_up(bytes));
 }
 
-HugePages::~HugePages() {
-  release();
-}
-
-void HugePages::release() noexcept {
-  if (mapping_ != nullptr) {
-    munmap(mapping_, mapped_);
-  } else {
-    std::free(data_);
-  }
+HugePages::HugePages(size_t bytes) : data_(map_huge_pages(bytes)), bytes_(bytes) {
+  if (bytes < kSmallest) std::memset(data_, 0, bytes);
 }
 
 }  // namespace svdag

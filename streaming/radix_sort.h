@@ -18,9 +18,9 @@
 namespace svdag {
 
 // Sorts `records` ascending. `word(record, i)` gives key word i < words. Records with equal keys
-// may come out in any order. `scratch` grows to the size of `records`.
-template <class Record, class Word>
-void radix_sort(std::span<Record> records, size_t words, Word word, std::vector<Record>* scratch) {
+// may come out in any order. `scratch`, a vector of records, grows to their number.
+template <class Record, class Word, class Vector>
+void radix_sort(std::span<Record> records, size_t words, Word word, Vector* scratch) {
   constexpr size_t kSmall = 32;
   const auto less = [&](const Record& a, const Record& b) {
     for (size_t i = 0; i < words; ++i) {
