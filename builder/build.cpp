@@ -88,11 +88,11 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   report.seconds.voxelize = phase.lap();
 
   progress->phase("sort", 0);
-  const std::vector<Run> runs = freeze(&cells, executor);
+  std::vector<Run> runs = freeze(&cells, executor);
   report.seconds.sort = phase.lap();
 
   progress->phase("merge", 0);
-  merge(runs, cells.roots, report.grid.levels, &writer);
+  merge(runs, cells.roots, report.grid.levels, &writer, executor);
   report.seconds.merge = phase.lap();
   writer.finish(report.voxels, report.split.largest_snap);
   report.seconds.write = phase.lap();

@@ -33,18 +33,16 @@ std::vector<HugeVector<uint32_t>> merge_level(const std::vector<std::span<const 
 }
 
 // Rewrites run-local children (1 + rank) to global ones (1 + index).
-HugeVector<NodeKey> rewrite(std::span<const NodeKey> nodes, const HugeVector<uint32_t>& map) {
-  HugeVector<NodeKey> out(nodes.begin(), nodes.end());
-  for (NodeKey& key : out) {
+void rewrite(std::span<NodeKey> nodes, const HugeVector<uint32_t>& map) {
+  for (NodeKey& key : nodes) {
     for (uint32_t& child : key) child = child == 0 ? 0 : 1 + map[child - 1];
   }
-  return out;
 }
 
 }  // namespace
 
-void merge(std::span<const Run> runs, std::span<const CellRoot> roots, int levels,
-           DagWriter* writer) {
+void merge(std::span<Run> runs, std::span<const CellRoot> roots, int levels, DagWriter* writer,
+           Executor* executor) {
   const int brick_level = levels - 2;
   std::vector<HugeVector<uint32_t>> maps;  // [run]: rank -> global index on the level below
   TopTree top(roots);
@@ -57,13 +55,15 @@ void merge(std::span<const Run> runs, std::span<const CellRoot> roots, int level
 
   for (int level = brick_level - 1; level >= 0; --level) {
     writer->begin_level(level);
-    std::vector<HugeVector<NodeKey>> rewritten;
-    for (size_t r = 0; r < runs.size(); ++r)
-      rewritten.push_back(rewrite(runs[r].nodes[size_t(level)], maps[r]));
+    executor->for_each(runs.size(), [&](size_t, size_t r) {
+      rewrite(runs[r].nodes[size_t(level)], maps[r]);
+    });
     const std::vector<NodeKey> above = top.sorted_nodes();
-    rewritten.emplace_back(above.begin(), above.end());
-    std::vector<std::span<const NodeKey>> sequences(rewritten.begin(), rewritten.end());
+    std::vector<std::span<const NodeKey>> sequences;
+    for (const Run& run : runs) sequences.emplace_back(run.nodes[size_t(level)]);
+    sequences.emplace_back(above);
     maps = merge_level(sequences, [&](const NodeKey& key) { return writer->add_node(key); });
+    for (Run& run : runs) run.nodes[size_t(level)] = {};
     const HugeVector<uint32_t> top_map = std::move(maps.back());
     maps.pop_back();
     top.resolve(level, maps, top_map);

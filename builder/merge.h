@@ -15,6 +15,7 @@
 #include "builder/cell.h"
 #include "builder/run.h"
 #include "io/dag/dag_writer.h"
+#include "streaming/executor.h"
 
 namespace svdag {
 
@@ -25,8 +26,9 @@ struct CellRoot {
   uint32_t rank;
 };
 
-// Writes all levels to `writer` (which the caller finishes). The cells must be disjoint.
-void merge(std::span<const Run> runs, std::span<const CellRoot> roots, int levels,
-           DagWriter* writer);
+// Writes all levels to `writer` (which the caller finishes) and uses the runs up. The cells must be
+// disjoint.
+void merge(std::span<Run> runs, std::span<const CellRoot> roots, int levels, DagWriter* writer,
+           Executor* executor);
 
 }  // namespace svdag

@@ -24,9 +24,10 @@ uint64_t mix(uint64_t a, uint64_t b) noexcept {
   return uint64_t(product) ^ uint64_t(product >> 64);
 }
 
+// Neighbouring buckets of a plane stand side by side.
 uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
-  const uint64_t hash = mix(plane, uint64_t(bucket) * 0x9e3779b97f4a7c15);
-  return uint32_t(hash >> 32) ^ uint32_t(hash);
+  const uint64_t hash = mix(plane, uint64_t(bucket >> 3) * 0x9e3779b97f4a7c15);
+  return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
 }
 
 uint32_t pack(uint32_t x, uint32_t y, uint32_t z) noexcept {
@@ -192,6 +193,15 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
   return true;
 }
 
+void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset) {
+  Table& table = tables_[size_t(level)];
+  if (level < stored_from_ || table.entries.empty()) return;
+  const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
+  const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(number, bucket)));
+  __builtin_prefetch(set);
+  __builtin_prefetch(set + 64);
+}
+
 bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Answer* out) {
   if (level == levels_ - 2) return compute_brick(planes_[number], range, out);
   const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
@@ -203,21 +213,26 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   const int64_t high = planes_[number].positive << half_log2;
   *out = {-kFarOffset, kFarOffset, 0, 0, 0};
   const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
+  int64_t shift[8];
+  unsigned met = 0;
   for (unsigned c = 0; c < 8; ++c) {
-    const int64_t shift = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
-    const OffsetRange part{range.low - shift, range.high - shift};
-    if (part.high < low) {
-      out->high = std::min(out->high, low - 1 + shift);
-      continue;
+    shift[c] = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
+    if (range.high - shift[c] < low) {
+      out->high = std::min(out->high, low - 1 + shift[c]);
+    } else if (range.low - shift[c] > high) {
+      out->low = std::max(out->low, high + 1 + shift[c]);
+    } else {
+      met |= 1U << c;
+      prefetch(number, level + 1, range.low - shift[c]);
     }
-    if (part.low > high) {
-      out->low = std::max(out->low, high + 1 + shift);
-      continue;
-    }
+  }
+  for (; met != 0; met &= met - 1) {
+    const unsigned c = unsigned(std::countr_zero(met));
     Answer child;
-    if (!node(number, level + 1, part, &child)) return false;
-    out->low = std::max(out->low, child.low + shift);
-    out->high = std::min(out->high, child.high + shift);
+    if (!node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
+      return false;
+    out->low = std::max(out->low, child.low + shift[c]);
+    out->high = std::min(out->high, child.high + shift[c]);
     if (child.node == 0) continue;
     key[c] = child.node;
     out->voxels += child.voxels;
@@ -251,7 +266,7 @@ void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& an
   size_t way = 0;
   while (way < kWays && set[way].plane != 0) ++way;
   if (way == kWays) {
-    way = tag >> 30;  // full: one of them goes
+    way = (tag ^ tag >> 16) >> 3 & 3;  // full: one of them goes
   } else {
     ++table->used;
   }

@@ -120,6 +120,7 @@ class PlaneMemo {
   void add_plane(const Normal& normal);
   PlaneBrick plane_brick(const Plane& plane) const;
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  void prefetch(uint32_t number, int level, int64_t offset);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
   static Entry* set_of(Table* table, uint32_t tag);

@@ -18,21 +18,32 @@ uint32_t key_word(const Numbered<NodeKey>& record, size_t i) {
   return record.key[i];
 }
 
-// The records sorted into *keys; returns the rank of each number.
+// Room for sorting, kept from level to level.
 template <class Key>
-HugeVector<uint32_t> sort_keys(HugeVector<Numbered<Key>> records, HugeVector<Key>* keys) {
-  HugeVector<Numbered<Key>> scratch;
-  radix_sort(
-      std::span(records), sizeof(Key) / 4,
-      [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch);
-  HugeVector<uint32_t> ranks(records.size());
-  keys->resize(records.size());
-  for (uint32_t i = 0; i < records.size(); ++i) {
-    (*keys)[i] = records[i].key;
-    ranks[records[i].number] = i;
+struct SortRoom {
+  HugeVector<Numbered<Key>> records, scratch;
+
+  void make(size_t count) {
+    records.clear();  // so that growing moves nothing
+    scratch.clear();
+    records.resize(count);
+    scratch.resize(count);
   }
-  return ranks;
-}
+
+  // The records sorted into *keys; returns the rank of each number.
+  HugeVector<uint32_t> sort_into(HugeVector<Key>* keys) {
+    radix_sort(
+        std::span(records), sizeof(Key) / 4,
+        [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch);
+    HugeVector<uint32_t> ranks(records.size());
+    keys->resize(records.size());
+    for (uint32_t i = 0; i < records.size(); ++i) {
+      (*keys)[i] = records[i].key;
+      ranks[records[i].number] = i;
+    }
+    return ranks;
+  }
+};
 
 }  // namespace
 
@@ -42,19 +53,23 @@ Run freeze(NodeTable* table, Ranks* ranks) {
   Run run;
   run.nodes.resize(size_t(brick_level));
   ranks->resize(size_t(brick_level) + 1);
-  HugeVector<Numbered<Brick>> bricks(table->size(brick_level));
-  for (uint32_t i = 0; i < bricks.size(); ++i) bricks[i] = {table->brick(i), i};
-  table->clear(brick_level);
-  (*ranks)[size_t(brick_level)] = sort_keys(std::move(bricks), &run.bricks);
+  {
+    SortRoom<Brick> room;
+    room.make(table->size(brick_level));
+    for (uint32_t i = 0; i < room.records.size(); ++i) room.records[i] = {table->brick(i), i};
+    table->clear(brick_level);
+    (*ranks)[size_t(brick_level)] = room.sort_into(&run.bricks);
+  }
+  SortRoom<NodeKey> room;
   for (int level = brick_level - 1; level >= 0; --level) {
     const HugeVector<uint32_t>& below = (*ranks)[size_t(level) + 1];
-    HugeVector<Numbered<NodeKey>> nodes(table->size(level));
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-      nodes[i] = {table->node(level, i), i};
-      for (uint32_t& child : nodes[i].key) child = child == 0 ? 0 : 1 + below[child - 1];
+    room.make(table->size(level));
+    for (uint32_t i = 0; i < room.records.size(); ++i) {
+      room.records[i] = {table->node(level, i), i};
+      for (uint32_t& child : room.records[i].key) child = child == 0 ? 0 : 1 + below[child - 1];
     }
     table->clear(level);
-    (*ranks)[size_t(level)] = sort_keys(std::move(nodes), &run.nodes[size_t(level)]);
+    (*ranks)[size_t(level)] = room.sort_into(&run.nodes[size_t(level)]);
   }
   return run;
 }

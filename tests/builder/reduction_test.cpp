@@ -111,7 +111,8 @@ TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     grid.selection = grid.whole();
     const std::string path = folder.file("out.svdag");
     DagWriter writer(path, grid, Rule::kConservative);
-    merge(runs, roots, levels, &writer);
+    SequentialExecutor executor;
+    merge(runs, roots, levels, &writer, &executor);
     writer.finish(0, 0);
     const DagFile file = DagFile::open(path);
     EXPECT_EQ(bricks_of(file.view()), cells.bricks) << seed;
