@@ -32,7 +32,7 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, 
                      DecisionCounts* counts) noexcept {
   const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
   const double side = double(int64_t(1) << fraction);
-  const double error = t.edge_error * (t.extent + 8 * side);
+  const double error = filter_error(t, 8 * side);
   const LatticePoint r = corner - t.triangle.v[t.from[k % 3]];
   const double f = t.edge_u[k] * double(r[u]) + t.edge_v[k] * double(r[v]);
   const double su = t.edge_u[k] * side, sv = t.edge_v[k] * side;
@@ -55,7 +55,7 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, 
 Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
                       Brick voxels, DecisionCounts* counts) noexcept {
   const double side = double(int64_t(1) << fraction);
-  const double error = t.normal_error * (t.extent + 8 * side);
+  const double error = filter_error(t, 8 * side);
   const LatticePoint r = corner - t.triangle.v[0];
   const double* n = t.normal;
   const double f = n[0] * double(r.x) + n[1] * double(r.y) + n[2] * double(r.z);

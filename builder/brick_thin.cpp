@@ -53,7 +53,7 @@ PlaneSide plane_side(const TriangleSetup& t, const LatticePoint& corner, double 
   const LatticePoint r = corner - t.triangle.v[0];
   const double f =
       t.normal[0] * double(r.x) + t.normal[1] * double(r.y) + t.normal[2] * double(r.z);
-  return {t, corner, f, t.normal_error * (t.extent + 8 * side), counts};
+  return {t, corner, f, filter_error(t, 8 * side), counts};
 }
 
 // Voxels whose shifted centre is inside edge k.
@@ -61,7 +61,7 @@ Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& cor
                           DecisionCounts* counts) noexcept {
   const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
   const int64_t half = int64_t(1) << (fraction - 1);
-  const double error = t.edge_error * (t.extent + 8 * double(2 * half));
+  const double error = filter_error(t, 8 * double(2 * half));
   const LatticePoint r = corner - t.triangle.v[t.from[k % 3]];
   const double f = t.edge_u[k] * double(r[u]) + t.edge_v[k] * double(r[v]);
   unsigned inside = 0, unsure = 0;  // bit 4i + j

@@ -27,7 +27,7 @@ struct DescentConfig {
   bool covering = true;    // switch the edges of a triangle off where it covers a cube
   bool plane_memo = true;  // answer covered cubes from a memo; needs `covering`
   bool patches = true;     // also cubes with a near-planar patch; needs `plane_memo`
-  PatchConditions patch;   // for tests: all are needed
+  PatchConditions patch = {};  // for tests: all are needed
 };
 
 // Divides `list`, the list of `cube`, among its children.

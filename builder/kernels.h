@@ -6,7 +6,7 @@
 // short near the bricks, and each triangle has other edges undecided).
 //
 // Same bits on every machine: a child may be reported touched though it is not (the safe side), but
-// every target computes the same doubles in the same order, without fused multiply-add; a voxel is
+// every target computes the same numbers in the same order, without fused multiply-add; a voxel is
 // exact whatever computed it. The plain kernels (builder/overlap.h) are the reference.
 #pragma once
 
@@ -47,7 +47,7 @@ struct Kernels {
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
   const char* name;  // of the instruction set
-  int lanes;         // doubles in a vector
+  int lanes;         // floats in a vector
   Children children;
   Voxels conservative;
   Voxels thin;

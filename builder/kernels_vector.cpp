@@ -1,8 +1,11 @@
 // The vector kernels, compiled once per instruction set by Highway (see builder/kernels.h).
 //
-// Functions: each separating function f (plane or edge) is taken at the centres of the cubes or
-// voxels, where its reach to the farthest corner is half of |coefficients| * side. The error bounds
-// are those of builder/triangle_setup.h.
+// Each separating function is taken at the centres of the children or voxels, in units of their
+// side: the coefficients add up to 1, so it reaches 1/2 to the farthest corner. At the first centre
+// it is computed in double, beside it in float. Error in these units: that of the double
+// (builder/triangle_setup.h), and kFloatError for the roundings to float of values below 8 and of
+// at most three steps beside the first centre; beyond 8 no rounding can change a sign. Unsure lanes
+// are decided in integers, so float costs nothing but a few of these.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "builder/kernels_vector.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -18,50 +21,62 @@ namespace svdag::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Lanes = hn::CappedTag<double, 8>;
-using Vec = hn::Vec<Lanes>;
-constexpr size_t kLanes = hn::MaxLanes(Lanes());
+using Eight = hn::CappedTag<float, 8>;     // children
+using Sixteen = hn::CappedTag<float, 16>;  // columns of a brick, voxels of two inner 2x2x2
+using Longs = hn::CappedTag<int64_t, 8>;
+constexpr size_t kEight = hn::MaxLanes(Eight());
+constexpr size_t kSixteen = hn::MaxLanes(Sixteen());
+constexpr size_t kLongs = hn::MaxLanes(Longs());
+
+constexpr float kFloatError = 0x1p-18f;
 
 constexpr int kU[3] = {1, 2, 0}, kV[3] = {2, 0, 1};  // the axes of the projection along w
 constexpr int kEdge[9] = {0, 1, 2, 0, 1, 2, 0, 1, 2};
+constexpr int kAlong[9] = {0, 0, 0, 1, 1, 1, 2, 2, 2};
 
-// Bit c of axis a for the child (or inner voxel) c = 4x + 2y + z.
-alignas(64) constexpr double kBit[3][8] = {
-    {0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 1, 0, 1, 0, 1, 0, 1}};
+// Coordinates of the child c = 4x + 2y + z, and of the first 16 voxels of a brick (io/brick.h): two
+// blocks of 2x2x2, one beside the other along z.
+alignas(64) constexpr float kPlace[3][16] = {{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1},
+                                             {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
+                                             {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3}};
 // Row i and column j of the 16 columns 4i + j of a brick.
-alignas(64) constexpr double kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr double kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr float kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr float kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 
-template <class Mask>
-HWY_INLINE unsigned bits(Mask mask) noexcept {
+template <class D, class Mask>
+HWY_INLINE unsigned bits(D d, Mask mask) noexcept {
   uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Lanes(), mask, bytes);
-  return bytes[0] & ((1U << kLanes) - 1);
+  hn::StoreMaskBits(d, mask, bytes);
+  return (bytes[0] | unsigned(bytes[1]) << 8) & ((1U << hn::MaxLanes(d)) - 1);
 }
-
-HWY_INLINE double magnitude(double x) noexcept { return x < 0 ? -x : x; }
 
 struct Corner {
   int64_t q[3];
-  double x[3];
+  double x[3];  // of the first centre: the corner plus half a side of child or voxel
+  double per_side;
 };
 
-HWY_INLINE Corner make_corner(const LatticePoint& p) noexcept {
-  return {{p.x, p.y, p.z}, {double(p.x), double(p.y), double(p.z)}};
+HWY_INLINE Corner make_corner(const LatticePoint& p, double side) noexcept {
+  const double half = 0.5 * side;
+  return {{p.x, p.y, p.z}, {double(p.x) + half, double(p.y) + half, double(p.z) + half}, 1 / side};
 }
 
-// n . (x - v0) at the point `offset` beside the corner on every axis.
-HWY_INLINE double plane_at(const TriangleSetup& t, const Corner& c, double offset) noexcept {
+// Values at the first centre, in sides.
+HWY_INLINE float plane_at(const TriangleSetup& t, const Corner& c) noexcept {
   const double* v = t.vertex[0];
-  return (t.normal[0] * ((c.x[0] - v[0]) + offset) + t.normal[1] * ((c.x[1] - v[1]) + offset)) +
-         t.normal[2] * ((c.x[2] - v[2]) + offset);
+  return float(((t.normal[0] * (c.x[0] - v[0]) + t.normal[1] * (c.x[1] - v[1])) +
+                t.normal[2] * (c.x[2] - v[2])) *
+               c.per_side);
 }
 
-HWY_INLINE double edge_at(const TriangleSetup& t, int k, const Corner& c, double offset) noexcept {
-  const int w = k / 3;
+HWY_INLINE float edge_at(const TriangleSetup& t, int k, const Corner& c) noexcept {
+  const int u = kU[kAlong[k]], v = kV[kAlong[k]];
   const double* a = t.vertex[t.from[kEdge[k]]];
-  return t.edge_u[k] * ((c.x[kU[w]] - a[kU[w]]) + offset) +
-         t.edge_v[k] * ((c.x[kV[w]] - a[kV[w]]) + offset);
+  return float((t.edge_u[k] * (c.x[u] - a[u]) + t.edge_v[k] * (c.x[v] - a[v])) * c.per_side);
+}
+
+HWY_INLINE float error_of(const TriangleSetup& t, double reach, const Corner& c) noexcept {
+  return float(filter_error(t, reach) * c.per_side) * 1.001f + kFloatError;
 }
 
 // --- children ---------------------------------------------------------------------------------
@@ -78,41 +93,38 @@ HWY_INLINE unsigned children_in_box(const TriangleSetup& t, const int64_t* middl
 }
 
 HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
-                                      double half) noexcept {
-  const Lanes d;
-  const double sx = t.normal[0] * half, sy = t.normal[1] * half, sz = t.normal[2] * half;
-  const double reach = 0.5 * ((magnitude(sx) + magnitude(sy)) + magnitude(sz));
-  const Vec f = hn::Set(d, plane_at(t, c, 0.5 * half));
-  const Vec limit = hn::Set(d, reach + t.normal_error * (t.extent + 4 * half));
+                                      float error) noexcept {
+  const Eight d;
+  const auto f = hn::Set(d, plane_at(t, c)), limit = hn::Set(d, 0.5f + error);
+  const auto nx = hn::Set(d, float(t.normal[0])), ny = hn::Set(d, float(t.normal[1])),
+             nz = hn::Set(d, float(t.normal[2]));
   unsigned touched = 0;
-  for (size_t i = 0; i < 8; i += kLanes) {
-    const Vec x = hn::Mul(hn::Load(d, kBit[0] + i), hn::Set(d, sx));
-    const Vec y = hn::Mul(hn::Load(d, kBit[1] + i), hn::Set(d, sy));
-    const Vec z = hn::Mul(hn::Load(d, kBit[2] + i), hn::Set(d, sz));
-    const Vec value = hn::Add(f, hn::Add(hn::Add(x, y), z));
-    touched |= bits(hn::Le(hn::Abs(value), limit)) << i;
+  for (size_t i = 0; i < 8; i += kEight) {
+    const auto xy = hn::Add(hn::Mul(hn::Load(d, kPlace[0] + i), nx),
+                            hn::Mul(hn::Load(d, kPlace[1] + i), ny));
+    const auto value = hn::Add(f, hn::Add(xy, hn::Mul(hn::Load(d, kPlace[2] + i), nz)));
+    touched |= bits(d, hn::Le(hn::Abs(value), limit)) << i;
   }
   return touched;
 }
 
 // Drops children outside edge k from *touched and switches the edge off where it holds.
-HWY_INLINE void children_at_edge(const TriangleSetup& t, int k, const Corner& c, double half,
-                                 double error, unsigned* touched, ChildOverlap* out) noexcept {
-  const Lanes d;
-  const hn::RebindToUnsigned<Lanes> du;
-  const int w = k / 3;
-  const double su = t.edge_u[k] * half, sv = t.edge_v[k] * half;
-  const double reach = 0.5 * (magnitude(su) + magnitude(sv));
-  const Vec f = hn::Set(d, edge_at(t, k, c, 0.5 * half));
-  const Vec low = hn::Set(d, -(reach + error)), high = hn::Set(d, reach + error);
-  const auto bit = hn::Set(du, uint64_t(1) << k);
+HWY_INLINE void children_at_edge(const TriangleSetup& t, int k, const Corner& c, float error,
+                                 unsigned* touched, ChildOverlap* out) noexcept {
+  const Eight d;
+  const hn::RebindToUnsigned<Eight> du;
+  const auto f = hn::Set(d, edge_at(t, k, c));
+  const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+  const auto low = hn::Set(d, -(0.5f + error)), high = hn::Set(d, 0.5f + error);
+  const float* along_u = kPlace[kU[kAlong[k]]];
+  const float* along_v = kPlace[kV[kAlong[k]]];
   unsigned outside = 0;
-  for (size_t i = 0; i < 8; i += kLanes) {
-    const Vec u = hn::Mul(hn::Load(d, kBit[kU[w]] + i), hn::Set(d, su));
-    const Vec v = hn::Mul(hn::Load(d, kBit[kV[w]] + i), hn::Set(d, sv));
-    const Vec value = hn::Add(f, hn::Add(u, v));
-    outside |= bits(hn::Lt(value, low)) << i;
-    const auto holds = hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), bit);
+  for (size_t i = 0; i < 8; i += kEight) {
+    const auto value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, along_u + i), su),
+                                          hn::Mul(hn::Load(d, along_v + i), sv)));
+    outside |= bits(d, hn::Lt(value, low)) << i;
+    const auto holds =
+        hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
     hn::StoreU(hn::AndNot(holds, hn::LoadU(du, out->edges + i)), du, out->edges + i);
   }
   *touched &= ~outside;
@@ -120,23 +132,23 @@ HWY_INLINE void children_at_edge(const TriangleSetup& t, int k, const Corner& c,
 
 void children(const Entry* entries, size_t count, const LatticePoint& corner, int64_t side,
               ChildOverlap* out) noexcept {
-  const hn::RebindToUnsigned<Lanes> du;
-  const Corner c = make_corner(corner);
+  const hn::RebindToUnsigned<Eight> du;
   const double half = 0.5 * double(side);
+  const Corner c = make_corner(corner, half);
   const int64_t middle[3] = {c.q[0] + side / 2, c.q[1] + side / 2, c.q[2] + side / 2};
   for (; count != 0; --count, ++entries, ++out) {
     const TriangleSetup& t = *entries->triangle;
     unsigned touched = children_in_box(t, middle);
-    for (size_t i = 0; i < 8; i += kLanes)
-      hn::StoreU(hn::Set(du, uint64_t(entries->edges)), du, out->edges + i);
+    for (size_t i = 0; i < 8; i += kEight)
+      hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
     // A small triangle whose box lies in one child, or in two, touches these (but for the other
     // way round at an edge of the parent, which costs time and no voxel).
     const bool few = __builtin_popcount(touched) <= 2;
     if (!few || t.extent >= half) {
-      touched &= children_on_plane(t, c, half);
-      const double error = t.edge_error * (t.extent + 4 * half);
+      const float error = error_of(t, 4 * half, c);
+      touched &= children_on_plane(t, c, error);
       for (unsigned left = entries->edges; left != 0 && touched != 0; left &= left - 1)
-        children_at_edge(t, __builtin_ctz(left), c, half, error, &touched, out);
+        children_at_edge(t, __builtin_ctz(left), c, error, &touched, out);
     }
     out->touched = uint8_t(touched);
   }
@@ -167,22 +179,27 @@ struct Place {
   DecisionCounts* counts;
 };
 
-// The columns 4i + j whose value of edge function k, at their centre, is above -reach; where the
-// double cannot tell, decide(column) does.
+HWY_INLINE Place make_place(const LatticePoint& corner, int fraction,
+                            DecisionCounts* counts) noexcept {
+  const double side = double(int64_t(1) << fraction);
+  return {corner, fraction, side, make_corner(corner, side), counts};
+}
+
+// The columns 4i + j whose value of edge function k, at their centre, is at least -reach; where
+// float cannot tell, decide(column) does.
 template <class Decide>
-HWY_INLINE unsigned columns_at_edge(const TriangleSetup& t, int k, const Place& p, double reach,
-                                    const Decide& decide) noexcept {
-  const Lanes d;
-  const double error = t.edge_error * (t.extent + 8 * p.side);
-  const Vec su = hn::Set(d, t.edge_u[k] * p.side), sv = hn::Set(d, t.edge_v[k] * p.side);
-  const Vec f = hn::Set(d, edge_at(t, k, p.c, 0.5 * p.side));
-  const Vec sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
+HWY_INLINE unsigned columns_at_edge(const TriangleSetup& t, int k, const Place& p, float reach,
+                                    float error, const Decide& decide) noexcept {
+  const Sixteen d;
+  const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+  const auto f = hn::Set(d, edge_at(t, k, p.c));
+  const auto sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
   unsigned above = 0, not_below = 0;
-  for (size_t i = 0; i < 16; i += kLanes) {
-    const Vec value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su),
-                                         hn::Mul(hn::Load(d, kColumn + i), sv)));
-    above |= bits(hn::Gt(value, sure)) << i;
-    not_below |= bits(hn::Ge(value, maybe)) << i;
+  for (size_t i = 0; i < 16; i += kSixteen) {
+    const auto value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su),
+                                          hn::Mul(hn::Load(d, kColumn + i), sv)));
+    above |= bits(d, hn::Gt(value, sure)) << i;
+    not_below |= bits(d, hn::Ge(value, maybe)) << i;
   }
   p.counts->asked += 16;
   for (unsigned left = not_below & ~above; left != 0; left &= left - 1) {
@@ -193,43 +210,50 @@ HWY_INLINE unsigned columns_at_edge(const TriangleSetup& t, int k, const Place& 
   return above;
 }
 
-// The plane's values at the centres of the 64 voxels, as a sum of a part of the outer and of the
-// inner 2x2x2 (io/brick.h).
+// The plane's values at the centres of the 64 voxels are quarter[j] + first[i] for bit 16j + i.
 struct PlaneValues {
-  alignas(64) double inner[8];
-  double outer[8];
+  alignas(64) float first[16];
+  float quarter[4];
 };
 
 HWY_INLINE void plane_values(const TriangleSetup& t, const Place& p, PlaneValues* out) noexcept {
-  const Lanes d;
-  const double f = plane_at(t, p.c, 0.5 * p.side);
-  const Vec sx = hn::Set(d, t.normal[0] * p.side), sy = hn::Set(d, t.normal[1] * p.side),
-            sz = hn::Set(d, t.normal[2] * p.side);
-  for (size_t i = 0; i < 8; i += kLanes) {
-    const Vec xy = hn::Add(hn::Mul(hn::Load(d, kBit[0] + i), sx),
-                           hn::Mul(hn::Load(d, kBit[1] + i), sy));
-    hn::Store(hn::Add(xy, hn::Mul(hn::Load(d, kBit[2] + i), sz)), d, out->inner + i);
+  const Sixteen d;
+  const float n[3] = {float(t.normal[0]), float(t.normal[1]), float(t.normal[2])};
+  for (size_t i = 0; i < 16; i += kSixteen) {
+    const auto xy = hn::Add(hn::Mul(hn::Load(d, kPlace[0] + i), hn::Set(d, n[0])),
+                            hn::Mul(hn::Load(d, kPlace[1] + i), hn::Set(d, n[1])));
+    hn::Store(hn::Add(xy, hn::Mul(hn::Load(d, kPlace[2] + i), hn::Set(d, n[2]))), d,
+              out->first + i);
   }
-  for (size_t i = 0; i < 8; ++i) out->outer[i] = f + 2 * out->inner[i];
+  const float f = plane_at(t, p.c);
+  out->quarter[0] = f;
+  out->quarter[1] = f + 2 * n[1];
+  out->quarter[2] = f + 2 * n[0];
+  out->quarter[3] = f + (2 * n[0] + 2 * n[1]);
 }
 
-HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, Brick voxels) noexcept {
-  const Lanes d;
+// Calls take(bit, values) with the values of voxels bit, bit + 1, ...
+template <class Take>
+HWY_INLINE void for_voxels(const PlaneValues& values, const Take& take) noexcept {
+  const Sixteen d;
+  for (size_t j = 0; j < 4; ++j) {
+    const auto quarter = hn::Set(d, values.quarter[j]);
+    for (size_t i = 0; i < 16; i += kSixteen)
+      take(16 * j + i, hn::Add(quarter, hn::Load(d, values.first + i)));
+  }
+}
+
+HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float error,
+                                 Brick voxels) noexcept {
+  const Sixteen d;
   PlaneValues values;
   plane_values(t, p, &values);
-  const double error = t.normal_error * (t.extent + 8 * p.side);
-  const double reach = 0.5 * p.side *
-                       ((magnitude(t.normal[0]) + magnitude(t.normal[1])) + magnitude(t.normal[2]));
-  const Vec sure = hn::Set(d, reach - error), maybe = hn::Set(d, reach + error);
+  const auto sure = hn::Set(d, 0.5f - error), maybe = hn::Set(d, 0.5f + error);
   Brick on = 0, near = 0;
-  for (unsigned o = 0; o < 8; ++o) {
-    if ((voxels >> (8 * o) & 0xff) == 0) continue;
-    for (size_t i = 0; i < 8; i += kLanes) {
-      const Vec value = hn::Abs(hn::Add(hn::Set(d, values.outer[o]), hn::Load(d, values.inner + i)));
-      on |= Brick(bits(hn::Lt(value, sure))) << (8 * o + i);
-      near |= Brick(bits(hn::Le(value, maybe))) << (8 * o + i);
-    }
-  }
+  for_voxels(values, [&](size_t shift, auto value) {
+    on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
+    near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
+  });
   p.counts->asked += unsigned(__builtin_popcountll(voxels));
   for (Brick left = voxels & near & ~on; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
@@ -243,23 +267,23 @@ HWY_INLINE Brick touched_voxels(const Entry& entry, const Place& p, Brick wanted
   const TriangleSetup& t = *entry.triangle;
   Brick voxels = wanted;
   if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
+  const float error = error_of(t, 8 * p.side, p.c);
   for (int w = 0; w < 3 && voxels != 0; ++w) {
     unsigned columns = 0xffff;
     for (unsigned left = entry.edges >> (3 * w) & 7; left != 0; left &= left - 1) {
       const int k = 3 * w + __builtin_ctz(left);
-      const double reach = 0.5 * p.side * (magnitude(t.edge_u[k]) + magnitude(t.edge_v[k]));
-      columns &= columns_at_edge(t, k, p, reach, [&](unsigned column) {
+      columns &= columns_at_edge(t, k, p, 0.5f, error, [&](unsigned column) {
         return column_reaches(t, k, p.corner, p.fraction, column);
       });
     }
     if (columns != 0xffff) voxels &= expand_columns(w, columns);
   }
-  return voxels != 0 && t.cover != 0 ? voxels_on_plane(t, p, voxels) : voxels;
+  return voxels != 0 && t.cover != 0 ? voxels_on_plane(t, p, error, voxels) : voxels;
 }
 
 Brick conservative(const Entry* entries, size_t count, const LatticePoint& corner, int fraction,
                    Brick wanted, DecisionCounts* counts) noexcept {
-  const Place p{corner, fraction, double(int64_t(1) << fraction), make_corner(corner), counts};
+  const Place p = make_place(corner, fraction, counts);
   Brick voxels = 0;
   for (; count != 0 && voxels != wanted; --count, ++entries)
     voxels |= touched_voxels(*entries, p, wanted & ~voxels);
@@ -270,19 +294,16 @@ Brick conservative(const Entry* entries, size_t count, const LatticePoint& corne
 
 // Those of `voxels` whose ends of the centre segment along w, on side `upper`, are above the plane.
 HWY_INLINE Brick ends_above(const TriangleSetup& t, const Place& p, const PlaneValues& values,
-                            int w, bool upper, Brick voxels) noexcept {
-  const Lanes d;
-  const double error = t.normal_error * (t.extent + 8 * p.side);
-  const double shift = (upper ? 0.5 : -0.5) * p.side * t.normal[w];
+                            float error, int w, bool upper, Brick voxels) noexcept {
+  const Sixteen d;
+  const auto end = hn::Set(d, (upper ? 0.5f : -0.5f) * float(t.normal[w]));
+  const auto sure = hn::Set(d, error), maybe = hn::Set(d, -error);
   Brick above = 0, not_below = 0;
-  for (unsigned o = 0; o < 8; ++o) {
-    if ((voxels >> (8 * o) & 0xff) == 0) continue;
-    for (size_t i = 0; i < 8; i += kLanes) {
-      const Vec value = hn::Add(hn::Set(d, values.outer[o] + shift), hn::Load(d, values.inner + i));
-      above |= Brick(bits(hn::Gt(value, hn::Set(d, error)))) << (8 * o + i);
-      not_below |= Brick(bits(hn::Ge(value, hn::Set(d, -error)))) << (8 * o + i);
-    }
-  }
+  for_voxels(values, [&](size_t shift, auto centre) {
+    const auto value = hn::Add(centre, end);
+    above |= Brick(bits(d, hn::Gt(value, sure))) << shift;
+    not_below |= Brick(bits(d, hn::Ge(value, maybe))) << shift;
+  });
   p.counts->asked += unsigned(__builtin_popcountll(voxels));
   for (Brick left = voxels & not_below & ~above; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
@@ -298,6 +319,7 @@ HWY_INLINE Brick thin_voxels(const Entry& entry, const Place& p, Brick wanted) n
   // A set voxel is touched as well, so it lies in the triangle's box.
   const Brick near = covering ? wanted : wanted & voxels_in_box(t, p.c, p.fraction);
   if (near == 0 || t.cover == 0) return 0;
+  const float error = error_of(t, 8 * p.side, p.c);
   PlaneValues values;
   plane_values(t, p, &values);
   Brick voxels = 0;
@@ -307,21 +329,21 @@ HWY_INLINE Brick thin_voxels(const Entry& entry, const Place& p, Brick wanted) n
     unsigned columns = 0xffff;
     for (unsigned left = entry.edges >> (3 * w) & 7; left != 0 && columns != 0; left &= left - 1) {
       const int k = 3 * w + __builtin_ctz(left);
-      columns &= columns_at_edge(t, k, p, 0, [&](unsigned column) {
+      columns &= columns_at_edge(t, k, p, 0, error, [&](unsigned column) {
         return column_centre_holds(t, k, p.corner, p.fraction, column);
       });
     }
     const Brick inside = near & ~voxels & expand_columns(w, columns);
     if (inside == 0) continue;
-    voxels |= inside & (ends_above(t, p, values, w, false, inside) ^
-                        ends_above(t, p, values, w, true, inside));
+    voxels |= inside & (ends_above(t, p, values, error, w, false, inside) ^
+                        ends_above(t, p, values, error, w, true, inside));
   }
   return voxels;
 }
 
 Brick thin(const Entry* entries, size_t count, const LatticePoint& corner, int fraction,
            Brick wanted, DecisionCounts* counts) noexcept {
-  const Place p{corner, fraction, double(int64_t(1) << fraction), make_corner(corner), counts};
+  const Place p = make_place(corner, fraction, counts);
   Brick voxels = 0;
   for (; count != 0 && voxels != wanted; --count, ++entries)
     voxels |= thin_voxels(*entries, p, wanted & ~voxels);
@@ -333,8 +355,7 @@ Brick thin(const Entry* entries, size_t count, const LatticePoint& corner, int f
 PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
   // In terms of the first offset f of a voxel: it is set iff high - span <= f <= low; missed above
   // iff f > high, below iff f < low - span; anything else straddles.
-  const hn::RebindToSigned<Lanes> d;
-  const Lanes mask_lanes;
+  const Longs d;
   using IntVec = hn::Vec<decltype(d)>;
   const IntVec set_from = hn::Set(d, high - p.span), set_to = hn::Set(d, low);
   const IntVec above = hn::Set(d, high), below = hn::Set(d, low - p.span);
@@ -342,7 +363,7 @@ PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
   IntVec first_set = far, last_set = near, first_above = far, last_below = near;
   Brick voxels = 0, straddling = 0;
   for (unsigned o = 0; o < 8; ++o) {
-    for (size_t i = 0; i < 8; i += kLanes) {
+    for (size_t i = 0; i < 8; i += kLongs) {
       const IntVec f = hn::Add(hn::Set(d, p.outer[o]), hn::LoadU(d, p.inner + i));
       const auto is_above = hn::Gt(f, above), is_below = hn::Lt(f, below);
       const auto is_set = hn::AndNot(hn::Or(hn::Lt(f, set_from), hn::Gt(f, set_to)),
@@ -351,9 +372,9 @@ PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
       last_set = hn::Max(last_set, hn::IfThenElse(is_set, f, near));
       first_above = hn::Min(first_above, hn::IfThenElse(is_above, f, far));
       last_below = hn::Max(last_below, hn::IfThenElse(is_below, f, near));
-      voxels |= Brick(bits(hn::RebindMask(mask_lanes, is_set))) << (8 * o + i);
+      voxels |= Brick(bits(d, is_set)) << (8 * o + i);
       const auto decided = hn::Or(is_set, hn::Or(is_above, is_below));
-      straddling |= Brick(bits(hn::RebindMask(mask_lanes, decided)) ^ ((1U << kLanes) - 1))
+      straddling |= Brick(bits(d, decided) ^ ((1U << kLongs) - 1))
                     << (8 * o + i);
     }
   }
@@ -371,7 +392,7 @@ PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
 }
 
 Kernels make_kernels() {
-  return {hwy::TargetName(HWY_TARGET), int(kLanes), children, conservative, thin, plane};
+  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin, plane};
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ std::optional<OffsetRange> offsets_in_column(const LatticePlane& p, const Lattic
   const auto base = offset_at(p, p.v0, corner);
   if (!base) return std::nullopt;
   if (p.exact) return OffsetRange{*base, *base};
-  // Three roundings of a ratio below 1, times 2^28.
+  // Three roundings of each component and one of their ratio, which is below 1, times 2^28.
   const double slope[2] = {p.slope_u, p.slope_v};
   const double from[2] = {double(corner[p.u] - p.v0[p.u]), double(corner[p.v] - p.v0[p.v])};
   return range_in_column(*base, slope, 0x1p-22, from, double(side));

@@ -13,7 +13,7 @@
 namespace svdag {
 
 struct ChildOverlap {
-  uint64_t edges[8];  // the still undecided edge functions (an EdgeMask) in each touched child
+  uint32_t edges[8];  // the still undecided edge functions (an EdgeMask) in each touched child
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
 };
 

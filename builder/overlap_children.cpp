@@ -25,7 +25,7 @@ uint8_t children_on_plane(const TriangleSetup& t, const LatticePoint& corner, do
   const double* n = t.normal;
   const LatticePoint r = corner - t.triangle.v[0];
   const double f = n[0] * double(r.x) + n[1] * double(r.y) + n[2] * double(r.z);
-  const double error = t.normal_error * (t.extent + 4 * half);
+  const double error = filter_error(t, 4 * half);
   const double sx = n[0] * half, sy = n[1] * half, sz = n[2] * half;
   const double high = (std::max(sx, 0.0) + std::max(sy, 0.0)) + std::max(sz, 0.0);
   const double low = (std::min(sx, 0.0) + std::min(sy, 0.0)) + std::min(sz, 0.0);
@@ -82,13 +82,13 @@ ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
   result.touched = children_in_box(t, corner + LatticePoint(side / 2));
   result.touched = children_on_plane(t, corner, half, result.touched);
   std::fill(std::begin(result.edges), std::end(result.edges), entry.edges);
-  const double error = t.edge_error * (t.extent + 4 * half);
+  const double error = filter_error(t, 4 * half);
   for (unsigned left = entry.edges; left != 0 && result.touched != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     const EdgeVerdict verdict = children_at_edge(t, k, corner, half, error);
     result.touched = uint8_t(result.touched & ~verdict.outside);
     for (unsigned in = verdict.inside; in != 0; in &= in - 1) {
-      result.edges[std::countr_zero(in)] &= ~(uint64_t(1) << k);
+      result.edges[std::countr_zero(in)] &= ~(1U << k);
     }
   }
   return result;

@@ -10,13 +10,13 @@
 namespace svdag {
 namespace {
 
-// Error of the double evaluation, with u = 2^-53, E = largest |edge component|, Q = |x - v| <=
-// extent + side (cube and triangle's box meet), D = side. Narrow: x - v and edges are exact,
-// products and the sum lose 4uEQ, offsets inside the cube 6uED, the last addition 2uE(Q+D): below
-// 8uE(Q+D). Wide: edges are rounded as well, one u per factor more, and so are vertices: |v| < 1.4
-// extents there (the box meets the grid), so x - v loses at most 1.4u. The plane, with n rounded
-// once, loses 6u|n|_1(Q+D), wide 9. Almost twice the larger bound serves all.
-constexpr double kErrorFactor = 16 * 0x1p-53;
+// Error of the double evaluation (filter_error), with u = 2^-53, Q = |x - v| <= extent + side (cube
+// and triangle's box meet), D = side, coefficients of sum 1. A factor common to all coefficients
+// of a function does not change its sign, so of the scaling only one rounding per coefficient
+// counts, and 3u D/2 where a function is compared with half of the side. Narrow: edges and x - v
+// are exact, n is rounded once. Coefficients 2u, products 1u, sums 2u: 5u(Q+D), offsets inside the
+// cube 3uD. Wide: edges are rounded as well, and so are vertices: |v| < 1.4 extents there (the box
+// meets the grid), so x - v loses at most 1.4u: 8u(Q+D). Together below 12u(Q+D); 16u is used.
 
 void set_box(TriangleSetup* t) noexcept {
   const auto& v = t->triangle.v;
@@ -52,19 +52,17 @@ void set_segment(TriangleSetup* t) noexcept {
 
 void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
   static constexpr int kNext[3] = {1, 2, 0};
-  double largest = 0;
   for (int e = 0; e < 3; ++e) {
     const LatticePoint d = t->triangle.v[t->to[e]] - t->triangle.v[t->from[e]];
     const double edge[3] = {double(d.x), double(d.y), double(d.z)};
-    largest = std::max({largest, std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2])});
     for (int w = 0; w < 3; ++w) {
       const int u = kNext[w], v = kNext[u];
-      const double orientation = sign[w] < 0 ? -1.0 : 1.0;
-      t->edge_u[3 * w + e] = orientation * -edge[v];
-      t->edge_v[3 * w + e] = orientation * edge[u];
+      const double sum = std::abs(edge[u]) + std::abs(edge[v]);
+      const double scale = sum == 0 ? 0 : (sign[w] < 0 ? -1 : 1) / sum;
+      t->edge_u[3 * w + e] = scale * -edge[v];
+      t->edge_v[3 * w + e] = scale * edge[u];
     }
   }
-  t->edge_error = kErrorFactor * largest;
 }
 
 }  // namespace
@@ -78,8 +76,8 @@ TriangleSetup make_setup(const LatticeTriangle& triangle) noexcept {
   exact_normal(triangle, t.extent, t.wide, t.normal, sign, &dominant);
   t.dominant = uint8_t(dominant);
   t.cover = 0;
-  t.normal_error =
-      kErrorFactor * (std::abs(t.normal[0]) + std::abs(t.normal[1]) + std::abs(t.normal[2]));
+  const double sum = std::abs(t.normal[0]) + std::abs(t.normal[1]) + std::abs(t.normal[2]);
+  for (double& n : t.normal) n *= sum == 0 ? 0 : 1 / sum;
   if (sign[0] == 0 && sign[1] == 0 && sign[2] == 0) {
     set_segment(&t);
   } else {

@@ -18,6 +18,9 @@
 // which the plane test already covers. A triangle of zero area is a segment (a "polygon" with the
 // two edges a->b and b->a, all projections on, plane trivially met) or a point (box test alone).
 //
+// Functions are scaled so that the magnitudes of their coefficients add up to 1: over a cube of
+// side D each of them varies by D, and one error bound serves all.
+//
 // Every value is first computed in double with an error bound; only an unsure sign that decides
 // output is computed exactly (builder/exact.h). Rejected: integers everywhere (1.4x slower),
 // epsilons (wrong).
@@ -37,11 +40,9 @@ using EdgeMask = uint16_t;
 
 struct TriangleSetup {
   double vertex[3][3];  // exact unless wide
-  double normal[3];     // n, exact in integers and rounded once
-  double edge_u[9];     // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v)
-  double edge_v[9];
-  double normal_error;    // error of n.(x - v0) is <= normal_error * (extent + 4 * cube side)
-  double edge_error;      // likewise for edge functions
+  double normal[3];     // n, exact in integers, rounded and divided by |n|_1
+  double edge_u[9];     // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v),
+  double edge_v[9];     // divided by the sum of their magnitudes (both 0 if the edge is a point)
   double extent;          // largest side of the bounding box
   LatticePoint min, max;  // bounding box
   EdgeMask edges;         // edge functions that this triangle has
@@ -54,6 +55,13 @@ struct TriangleSetup {
 
 // |q| < 2^62 on every axis (the snap has checked it).
 TriangleSetup make_setup(const LatticeTriangle& triangle) noexcept;
+
+// Bound on the error of a function evaluated in double in a cube whose box meets the triangle's, in
+// lattice units: `reach` is at least the largest distance of a point from the cube's corner, plus
+// the cube's side. See triangle_setup.cpp.
+inline double filter_error(const TriangleSetup& t, double reach) noexcept {
+  return 16 * 0x1p-53 * (t.extent + reach);
+}
 
 // The edge functions still needed where only those of `edges` are undecided.
 inline EdgeMask needed_edges(const TriangleSetup& t, EdgeMask edges) noexcept {

@@ -32,8 +32,11 @@ class IntegerTest {
       (n.v[a] > 0 ? s.high : s.low) += n.v[a];
     }
     for (int k = 0; k < 9; ++k) {
-      s.a[k] = int64_t(s.base.edge_u[k]);  // exact: edges have 42 bits
-      s.b[k] = int64_t(s.base.edge_v[k]);
+      const int w = k / 3, u = (w + 1) % 3, v = (w + 2) % 3;
+      const LatticePoint d = t.v[s.base.to[k % 3]] - t.v[s.base.from[k % 3]];
+      const int64_t orientation = n.v[w] < 0 ? -1 : 1;
+      s.a[k] = orientation * -d[v];
+      s.b[k] = orientation * d[u];
       s.reach[k] = std::max(int64_t(0), s.a[k]) + std::max(int64_t(0), s.b[k]);
     }
     return s;
