@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 
 #include "builder/voxelize.h"
 #include "streaming/error.h"
@@ -74,13 +75,14 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   // The output is opened before the work begins: an unwritable folder is known at once.
   DagWriter writer(config.output, report.grid, report.rule);
   progress->phase("split", 0);
-  CellTree tree(report.grid, choose_cell_level(config, report.grid), &budget);
-  report.split = split(scene, &tree);
+  auto tree = std::make_unique<CellTree>(report.grid, choose_cell_level(config, report.grid), &budget);
+  report.split = split(scene, tree.get());
   if (report.split.scene.triangles == 0)
     fail_input(config.scene.paths.front(), "the scene has no triangles to bake");
   report.seconds.split = phase.lap();
 
-  VoxelizedCells cells = voxelize(tree, config.descent, &budget, executor, progress);
+  VoxelizedCells cells = voxelize(*tree, config.descent, &budget, executor, progress);
+  tree.reset();  // the sort needs the room
   report.cells = cells.cells;
   report.voxels = cells.voxels;
   report.decisions = cells.decisions;

@@ -17,6 +17,7 @@ CellTree::CellTree(const Grid& grid, int cell_level, MemoryBudget* budget)
     : grid_(grid),
       cell_level_(cell_level),
       root_(std::make_unique<Node>()),
+      triangles_(budget, "triangles"),
       reservation_(budget->reserve(0, "triangles")) {
   SVDAG_ASSERT(cell_level >= 0 && cell_level <= grid.levels - 2);
 }
@@ -34,7 +35,6 @@ void CellTree::charge(uint64_t bytes) {
 void CellTree::add(const LatticeTriangle& triangle) {
   if (triangles_.size() >= 0xffffffffU)
     throw Error(ExitCode::kMemory, "more than 2^32 triangles at once: bake parts with --bounds");
-  charge(sizeof triangle);
   triangles_.push_back(triangle);
   TriangleSetup box;
   for (int a = 0; a < 3; ++a) {

@@ -15,6 +15,7 @@
 #include "builder/cell.h"
 #include "builder/descend.h"
 #include "streaming/memory_budget.h"
+#include "streaming/segmented_array.h"
 
 namespace svdag {
 
@@ -45,7 +46,7 @@ class CellTree {
   Grid grid_;
   int cell_level_;
   std::unique_ptr<Node> root_;
-  std::vector<LatticeTriangle> triangles_;
+  SegmentedArray<LatticeTriangle> triangles_;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
 };

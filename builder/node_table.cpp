@@ -13,4 +13,10 @@ void NodeTable::flush() {
   pending_ = 0;
 }
 
+void NodeTable::close() {
+  flush();
+  bricks_.forget_slots();
+  for (auto& level : nodes_) level.forget_slots();
+}
+
 }  // namespace svdag

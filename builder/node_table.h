@@ -52,6 +52,9 @@ class NodeTable {
     return root > kPending ? 1 + numbers_[size_t(level)][root - 1 - kPending] : root;
   }
 
+  // Flushes for the last time; from now on keys can only be read.
+  void close();
+
   // Everything is settled below.
   size_t size(int level) const {
     return level == brick_level() ? bricks_.size() : nodes_[size_t(level)].size();

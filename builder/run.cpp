@@ -48,7 +48,7 @@ struct SortRoom {
 }  // namespace
 
 Run freeze(NodeTable* table, Ranks* ranks) {
-  table->flush();
+  table->close();
   const int brick_level = table->brick_level();
   Run run;
   run.nodes.resize(size_t(brick_level));

@@ -73,11 +73,15 @@ class UniqueSet {
 
   size_t size() const { return keys_.size(); }
   const Key& operator[](uint32_t number) const { return keys_[number]; }
-  void clear() {
-    keys_.clear();
+  // Ends the life of the table; the keys stay. Nothing may be resolved after this.
+  void forget_slots() {
     memory_ = HugePages();
     mask_ = 0;
     reservation_.resize(0, kPurpose);
+  }
+  void clear() {
+    forget_slots();
+    keys_.clear();
   }
 
  private:
