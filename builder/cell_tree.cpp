@@ -1,6 +1,7 @@
 #include "builder/cell_tree.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "builder/overlap.h"
 #include "streaming/error.h"
@@ -53,14 +54,14 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
     node->triangles.push_back(triangle);
     return;
   }
-  for (unsigned c = 0; c < 8; ++c) {
-    const Cube child = cube.child(c);
-    if (!boxes_meet(box, child.corner(grid_.levels), side / 2)) continue;
+  const LatticePoint middle = cube.corner(grid_.levels) + LatticePoint(side / 2);
+  for (unsigned left = children_in_box(box, middle); left != 0; left &= left - 1) {
+    const unsigned c = unsigned(std::countr_zero(left));
     if (!node->children[c]) {
       charge(sizeof(Node));
       node->children[c] = std::make_unique<Node>();
     }
-    insert(node->children[c].get(), child, triangle, box);
+    insert(node->children[c].get(), cube.child(c), triangle, box);
   }
 }
 

@@ -30,10 +30,6 @@ constexpr size_t kLongs = hn::MaxLanes(Longs());
 
 constexpr float kFloatError = 0x1p-18f;
 
-constexpr int kU[3] = {1, 2, 0}, kV[3] = {2, 0, 1};  // the axes of the projection along w
-constexpr int kEdge[9] = {0, 1, 2, 0, 1, 2, 0, 1, 2};
-constexpr int kAlong[9] = {0, 0, 0, 1, 1, 1, 2, 2, 2};
-
 // Coordinates of the child c = 4x + 2y + z, and of the first 16 voxels of a brick (io/brick.h): two
 // blocks of 2x2x2, one beside the other along z.
 alignas(64) constexpr float kPlace[3][16] = {{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1},
@@ -69,9 +65,11 @@ HWY_INLINE float plane_at(const TriangleSetup& t, const Corner& c) noexcept {
                c.per_side);
 }
 
-HWY_INLINE float edge_at(const TriangleSetup& t, int k, const Corner& c) noexcept {
-  const int u = kU[kAlong[k]], v = kV[kAlong[k]];
-  const double* a = t.vertex[t.from[kEdge[k]]];
+template <int W>
+HWY_INLINE float edge_at(const TriangleSetup& t, int e, const Corner& c) noexcept {
+  constexpr int u = (W + 1) % 3, v = (W + 2) % 3;
+  const double* a = t.vertex[e];
+  const int k = 3 * W + e;
   return float((t.edge_u[k] * (c.x[u] - a[u]) + t.edge_v[k] * (c.x[v] - a[v])) * c.per_side);
 }
 
@@ -79,9 +77,17 @@ HWY_INLINE float error_of(const TriangleSetup& t, double reach, const Corner& c)
   return float(filter_error(t, reach) * c.per_side) * 1.001f + kFloatError;
 }
 
+// Asks for the next triangle of a list while this one is worked on.
+HWY_INLINE void prefetch(const Entry* entry, size_t left) noexcept {
+  if (left == 0) return;
+  const char* t = reinterpret_cast<const char*>(entry->triangle);
+  for (size_t line = 0; line < offsetof(TriangleSetup, triangle); line += 64)
+    __builtin_prefetch(t + line);
+}
+
 // --- children ---------------------------------------------------------------------------------
 
-HWY_INLINE unsigned children_in_box(const TriangleSetup& t, const int64_t* middle) noexcept {
+HWY_INLINE unsigned children_by_box(const TriangleSetup& t, const int64_t* middle) noexcept {
   unsigned children = 0xff;
   if (t.min.x > middle[0]) children &= 0b11110000;
   if (t.max.x < middle[0]) children &= 0b00001111;
@@ -108,26 +114,31 @@ HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
   return touched;
 }
 
-// Drops children outside edge k from *touched and switches the edge off where it holds.
-HWY_INLINE void children_at_edge(const TriangleSetup& t, int k, const Corner& c, float error,
-                                 unsigned* touched, ChildOverlap* out) noexcept {
+// Drops children outside the edges of the projection along W from *touched and switches edges off
+// where they hold.
+template <int W>
+HWY_INLINE void children_at_edges(const Entry& entry, const Corner& c, float error,
+                                  unsigned* touched, ChildOverlap* out) noexcept {
   const Eight d;
   const hn::RebindToUnsigned<Eight> du;
-  const auto f = hn::Set(d, edge_at(t, k, c));
-  const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+  const TriangleSetup& t = *entry.triangle;
   const auto low = hn::Set(d, -(0.5f + error)), high = hn::Set(d, 0.5f + error);
-  const float* along_u = kPlace[kU[kAlong[k]]];
-  const float* along_v = kPlace[kV[kAlong[k]]];
-  unsigned outside = 0;
-  for (size_t i = 0; i < 8; i += kEight) {
-    const auto value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, along_u + i), su),
-                                          hn::Mul(hn::Load(d, along_v + i), sv)));
-    outside |= bits(d, hn::Lt(value, low)) << i;
-    const auto holds =
-        hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
-    hn::StoreU(hn::AndNot(holds, hn::LoadU(du, out->edges + i)), du, out->edges + i);
+  for (unsigned left = entry.edges >> (3 * W) & 7; left != 0; left &= left - 1) {
+    const int e = __builtin_ctz(left), k = 3 * W + e;
+    const auto f = hn::Set(d, edge_at<W>(t, e, c));
+    const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+    unsigned outside = 0;
+    for (size_t i = 0; i < 8; i += kEight) {
+      const auto u = hn::Mul(hn::Load(d, kPlace[(W + 1) % 3] + i), su);
+      const auto v = hn::Mul(hn::Load(d, kPlace[(W + 2) % 3] + i), sv);
+      const auto value = hn::Add(f, hn::Add(u, v));
+      outside |= bits(d, hn::Lt(value, low)) << i;
+      const auto holds =
+          hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
+      hn::StoreU(hn::AndNot(holds, hn::LoadU(du, out->edges + i)), du, out->edges + i);
+    }
+    *touched &= ~outside;
   }
-  *touched &= ~outside;
 }
 
 void children(const Entry* entries, size_t count, const LatticePoint& corner, int64_t side,
@@ -137,8 +148,9 @@ void children(const Entry* entries, size_t count, const LatticePoint& corner, in
   const Corner c = make_corner(corner, half);
   const int64_t middle[3] = {c.q[0] + side / 2, c.q[1] + side / 2, c.q[2] + side / 2};
   for (; count != 0; --count, ++entries, ++out) {
+    prefetch(entries + 1, count - 1);
     const TriangleSetup& t = *entries->triangle;
-    unsigned touched = children_in_box(t, middle);
+    unsigned touched = children_by_box(t, middle);
     for (size_t i = 0; i < 8; i += kEight)
       hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
     // A small triangle whose box lies in one child, or in two, touches these (but for the other
@@ -147,8 +159,9 @@ void children(const Entry* entries, size_t count, const LatticePoint& corner, in
     if (!few || t.extent >= half) {
       const float error = error_of(t, 4 * half, c);
       touched &= children_on_plane(t, c, error);
-      for (unsigned left = entries->edges; left != 0 && touched != 0; left &= left - 1)
-        children_at_edge(t, __builtin_ctz(left), c, error, &touched, out);
+      if (touched != 0) children_at_edges<0>(*entries, c, error, &touched, out);
+      if (touched != 0) children_at_edges<1>(*entries, c, error, &touched, out);
+      if (touched != 0) children_at_edges<2>(*entries, c, error, &touched, out);
     }
     out->touched = uint8_t(touched);
   }
@@ -185,29 +198,34 @@ HWY_INLINE Place make_place(const LatticePoint& corner, int fraction,
   return {corner, fraction, side, make_corner(corner, side), counts};
 }
 
-// The columns 4i + j whose value of edge function k, at their centre, is at least -reach; where
-// float cannot tell, decide(column) does.
-template <class Decide>
-HWY_INLINE unsigned columns_at_edge(const TriangleSetup& t, int k, const Place& p, float reach,
-                                    float error, const Decide& decide) noexcept {
+// The columns 4i + j along W whose value of every undecided edge function, at their centre, is at
+// least -reach; where float cannot tell, decide(k, column) does.
+template <int W, class Decide>
+HWY_INLINE unsigned columns_at_edges(const Entry& entry, const Place& p, float reach, float error,
+                                     const Decide& decide) noexcept {
   const Sixteen d;
-  const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
-  const auto f = hn::Set(d, edge_at(t, k, p.c));
+  const TriangleSetup& t = *entry.triangle;
   const auto sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
-  unsigned above = 0, not_below = 0;
-  for (size_t i = 0; i < 16; i += kSixteen) {
-    const auto value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su),
-                                          hn::Mul(hn::Load(d, kColumn + i), sv)));
-    above |= bits(d, hn::Gt(value, sure)) << i;
-    not_below |= bits(d, hn::Ge(value, maybe)) << i;
+  unsigned columns = 0xffff;
+  for (unsigned left = entry.edges >> (3 * W) & 7; left != 0; left &= left - 1) {
+    const int e = __builtin_ctz(left), k = 3 * W + e;
+    const auto f = hn::Set(d, edge_at<W>(t, e, p.c));
+    const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+    unsigned above = 0, not_below = 0;
+    for (size_t i = 0; i < 16; i += kSixteen) {
+      const auto value = hn::Add(f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su),
+                                            hn::Mul(hn::Load(d, kColumn + i), sv)));
+      above |= bits(d, hn::Gt(value, sure)) << i;
+      not_below |= bits(d, hn::Ge(value, maybe)) << i;
+    }
+    for (unsigned unsure = columns & not_below & ~above; unsure != 0; unsure &= unsure - 1) {
+      const unsigned column = unsigned(__builtin_ctz(unsure));
+      ++p.counts->exact;
+      above |= unsigned(decide(k, column)) << column;
+    }
+    columns &= above;
   }
-  p.counts->asked += 16;
-  for (unsigned left = not_below & ~above; left != 0; left &= left - 1) {
-    const unsigned column = unsigned(__builtin_ctz(left));
-    ++p.counts->exact;
-    above |= unsigned(decide(column)) << column;
-  }
-  return above;
+  return columns;
 }
 
 // The plane's values at the centres of the 64 voxels are quarter[j] + first[i] for bit 16j + i.
@@ -263,21 +281,25 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float e
   return voxels & on;
 }
 
+template <int W>
+HWY_INLINE Brick reached_columns(const Entry& entry, const Place& p, float error) noexcept {
+  if ((entry.edges >> (3 * W) & 7) == 0) return ~Brick(0);
+  const unsigned columns =
+      columns_at_edges<W>(entry, p, 0.5f, error, [&](int k, unsigned column) {
+        return column_reaches(*entry.triangle, k, p.corner, p.fraction, column);
+      });
+  return expand_columns(W, columns);
+}
+
 HWY_INLINE Brick touched_voxels(const Entry& entry, const Place& p, Brick wanted) noexcept {
   const TriangleSetup& t = *entry.triangle;
   Brick voxels = wanted;
   if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
   const float error = error_of(t, 8 * p.side, p.c);
-  for (int w = 0; w < 3 && voxels != 0; ++w) {
-    unsigned columns = 0xffff;
-    for (unsigned left = entry.edges >> (3 * w) & 7; left != 0; left &= left - 1) {
-      const int k = 3 * w + __builtin_ctz(left);
-      columns &= columns_at_edge(t, k, p, 0.5f, error, [&](unsigned column) {
-        return column_reaches(t, k, p.corner, p.fraction, column);
-      });
-    }
-    if (columns != 0xffff) voxels &= expand_columns(w, columns);
-  }
+  p.counts->asked += 16 * unsigned(__builtin_popcount(entry.edges));
+  voxels &= reached_columns<0>(entry, p, error);
+  voxels &= reached_columns<1>(entry, p, error);
+  voxels &= reached_columns<2>(entry, p, error);
   return voxels != 0 && t.cover != 0 ? voxels_on_plane(t, p, error, voxels) : voxels;
 }
 
@@ -285,8 +307,10 @@ Brick conservative(const Entry* entries, size_t count, const LatticePoint& corne
                    Brick wanted, DecisionCounts* counts) noexcept {
   const Place p = make_place(corner, fraction, counts);
   Brick voxels = 0;
-  for (; count != 0 && voxels != wanted; --count, ++entries)
+  for (; count != 0 && voxels != wanted; --count, ++entries) {
+    prefetch(entries + 1, count - 1);
     voxels |= touched_voxels(*entries, p, wanted & ~voxels);
+  }
   return voxels;
 }
 
@@ -313,6 +337,22 @@ HWY_INLINE Brick ends_above(const TriangleSetup& t, const Place& p, const PlaneV
   return above;
 }
 
+// Those of `near` with a crossing of the segment along W.
+template <int W>
+HWY_INLINE Brick crossed_along(const Entry& entry, const Place& p, const PlaneValues& values,
+                               float error, Brick near) noexcept {
+  const TriangleSetup& t = *entry.triangle;
+  if (t.normal[W] == 0 || near == 0) return 0;
+  p.counts->asked += 16 * unsigned(__builtin_popcount(entry.edges >> (3 * W) & 7));
+  const unsigned columns = columns_at_edges<W>(entry, p, 0, error, [&](int k, unsigned column) {
+    return column_centre_holds(t, k, p.corner, p.fraction, column);
+  });
+  const Brick inside = near & expand_columns(W, columns);
+  if (inside == 0) return 0;
+  return inside & (ends_above(t, p, values, error, W, false, inside) ^
+                   ends_above(t, p, values, error, W, true, inside));
+}
+
 HWY_INLINE Brick thin_voxels(const Entry& entry, const Place& p, Brick wanted) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const bool covering = covers(t, entry.edges);
@@ -322,22 +362,12 @@ HWY_INLINE Brick thin_voxels(const Entry& entry, const Place& p, Brick wanted) n
   const float error = error_of(t, 8 * p.side, p.c);
   PlaneValues values;
   plane_values(t, p, &values);
+  // Where the triangle covers the brick, a crossing along any axis implies the dominant one's.
+  const unsigned axes = covering ? 1U << t.dominant : 7U;
   Brick voxels = 0;
-  for (int w = 0; w < 3; ++w) {
-    // Where the triangle covers the brick, a crossing along any axis implies the dominant one's.
-    if (t.normal[w] == 0 || (covering && w != t.dominant)) continue;
-    unsigned columns = 0xffff;
-    for (unsigned left = entry.edges >> (3 * w) & 7; left != 0 && columns != 0; left &= left - 1) {
-      const int k = 3 * w + __builtin_ctz(left);
-      columns &= columns_at_edge(t, k, p, 0, error, [&](unsigned column) {
-        return column_centre_holds(t, k, p.corner, p.fraction, column);
-      });
-    }
-    const Brick inside = near & ~voxels & expand_columns(w, columns);
-    if (inside == 0) continue;
-    voxels |= inside & (ends_above(t, p, values, error, w, false, inside) ^
-                        ends_above(t, p, values, error, w, true, inside));
-  }
+  if (axes & 1) voxels |= crossed_along<0>(entry, p, values, error, near);
+  if (axes & 2) voxels |= crossed_along<1>(entry, p, values, error, near & ~voxels);
+  if (axes & 4) voxels |= crossed_along<2>(entry, p, values, error, near & ~voxels);
   return voxels;
 }
 

@@ -17,6 +17,9 @@ struct ChildOverlap {
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
 };
 
+// The children of a cube with centre `middle` whose boxes meet the triangle's, which meets the cube.
+uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept;
+
 // `corner` and `side` of the parent cube in lattice units.
 ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
                               int64_t side) noexcept;

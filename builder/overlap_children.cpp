@@ -9,16 +9,6 @@ namespace {
 // Children with bit (x, y, z) of axis a equal to 1.
 constexpr uint8_t kUpper[3] = {0b11110000, 0b11001100, 0b10101010};
 
-// Children whose box meets the triangle's: per axis the lower half, the upper half, or both.
-uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept {
-  uint8_t children = 0xff;
-  for (int a = 0; a < 3; ++a) {
-    if (t.min[a] > middle[a]) children = uint8_t(children & kUpper[a]);
-    if (t.max[a] < middle[a]) children = uint8_t(children & ~kUpper[a]);
-  }
-  return children;
-}
-
 // Drops the children that lie strictly on one side of the plane.
 uint8_t children_on_plane(const TriangleSetup& t, const LatticePoint& corner, double half,
                           uint8_t children) noexcept {
@@ -73,6 +63,15 @@ EdgeVerdict children_at_edge(const TriangleSetup& t, int k, const LatticePoint& 
 }
 
 }  // namespace
+
+uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept {
+  uint8_t children = 0xff;
+  for (int a = 0; a < 3; ++a) {
+    if (t.min[a] > middle[a]) children = uint8_t(children & kUpper[a]);
+    if (t.max[a] < middle[a]) children = uint8_t(children & ~kUpper[a]);
+  }
+  return children;
+}
 
 ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
                               int64_t side) noexcept {

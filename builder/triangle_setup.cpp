@@ -26,7 +26,6 @@ void set_box(TriangleSetup* t) noexcept {
     t->max[a] = std::max({v[0][a], v[1][a], v[2][a]});
     extent = std::max(extent, t->max[a] - t->min[a]);
     reach = std::max({reach, t->max[a], -t->min[a]});
-    for (int i = 0; i < 3; ++i) t->vertex[i][a] = double(v[i][a]);
   }
   t->extent = double(extent);
   t->wide = reach >= kNarrowLimit;
@@ -55,6 +54,7 @@ void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
   for (int e = 0; e < 3; ++e) {
     const LatticePoint d = t->triangle.v[t->to[e]] - t->triangle.v[t->from[e]];
     const double edge[3] = {double(d.x), double(d.y), double(d.z)};
+    for (int a = 0; a < 3; ++a) t->vertex[e][a] = double(t->triangle.v[t->from[e]][a]);
     for (int w = 0; w < 3; ++w) {
       const int u = kNext[w], v = kNext[u];
       const double sum = std::abs(edge[u]) + std::abs(edge[v]);
