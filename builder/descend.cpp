@@ -39,7 +39,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
     : grid_(grid),
       config_(config),
       table_(table),
-      memo_(grid.levels, config.rule, config.kernels, table),
+      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table),
       scratch_(size_t(grid.levels)),
       path_(size_t(grid.levels)) {}
 

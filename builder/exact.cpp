@@ -13,11 +13,17 @@ int orientation(const TriangleSetup& t, int w) noexcept {
 // Edges below 2^30 have a normal below 2^61.
 constexpr double kSmallExtent = 0x1p30;
 
+// Rounded to nearest, as the conversion of the language; most values fit the fast one.
+double to_double(int64_t value) noexcept { return double(value); }
+double to_double(__int128 value) noexcept {
+  return value == int64_t(value) ? double(int64_t(value)) : double(value);
+}
+
 template <class Int>
 void round_normal(const LatticeTriangle& t, double normal[3], int sign[3], int* dominant) noexcept {
   const auto n = exact_formulas::normal<Int>(t);
   for (int w = 0; w < 3; ++w) {
-    normal[w] = double(n.v[w]);
+    normal[w] = to_double(n.v[w]);
     sign[w] = exact_formulas::sign(n.v[w]);
   }
   *dominant = exact_formulas::dominant_axis(n);

@@ -16,7 +16,6 @@ constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube 
 constexpr size_t kNormals = size_t(1) << 20;
 constexpr int64_t kSpan = 3;  // an entry also stands in so many buckets before and after
 constexpr int kLargestTable = 19;  // log2 of its entries
-constexpr double kRepeats = 1.0;   // cubes per content from which on entries are kept
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -44,10 +43,12 @@ PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
   return *this;
 }
 
-PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* table)
+PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
+                     NodeTable* table)
     : levels_(levels),
       rule_(rule),
       kernels_(kernels),
+      repeats_(repeats),
       table_(table), tables_(size_t(levels - 1)), slots_(1024) {
   for (int level = 0; level <= levels - 2; ++level) {
     const int log2 = std::min(12 + 3 * (levels - 2 - level), kLargestTable);
@@ -57,14 +58,14 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* t
 
 std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
   const double width = std::min(t.extent / double(int64_t(1) << fraction_bits(levels_)), side);
-  if (width < kNarrowest) return std::nullopt;
+  if (width < kNarrowest && repeats_ > 0) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
   if (!plane) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
-    return n.area >= kRepeats * contents(n, level) * s * s;
+    return n.area >= repeats_ * contents(n, level) * s * s;
   };
   int stored_from = levels_ - 2;
   if (!repeats(stored_from)) return std::nullopt;

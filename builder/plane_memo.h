@@ -52,7 +52,8 @@ struct Witness {
 
 class PlaneMemo {
  public:
-  PlaneMemo(int levels, Rule rule, const Kernels* kernels, NodeTable* table);
+  // An entry is kept where a plane meets at least `repeats` cubes per content; 0 keeps all.
+  PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table);
 
   // What the memo knows about a triangle's plane.
   struct Known {
@@ -130,6 +131,7 @@ class PlaneMemo {
   int levels_;
   Rule rule_;
   const Kernels* kernels_;
+  double repeats_;
   NodeTable* table_;
   int stored_from_ = 0;  // of the current query
   std::vector<Table> tables_;  // [level]

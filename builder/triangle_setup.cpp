@@ -22,10 +22,10 @@ void set_box(TriangleSetup* t) noexcept {
   const auto& v = t->triangle.v;
   int64_t extent = 0, reach = 0;
   for (int a = 0; a < 3; ++a) {
-    t->min[a] = std::min({v[0][a], v[1][a], v[2][a]});
-    t->max[a] = std::max({v[0][a], v[1][a], v[2][a]});
+    t->min[a] = std::min(std::min(v[0][a], v[1][a]), v[2][a]);
+    t->max[a] = std::max(std::max(v[0][a], v[1][a]), v[2][a]);
     extent = std::max(extent, t->max[a] - t->min[a]);
-    reach = std::max({reach, t->max[a], -t->min[a]});
+    reach = std::max(std::max(reach, t->max[a]), -t->min[a]);
   }
   t->extent = double(extent);
   t->wide = reach >= kNarrowLimit;
@@ -49,19 +49,27 @@ void set_segment(TriangleSetup* t) noexcept {
   t->edges = point ? EdgeMask(0) : EdgeMask(0b011'011'011);
 }
 
+// Straight loops over the nine functions, which compilers turn into vectors: a scene of small
+// triangles spends much of its time here.
 void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
   static constexpr int kNext[3] = {1, 2, 0};
+  double along_u[9], along_v[9], scale[9];
   for (int e = 0; e < 3; ++e) {
-    const LatticePoint d = t->triangle.v[t->to[e]] - t->triangle.v[t->from[e]];
+    const LatticePoint& from = t->triangle.v[t->from[e]];
+    const LatticePoint d = t->triangle.v[t->to[e]] - from;
     const double edge[3] = {double(d.x), double(d.y), double(d.z)};
-    for (int a = 0; a < 3; ++a) t->vertex[e][a] = double(t->triangle.v[t->from[e]][a]);
+    for (int a = 0; a < 3; ++a) t->vertex[e][a] = double(from[a]);
     for (int w = 0; w < 3; ++w) {
-      const int u = kNext[w], v = kNext[u];
-      const double sum = std::abs(edge[u]) + std::abs(edge[v]);
-      const double scale = sum == 0 ? 0 : (sign[w] < 0 ? -1 : 1) / sum;
-      t->edge_u[3 * w + e] = scale * -edge[v];
-      t->edge_v[3 * w + e] = scale * edge[u];
+      along_u[3 * w + e] = edge[kNext[w]];
+      along_v[3 * w + e] = edge[kNext[kNext[w]]];
+      scale[3 * w + e] = sign[w] < 0 ? -1 : 1;
     }
+  }
+  for (int k = 0; k < 9; ++k) {
+    const double sum = std::abs(along_u[k]) + std::abs(along_v[k]);
+    const double inverse = scale[k] / std::max(sum, 1.0);  // whole numbers; a point has 0 and 0
+    t->edge_u[k] = -along_v[k] * inverse;
+    t->edge_v[k] = along_u[k] * inverse;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tests/stress/centre_lines.h"
+#include "tests/stress/paths.h"
 #include "verify/occupancy.h"
 
 namespace svdag {
@@ -28,8 +29,8 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
-VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles,
-                      uint64_t* outside) {
+VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
+                      std::span<const LatticeTriangle> triangles, uint64_t* outside) {
   Grid grid = spot.grid;
   // The parity of the region's corner stands for a coin, so small triangles are asked both ways.
   const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0;
@@ -39,7 +40,7 @@ VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriang
   }
   VoxelRegion region(spot.region);
   uint64_t elsewhere = 0;
-  voxelize_window(grid, {.rule = rule}, spot.start, triangles,
+  voxelize_window(grid, config, spot.start, triangles,
                   [&](const LatticePoint& at, Brick b) { elsewhere += region.set_brick(at, b); });
   if (outside != nullptr && !whole) *outside += elsewhere;
   return region;
@@ -62,14 +63,19 @@ VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle>
 }
 
 Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles) {
+  static const std::vector<DescentPath> kPaths = descent_paths();
+  static size_t turn = 0;
   Tally tally;
-  const VoxelRegion ours = voxelized(spot, rule, triangles, &tally.extras);
+  DescentConfig other = kPaths[turn++ % kPaths.size()].config;
+  other.rule = rule;
+  const VoxelRegion ours = voxelized(spot, {.rule = rule}, triangles, &tally.extras);
+  const VoxelRegion others = voxelized(spot, other, triangles, &tally.extras);
   const VoxelRegion truth = judged(spot, rule, triangles);
   const VoxelRegion surface =
       rule == Rule::kConservative ? truth : judged(spot, Rule::kConservative, triangles);
   tally.decisions = surface.dilated().count();
-  tally.misses = truth.count_without(ours);
-  tally.extras += ours.count_without(truth);
+  tally.misses = truth.count_without(ours) + truth.count_without(others);
+  tally.extras += ours.count_without(truth) + others.count_without(truth);
   return tally;
 }
 

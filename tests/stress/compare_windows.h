@@ -23,12 +23,14 @@ struct Tally {
 
 // The region as the voxelizer (builder/window.h) sets it. `outside`, if given, grows by the voxels
 // set outside the region although only the region was selected.
-VoxelRegion voxelized(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles,
-                      uint64_t* outside = nullptr);
+VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
+                      std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
 // The region as the judge sets it: conservative by clipping (verify/occupancy.h), thin by the
 // crossings of centre lines (tests/stress/centre_lines.h).
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
+// The voxelizer as it is used, against the judge; and one of its other paths (tests/stress/paths.h),
+// in turns, against the same.
 Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
 }  // namespace svdag

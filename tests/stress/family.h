@@ -36,6 +36,7 @@ std::vector<Family> contact_families();     // touching a cell by a corner, an e
 std::vector<Family> coordinate_families();  // scenes far away, scaled, denormal
 std::vector<Family> format_families();      // what glTF transforms and Draco quantisation give
 std::vector<Family> range_families();       // the bit budget of the exact tests, and beyond it
+std::vector<Family> patch_families();       // several triangles that are nearly one plane
 std::vector<Family> all_families();
 
 // The triangle with two given vertices whose centroid is `at`.

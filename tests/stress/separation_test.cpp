@@ -77,7 +77,7 @@ void expect_no_leaks(const char* name, const Mesh& mesh, int windows) {
       const Spot spot = draw_window(scene, &random, &near);
       const VoxelRegion inside = inside_of(scene.triangles, spot.region, scene.grid.fraction());
       for (const Rule rule : {Rule::kConservative, Rule::kThin})
-        sums[size_t(rule)] += count_leaks(voxelized(spot, rule, near), inside, rule);
+        sums[size_t(rule)] += count_leaks(voxelized(spot, {.rule = rule}, near), inside, rule);
     }
     for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
       const Separation& sum = sums[size_t(rule)];
@@ -170,7 +170,7 @@ TEST(Separation, AMissingTriangleIsALeak) {
     near.pop_back();
     const VoxelRegion inside = inside_of(scene.triangles, spot.region, scene.grid.fraction());
     for (const Rule rule : {Rule::kConservative, Rule::kThin})
-      leaks[size_t(rule)] += count_leaks(voxelized(spot, rule, near), inside, rule).leaks;
+      leaks[size_t(rule)] += count_leaks(voxelized(spot, {.rule = rule}, near), inside, rule).leaks;
   }
   EXPECT_GT(leaks[0], 0U);
   EXPECT_GT(leaks[1], 0U);
