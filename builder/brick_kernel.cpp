@@ -71,7 +71,8 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
     if (highest > error && lowest < -error) continue;
     const bool apart = highest < -error || lowest > error;
     counts->exact += !apart;
-    if (apart || !voxel_meets_plane(t, corner, fraction, unsigned(bit))) voxels &= ~(Brick(1) << bit);
+    if (apart || !voxel_meets_plane(t, corner, fraction, unsigned(bit)))
+      voxels &= ~(Brick(1) << bit);
   }
   return voxels;
 }

@@ -7,12 +7,13 @@
 
 namespace svdag {
 
-struct BrickTables {  // plain arrays: vector code must not instantiate templates (builder/kernels.h)
-  Brick slab[3][4]{};             // [axis][i]: voxels with coordinate i
-  Brick slabs[3][4][4]{};         // [axis][i][j]: voxels with coordinate i .. j
-  uint8_t coordinate[64][3]{};    // of each bit
-  Brick columns[3][4][16]{};      // [w][i][m]: voxels with coordinate i on axis w+1 and, on axis
-                                  // w+2, one of the coordinates in m
+struct BrickTables {            // plain arrays: vector code must not instantiate templates
+                                // (builder/kernels.h)
+  Brick slab[3][4]{};           // [axis][i]: voxels with coordinate i
+  Brick slabs[3][4][4]{};       // [axis][i][j]: voxels with coordinate i .. j
+  uint8_t coordinate[64][3]{};  // of each bit
+  Brick columns[3][4][16]{};    // [w][i][m]: voxels with coordinate i on axis w+1 and, on axis
+                                // w+2, one of the coordinates in m
 };
 
 constexpr BrickTables make_brick_tables() {

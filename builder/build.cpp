@@ -75,7 +75,8 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   // The output is opened before the work begins: an unwritable folder is known at once.
   DagWriter writer(config.output, report.grid, report.rule);
   progress->phase("split", 0);
-  auto tree = std::make_unique<CellTree>(report.grid, choose_cell_level(config, report.grid), &budget);
+  auto tree =
+      std::make_unique<CellTree>(report.grid, choose_cell_level(config, report.grid), &budget);
   report.split = split(scene, tree.get());
   if (report.split.scene.triangles == 0)
     fail_input(config.scene.paths.front(), "the scene has no triangles to bake");

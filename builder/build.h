@@ -16,12 +16,12 @@ namespace svdag {
 struct BuildConfig {
   SceneConfig scene;
   std::string output;
-  int levels = 0;                   // -r: L of the grid; 0 if the voxel size is given instead
-  double voxel_size = 0;            // --voxel-size, in world units; 0 if the resolution is given
-  DescentConfig descent;            // --rule
-  std::optional<Box> bounds;        // --bounds, in world units
-  uint64_t memory = 0;              // --memory in bytes; 0: half of the machine
-  int cell_level = -1;              // octree level of the cells; -1: chosen by the grid
+  int levels = 0;             // -r: L of the grid; 0 if the voxel size is given instead
+  double voxel_size = 0;      // --voxel-size, in world units; 0 if the resolution is given
+  DescentConfig descent;      // --rule
+  std::optional<Box> bounds;  // --bounds, in world units
+  uint64_t memory = 0;        // --memory in bytes; 0: half of the machine
+  int cell_level = -1;        // octree level of the cells; -1: chosen by the grid
 };
 
 struct BuildReport {

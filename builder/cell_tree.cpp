@@ -124,7 +124,8 @@ const EntryList& CellCursor::list(const Cube& cell) {
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
     Step& step = path_[size_t(level)];
-    if (!step.divided) divide_list(step.list, step.cube, tree_.grid().levels, config_, &step.children);
+    if (!step.divided)
+      divide_list(step.list, step.cube, tree_.grid().levels, config_, &step.children);
     step.divided = true;
     const Cube next = ancestor(cell, level + 1);
     const unsigned c = unsigned(morton(next.coordinate) & 7);

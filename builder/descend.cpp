@@ -7,9 +7,9 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kLargestPatch = 8;  // triangles
+constexpr size_t kLargestPatch = 8;        // triangles
 constexpr int64_t kLargestPatchSide = 64;  // voxels
-constexpr int kFlushLog2 = 6;  // cubes of 64^3 voxels look whether a flush is due
+constexpr int kFlushLog2 = 6;              // cubes of 64^3 voxels look whether a flush is due
 
 }  // namespace
 
@@ -125,8 +125,7 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const EntryList& lis
 }
 
 const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& triangle) {
-  const size_t slot =
-      reinterpret_cast<uintptr_t>(&triangle) / sizeof triangle % admitted_.size();
+  const size_t slot = reinterpret_cast<uintptr_t>(&triangle) / sizeof triangle % admitted_.size();
   if (admitted_[slot].triangle != &triangle)
     admitted_[slot] = {&triangle, memo_.admit(triangle, cell_side_)};
   return admitted_[slot].known;

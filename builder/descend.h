@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "builder/cell.h"
+#include "builder/kernels.h"
 #include "builder/node_table.h"
 #include "builder/patch.h"
 #include "builder/plane_memo.h"
-#include "builder/kernels.h"
 #include "io/grid.h"
 
 namespace svdag {
@@ -24,10 +24,10 @@ namespace svdag {
 struct DescentConfig {
   Rule rule = Rule::kConservative;
   const Kernels* kernels = &svdag::kernels();
-  bool covering = true;    // switch the edges of a triangle off where it covers a cube
-  bool plane_memo = true;  // answer covered cubes from a memo; needs `covering`
-  double memo_repeats = 1; // contents of a plane must repeat so often to be kept; 0: keep all
-  bool patches = true;     // also cubes with a near-planar patch; needs `plane_memo`
+  bool covering = true;        // switch the edges of a triangle off where it covers a cube
+  bool plane_memo = true;      // answer covered cubes from a memo; needs `covering`
+  double memo_repeats = 1;     // contents of a plane must repeat so often to be kept; 0: keep all
+  bool patches = true;         // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};  // for tests: all are needed
 };
 
@@ -40,8 +40,8 @@ class Descent {
   // Nodes go to `table`, which must outlive the descent.
   Descent(const Grid& grid, const DescentConfig& config, NodeTable* table);
 
-  // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there, its
-  // sub-DAG joins roots(). Cubes must be disjoint.
+  // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there,
+  // its sub-DAG joins roots(). Cubes must be disjoint.
   void run(const Cube& cube, const EntryList& list);
   // Settles all handles; nothing may run after this.
   void finish();

@@ -14,7 +14,9 @@ int orientation(const TriangleSetup& t, int w) noexcept {
 constexpr double kSmallExtent = 0x1p30;
 
 // Rounded to nearest, as the conversion of the language; most values fit the fast one.
-double to_double(int64_t value) noexcept { return double(value); }
+double to_double(int64_t value) noexcept {
+  return double(value);
+}
 double to_double(__int128 value) noexcept {
   return value == int64_t(value) ? double(int64_t(value)) : double(value);
 }

@@ -41,8 +41,9 @@ PlaneVoxels plain_plane(const PlaneBrick& plane, int64_t low, int64_t high) noex
 }  // namespace
 
 const Kernels& plain_kernels() {
-  static constexpr Kernels kPlain = {"plain", 1, plain_children, plain_voxels<overlap_brick>,
-                                     plain_voxels<overlap_brick_thin>, plain_plane};
+  static constexpr Kernels kPlain = {
+      "plain",    1, plain_children, plain_voxels<overlap_brick>, plain_voxels<overlap_brick_thin>,
+      plain_plane};
   return kPlain;
 }
 

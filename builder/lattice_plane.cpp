@@ -82,8 +82,8 @@ std::optional<int64_t> offset_at(const LatticePlane& p, const LatticePoint& poin
   return int64_t(offset);
 }
 
-// The range of base + slope_u (x_u - v_u) + slope_v (x_v - v_v) over the column. Slopes are wrong by
-// less than slope_error, distances are below 2^42 and exact, sums lose less than 2^-50 of their
+// The range of base + slope_u (x_u - v_u) + slope_v (x_v - v_v) over the column. Slopes are wrong
+// by less than slope_error, distances are below 2^42 and exact, sums lose less than 2^-50 of their
 // terms; 2 more steps make the range strictly larger.
 OffsetRange range_in_column(int64_t base, const double slope[2], double slope_error,
                             const double from[2], double side) noexcept {

@@ -12,7 +12,7 @@ namespace {
 // global index, which each sequence that holds the key gets into its map.
 template <class Key, class Add>
 std::vector<HugeVector<uint32_t>> merge_level(const std::vector<std::span<const Key>>& sequences,
-                                               Add add) {
+                                              Add add) {
   std::vector<HugeVector<uint32_t>> maps(sequences.size());
   for (size_t s = 0; s < sequences.size(); ++s) maps[s].reserve(sequences[s].size());
   const auto head = [&](size_t s) { return sequences[s][maps[s].size()]; };
@@ -55,9 +55,8 @@ void merge(std::span<Run> runs, std::span<const CellRoot> roots, int levels, Dag
 
   for (int level = brick_level - 1; level >= 0; --level) {
     writer->begin_level(level);
-    executor->for_each(runs.size(), [&](size_t, size_t r) {
-      rewrite(runs[r].nodes[size_t(level)], maps[r]);
-    });
+    executor->for_each(runs.size(),
+                       [&](size_t, size_t r) { rewrite(runs[r].nodes[size_t(level)], maps[r]); });
     const std::vector<NodeKey> above = top.sorted_nodes();
     std::vector<std::span<const NodeKey>> sequences;
     for (const Run& run : runs) sequences.emplace_back(run.nodes[size_t(level)]);

@@ -17,7 +17,8 @@ struct ChildOverlap {
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
 };
 
-// The children of a cube with centre `middle` whose boxes meet the triangle's, which meets the cube.
+// The children of a cube with centre `middle` whose boxes meet the triangle's, which meets the
+// cube.
 uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept;
 
 // `corner` and `side` of the parent cube in lattice units.

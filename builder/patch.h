@@ -15,8 +15,8 @@
 //
 // Why: a voxel that the plane misses is missed by P1. Over a corner of least (largest) g of a set
 // voxel, [low, high] spans at most 3 voxels upwards (downwards) from that corner, so the choice of
-// P3 keeps all of the surface there inside the cube. Between two such points its heights lie between
-// those at the ends, so inside as well; there the surface has no border (P2), so if it
+// P3 keeps all of the surface there inside the cube. Between two such points its heights lie
+// between those at the ends, so inside as well; there the surface has no border (P2), so if it
 // covers the witness it goes on to every set voxel, and through it: at one corner it is above the
 // voxel's floor, at the other below its ceiling.
 // Where a condition fails the caller descends; all triangles must have w as their dominant axis,
@@ -33,14 +33,15 @@ namespace svdag {
 
 // Each condition left out gives wrong voxels; tests show it (tests/builder/patch_test.cpp).
 struct PatchConditions {
-  bool whole_column = true;  // P1 over the column of Q, not only the triangle's own plane at its centre
-  bool mates = true;         // P2: edges in the cube have mates ...
-  bool other_side = true;    // ... on the other side
-  bool witness = true;       // P3
+  bool whole_column =
+      true;           // P1 over the column of Q, not only the triangle's own plane at its centre
+  bool mates = true;  // P2: edges in the cube have mates ...
+  bool other_side = true;  // ... on the other side
+  bool witness = true;     // P3
 };
 
-// Whether the normals are so near that P1 may hold in a cube of `voxels` on a side: a quick look, in
-// double and without a proof. All must have one dominant axis.
+// Whether the normals are so near that P1 may hold in a cube of `voxels` on a side: a quick look,
+// in double and without a proof. All must have one dominant axis.
 bool may_be_patch(std::span<const Entry> list, int64_t voxels) noexcept;
 
 // P1: a range that holds g - g(corner) of every triangle over the column of Q; none if a triangle

@@ -10,11 +10,11 @@
 namespace svdag {
 namespace {
 
-constexpr int kLargestExact = 32;    // log2 of the side in lattice units: offsets fit 63 bits
-constexpr int kLargestRounded = 6;   // log2 of the side in voxels: beyond, most ranges straddle
-constexpr double kNarrowest = 8;     // voxels: smaller triangles cover no cube that may be asked for
+constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
+constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
+constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that may be asked for
 constexpr size_t kNormals = size_t(1) << 20;
-constexpr int64_t kSpan = 3;  // an entry also stands in so many buckets before and after
+constexpr int64_t kSpan = 3;       // an entry also stands in so many buckets before and after
 constexpr int kLargestTable = 19;  // log2 of its entries
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
@@ -49,7 +49,9 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       rule_(rule),
       kernels_(kernels),
       repeats_(repeats),
-      table_(table), tables_(size_t(levels - 1)), slots_(1024) {
+      table_(table),
+      tables_(size_t(levels - 1)),
+      slots_(1024) {
   for (int level = 0; level <= levels - 2; ++level) {
     const int log2 = std::min(12 + 3 * (levels - 2 - level), kLargestTable);
     tables_[size_t(level)].limit = size_t(1) << log2;

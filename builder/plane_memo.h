@@ -17,10 +17,9 @@
 //
 // Repaying: a plane of A square voxels meets about A/s^2 cubes of side s but has at most 2(s+1)^3
 // contents there (an axis-aligned one 2s+1). So entries are kept only for sizes that repeat, and a
-// plane is admitted only when its bricks do. A is what its triangles have brought so far, which finds the
-// tessellated wall too: no triangle of it is large.
-// Rejected: half-open intervals in double (wrong on ties); a memo of child masks (no reuse
-// between parallel planes).
+// plane is admitted only when its bricks do. A is what its triangles have brought so far, which
+// finds the tessellated wall too: no triangle of it is large. Rejected: half-open intervals in
+// double (wrong on ties); a memo of child masks (no reuse between parallel planes).
 #pragma once
 
 #include <array>
@@ -58,9 +57,9 @@ class PlaneMemo {
   // What the memo knows about a triangle's plane.
   struct Known {
     LatticePlane plane;
-    uint32_t number;   // of the plane
-    int asked_from;    // levels from this one on may be asked for
-    int stored_from;   // levels from this one on repeat
+    uint32_t number;  // of the plane
+    int asked_from;   // levels from this one on may be asked for
+    int stored_from;  // levels from this one on repeat
   };
   // Admits the triangle, of which a cube of `side` voxels may be met; none if its plane does not
   // repay (yet) or has no integers. Valid until forget().
@@ -68,8 +67,8 @@ class PlaneMemo {
   // Forgets all planes if they have become too many.
   void forget();
 
-  // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if the
-  // memo can't tell.
+  // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if
+  // the memo can't tell.
   std::optional<SubDag> find(const Known& known, const Cube& cube);
   // The same for any triangles whose offsets are in `range`, provided that they have no border in
   // the cube (builder/patch.h). *witness, if the cube is not empty, is a voxel that is set.
@@ -133,7 +132,7 @@ class PlaneMemo {
   const Kernels* kernels_;
   double repeats_;
   NodeTable* table_;
-  int stored_from_ = 0;  // of the current query
+  int stored_from_ = 0;        // of the current query
   std::vector<Table> tables_;  // [level]
   std::vector<Plane> planes_;
   std::vector<Normal> normals_;

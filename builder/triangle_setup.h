@@ -39,10 +39,10 @@ namespace svdag {
 using EdgeMask = uint16_t;
 
 struct TriangleSetup {
-  double vertex[3][3];  // [e]: where edge e begins; exact unless wide
-  double normal[3];     // n, exact in integers, rounded and divided by |n|_1
-  double edge_u[9];     // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v),
-  double edge_v[9];     // divided by the sum of their magnitudes (both 0 if the edge is a point)
+  double vertex[3][3];    // [e]: where edge e begins; exact unless wide
+  double normal[3];       // n, exact in integers, rounded and divided by |n|_1
+  double edge_u[9];       // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v),
+  double edge_v[9];       // divided by the sum of their magnitudes (both 0 if the edge is a point)
   double extent;          // largest side of the bounding box
   LatticePoint min, max;  // bounding box
   EdgeMask edges;         // edge functions that this triangle has

@@ -14,8 +14,8 @@ struct Worker {
 
 }  // namespace
 
-VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget, Executor* executor,
-                        Progress* progress) {
+VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,
+                        Executor* executor, Progress* progress) {
   const std::vector<Cube> cells = tree.occupied_cells();
   progress->phase("voxelize", cells.size());
   VoxelizedCells result;

@@ -24,8 +24,8 @@ struct VoxelizedCells {
   PlaneMemoCounts memo;
 };
 
-VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget, Executor* executor,
-                        Progress* progress);
+VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,
+                        Executor* executor, Progress* progress);
 
 // Third phase: sorts the tables into runs and makes `rank` of the roots what its name says.
 std::vector<Run> freeze(VoxelizedCells* cells, Executor* executor);

@@ -32,8 +32,7 @@ void* map_huge_pages(size_t bytes) {
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapping == MAP_FAILED) throw Error(ExitCode::kMemory, "the system has no memory left");
   char* const begin = static_cast<char*>(mapping);
-  char* const aligned =
-      reinterpret_cast<char*>(round_up(reinterpret_cast<uintptr_t>(begin)));
+  char* const aligned = reinterpret_cast<char*>(round_up(reinterpret_cast<uintptr_t>(begin)));
   if (aligned != begin) munmap(begin, size_t(aligned - begin));
   munmap(aligned + size, kHugePage - size_t(aligned - begin));
   madvise(aligned, size, MADV_HUGEPAGE);  // a wish: without it everything works, slower

@@ -1,4 +1,5 @@
-// std::vector for large arrays: on huge pages, and elements are not cleared before they are written.
+// std::vector for large arrays: on huge pages, and elements are not cleared before they are
+// written.
 //
 // A vector of n elements that a loop is about to fill would otherwise be written three times: by
 // the system's zero pages, by the vector, by the loop.

@@ -46,7 +46,7 @@ LIBRARIES = {
     r"openvdb/": r"verify/judge_vdb\.cpp|io/formats/vdb\.cpp",
     r"nanovdb/": r"io/formats/nvdb\.cpp",
     r"embree": r"verify/trace/embree\.cpp",
-    r"hwy/": r"builder/(brick_kernel|descend)\w*\.(h|cpp)",
+    r"hwy/": r"builder/kernel[\w-]*\.(h|cpp)",
     r"zstd|xxhash": r"streaming/\w+\.cpp",
     r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/(commands/)?\w+\.cpp|tests/.*",
 }

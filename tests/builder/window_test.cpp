@@ -104,8 +104,7 @@ TEST(Window, TheSelectionClearsEverythingElse) {
   grid.bounded = true;
   grid.selection = {LatticePoint(9, 10, 11), LatticePoint(23, 22, 21)};
   uint64_t outside = 0, inside = 0;
-  voxelize_window(grid, {}, Cube(),
-                  box(lattice_point(5.5, 5.5, 5.5), lattice_point(12, 13, 14)),
+  voxelize_window(grid, {}, Cube(), box(lattice_point(5.5, 5.5, 5.5), lattice_point(12, 13, 14)),
                   [&](const LatticePoint& at, Brick b) {
                     for (unsigned i = 0; i < 64; ++i) {
                       const LatticePoint v(4 * at.x + i / 16, 4 * at.y + i / 4 % 4,
@@ -146,10 +145,9 @@ Voxels by_judge(const Grid& grid, const Cube& window,
 size_t expect_same(const Grid& grid, const Cube& window,
                    const std::vector<LatticeTriangle>& triangles, const char* family) {
   Voxels ours;
-  voxelize_window(grid, {}, window, triangles,
-                  [&](const LatticePoint& at, Brick b) {
-                    ours[{at.x, at.y, at.z}] = b;
-                  });
+  voxelize_window(grid, {}, window, triangles, [&](const LatticePoint& at, Brick b) {
+    ours[{at.x, at.y, at.z}] = b;
+  });
   EXPECT_EQ(ours, by_judge(grid, window, triangles)) << family;
   return ours.size();
 }

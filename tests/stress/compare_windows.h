@@ -29,8 +29,8 @@ VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
 // crossings of centre lines (tests/stress/centre_lines.h).
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
-// The voxelizer as it is used, against the judge; and one of its other paths (tests/stress/paths.h),
-// in turns, against the same.
+// The voxelizer as it is used, against the judge; and one of its other paths
+// (tests/stress/paths.h), in turns, against the same.
 Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
 }  // namespace svdag

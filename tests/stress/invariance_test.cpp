@@ -68,7 +68,8 @@ Soup moved(Soup soup, const Move& move) {
 
 void expect_unchanged(const Sample& sample, const Soup& changed) {
   for (const Rule rule : kRules)
-    RC_ASSERT(voxelized(sample.spot, {.rule = rule}, changed) == voxelized(sample.spot, {.rule = rule}, sample.soup));
+    RC_ASSERT(voxelized(sample.spot, {.rule = rule}, changed) ==
+              voxelized(sample.spot, {.rule = rule}, sample.soup));
 }
 
 RC_GTEST_PROP(Invariance, TranslationByWholeVoxels, ()) {
@@ -80,7 +81,8 @@ RC_GTEST_PROP(Invariance, TranslationByWholeVoxels, ()) {
   const Soup soup =
       moved(sample.soup, [&](const LatticePoint& p) { return p + by * sample.spot.voxel(); });
   for (const Rule rule : kRules) {
-    expect_mapped(voxelized(sample.spot, {.rule = rule}, sample.soup), voxelized(there, {.rule = rule}, soup),
+    expect_mapped(voxelized(sample.spot, {.rule = rule}, sample.soup),
+                  voxelized(there, {.rule = rule}, soup),
                   [&](const LatticePoint& p) { return p + by; });
   }
 }
@@ -113,8 +115,7 @@ RC_GTEST_PROP(Invariance, MirroringOfTheGrid, ()) {
   const Soup soup = moved(sample.soup, [&](const LatticePoint& p) {
     return mirror(p, n << sample.spot.grid.fraction());
   });
-  expect_mapped(voxelized(sample.spot, {}, sample.soup),
-                voxelized(there, {}, soup),
+  expect_mapped(voxelized(sample.spot, {}, sample.soup), voxelized(there, {}, soup),
                 [&](const LatticePoint& p) { return mirror(p, n - 1); });
 }
 

@@ -10,10 +10,10 @@ namespace {
 // A tilted wall: heights along w over a jittered lattice of k x k quads across the region.
 struct Wall {
   int w;
-  int64_t step;         // of the lattice
-  double slope[2];      // along u and v
-  int64_t noise;        // of a height, lattice steps
-  int64_t at[3];        // where the wall passes
+  int64_t step;     // of the lattice
+  double slope[2];  // along u and v
+  int64_t noise;    // of a height, lattice steps
+  int64_t at[3];    // where the wall passes
 
   LatticePoint vertex(int64_t i, int64_t j, Random* random, bool jitter) const {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -104,7 +104,7 @@ Soup rhombs(const Spot& spot, Random* random) {
       p[u] -= side * (c[v] - a[v]) / 16;
       p[v] += side * (c[u] - a[u]) / 16;
       p[wall.w] = wall.at[wall.w] + std::llrint(wall.slope[0] * double(p[u] - wall.at[u]) +
-                                               wall.slope[1] * double(p[v] - wall.at[v]));
+                                                wall.slope[1] * double(p[v] - wall.at[v]));
       return p;
     };
     soup.push_back({{a, c, beside(1)}});

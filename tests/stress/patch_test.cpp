@@ -1,5 +1,5 @@
-// Near-planar patches: no wrong voxel under the conditions of builder/patch.h, and wrong ones without
-// any of them.
+// Near-planar patches: no wrong voxel under the conditions of builder/patch.h, and wrong ones
+// without any of them.
 #include <gtest/gtest.h>
 
 #include <cstdio>
