@@ -79,16 +79,21 @@ void CellTree::prepare(Node* node, int level) {
   }
 }
 
-std::vector<Cube> CellTree::occupied_cells() const {
+std::vector<Cube> CellTree::occupied_cells(uint64_t most) const {
   std::vector<Cube> cells;
-  collect(root_.get(), Cube(), {}, &cells);
+  collect(root_.get(), Cube(), {}, most, &cells);
   return cells;
 }
 
-void CellTree::collect(const Node* node, const Cube& cube, EntryList list,
+void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint64_t most,
                        std::vector<Cube>* cells) const {
   if (cube.level == cell_level_) {
-    if (!list.empty() || (node != nullptr && !node->triangles.empty())) cells->push_back(cube);
+    const uint64_t own = node != nullptr ? node->triangles.size() : 0;
+    if (own > most && cube.level + 2 < grid_.levels) {
+      for (unsigned c = 0; c < 8; ++c) cells->push_back(cube.child(c));
+    } else if (own != 0 || !list.empty()) {
+      cells->push_back(cube);
+    }
     return;
   }
   if (node != nullptr) {
@@ -99,7 +104,7 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list,
   for (unsigned c = 0; c < 8; ++c) {
     const Node* child = node != nullptr ? node->children[c].get() : nullptr;
     if (child != nullptr || !lists[c].empty())
-      collect(child, cube.child(c), std::move(lists[c]), cells);
+      collect(child, cube.child(c), std::move(lists[c]), most, cells);
   }
 }
 
@@ -118,8 +123,17 @@ void CellCursor::enter(const Cube& cube, const CellTree::Node* node, const Entry
   for (const TriangleSetup& t : node->setups) step.list.push_back({&t, t.edges});
 }
 
-const EntryList& CellCursor::list(const Cube& cell) {
-  SVDAG_ASSERT(cell.level == tree_.cell_level());
+const EntryList& CellCursor::list(const Cube& cube) {
+  prepare(path_to(ancestor(cube, tree_.cell_level())));
+  for (int level = tree_.cell_level(); level < cube.level; ++level) {
+    const Cube from = ancestor(cube, level), to = ancestor(cube, level + 1);
+    divide_list(list_, from, tree_.grid().levels, config_, &parts_);
+    list_ = parts_[morton(to.coordinate) & 7];
+  }
+  return list_;
+}
+
+const CellCursor::Step& CellCursor::path_to(const Cube& cell) {
   int level = 0;  // the deepest step that is on the way to `cell`
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
@@ -132,19 +146,18 @@ const EntryList& CellCursor::list(const Cube& cell) {
     enter(next, step.node != nullptr ? step.node->children[c].get() : nullptr, step.children[c]);
   }
   depth_ = cell.level;
-  return prepare(path_[size_t(cell.level)]);
+  return path_[size_t(cell.level)];
 }
 
-const EntryList& CellCursor::prepare(const Step& cell) {
+void CellCursor::prepare(const Step& cell) {
   list_ = cell.list;
   setups_.clear();
-  if (cell.node == nullptr) return list_;
+  if (cell.node == nullptr) return;
   setups_.reserve(cell.node->triangles.size());  // entries point into it
   for (const uint32_t i : cell.node->triangles) {
     setups_.push_back(make_setup(tree_.triangles_[i]));
     list_.push_back({&setups_.back(), setups_.back().edges});
   }
-  return list_;
 }
 
 }  // namespace svdag

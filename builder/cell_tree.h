@@ -31,8 +31,10 @@ class CellTree {
 
   const Grid& grid() const { return grid_; }
   int cell_level() const { return cell_level_; }
-  // The cells that triangles may touch, in Morton order.
-  std::vector<Cube> occupied_cells() const;
+  uint64_t triangles() const { return triangles_.size(); }
+  // The cells that triangles may touch, in Morton order; a cell in which more than `most` triangles
+  // begin is replaced by its children, so that one worker does not keep the others waiting.
+  std::vector<Cube> occupied_cells(uint64_t most = UINT64_MAX) const;
 
  private:
   friend class CellCursor;
@@ -40,7 +42,8 @@ class CellTree {
 
   void insert(Node* node, const Cube& cube, uint32_t triangle, const TriangleSetup& box);
   void prepare(Node* node, int level);
-  void collect(const Node* node, const Cube& cube, EntryList list, std::vector<Cube>* cells) const;
+  void collect(const Node* node, const Cube& cube, EntryList list, uint64_t most,
+               std::vector<Cube>* cells) const;
   void charge(uint64_t bytes);
 
   Grid grid_;
@@ -57,8 +60,8 @@ class CellCursor {
  public:
   CellCursor(const CellTree& tree, const DescentConfig& config);
 
-  // The list of `cell`; valid until the next call.
-  const EntryList& list(const Cube& cell);
+  // The list of `cube`, a cell or a cube in one; valid until the next call.
+  const EntryList& list(const Cube& cube);
 
  private:
   struct Step {
@@ -70,7 +73,8 @@ class CellCursor {
   };
 
   void enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited);
-  const EntryList& prepare(const Step& cell);
+  const Step& path_to(const Cube& cell);
+  void prepare(const Step& cell);
 
   const CellTree& tree_;
   DescentConfig config_;
@@ -78,6 +82,7 @@ class CellCursor {
   int depth_ = 0;                      // path_[0 .. depth_] are valid
   std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
   EntryList list_;
+  std::array<EntryList, 8> parts_;  // of list_, on the way to a cube in the cell
 };
 
 }  // namespace svdag

@@ -1,9 +1,13 @@
 #include "builder/voxelize.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace svdag {
 namespace {
+
+constexpr uint64_t kTasksPerWorker = 32;
+constexpr uint64_t kLightCell = 4096;  // triangles: not worth dividing
 
 struct Worker {
   Worker(const CellTree& tree, const DescentConfig& config, NodeTable* table)
@@ -16,7 +20,8 @@ struct Worker {
 
 VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,
                         Executor* executor, Progress* progress) {
-  const std::vector<Cube> cells = tree.occupied_cells();
+  const uint64_t share = tree.triangles() / (kTasksPerWorker * executor->workers());
+  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kLightCell));
   progress->phase("voxelize", cells.size());
   VoxelizedCells result;
   result.cells = cells.size();
