@@ -13,6 +13,7 @@
 #include "io/lattice.h"
 #include "tests/reference_reduction.h"
 #include "tests/soup.h"
+#include "tests/stress/paths.h"
 #include "verify/occupancy.h"
 
 namespace svdag {
@@ -48,6 +49,44 @@ std::function<void(size_t)> random_delay(uint64_t seed) {
     std::mt19937_64 random(seed * 1000003 + i);
     if (random() % 64 == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
   };
+}
+
+TEST(Build, GivesTheSameBytesWithoutAnyOfItsShortcuts) {
+  const TemporaryFolder folder;
+  for (const NamedScene& scene : three_scenes()) {
+    const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
+    write_stl(path, scene.triangles);
+    for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+      BuildConfig config = config_for(path, output, 9);
+      config.descent.rule = rule;
+      SequentialExecutor one;
+      bake(config, &one);
+      const std::string expected = read_bytes(output);
+      for (const DescentPath& way : descent_paths()) {
+        config.descent = way.config;
+        config.descent.rule = rule;
+        bake(config, &one);
+        EXPECT_EQ(read_bytes(output), expected) << scene.name << ' ' << way.name;
+      }
+    }
+  }
+}
+
+TEST(Build, GivesTheSameBytesWhereAHeavyCellIsDivided) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
+  write_stl(path, random_soup(30'000, 0.05, 3));
+  BuildConfig config = config_for(path, output, 7);
+  SequentialExecutor one;
+  bake(config, &one);
+  const std::string expected = read_bytes(output);
+  for (const int cell_level : {0, 1, 2}) {
+    config.cell_level = cell_level;
+    ParallelExecutor executor(3);
+    const BuildReport report = bake(config, &executor);
+    EXPECT_GE(report.cells, 8U);
+    EXPECT_EQ(read_bytes(output), expected) << cell_level;
+  }
 }
 
 TEST(Build, GivesTheSameBytesForEveryThreadCountCellSizeAndOrder) {
