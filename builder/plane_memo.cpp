@@ -67,7 +67,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   n.area += 0.5 * width * width;
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
-    return n.area >= repeats_ * contents(n, level) * s * s;
+    return n.area >= repeats_ * contents(n.n, level).count * s * s;
   };
   int stored_from = levels_ - 2;
   if (!repeats(stored_from)) return std::nullopt;
@@ -76,8 +76,17 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
     add_plane(n);
     n.number = uint32_t(planes_.size());
   }
-  const int largest = plane->exact ? kLargestExact - fraction_bits(levels_) : kLargestRounded;
-  return Known{*plane, n.number - 1, std::max(0, levels_ - largest), stored_from};
+  return Known{*plane, n.number - 1, first_level(*plane), stored_from};
+}
+
+// Offsets of exact planes fit 63 bits up to here. Of the others most ranges straddle some value in
+// large cubes, unless the values lie in few clusters.
+int PlaneMemo::first_level(const LatticePlane& plane) const {
+  const int exact = std::max(0, levels_ - (kLargestExact - fraction_bits(levels_)));
+  if (plane.exact) return exact;
+  int level = std::max(exact, levels_ - kLargestRounded);
+  while (level > exact && contents(plane.n, level - 1).dimensions == 1) --level;
+  return level;
 }
 
 void PlaneMemo::forget() {
@@ -114,20 +123,30 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
   return &normals_.back();
 }
 
-// At most so many different contents has a cube of the level.
-double PlaneMemo::contents(const Normal& normal, int level) const {
+// How many contents a cube of the level has that matter, and the length of their intervals.
+//
+// The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
+// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums lie in s + 1
+// clusters: between them are the few long intervals that almost every cube falls into; likewise
+// (s + 1)^2 clusters where only a is small.
+PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
+  double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
+  std::sort(c, c + 3);
   const double s = double(int64_t(1) << (levels_ - level));
-  const double sum = double(std::abs(normal.n[0]) + std::abs(normal.n[1]) + std::abs(normal.n[2]));
-  return std::min(2 * (s + 1) * (s + 1) * (s + 1), 2 * sum * s + 1);
+  const double voxel = double(int64_t(1) << fraction_bits(levels_));
+  const double gap = c[2], gap2 = (c[1] + c[2]) * s / ((s + 1) * (s + 1));
+  const double most = 2 * (c[0] + c[1] + c[2]) * s + 1;  // whole numbers: no more fit
+  if ((c[0] + c[1]) * s < gap / 4) return {1, std::min(2 * (s + 1), most), gap * voxel};
+  if (c[0] * s < gap2 / 4) return {2, std::min(2 * (s + 1) * (s + 1), most), gap2 * voxel};
+  const double all = std::min(2 * (s + 1) * (s + 1) * (s + 1), most);
+  return {3, all, (c[0] + c[1] + c[2]) * s * voxel / all};
 }
 
 void PlaneMemo::add_plane(const Normal& normal) {
   Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}};
   for (const int64_t n : plane.n) (n < 0 ? plane.negative : plane.positive) += n;
   for (int level = 0; level <= levels_ - 2; ++level) {
-    const double range = std::ldexp(double(plane.positive - plane.negative),
-                                    levels_ - level + fraction_bits(levels_));
-    const int log2 = std::ilogb(range / contents(normal, level));
+    const int log2 = std::ilogb(contents(plane.n, level).length);
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
   plane.brick = plane_brick(plane);

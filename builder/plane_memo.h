@@ -116,7 +116,13 @@ class PlaneMemo {
   static constexpr size_t kWays = 4;
 
   Normal* normal(const LatticePlane& plane);
-  double contents(const Normal& normal, int level) const;
+  struct Contents {
+    int dimensions;  // of the clusters of offsets
+    double count;
+    double length;  // of an interval
+  };
+  Contents contents(const int64_t n[3], int level) const;
+  int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
   PlaneBrick plane_brick(const Plane& plane) const;
   bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
