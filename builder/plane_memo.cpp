@@ -53,7 +53,7 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       tables_(size_t(levels - 1)),
       slots_(1024) {
   for (int level = 0; level <= levels - 2; ++level) {
-    const int log2 = std::min(12 + 3 * (levels - 2 - level), kLargestTable);
+    const int log2 = std::min(14 + 2 * (levels - 2 - level), kLargestTable);
     tables_[size_t(level)].limit = size_t(1) << log2;
   }
 }
