@@ -26,7 +26,7 @@ struct DescentConfig {
   const Kernels* kernels = &svdag::kernels();
   bool covering = true;        // switch the edges of a triangle off where it covers a cube
   bool plane_memo = true;      // answer covered cubes from a memo; needs `covering`
-  double memo_repeats = 1;     // contents of a plane must repeat so often to be kept; 0: keep all
+  double memo_repeats = 0.5;     // contents of a plane must repeat so often to be kept; 0: keep all
   bool patches = true;         // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};  // for tests: all are needed
 };

@@ -59,15 +59,17 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
 }
 
 std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
-  const double width = std::min(t.extent / double(int64_t(1) << fraction_bits(levels_)), side);
+  const double whole = t.extent / double(int64_t(1) << fraction_bits(levels_));
+  const double width = std::min(whole, side);
   if (width < kNarrowest && repeats_ > 0) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
   if (!plane) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
+  const double area = std::max(n.area, 0.5 * whole * whole);  // what is to come counts as well
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
-    return n.area >= repeats_ * contents(n.n, level).count * s * s;
+    return area >= repeats_ * contents(n.n, level).count * s * s;
   };
   int stored_from = levels_ - 2;
   if (!repeats(stored_from)) return std::nullopt;
