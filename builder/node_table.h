@@ -26,12 +26,13 @@ struct SubDag {
 class NodeTable {
  public:
   NodeTable(int levels, MemoryBudget* budget)
-      : levels_(levels), bricks_(budget), numbers_(size_t(levels - 1)) {
+      : levels_(levels), budget_(budget), bricks_(budget), numbers_(size_t(levels - 1)) {
     for (int k = 0; k < levels - 2; ++k) nodes_.emplace_back(budget);
   }
 
   int levels() const { return levels_; }
   int brick_level() const { return levels_ - 2; }
+  MemoryBudget* budget() const { return budget_; }
 
   // 1 + the handle of a brick that is not zero.
   uint32_t add_brick(Brick brick) {
@@ -87,6 +88,7 @@ class NodeTable {
   static constexpr size_t kBatch = size_t(1) << 18;
 
   int levels_;
+  MemoryBudget* budget_;
   size_t pending_ = 0;  // keys added since the last flush, repetitions included
   UniqueSet<Brick, BrickHash> bricks_;
   std::vector<UniqueSet<NodeKey, NodeHash>> nodes_;

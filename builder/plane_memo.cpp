@@ -13,9 +13,8 @@ namespace {
 constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
 constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that may be asked for
-constexpr size_t kNormals = size_t(1) << 20;
-constexpr int64_t kSpan = 3;       // an entry also stands in so many buckets before and after
-constexpr int kLargestTable = 19;  // log2 of its entries
+constexpr int64_t kSpan = 3;        // an entry also stands in so many buckets before and after
+constexpr int kLargestTable = 19;   // log2 of its entries
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -51,7 +50,9 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       repeats_(repeats),
       table_(table),
       tables_(size_t(levels - 1)),
-      slots_(1024) {
+      slots_(1024),
+      most_(std::min(table->budget()->limit() / 32, uint64_t(1) << 29)),
+      reservation_(table->budget()->reserve(0, "plane memo")) {
   for (int level = 0; level <= levels - 2; ++level) {
     const int log2 = std::min(14 + 2 * (levels - 2 - level), kLargestTable);
     tables_[size_t(level)].limit = size_t(1) << log2;
@@ -63,7 +64,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   const double width = std::min(whole, side);
   if (width < kNarrowest && repeats_ > 0) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
-  if (!plane) return std::nullopt;
+  if (!plane || crowded_) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
   const double area = std::max(n.area, 0.5 * whole * whole);  // what is to come counts as well
@@ -92,15 +93,28 @@ int PlaneMemo::first_level(const LatticePlane& plane) const {
 }
 
 void PlaneMemo::forget() {
-  if (normals_.size() < kNormals) return;
-  normals_.clear();
-  planes_.clear();
+  if (!crowded_) return;
+  crowded_ = false;
+  normals_ = {};
+  planes_ = {};
   std::fill(slots_.begin(), slots_.end(), 0);
   for (Table& table : tables_) {
-    std::fill(table.entries.begin(), table.entries.end(), Entry{});
+    table.entries = {};
     table.unsettled.clear();
     table.used = 0;
   }
+  reservation_.resize(0, "plane memo");
+}
+
+bool PlaneMemo::charge(uint64_t bytes) {
+  const MemoryBudget& budget = *table_->budget();
+  if (reservation_.bytes() + bytes > most_ || budget.used() + bytes > budget.limit()) return false;
+  try {
+    reservation_.resize(reservation_.bytes() + bytes, "plane memo");
+  } catch (const Error&) {  // another worker was faster: the memo can do with less
+    return false;
+  }
+  return true;
 }
 
 PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
@@ -120,6 +134,8 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
     Normal& other = normals_[slots_[slot] - 1];
     if (std::equal(p.n, p.n + 3, other.n)) return &other;
   }
+  // Half as much again for the slots and for room to grow; a plane may be added to each later.
+  crowded_ = !charge((sizeof(Normal) + sizeof(Plane)) * 3 / 2);
   normals_.push_back({{p.n[0], p.n[1], p.n[2]}, 0, 0});
   slots_[slot] = uint32_t(normals_.size());
   return &normals_.back();
@@ -197,7 +213,10 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
 bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
   if (level < stored_from_) return compute(number, level, range, out);
   Table& table = tables_[size_t(level)];
-  if (table.entries.empty()) grow(&table);
+  if (table.entries.empty()) {
+    grow(&table);
+    if (table.entries.empty()) return compute(number, level, range, out);
+  }
   const int log2 = planes_[number].bucket_log2[size_t(level)];
   const int64_t bucket = range.low >> log2;
   const Entry* set = set_of(&table, tag_of(number, bucket));
@@ -285,7 +304,7 @@ PlaneMemo::Entry* PlaneMemo::set_of(Table* table, uint32_t tag) {
 }
 
 void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer) {
-  if (2 * table->used > table->entries.size() && table->entries.size() < table->limit) grow(table);
+  if (2 * table->used > table->entries.size()) grow(table);
   Entry* set = set_of(table, tag);
   size_t way = 0;
   while (way < kWays && set[way].plane != 0) ++way;
@@ -308,12 +327,14 @@ void PlaneMemo::settle() {
   }
 }
 
-// Starts again with a larger table: entries do not know all their buckets, and a table grows only a
-// few times.
+// Starts again with a larger table, if there is room: entries do not know all their buckets, and a
+// table grows only a few times.
 void PlaneMemo::grow(Table* table) {
-  const size_t size = std::max(size_t(256), 4 * table->entries.size());
-  table->entries.assign(std::min(size, table->limit), Entry{});
-  table->mask = uint32_t(table->entries.size() / kWays - 1);
+  const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
+  if (size == table->entries.size()) return;
+  if (!charge((size - table->entries.size()) * sizeof(Entry))) return;
+  table->entries.assign(size, Entry{});
+  table->mask = uint32_t(size / kWays - 1);
   table->unsettled.clear();
   table->used = 0;
 }

@@ -51,7 +51,8 @@ struct Witness {
 
 class PlaneMemo {
  public:
-  // An entry is kept where a plane meets at least `repeats` cubes per content; 0 keeps all.
+  // An entry is kept where a plane meets at least `repeats` cubes per content; 0 keeps all. Takes
+  // at most 1/32 of the table's memory budget, and needs none of it.
   PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table);
 
   // What the memo knows about a triangle's plane.
@@ -64,7 +65,7 @@ class PlaneMemo {
   // Admits the triangle, of which a cube of `side` voxels may be met; none if its plane does not
   // repay (yet) or has no integers. Valid until forget().
   std::optional<Known> admit(const TriangleSetup& t, double side);
-  // Forgets all planes if they have become too many.
+  // Forgets all planes if they have become too many for the budget.
   void forget();
 
   // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if
@@ -130,8 +131,10 @@ class PlaneMemo {
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
   static Entry* set_of(Table* table, uint32_t tag);
-  static void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
-  static void grow(Table* table);
+  void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
+  // Whether `bytes` more were granted.
+  bool charge(uint64_t bytes);
+  void grow(Table* table);
 
   int levels_;
   Rule rule_;
@@ -143,6 +146,9 @@ class PlaneMemo {
   std::vector<Plane> planes_;
   std::vector<Normal> normals_;
   std::vector<uint32_t> slots_;  // open addressing by normal: 1 + place in normals_
+  uint64_t most_;                // bytes
+  bool crowded_ = false;         // no plane can be added
+  MemoryBudget::Reservation reservation_;
   PlaneMemoCounts counts_;
 };
 
