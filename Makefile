@@ -6,6 +6,7 @@
 #   test    build and run every test, then once more under ASan and UBSan
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
+#   bench-giants     its table of bakes at 256K and 1M
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
@@ -20,7 +21,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-accuracy cuda clean
+.PHONY: all deps build demo test stress bench bench-giants bench-accuracy cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -59,6 +60,9 @@ stress: deps
 bench: build
 	$(call install,$(BENCH_PACKAGES))
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS)
+
+bench-giants: build
+	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS) --giants
 
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))
