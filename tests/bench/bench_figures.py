@@ -66,7 +66,7 @@ def has_avx2():
 def shown(value, unit):
     if value is None:
         return "–"
-    return f"{value:,.0f} {unit}" if value >= 100 else f"{value:.2f} {unit}".strip()
+    return (f"{value:,.0f} {unit}" if value >= 100 else f"{value:.2f} {unit}").strip()
 
 
 def figures(bakes, name):
@@ -77,7 +77,8 @@ def figures(bakes, name):
         if best is None:
             continue
         narrow = best if name == "AVX2" else measure(bakes, AVX2) if has_avx2() else None
-        rows.append([work, f"{at_most:,} {unit}".strip(), f"{aim:,} {unit}".strip(), shown(best, unit), shown(narrow, unit)])
+        targets = [f"{target:,} {unit}".strip() for target in (at_most, aim)]
+        rows.append([work, *targets, shown(best, unit), shown(narrow, unit)])
     return table(["work", "at most", "aim", name, "AVX2 only"], rows)
 
 

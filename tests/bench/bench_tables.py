@@ -51,7 +51,8 @@ def memo(rows):
     lines = []
     for before, r in zip([None, *rows], rows):
         follows = before is not None and before["scene"] == r["scene"]
-        lines.append([r["scene"], r["resolution"], *[f"{r['memo_' + k]:,}" for k in ("asked", "answered", "hits", "computed")],
+        counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "hits", "computed")]
+        lines.append([r["scene"], r["resolution"], *counts,
                       f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else ""])
     return table(["scene", "grid", "cubes asked", "answered", "nodes found", "computed", "CPU ns per unique node",
                   "CPU growth"], lines)

@@ -89,15 +89,17 @@ class Rectangle : public Mesh {
   Face face(uint64_t i) const override { return quad_face(1, i); }
 };
 
-// A square with corners +-p, +-q: flat whatever its corners are rounded to. The rectangle's normal is
-// a ratio of small integers, so that its voxels repeat after a few steps; those of the sheet do not.
+// A square with corners +-p, +-q: flat whatever its corners are rounded to. The rectangle's normal
+// is a ratio of small integers, so that its voxels repeat after a few steps; those of the sheet do
+// not.
 class Sheet : public Mesh {
  public:
   Sheet() {
     const Point n = normalised({0.3618033989, 0.4771212547, 0.7993147181});
     const Point aside{0.8414709848, -0.5772156649, 0.2718281828};
     const double along = n.x * aside.x + n.y * aside.y + n.z * aside.z;
-    const Point p = normalised({aside.x - along * n.x, aside.y - along * n.y, aside.z - along * n.z});
+    const Point p =
+        normalised({aside.x - along * n.x, aside.y - along * n.y, aside.z - along * n.z});
     const Point q{n.y * p.z - n.z * p.y, n.z * p.x - n.x * p.z, n.x * p.y - n.y * p.x};
     p_ = quantised({68 * p.x, 68 * p.y, 68 * p.z});
     q_ = quantised({68 * q.x, 68 * q.y, 68 * q.z});
