@@ -6,13 +6,15 @@
 #   test    build and run every test, then once more under ASan and UBSan
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
+#   bench-giants     its table of bakes at 256K and 1M
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
+#   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
-  librapidcheck-dev python3 python3-numpy python3-xxhash
+  librapidcheck-dev python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
 
@@ -20,7 +22,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-accuracy cuda clean
+.PHONY: all deps build demo test stress bench bench-giants bench-accuracy bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -60,11 +62,21 @@ bench: build
 	$(call install,$(BENCH_PACKAGES))
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS)
 
+bench-giants: build
+	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS) --giants
+
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
+
+bundle: build
+	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \
+	rm -rf build/bundle && \
+	cmake --install $(PROGRAMS) --component bundle --strip --prefix build/bundle/$$name >/dev/null && \
+	tar -C build/bundle --sort=name --owner=0 --group=0 -czf build/bundle/$$name.tar.gz $$name && \
+	echo "build/bundle/$$name.tar.gz"
 
 cuda:
 	@if [ -f verify/trace/cuda.cu ] && command -v nvcc >/dev/null; then \

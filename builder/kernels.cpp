@@ -1,6 +1,10 @@
 #include "builder/kernels.h"
 
+#include <strings.h>
+
 #include <algorithm>
+
+#include "streaming/error.h"
 
 namespace svdag {
 namespace {
@@ -45,6 +49,18 @@ const Kernels& plain_kernels() {
       "plain",    1, plain_children, plain_voxels<overlap_brick>, plain_voxels<overlap_brick_thin>,
       plain_plane};
   return kPlain;
+}
+
+const Kernels& kernels_by_name(const std::string& name) {
+  static const std::vector<Kernels> kVectors = vector_kernels();
+  std::string names;
+  for (const Kernels& kernels : kVectors) {
+    if (strcasecmp(kernels.name, name.c_str()) == 0) return kernels;
+    names += kernels.name + std::string(", ");
+  }
+  if (strcasecmp(plain_kernels().name, name.c_str()) == 0) return plain_kernels();
+  fail_usage("\"" + name + "\" are no vectors of this processor: choose one of " + names +
+             plain_kernels().name);
 }
 
 }  // namespace svdag

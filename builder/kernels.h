@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "builder/overlap.h"
@@ -60,5 +61,8 @@ const Kernels& plain_kernels();
 const Kernels& kernels();
 // Every vector width that was compiled and that this processor has, best first.
 std::vector<Kernels> vector_kernels();
+// Those of one name, "plain" included, in whatever case; a name that is unknown or that this
+// processor lacks is an Error (kUsage).
+const Kernels& kernels_by_name(const std::string& name);
 
 }  // namespace svdag

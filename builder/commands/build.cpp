@@ -53,6 +53,8 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"answered", r.memo.answered},
                  {"hits", r.memo.hits},
                  {"computed", r.memo.computed}}},
+               {"vectors", config.build.descent.kernels->name},
+               {"lanes", config.build.descent.kernels->lanes},
                {"cells", r.cells},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
@@ -95,6 +97,9 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
     std::printf("  the scene's positions are quantised in steps of %.3g voxel (Draco)\n",
                 r.split.scene.quantisation / r.grid.voxel_size);
   std::printf("  %s cells visited\n", format_count(r.cells).c_str());
+  std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
+              format_count(r.memo.asked).c_str(), format_count(r.memo.answered).c_str(),
+              format_count(r.memo.computed).c_str());
   std::printf(
       "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
       "CPU %.2f on %zu threads\n",

@@ -42,6 +42,20 @@ Box parse_bounds(const std::string& text) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
+void add_measurement_options(CLI::App* app, DescentConfig* descent) {
+  constexpr const char* kGroup = "Measurements (the result is the same)";
+  app->add_flag_callback(
+         "--no-plane-memo", [descent] { descent->plane_memo = descent->patches = false; },
+         "Compute every cube, also where a plane repeats")
+      ->group(kGroup);
+  app->add_option_function<std::string>(
+         "--vectors",
+         [descent](const std::string& name) { descent->kernels = &kernels_by_name(name); },
+         "Instruction set of the inner loops, for example AVX2, or plain (default: the best)")
+      ->type_name("NAME")
+      ->group(kGroup);
+}
+
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
   app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
@@ -84,6 +98,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);
+  add_measurement_options(app, &build->descent);
   app->footer(
       "Examples:\n"
       "  svdag build city.glb -o city.svdag -r 64K\n"

@@ -1,62 +1,68 @@
 #!/usr/bin/env python3
 """`make bench`: bakes scenes at rising resolutions and writes down what that took.
 
-For each scene and resolution: build/bench/bakes.csv (one row) and levels.csv (one row per level),
-the plots docs/images/*.svg, and the tables between the markers in docs/performance.md. Scenes are
-generated, and taken from SVDAG_SCENES where that is set.
+Every bake is a row of build/bench/bakes.csv; levels.csv has a row per level. The tables go between the
+markers in docs/performance.md and README.md, the plots to docs/images. Scenes are generated, and taken
+from SVDAG_SCENES where that is set. `make bench-giants` (--giants) renews the table of giants alone.
 """
 import argparse
 import csv
-import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
 
+import bench_figures
+import bench_tables as tables
+from bakes import Bakes
+from bench_plots import plot
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OUT = ROOT / "build" / "bench"
 PAGE = ROOT / "docs" / "performance.md"
 README = ROOT / "README.md"
-RESOLUTIONS = ["512", "1K", "2K", "4K", "8K", "16K"]
-GENERATED = {"atrium": [], "scan": []}
-SHARED = {"sponza": "crytek_sponza.glb", "dragon": "stanford_dragon.ply"}
-PHASES = ["bounds", "split", "voxelize", "sort", "merge", "write"]
+# Log2 of the highest resolution; all start at 512.
+SCENES = {"atrium": 17, "scan": 14, "sponza": 16, "dragon": 14}
+LOWEST = 9
+WITHOUT_MEMO = {"atrium": range(12, 15), "sponza": range(12, 16)}
+THREADS = {"sponza": 14, "scan": 13}
 
 
-def scenes(programs, wanted):
-    """{name: path}, made or found."""
-    found = {}
-    for name, options in GENERATED.items():
-        found[name] = OUT / f"{name}.ply"
-        if not found[name].exists():
-            subprocess.run([programs / "svdag-scene", name, *options, "-q", "-o", found[name]], check=True)
-    if "SVDAG_SCENES" in os.environ:
-        found |= {name: pathlib.Path(os.environ["SVDAG_SCENES"], file) for name, file in SHARED.items()}
-    return {name: path for name, path in found.items() if not wanted or name in wanted}
+def bake_scenes(bakes, wanted):
+    """(rows of bakes, rows of levels)"""
+    rows, levels = [], []
+    for name in wanted:
+        for log2 in range(LOWEST, SCENES[name] + 1):
+            row = bakes.bake(name, log2)
+            if row is None:
+                break
+            info = bakes.info()
+            rows.append(row | {"svo_nodes": info["svo_nodes"], "nodes_paper": info["paper_dag_nodes"]})
+            levels += [{"scene": name, "resolution": row["resolution"], "level": k, "svo_nodes": level["svo_nodes"],
+                        "dag_nodes": level["dag_nodes"], "bytes": level["bytes"]}
+                       for k, level in enumerate(info["level_table"] + [{**info["blocks"], "bytes": 0}])]
+    return rows, levels
 
 
-def bake(programs, name, path, resolution):
-    """(row of bakes.csv, rows of levels.csv)"""
-    dag, report_file = OUT / "bench.svdag", OUT / f"{name}-{resolution}.json"
-    subprocess.run([programs / "svdag", "build", path, "-r", resolution, "-o", dag, "-q", "--report", report_file],
-                   check=True)
-    report = json.loads(report_file.read_text())
-    info = json.loads(subprocess.run([programs / "svdag", "info", "--json", dag], check=True,
-                                     capture_output=True).stdout)
-    dag.unlink()
-    seconds = report["seconds"]
-    row = {"scene": name, "resolution": resolution, "triangles": report["triangles"], "voxels": report["voxels"],
-           "svo_nodes": info["svo_nodes"], "svo_mb": info["svo_nodes"] / 1e6,
-           "dag_nodes_bricks": info["dag_nodes"], "dag_nodes_paper": info["paper_dag_nodes"],
-           "bytes": report["file_bytes"], "bits_per_voxel": report["bits_per_voxel"],
-           **{f"s_{phase}": seconds[phase] for phase in PHASES}, "s_total": seconds["total"],
-           "s_cpu": seconds["cpu"], "sort_share": seconds["sort"] / max(seconds["total"], 1e-9),
-           "threads": report["threads"], "peak_mib": report["memory"]["peak_resident"] / 2**20}
-    table = info["level_table"] + [{**info["blocks"], "bytes": 0}]
-    levels = [{"scene": name, "resolution": resolution, "level": k, "svo_nodes": level["svo_nodes"],
-               "dag_nodes": level["dag_nodes"], "bytes": level["bytes"]} for k, level in enumerate(table)]
-    return row, levels
+def bake_without_memo(bakes, wanted):
+    return [(bakes.bake(name, log2), bakes.bake(name, log2, "--no-plane-memo"))
+            for name, grids in WITHOUT_MEMO.items() if name in wanted and bakes.scene(name) for log2 in grids]
+
+
+def bake_with_threads(bakes, wanted):
+    """Per scene the rows with 1, 2, 4 ... threads."""
+    powers = [1 << k for k in range(len(os.sched_getaffinity(0)).bit_length())]
+    return [[bakes.bake(name, log2, "-j", str(n)) for n in powers]
+            for name, log2 in THREADS.items() if name in wanted and bakes.scene(name)]
+
+
+def machine(row):
+    """Processor, vectors and compiler, for people who compare times."""
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+    return (f"{model.group(1) if model else 'unknown processor'}, {row['threads']} threads, vectors {row['vectors']} "
+            f"({32 * row['lanes']} bits, {row['lanes']} floats). Compiler: {compiler}, release build.")
 
 
 def write_csv(path, rows):
@@ -66,114 +72,60 @@ def write_csv(path, rows):
         writer.writerows(rows)
 
 
-def table(head, rows):
-    lines = [head, ["---"] + ["--:"] * (len(head) - 1)] + rows
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+def fill(page, contents):
+    """Puts each content between the markers of its name."""
+    text = page.read_text()
+    for marker, content in contents.items():
+        pattern = re.compile(rf"(<!-- {marker} -->\n).*?(<!-- end {marker} -->)", re.S)
+        if not pattern.search(text):
+            sys.exit(f"{page.name}: the markers of \"{marker}\" are missing")
+        text = pattern.sub(lambda m: m.group(1) + content + "\n" + m.group(2), text)
+    page.write_text(text)
 
 
-def bake_tables(rows):
-    sizes = table(
-        ["scene", "grid", "triangles", "voxels", "SVO nodes", "SVO MB", "DAG nodes, 4³ leaves", "DAG nodes, 2³ leaves",
-         "MB", "bits/voxel"],
-        [[r["scene"], r["resolution"], f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_nodes']:,}",
-          f"{r['svo_mb']:.1f}", f"{r['dag_nodes_bricks']:,}", f"{r['dag_nodes_paper']:,}", f"{r['bytes'] / 1e6:.2f}",
-          f"{r['bits_per_voxel']:.3f}"] for r in rows])
-    times = table(
-        ["scene", "grid", *PHASES, "total", "CPU", "sorting share", "peak MiB"],
-        [[r["scene"], r["resolution"], *[f"{r['s_' + p]:.2f}" for p in PHASES], f"{r['s_total']:.2f}",
-          f"{r['s_cpu']:.2f}", f"{r['sort_share']:.0%}", f"{r['peak_mib']:.0f}"] for r in rows])
-    return sizes, times
-
-
-def level_table(levels):
-    """Nodes per level at the highest resolution of each scene."""
-    parts = []
-    for name in dict.fromkeys(r["scene"] for r in levels):
-        last = [r for r in levels if r["scene"] == name][-1]["resolution"]
-        rows = [r for r in levels if (r["scene"], r["resolution"]) == (name, last)]
-        marks = {len(rows) - 2: " (4³ bricks)", len(rows) - 1: " (2³ blocks, inside the bricks)"}
-        parts.append(f"{name}, {last}³:\n\n" + table(
-            ["level", "SVO nodes", "DAG nodes", "bytes"],
-            [[f"{r['level']}{marks.get(r['level'], '')}", f"{r['svo_nodes']:,}", f"{r['dag_nodes']:,}",
-              f"{r['bytes']:,}"] for r in rows]))
-    return "\n\n".join(parts)
-
-
-def figures(rows):
-    """The rows of the highest resolution, for the README."""
-    last = {r["scene"]: r for r in rows}.values()
-    return table(
-        ["scene", "grid", "triangles", "voxels", "as SVO", "DAG nodes", "file", "bits per voxel", "seconds", "peak memory"],
-        [[r["scene"], f"{r['resolution']}³", f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_mb']:.0f} MB",
-          f"{r['dag_nodes_bricks']:,}", f"{r['bytes'] / 1e6:.1f} MB", f"{r['bits_per_voxel']:.3f}", f"{r['s_total']:.1f}",
-          f"{r['peak_mib']:.0f} MiB"] for r in last])
-
-
-def machine():
-    """Processor and compiler, for people who compare times."""
-    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
-    compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    return (f"{model.group(1) if model else 'unknown processor'}, {os.cpu_count()} cores, all used. "
-            f"Compiler: {compiler}, release build, baseline x86-64 (SSE2, two doubles wide).")
-
-
-def fill(text, marker, content):
-    pattern = re.compile(rf"(<!-- {marker} -->\n).*?(<!-- end {marker} -->)", re.S)
-    if not pattern.search(text):
-        sys.exit(f"the markers of \"{marker}\" are missing in a page")
-    return pattern.sub(lambda m: m.group(1) + content + "\n" + m.group(2), text)
-
-
-def plot(rows, name, value, label):
-    import matplotlib
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "svdag"
-    from matplotlib import pyplot
-    figure, axes = pyplot.subplots(figsize=(6, 4))
-    for scene in dict.fromkeys(r["scene"] for r in rows):
-        own = [r for r in rows if r["scene"] == scene]
-        axes.plot([r["resolution"] for r in own], [value(r) for r in own], marker="o", label=scene)
-    axes.set_yscale("log")
-    axes.set_xlabel("resolution")
-    axes.set_ylabel(label)
-    axes.grid(alpha=0.3)
-    axes.legend()
-    figure.tight_layout()
-    folder = ROOT / "docs" / "images"
-    folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
-    pyplot.close(figure)
+def bench(bakes, wanted, csv_only):
+    rows, levels = bake_scenes(bakes, wanted)
+    if not rows:
+        sys.exit("none of these scenes is here: SVDAG_SCENES names the folder of sponza and dragon")
+    pairs, groups = bake_without_memo(bakes, wanted), bake_with_threads(bakes, wanted)
+    contents = {"machine": machine(rows[-1]), "sizes": tables.sizes(rows), "times": tables.times(rows),
+                "papers layout": tables.papers_layout(rows), "memo": tables.memo(rows), "growth": tables.growths(rows),
+                "without memo": tables.without_memo(pairs), "threads": tables.threads(groups),
+                "levels": tables.levels(levels)}
+    figures = bench_figures.figures(bakes, rows[-1]["vectors"])
+    contents["figures"] = contents["machine"] + "\n\n" + figures
+    print(contents["figures"])
+    write_csv(OUT / "bakes.csv", bakes.rows())
+    write_csv(OUT / "levels.csv", levels)
+    if csv_only:
+        return
+    fill(PAGE, contents)
+    fill(README, {"figures": tables.readme(rows)})
+    plot(rows, ROOT / "docs" / "images" / "seconds.svg", lambda r: r["s_total"], "seconds")
+    plot(rows, ROOT / "docs" / "images" / "nodes.svg", lambda r: r["nodes"], "DAG nodes (4³ leaves)")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--up-to", default=RESOLUTIONS[-1], choices=RESOLUTIONS)
-    parser.add_argument("--csv-only", action="store_true", help="leave docs/ alone")
-    parser.add_argument("scenes", nargs="*", help="only these")
+    parser.add_argument("--coarser", type=int, default=0, metavar="N",
+                        help="all resolutions N doublings lower, to try this program out; needs --csv-only")
+    parser.add_argument("--csv-only", action="store_true", help="leave docs/ and README.md alone")
+    parser.add_argument("--giants", action="store_true", help="only the table of giants: up to an hour")
+    parser.add_argument("scenes", nargs="*", help="only these of " + ", ".join(SCENES))
     options = parser.parse_args()
-    programs = options.programs.resolve()
-    OUT.mkdir(parents=True, exist_ok=True)
-    rows, levels = [], []
-    for name, path in scenes(programs, options.scenes).items():
-        for resolution in RESOLUTIONS[:RESOLUTIONS.index(options.up_to) + 1]:
-            row, own = bake(programs, name, path, resolution)
-            print(f"{name:>8} {resolution:>4} {row['dag_nodes_bricks']:>12,} nodes {row['s_total']:8.2f} s "
-                  f"{row['peak_mib']:7.0f} MiB", flush=True)
-            rows.append(row)
-            levels += own
-    write_csv(OUT / "bakes.csv", rows)
-    write_csv(OUT / "levels.csv", levels)
-    if options.csv_only:
-        return
-    sizes, times = bake_tables(rows)
-    text = PAGE.read_text()
-    for marker, content in [("machine", machine()), ("sizes", sizes), ("times", times), ("levels", level_table(levels))]:
-        text = fill(text, marker, content)
-    PAGE.write_text(text)
-    README.write_text(fill(README.read_text(), "figures", figures(rows)))
-    plot(rows, "seconds", lambda r: r["s_total"], "seconds")
-    plot(rows, "nodes", lambda r: r["dag_nodes_bricks"], "DAG nodes (4³ leaves)")
+    if options.coarser and not options.csv_only or not set(options.scenes) <= set(SCENES):
+        parser.error("--coarser needs --csv-only" if options.coarser else "there are no such scenes")
+    bakes = Bakes(options.programs.resolve(), OUT, options.coarser)
+    if options.giants:
+        content = bench_figures.giants(bakes)
+        print(content)
+        write_csv(OUT / "giants.csv", bakes.rows())
+        if not options.csv_only:
+            fill(PAGE, {"giants": content})
+    else:
+        bench(bakes, options.scenes or list(SCENES), options.csv_only)
+    bakes.dag_file().unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// The scenes that are one grid of quads (or six): scan, terrain, rectangle.
+// The scenes that are one grid of quads (or six): scan, terrain, rectangle, sheet.
 #include <algorithm>
 #include <cmath>
 
@@ -89,6 +89,33 @@ class Rectangle : public Mesh {
   Face face(uint64_t i) const override { return quad_face(1, i); }
 };
 
+// A square with corners +-p, +-q: flat whatever its corners are rounded to. The rectangle's normal
+// is a ratio of small integers, so that its voxels repeat after a few steps; those of the sheet do
+// not.
+class Sheet : public Mesh {
+ public:
+  Sheet() {
+    const Point n = normalised({0.3618033989, 0.4771212547, 0.7993147181});
+    const Point aside{0.8414709848, -0.5772156649, 0.2718281828};
+    const double along = n.x * aside.x + n.y * aside.y + n.z * aside.z;
+    const Point p =
+        normalised({aside.x - along * n.x, aside.y - along * n.y, aside.z - along * n.z});
+    const Point q{n.y * p.z - n.z * p.y, n.z * p.x - n.x * p.z, n.x * p.y - n.y * p.x};
+    p_ = quantised({68 * p.x, 68 * p.y, 68 * p.z});
+    q_ = quantised({68 * q.x, 68 * q.y, 68 * q.z});
+  }
+  uint64_t vertices() const override { return 4; }
+  uint64_t faces() const override { return 2; }
+  Point vertex(uint64_t i) const override {
+    const Point& corner = i == 0 || i == 3 ? p_ : q_;
+    return i < 2 ? corner : Point{-corner.x, -corner.y, -corner.z};
+  }
+  Face face(uint64_t i) const override { return quad_face(1, i); }
+
+ private:
+  Point p_, q_;
+};
+
 }  // namespace
 
 std::unique_ptr<Mesh> make_scan(uint64_t triangles, uint64_t seed) {
@@ -102,6 +129,11 @@ std::unique_ptr<Mesh> make_terrain(uint64_t triangles, uint64_t seed) {
 std::unique_ptr<Mesh> make_rectangle(uint64_t triangles, uint64_t) {
   if (triangles != 2) fail_usage("--triangles: a rectangle has 2 triangles");
   return std::make_unique<Rectangle>();
+}
+
+std::unique_ptr<Mesh> make_sheet(uint64_t triangles, uint64_t) {
+  if (triangles != 2) fail_usage("--triangles: a sheet has 2 triangles");
+  return std::make_unique<Sheet>();
 }
 
 }  // namespace svdag::scenes

@@ -21,6 +21,8 @@ std::unique_ptr<Mesh> make_city(uint64_t triangles, uint64_t seed);
 std::unique_ptr<Mesh> make_terrain(uint64_t triangles, uint64_t seed);
 // One tilted rectangle of two triangles: the largest triangles there are.
 std::unique_ptr<Mesh> make_rectangle(uint64_t triangles, uint64_t seed);
+// One square of two triangles, tilted against all axes so that no part of it repeats another.
+std::unique_ptr<Mesh> make_sheet(uint64_t triangles, uint64_t seed);
 
 struct Kind {
   const char* name;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "tests/expect_error.h"
@@ -18,8 +19,8 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr uint64_t kSmall[] = {90'000, 10'000, 10'000,
-                               10'000, 10'000, 2};  // in the order of kinds()
+constexpr uint64_t kSmall[] = {90'000, 10'000, 10'000, 10'000,
+                               10'000, 2,      2};  // in the order of kinds()
 
 using Position = std::array<double, 3>;
 using Soup = std::multiset<std::array<Position, 3>>;
@@ -101,7 +102,7 @@ TEST(EveryKind, FitsItsWorldAndFollowsTheSeed) {
     const auto one = make_scene(kinds()[k].name, kSmall[k], 1),
                other = make_scene(kinds()[k].name, kSmall[k], 2);
     for (uint64_t i = 0; i < one->vertices(); ++i) ASSERT_LT(length(one->vertex(i)), 128);
-    if (kSmall[k] == 2) continue;  // the rectangle has no seed
+    if (kSmall[k] == 2) continue;  // rectangle and sheet have no seed
     EXPECT_NE(soup_of(*one), soup_of(*other)) << kinds()[k].name;
   }
 }
@@ -147,11 +148,32 @@ TEST(Scan, IsClosed) {
   for (const auto& [edge, balance] : edges) ASSERT_EQ(balance, 0);
 }
 
+TEST(Sheet, IsFlatAndItsNormalIsNoRatioOfSmallIntegers) {
+  const auto mesh = make_scene("sheet", 2, 1);
+  const auto steps = [&](uint64_t i, int axis) {  // in the units of the file
+    return int64_t(mesh->vertex(i)[axis] * 65536);
+  };
+  int64_t e[2][3], n[3];
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_EQ(steps(0, a) + steps(3, a), steps(1, a) + steps(2, a));
+    for (uint64_t k = 0; k < 2; ++k) e[k][a] = steps(k + 1, a) - steps(0, a);
+  }
+  for (int a = 0; a < 3; ++a)
+    n[a] = e[0][(a + 1) % 3] * e[1][(a + 2) % 3] - e[0][(a + 2) % 3] * e[1][(a + 1) % 3];
+  for (int a = 0; a < 3; ++a) {
+    const int64_t b = n[(a + 1) % 3];
+    EXPECT_GT(std::abs(n[a]) / std::gcd(n[a], b), 1'000'000);
+    EXPECT_GT(std::abs(double(n[a]) / double(b)), 0.4);
+    EXPECT_LT(std::abs(double(n[a]) / double(b)), 2.5);
+  }
+}
+
 TEST(Kinds, UnknownNamesAndImpossibleCountsAreUsageErrors) {
   EXPECT_SVDAG_ERROR(make_scene("teapot", 0, 1), ExitCode::kUsage,
                      "\"teapot\" is not a kind of scene");
   EXPECT_SVDAG_ERROR(make_scene("atrium", 100, 1), ExitCode::kUsage, "needs at least");
   EXPECT_SVDAG_ERROR(make_scene("rectangle", 3, 1), ExitCode::kUsage, "2 triangles");
+  EXPECT_SVDAG_ERROR(make_scene("sheet", 3, 1), ExitCode::kUsage, "2 triangles");
   EXPECT_SVDAG_ERROR(make_scene("scan", uint64_t(1) << 40, 1), ExitCode::kUsage, "at most");
 }
 

@@ -1,0 +1,89 @@
+"""Scenes and bakes of `make bench`: each made once per run, and remembered."""
+import json
+import os
+import pathlib
+import subprocess
+
+# Arguments of svdag-scene.
+GENERATED = {"atrium": ["atrium"], "scan": ["scan"], "sheet": ["sheet"],
+             "scan 70K": ["scan", "-n", "70K"], "scan 9M": ["scan", "-n", "9M"],
+             "hairball": ["hairball", "-n", "2880K"], "city": ["city", "-n", "120K"],
+             "city, 0.5 rad": ["city", "-n", "120K", "--yaw", "28.6478897565412"]}
+# Files in the folder that SVDAG_SCENES names.
+SHARED = {"sponza": "crytek_sponza.glb", "dragon": "stanford_dragon.ply"}
+PHASES = ["bounds", "split", "voxelize", "sort", "merge", "write"]
+SHORT = 1.0  # seconds; a bake that takes less is repeated, and the least time counts
+REPEATS = 3
+
+
+def label(log2):
+    """9: "512", 16: "64K"."""
+    return f"{1 << log2}" if log2 < 10 else f"{1 << (log2 - 10)}K" if log2 < 20 else f"{1 << (log2 - 20)}M"
+
+
+class Bakes:
+    """Bakes with the programs of one folder; resolutions are `coarser` doublings lower than asked for."""
+
+    def __init__(self, programs, folder, coarser=0):
+        self.programs, self.folder, self.coarser = programs, folder, coarser
+        self.known = {}
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def scene(self, name):
+        """The path of a scene; None if it is not here."""
+        if name in SHARED:
+            path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), SHARED[name])
+            return path if "SVDAG_SCENES" in os.environ and path.exists() else None
+        path = self.folder / ("_".join(a.strip("-") for a in GENERATED[name]) + ".ply")
+        if not path.exists():
+            subprocess.run([self.programs / "svdag-scene", *GENERATED[name], "-q", "-o", path], check=True)
+        return path
+
+    def log2(self, log2):
+        return max(3, log2 - self.coarser)
+
+    def report(self, name, log2, *options):
+        """The report of one bake, which is left in dag_file()."""
+        report = self.folder / "report.json"
+        subprocess.run([self.programs / "svdag", "build", self.scene(name), "-r", label(self.log2(log2)),
+                        "-o", self.dag_file(), "-q", "--report", report, *options], check=True)
+        return json.loads(report.read_text())
+
+    def dag_file(self):
+        return self.folder / "bench.svdag"
+
+    def bake(self, name, log2, *options):
+        """One row of bakes.csv; None if the scene is not here."""
+        key = (name, self.log2(log2), options)
+        if self.scene(name) is None:
+            return None
+        if key not in self.known:
+            reports = [self.report(name, log2, *options)]
+            while len(reports) < REPEATS and reports[0]["seconds"]["total"] < SHORT:
+                reports.append(self.report(name, log2, *options))
+            least = min(reports, key=lambda report: report["seconds"]["total"])
+            row = row_of(name, self.log2(log2), options, least)
+            row["s_cpu"] = min(report["seconds"]["cpu"] for report in reports)
+            self.known[key] = row
+            print(f"{name:>13} {row['resolution']:>4} {row['nodes']:>12,} nodes {row['s_total']:8.2f} s "
+                  f"{row['peak_mib']:7.0f} MiB  {' '.join(options)}", flush=True)
+        return self.known[key]
+
+    def info(self):
+        """What `svdag info` counts in the file of the bake that was just made."""
+        return json.loads(subprocess.run([self.programs / "svdag", "info", "--json", self.dag_file()], check=True,
+                                         capture_output=True).stdout)
+
+    def rows(self):
+        return list(self.known.values())
+
+
+def row_of(name, log2, options, report):
+    seconds, memo = report["seconds"], report["plane_memo"]
+    return {"scene": name, "log2": log2, "resolution": label(log2), "options": " ".join(options),
+            "vectors": report["vectors"], "lanes": report["lanes"], "threads": report["threads"],
+            "triangles": report["triangles"], "voxels": report["voxels"], "nodes": sum(report["nodes"]),
+            "bytes": report["file_bytes"], "bits_per_voxel": report["bits_per_voxel"],
+            **{f"s_{phase}": seconds[phase] for phase in PHASES}, "s_total": seconds["total"],
+            "s_cpu": seconds["cpu"], **{f"memo_{key}": value for key, value in memo.items()},
+            "peak_mib": report["memory"]["peak_resident"] / 2**20}

@@ -1,0 +1,98 @@
+"""The figures of merit of `make bench`: what was aimed at, and what this machine does.
+
+A figure is a function of the bakes and the options they are made with, so that the same row is asked
+for again with other vectors.
+"""
+import subprocess
+
+from bench_tables import growth, table
+
+AVX2 = ("--vectors", "AVX2")
+
+
+def of_row(scene, log2, value):
+    def measure(bakes, options):
+        row = bakes.bake(scene, log2, *options)
+        return None if row is None else value(row)
+    return measure
+
+
+def wall(scene, log2):
+    return of_row(scene, log2, lambda row: row["s_total"])
+
+
+def cpu(scene, log2):
+    return of_row(scene, log2, lambda row: row["s_cpu"])
+
+
+def cpu_per_node(scene, log2):
+    return of_row(scene, log2, lambda row: 1e9 * row["s_cpu"] / row["nodes"])
+
+
+def computed_per_node(scene, log2):
+    return of_row(scene, log2, lambda row: row["memo_computed"] / row["nodes"])
+
+
+def cpu_growth(scene, low, high):
+    def measure(bakes, options):
+        rows = [bakes.bake(scene, log2, *options) for log2 in (low, high)]
+        return None if None in rows else growth(rows, *rows)
+    return measure
+
+
+# (work, unit, at most, aim, measure)
+FIGURES = [
+    ("sponza 64K³, wall", "s", 20, 8, wall("sponza", 16)),
+    ("sponza 16K³ → 64K³, CPU growth per doubling", "", 2.5, 2.3, cpu_growth("sponza", 14, 16)),
+    ("tilted sheet 64K³, nodes computed on planes per unique node", "", 1.3, 1.1, computed_per_node("sheet", 16)),
+    ("tilted sheet 64K³, wall", "s", 1.5, 0.4, wall("sheet", 16)),
+    ("city of 10,000 boxes 64K³, wall", "s", 5, 2, wall("city", 16)),
+    ("the same city turned by 0.5 rad, wall", "s", 10, 5, wall("city, 0.5 rad", 16)),
+    ("dragon 8K³, wall", "s", 2.5, 1.2, wall("dragon", 13)),
+    ("scan of 70K triangles 8K³, CPU", "s", 3, 1.5, cpu("scan 70K", 13)),
+    ("hairball of 2.88M triangles 4K³, CPU", "s", 18, 8, cpu("hairball", 12)),
+    ("scan of 9M triangles 16K³, CPU", "s", 30, 15, cpu("scan 9M", 14)),
+    ("sponza 64K³, CPU per unique node", "ns", 1500, 500, cpu_per_node("sponza", 16)),
+]
+GIANTS = [("city", 20), ("city, 0.5 rad", 20), ("sheet", 20), ("sponza", 18)]
+SAMPLE = 2000  # bricks that svdag-verify looks at
+
+
+def has_avx2():
+    with open("/proc/cpuinfo") as file:
+        return " avx2 " in file.read().replace("\n", " ")
+
+
+def shown(value, unit):
+    if value is None:
+        return "–"
+    return (f"{value:,.0f} {unit}" if value >= 100 else f"{value:.2f} {unit}").strip()
+
+
+def figures(bakes, name):
+    """A row per figure; `name` is what the processor's best vectors are called."""
+    rows = []
+    for work, unit, at_most, aim, measure in FIGURES:
+        best = measure(bakes, ())
+        if best is None:
+            continue
+        narrow = best if name == "AVX2" else measure(bakes, AVX2) if has_avx2() else None
+        targets = [f"{target:,} {unit}".strip() for target in (at_most, aim)]
+        rows.append([work, *targets, shown(best, unit), shown(narrow, unit)])
+    return table(["work", "at most", "aim", name, "AVX2 only"], rows)
+
+
+def giant(bakes, scene, log2):
+    try:
+        row = bakes.bake(scene, log2)
+    except subprocess.CalledProcessError as error:
+        return [scene, "", f"svdag ended with {error.returncode}", "", "", "", "", ""]
+    check = subprocess.run([bakes.programs / "svdag-verify", "mesh", bakes.dag_file(), bakes.scene(scene),
+                            "--sample", str(SAMPLE)], stdout=subprocess.DEVNULL).returncode
+    return [scene, f"{row['resolution']}³", f"{row['s_total']:.1f}", f"{row['s_cpu']:.1f}", f"{row['nodes']:,}",
+            f"{row['bytes'] / 1e6:,.0f}", f"{row['peak_mib']:,.0f}", "yes" if check == 0 else f"no: exit code {check}"]
+
+
+def giants(bakes):
+    return table(["scene", "grid", "seconds", "CPU", "DAG nodes", "MB", "peak MiB", f"{SAMPLE:,} bricks verified"],
+                 [giant(bakes, scene, log2) for scene, log2 in GIANTS if bakes.scene(scene) is not None])

@@ -1,0 +1,103 @@
+"""The tables of `make bench`, from the rows of its CSV files."""
+from bakes import PHASES, label
+
+
+def table(head, rows):
+    lines = [head, ["---"] + ["--:"] * (len(head) - 1)] + rows
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def sizes(rows):
+    return table(
+        ["scene", "grid", "triangles", "voxels", "SVO nodes", "SVO MB", "DAG nodes, 4³ leaves", "DAG nodes, 2³ leaves",
+         "MB", "bits/voxel"],
+        [[r["scene"], r["resolution"], f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_nodes']:,}",
+          f"{r['svo_nodes'] / 1e6:.1f}", f"{r['nodes']:,}", f"{r['nodes_paper']:,}", f"{r['bytes'] / 1e6:.2f}",
+          f"{r['bits_per_voxel']:.3f}"] for r in rows])
+
+
+def share(part, whole):
+    return f"{part / max(whole, 1e-9):.0%}"
+
+
+def times(rows):
+    heads = [phase if phase != "sort" else "sort (reduce)" for phase in PHASES]
+    return table(
+        ["scene", "grid", *heads, "total", "CPU", "sorting share", "peak MiB"],
+        [[r["scene"], r["resolution"], *[f"{r['s_' + p]:.2f}" for p in PHASES], f"{r['s_total']:.2f}",
+          f"{r['s_cpu']:.2f}", share(r["s_sort"], r["s_total"]), f"{r['peak_mib']:.0f}"] for r in rows])
+
+
+def papers_layout(rows):
+    """A row per scene, a column per resolution up to 8K: seconds after voxelizing (share of sorting)."""
+    shown = [r for r in rows if r["log2"] <= 13]
+    grids = sorted({r["log2"] for r in shown})
+    cells = {}
+    for r in shown:
+        reduction = r["s_sort"] + r["s_merge"] + r["s_write"]
+        cells[r["scene"], r["log2"]] = f"{reduction:.3f} ({share(r['s_sort'], reduction)})"
+    return table(["scene", *[f"{label(grid)}³" for grid in grids]],
+                 [[scene, *[cells.get((scene, grid), "") for grid in grids]]
+                  for scene in dict.fromkeys(r["scene"] for r in shown)])
+
+
+def growth(rows, low, high):
+    """Geometric mean of the growth of CPU time per doubling, between two rows."""
+    steps = high["log2"] - low["log2"]
+    return (high["s_cpu"] / low["s_cpu"]) ** (1 / steps) if steps else 1.0
+
+
+def memo(rows):
+    lines = []
+    for before, r in zip([None, *rows], rows):
+        follows = before is not None and before["scene"] == r["scene"]
+        counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "hits", "computed")]
+        lines.append([r["scene"], r["resolution"], *counts,
+                      f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else ""])
+    return table(["scene", "grid", "cubes asked", "answered", "nodes found", "computed", "CPU ns per unique node",
+                  "CPU growth"], lines)
+
+
+def growths(rows, low=14, high=16):
+    """One sentence per scene that was baked at both resolutions."""
+    found = {(r["scene"], r["log2"]): r for r in rows}
+    return "\n".join(
+        f"* {scene}: CPU grows {growth(rows, found[scene, low], found[scene, high]):.2f} times per doubling from "
+        f"{label(low)} to {label(high)} (geometric mean)."
+        for scene in dict.fromkeys(r["scene"] for r in rows) if (scene, low) in found and (scene, high) in found)
+
+
+def without_memo(pairs):
+    return table(["scene", "grid", "CPU s", "CPU s without the memo", "times"],
+                 [[with_["scene"], with_["resolution"], f"{with_['s_cpu']:.2f}", f"{without['s_cpu']:.2f}",
+                   f"{without['s_cpu'] / max(with_['s_cpu'], 1e-9):.1f}"] for with_, without in pairs])
+
+
+def threads(groups):
+    return table(["scene", "grid", "threads", "seconds", "speed-up"],
+                 [[r["scene"], r["resolution"], str(r["threads"]), f"{r['s_total']:.2f}",
+                   f"{group[0]['s_total'] / r['s_total']:.2f}"] for group in groups for r in group])
+
+
+def levels(rows):
+    """Nodes per level at the highest resolution of each scene."""
+    parts = []
+    for name in dict.fromkeys(r["scene"] for r in rows):
+        last = [r for r in rows if r["scene"] == name][-1]["resolution"]
+        own = [r for r in rows if (r["scene"], r["resolution"]) == (name, last)]
+        marks = {len(own) - 2: " (4³ bricks)", len(own) - 1: " (2³ blocks, inside the bricks)"}
+        parts.append(f"{name}, {last}³:\n\n" + table(
+            ["level", "SVO nodes", "DAG nodes", "bytes"],
+            [[f"{r['level']}{marks.get(r['level'], '')}", f"{r['svo_nodes']:,}", f"{r['dag_nodes']:,}",
+              f"{r['bytes']:,}"] for r in own]))
+    return "\n\n".join(parts)
+
+
+def readme(rows):
+    """The rows of the highest resolution."""
+    last = {r["scene"]: r for r in rows}.values()
+    return table(
+        ["scene", "grid", "triangles", "voxels", "as SVO", "DAG nodes", "file", "bits per voxel", "seconds", "peak memory"],
+        [[r["scene"], f"{r['resolution']}³", f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_nodes'] / 1e6:.0f} MB",
+          f"{r['nodes']:,}", f"{r['bytes'] / 1e6:.1f} MB", f"{r['bits_per_voxel']:.3f}", f"{r['s_total']:.1f}",
+          f"{r['peak_mib']:.0f} MiB"] for r in last])

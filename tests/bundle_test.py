@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""The bundle (`make bundle`) runs anywhere: only libc comes from the system, and the bytes are the same.
+
+Programs are given by the folder of a finished build; the bundle is installed into a temporary folder,
+moved, and run from a third one.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
+OF_LIBC = r"(linux-vdso|.*/?ld-linux-x86-64|lib(c|m|dl|rt|pthread))\.so"
+
+
+class Bundle(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="svdag-bundle-")
+        root = pathlib.Path(cls.folder.name)
+        subprocess.run(["cmake", "--install", BUILD, "--component", "bundle", "--strip", "--prefix", root / "made"],
+                       check=True, stdout=subprocess.DEVNULL)
+        cls.bundle = (root / "made").rename(root / "moved")
+        cls.away = root / "away"
+        cls.away.mkdir()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def run_bundled(self, *command):
+        environment = dict(os.environ, LD_LIBRARY_PATH="", LC_ALL="C")
+        done = subprocess.run(command, cwd=self.away, env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_holds_the_programs_and_their_libraries(self):
+        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-scene", "svdag-verify"])
+        names = [p.name for p in (self.bundle / "lib").iterdir()]
+        self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
+        self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
+
+    def test_nothing_but_libc_is_found_outside(self):
+        for program in (self.bundle / "bin").iterdir():
+            found = self.run_bundled("ldd", program).splitlines()
+            self.assertGreater(len(found), 3)
+            outside = [line.strip() for line in found if not re.match(OF_LIBC, line.strip())
+                       and f"=> {self.bundle / 'bin'}/../lib/" not in line]
+            self.assertEqual(outside, [], program.name)
+
+    def test_bakes_the_same_bytes_and_verifies_them(self):
+        programs = self.bundle / "bin"
+        self.run_bundled(programs / "svdag-scene", "city", "-n", "6K", "-q", "-o", "city.ply")
+        self.run_bundled(programs / "svdag", "build", "city.ply", "-r", "512", "-q", "-o", "bundled.svdag")
+        subprocess.run([BUILD / "svdag", "build", "city.ply", "-r", "512", "-q", "-o", "built.svdag"], cwd=self.away, check=True)
+        self.assertEqual((self.away / "bundled.svdag").read_bytes(), (self.away / "built.svdag").read_bytes())
+        self.run_bundled(programs / "svdag-verify", "check", "bundled.svdag")
+
+
+if __name__ == "__main__":
+    unittest.main()
