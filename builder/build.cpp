@@ -88,6 +88,7 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
   report.voxels = cells.voxels;
   report.decisions = cells.decisions;
   report.memo = cells.memo;
+  report.divided = cells.divided;
   report.seconds.voxelize = phase.lap();
 
   progress->phase("sort", 0);

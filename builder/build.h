@@ -30,6 +30,7 @@ struct BuildReport {
   SplitCounts split;
   DecisionCounts decisions;
   PlaneMemoCounts memo;
+  std::vector<uint64_t> divided;  // cubes per level that the descent divided, inside the cells
   uint64_t cells = 0;  // visited
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks

@@ -41,6 +41,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
       table_(table),
       memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table),
       scratch_(size_t(grid.levels)),
+      divided_(size_t(grid.levels)),
       path_(size_t(grid.levels)) {}
 
 void Descent::run(const Cube& cube, const EntryList& list) {
@@ -77,6 +78,7 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
     if (const auto known = find_in_memo(cube, list)) return *known;
   }
   if (cube.level == grid_.levels - kFlushLog2 && table_->full()) flush(cube.level);
+  ++divided_[size_t(cube.level)];
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_, &lists);
   NodeKey& key = path_[size_t(cube.level)];

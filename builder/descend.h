@@ -55,6 +55,8 @@ class Descent {
 
   const DecisionCounts& decisions() const { return decisions_; }
   const PlaneMemoCounts& memo() const { return memo_.counts(); }
+  // [level]: how many cubes were divided; the others that are not empty were answered by the memo.
+  const std::vector<uint64_t>& divided() const { return divided_; }
 
  private:
   // What the memo said of a triangle in this cell, when it was first asked.
@@ -82,6 +84,7 @@ class Descent {
   void flush(int level);
 
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
+  std::vector<uint64_t> divided_;
   std::vector<NodeKey> path_;  // [level]: children (1 + handle) of the cube being divided there
   std::vector<Root> roots_;
   size_t settled_roots_ = 0;  // roots_ before this one hold numbers

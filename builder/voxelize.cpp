@@ -39,6 +39,8 @@ VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, Memor
     descent.finish();
     result.decisions += descent.decisions();
     result.memo += descent.memo();
+    result.divided.resize(descent.divided().size());
+    for (size_t k = 0; k < result.divided.size(); ++k) result.divided[k] += descent.divided()[k];
     for (const Descent::Root& root : descent.roots()) {
       result.roots.push_back({root.cube, uint32_t(w), root.dag.root - 1});
       result.voxels += root.dag.voxels;

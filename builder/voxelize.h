@@ -22,6 +22,7 @@ struct VoxelizedCells {
   uint64_t voxels = 0;
   DecisionCounts decisions;
   PlaneMemoCounts memo;
+  std::vector<uint64_t> divided;  // cubes per level, inside the cells
 };
 
 VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,

@@ -55,6 +55,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"computed", r.memo.computed}}},
                {"vectors", config.build.descent.kernels->name},
                {"lanes", config.build.descent.kernels->lanes},
+               {"cubes_divided", r.divided},
                {"cells", r.cells},
                {"voxels", r.voxels},
                {"nodes", r.nodes},

@@ -86,4 +86,4 @@ def row_of(name, log2, options, report):
             "bytes": report["file_bytes"], "bits_per_voxel": report["bits_per_voxel"],
             **{f"s_{phase}": seconds[phase] for phase in PHASES}, "s_total": seconds["total"],
             "s_cpu": seconds["cpu"], **{f"memo_{key}": value for key, value in memo.items()},
-            "peak_mib": report["memory"]["peak_resident"] / 2**20}
+            "divided_16": report["cubes_divided"][log2 - 4], "peak_mib": report["memory"]["peak_resident"] / 2**20}

@@ -38,7 +38,8 @@ def bake_scenes(bakes, wanted):
             if row is None:
                 break
             info = bakes.info()
-            rows.append(row | {"svo_nodes": info["svo_nodes"], "nodes_paper": info["paper_dag_nodes"]})
+            rows.append(row | {"svo_nodes": info["svo_nodes"], "nodes_paper": info["paper_dag_nodes"],
+                               "svo_nodes_16": info["level_table"][row["log2"] - 4]["svo_nodes"]})
             levels += [{"scene": name, "resolution": row["resolution"], "level": k, "svo_nodes": level["svo_nodes"],
                         "dag_nodes": level["dag_nodes"], "bytes": level["bytes"]}
                        for k, level in enumerate(info["level_table"] + [{**info["blocks"], "bytes": 0}])]

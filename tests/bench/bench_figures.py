@@ -10,9 +10,9 @@ from bench_tables import growth, table
 AVX2 = ("--vectors", "AVX2")
 
 
-def of_row(scene, log2, value):
+def of_row(scene, log2, value, *more):
     def measure(bakes, options):
-        row = bakes.bake(scene, log2, *options)
+        row = bakes.bake(scene, log2, *options, *more)
         return None if row is None else value(row)
     return measure
 
@@ -30,7 +30,8 @@ def cpu_per_node(scene, log2):
 
 
 def computed_per_node(scene, log2):
-    return of_row(scene, log2, lambda row: row["memo_computed"] / row["nodes"])
+    """Of one worker: every worker has a memo of its own."""
+    return of_row(scene, log2, lambda row: row["memo_computed"] / row["nodes"], "-j", "1")
 
 
 def cpu_growth(scene, low, high):

@@ -53,9 +53,11 @@ def memo(rows):
         follows = before is not None and before["scene"] == r["scene"]
         counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "hits", "computed")]
         lines.append([r["scene"], r["resolution"], *counts,
-                      f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else ""])
-    return table(["scene", "grid", "cubes asked", "answered", "nodes found", "computed", "CPU ns per unique node",
-                  "CPU growth"], lines)
+                      f"{1 - r['divided_16'] / max(r['svo_nodes_16'], 1):.1%}",
+                      f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else "",
+                      f"{r['nodes'] / before['nodes']:.2f}" if follows else ""])
+    return table(["scene", "grid", "cubes asked", "answered", "nodes found", "computed", "16³ cubes not divided",
+                  "CPU ns per unique node", "CPU growth", "growth of the DAG"], lines)
 
 
 def growths(rows, low=14, high=16):
