@@ -13,6 +13,7 @@ namespace {
 constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
 constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that may be asked for
+constexpr double kAdmitted = 16;    // bricks per content, in `repeats`, from which a plane repays
 constexpr int64_t kSpan = 3;        // an entry also stands in so many buckets before and after
 constexpr int kLargestTable = 19;   // log2 of its entries
 
@@ -73,7 +74,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
     return area >= repeats_ * contents(n.n, level).count * s * s;
   };
   int stored_from = levels_ - 2;
-  if (!repeats(stored_from)) return std::nullopt;
+  if (area < kAdmitted * repeats_ * contents(n.n, stored_from).count * 16) return std::nullopt;
   while (stored_from > 0 && repeats(stored_from - 1)) --stored_from;
   if (n.number == 0) {
     add_plane(n);
