@@ -9,6 +9,9 @@
 namespace svdag {
 namespace {
 
+// Vectors of 512 bits halve the steps of a brick and were slower all the same (docs/performance.md).
+constexpr int kWidest = 8;
+
 void plain_children(const Entry* entries, size_t count, const LatticePoint& corner, int64_t side,
                     ChildOverlap* out) noexcept {
   for (size_t i = 0; i < count; ++i) out[i] = overlap_children(entries[i], corner, side);
@@ -49,6 +52,17 @@ const Kernels& plain_kernels() {
       "plain",    1, plain_children, plain_voxels<overlap_brick>, plain_voxels<overlap_brick_thin>,
       plain_plane};
   return kPlain;
+}
+
+const Kernels& kernels() {
+  static const Kernels kChosen = [] {
+    const std::vector<Kernels> all = vector_kernels();
+    for (const Kernels& k : all) {
+      if (k.lanes <= kWidest) return k;
+    }
+    return all.front();
+  }();
+  return kChosen;
 }
 
 const Kernels& kernels_by_name(const std::string& name) {

@@ -57,7 +57,7 @@ struct Kernels {
 
 // One triangle after the other, by builder/overlap.h.
 const Kernels& plain_kernels();
-// The best of this processor.
+// The fastest of this processor.
 const Kernels& kernels();
 // Every vector width that was compiled and that this processor has, best first.
 std::vector<Kernels> vector_kernels();

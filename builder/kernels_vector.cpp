@@ -23,11 +23,6 @@ namespace svdag {
 
 HWY_EXPORT(kernels_of_target);
 
-const Kernels& kernels() {
-  static const Kernels kBest = HWY_DYNAMIC_DISPATCH(kernels_of_target)();
-  return kBest;
-}
-
 std::vector<Kernels> vector_kernels() {
   std::vector<Kernels> all;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {

@@ -15,7 +15,8 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from bench import ROOT, fill, table  # noqa: E402
+from bench import ROOT, fill  # noqa: E402
+from bench_tables import table  # noqa: E402
 import accuracy_plots  # noqa: E402
 
 OUT = ROOT / "build" / "bench"
@@ -146,14 +147,11 @@ def main():
     if "SVDAG_SCENES" not in os.environ:
         print("SVDAG_SCENES is not set: docs/ is left alone")
         return wrong != 0
-    text = PAGE.read_text()
-    for marker, content in [("machine", machine()), ("ratios", ratio_table(rows)), ("counts", counts_table(rows)),
-                            ("errors", matrix(rows, "world", error_cell, {"svdag + reduction"})),
-                            ("errors snapped", matrix(rows, "snapped", error_cell, {"svdag + reduction"})),
-                            ("times", matrix(rows, "world", lambda r: f"{r['ns_per_pair']:.0f}")),
-                            ("bake", bake_table(rows, programs / "svdag")), ("volume", volume_table(volumes))]:
-        text = fill(text, marker, content)
-    PAGE.write_text(text)
+    fill(PAGE, {"machine": machine(), "ratios": ratio_table(rows), "counts": counts_table(rows),
+                "errors": matrix(rows, "world", error_cell, {"svdag + reduction"}),
+                "errors snapped": matrix(rows, "snapped", error_cell, {"svdag + reduction"}),
+                "times": matrix(rows, "world", lambda r: f"{r['ns_per_pair']:.0f}"),
+                "bake": bake_table(rows, programs / "svdag"), "volume": volume_table(volumes)})
     accuracy_plots.error_plot(grouped(rows, "scene"), "accuracy_scenes", columns=3)
     accuracy_plots.error_plot(grouped(rows, "family"), "accuracy_families", columns=3)
     accuracy_plots.volume_plot(volumes, "accuracy_volume")

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -56,8 +57,7 @@ TEST(Kernels, HaveTheLanesOfTheirInstructionSet) {
     ASSERT_TRUE(kLanes.contains(k.name)) << k.name;
     EXPECT_EQ(k.lanes, kLanes.at(k.name)) << k.name;
   }
-  EXPECT_STREQ(kernels().name, all.front().name);
-  EXPECT_EQ(kernels().lanes, all.front().lanes);
+  EXPECT_EQ(kernels().lanes, std::min(8, all.front().lanes));
 }
 
 TEST(Kernels, SetTheVoxelsOfThePlainOnes) {
