@@ -5,6 +5,7 @@
 // on the order of the nodes they share, which is all that the merge needs.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "builder/node_table.h"
@@ -20,8 +21,15 @@ struct Run {
 // The permutation from provisional numbers to ranks, per level (the last entry is the brick level).
 using Ranks = std::vector<HugeVector<uint32_t>>;
 
-// Empties `table` and sorts it, level by level from the bricks up. *ranks tells what became of the
-// provisional numbers.
-Run freeze(NodeTable* table, Ranks* ranks);
+// A node of a table by level and number.
+struct NodeNumber {
+  int level;
+  uint32_t number;
+};
+
+// Empties `table` and sorts what `roots` reach, level by level from the bricks up. The rest goes: the
+// plane memo (builder/plane_memo.h) adds nodes to answers that it then takes back. *ranks tells
+// what became of the numbers of the nodes that stay.
+Run freeze(NodeTable* table, std::span<const NodeNumber> roots, Ranks* ranks);
 
 }  // namespace svdag

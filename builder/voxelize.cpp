@@ -52,8 +52,11 @@ VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, Memor
 std::vector<Run> freeze(VoxelizedCells* cells, Executor* executor) {
   std::vector<Run> runs(cells->tables.size());
   std::vector<Ranks> ranks(runs.size());
+  std::vector<std::vector<NodeNumber>> roots(runs.size());
+  for (const CellRoot& root : cells->roots)
+    roots[root.run].push_back({root.cell.level, root.rank});
   executor->for_each(runs.size(), [&](size_t, size_t r) {
-    runs[r] = freeze(cells->tables[r].get(), &ranks[r]);
+    runs[r] = freeze(cells->tables[r].get(), roots[r], &ranks[r]);
     cells->tables[r].reset();
   });
   for (CellRoot& root : cells->roots)

@@ -98,7 +98,14 @@ TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
       for (CellRoot& root : roots) {
         if (root.run == w) root.rank = tables[w]->settled(cell_level, 1 + root.rank) - 1;
       }
-      runs.push_back(freeze(tables[w].get(), &ranks[w]));
+      std::vector<NodeNumber> own;
+      for (const CellRoot& root : roots) {
+        if (root.run == w) own.push_back({cell_level, root.rank});
+      }
+      // What no root reaches does not stay.
+      tables[w]->add_brick(0xdeadbeef12345678 + w);
+      tables[w]->add_node(0, {1, 0, 0, 0, 0, 0, 0, 0});
+      runs.push_back(freeze(tables[w].get(), own, &ranks[w]));
       EXPECT_TRUE(std::is_sorted(runs[w].bricks.begin(), runs[w].bricks.end()));
       for (const auto& level : runs[w].nodes) {
         EXPECT_EQ(std::adjacent_find(level.begin(), level.end(), std::greater_equal<>()),
