@@ -11,18 +11,19 @@ struct Vector {
   Int v[3];
 };
 
-// Fits: |q| < 2^62.
-inline Vector<int64_t> difference(const LatticePoint& a, const LatticePoint& b) {
-  return {{a.x - b.x, a.y - b.y, a.z - b.z}};
+template <class Int>
+Vector<Int> difference(const LatticePoint& a, const LatticePoint& b) {
+  return {{Int(a.x) - Int(b.x), Int(a.y) - Int(b.y), Int(a.z) - Int(b.z)}};
 }
 
 template <class Int>
 Vector<Int> normal(const LatticeTriangle& t) {
-  const Vector<int64_t> p = difference(t.v[1], t.v[0]), q = difference(t.v[2], t.v[0]);
+  const Vector<Int> p = difference<Int>(t.v[1], t.v[0]);
+  const Vector<Int> q = difference<Int>(t.v[2], t.v[0]);
   Vector<Int> n;
   for (int w = 0; w < 3; ++w) {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
-    n.v[w] = Int(p.v[u]) * q.v[v] - Int(p.v[v]) * q.v[u];
+    n.v[w] = p.v[u] * q.v[v] - p.v[v] * q.v[u];
   }
   return n;
 }
@@ -46,7 +47,7 @@ int dominant_axis(const Vector<Int>& n) {
 template <class Int>
 int plane_sign(const TriangleSetup& t, const LatticePoint& x) {
   const Vector<Int> n = normal<Int>(t.triangle);
-  const Vector<int64_t> r = difference(x, t.triangle.v[0]);
+  const Vector<Int> r = difference<Int>(x, t.triangle.v[0]);
   const Int value = n.v[0] * r.v[0] + n.v[1] * r.v[1] + n.v[2] * r.v[2];
   return sign(value);
 }
@@ -56,8 +57,8 @@ template <class Int>
 int edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) {
   const int w = k / 3, e = k % 3, u = (w + 1) % 3, v = (w + 2) % 3;
   const LatticePoint& a = t.triangle.v[t.from[e]];
-  const Vector<int64_t> d = difference(t.triangle.v[t.to[e]], a), r = difference(x, a);
-  const Int value = Int(d.v[u]) * r.v[v] - Int(d.v[v]) * r.v[u];
+  const Vector<Int> d = difference<Int>(t.triangle.v[t.to[e]], a), r = difference<Int>(x, a);
+  const Int value = d.v[u] * r.v[v] - d.v[v] * r.v[u];
   return sign(value);
 }
 

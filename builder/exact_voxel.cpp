@@ -18,11 +18,13 @@ bool column_reaches(const TriangleSetup& t, int k, const LatticePoint& corner, i
 bool voxel_meets_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
                        unsigned bit) noexcept {
   // The two extreme corners of the voxel are not strictly on one side.
-  LatticePoint farthest = corner, nearest = corner;
+  const uint8_t* at = kBrickTables.coordinate[bit];
+  const LatticePoint low =
+      corner + LatticePoint(int64_t(at[0]) << fraction, int64_t(at[1]) << fraction,
+                            int64_t(at[2]) << fraction);
+  LatticePoint farthest = low, nearest = low;
   for (int a = 0; a < 3; ++a) {
-    const int64_t low = kBrickTables.coordinate[bit][a];
-    farthest[a] += (low + (t.normal[a] > 0)) << fraction;
-    nearest[a] += (low + !(t.normal[a] > 0)) << fraction;
+    (t.normal[a] > 0 ? farthest : nearest)[a] += int64_t(1) << fraction;
   }
   return exact_plane_sign(t, farthest) >= 0 && exact_plane_sign(t, nearest) <= 0;
 }

@@ -114,7 +114,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float e
   plane_values(t, p, &values);
   const auto sure = hn::Set(d, 0.5f - error), maybe = hn::Set(d, 0.5f + error);
   Brick on = 0, near = 0;
-  for_voxels(values, [&](size_t shift, auto value) {
+  for_voxels(values, [&](size_t shift, auto value) HWY_ATTR SVDAG_INLINE {
     on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
     near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
   });
