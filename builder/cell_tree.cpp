@@ -55,7 +55,8 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
     return;
   }
   const LatticePoint middle = cube.corner(grid_.levels) + LatticePoint(side / 2);
-  for (unsigned left = children_in_box(box, middle); left != 0; left &= left - 1) {
+  const unsigned met = children_in_box(box, middle.x, middle.y, middle.z);
+  for (unsigned left = met; left != 0; left &= left - 1) {
     const unsigned c = unsigned(std::countr_zero(left));
     if (!node->children[c]) {
       charge(sizeof(Node));

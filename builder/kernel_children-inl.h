@@ -13,17 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE unsigned children_by_box(const TriangleSetup& t, const int64_t* middle) noexcept {
-  unsigned children = 0xff;
-  if (t.min.x > middle[0]) children &= 0b11110000;
-  if (t.max.x < middle[0]) children &= 0b00001111;
-  if (t.min.y > middle[1]) children &= 0b11001100;
-  if (t.max.y < middle[1]) children &= 0b00110011;
-  if (t.min.z > middle[2]) children &= 0b10101010;
-  if (t.max.z < middle[2]) children &= 0b01010101;
-  return children;
-}
-
 HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
                                       float error) noexcept {
   const Eight d;
@@ -72,11 +61,10 @@ void children(const Entry* entries, size_t count, const LatticePoint& corner, in
   const hn::RebindToUnsigned<Eight> du;
   const double half = 0.5 * double(side);
   const Corner c = make_corner(corner, half);
-  const int64_t middle[3] = {c.q[0] + side / 2, c.q[1] + side / 2, c.q[2] + side / 2};
+  const int64_t x = c.q[0] + side / 2, y = c.q[1] + side / 2, z = c.q[2] + side / 2;
   for (; count != 0; --count, ++entries, ++out) {
-    prefetch(entries + 1, count - 1);
     const TriangleSetup& t = *entries->triangle;
-    unsigned touched = children_by_box(t, middle);
+    unsigned touched = children_in_box(t, x, y, z);
     for (size_t i = 0; i < 8; i += kEight)
       hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
     // A small triangle whose box lies in one child, or in two, touches these (but for the other

@@ -78,14 +78,6 @@ HWY_INLINE float error_of(const TriangleSetup& t, double reach, const Corner& c)
   return float(filter_error(t, reach) * c.per_side) * 1.001f + kFloatError;
 }
 
-// Asks for the next triangle of a list while this one is worked on.
-HWY_INLINE void prefetch(const Entry* entry, size_t left) noexcept {
-  if (left == 0) return;
-  const char* t = reinterpret_cast<const char*>(entry->triangle);
-  for (size_t line = 0; line < offsetof(TriangleSetup, triangle); line += 64)
-    __builtin_prefetch(t + line);
-}
-
 }  // namespace
 }  // namespace svdag::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -13,8 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 namespace {
 
-// ----------------------------------------------------------------------------
-
 PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
   // In terms of the first offset f of a voxel: it is set iff high - span <= f <= low; missed above
   // iff f > high, below iff f < low - span; anything else straddles.

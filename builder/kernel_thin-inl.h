@@ -20,7 +20,7 @@ HWY_INLINE Brick ends_above(const TriangleSetup& t, const Place& p, const PlaneV
   const auto end = hn::Set(d, (upper ? 0.5f : -0.5f) * float(t.normal[w]));
   const auto sure = hn::Set(d, error), maybe = hn::Set(d, -error);
   Brick above = 0, not_below = 0;
-  for_voxels(values, [&](size_t shift, auto centre) HWY_ATTR SVDAG_INLINE {
+  for_voxels(values, [&](size_t shift, auto centre) HWY_ATTR {
     const auto value = hn::Add(centre, end);
     above |= Brick(bits(d, hn::Gt(value, sure))) << shift;
     not_below |= Brick(bits(d, hn::Ge(value, maybe))) << shift;

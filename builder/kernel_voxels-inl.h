@@ -114,7 +114,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float e
   plane_values(t, p, &values);
   const auto sure = hn::Set(d, 0.5f - error), maybe = hn::Set(d, 0.5f + error);
   Brick on = 0, near = 0;
-  for_voxels(values, [&](size_t shift, auto value) HWY_ATTR SVDAG_INLINE {
+  for_voxels(values, [&](size_t shift, auto value) HWY_ATTR {
     on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
     near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
   });
@@ -152,10 +152,8 @@ Brick conservative(const Entry* entries, size_t count, const LatticePoint& corne
                    Brick wanted, DecisionCounts* counts) noexcept {
   const Place p = make_place(corner, fraction, counts);
   Brick voxels = 0;
-  for (; count != 0 && voxels != wanted; --count, ++entries) {
-    prefetch(entries + 1, count - 1);
+  for (; count != 0 && voxels != wanted; --count, ++entries)
     voxels |= touched_voxels(*entries, p, wanted & ~voxels);
-  }
   return voxels;
 }
 

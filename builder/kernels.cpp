@@ -9,7 +9,8 @@
 namespace svdag {
 namespace {
 
-// Vectors of 512 bits halve the steps of a brick and were slower all the same (docs/performance.md).
+// Vectors of 512 bits halve the steps of a brick and were slower all the same
+// (docs/performance.md).
 constexpr int kWidest = 8;
 
 void plain_children(const Entry* entries, size_t count, const LatticePoint& corner, int64_t side,

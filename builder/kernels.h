@@ -18,10 +18,6 @@
 
 #include "builder/overlap.h"
 
-// Lambdas that take vectors must be inlined: as calls they would pass them by the rules of another
-// instruction set.
-#define SVDAG_INLINE __attribute__((always_inline))
-
 namespace svdag {
 
 // A plane and a brick (builder/plane_memo.h): voxel bit 8 * o + i is set for the offsets

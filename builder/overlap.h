@@ -17,9 +17,18 @@ struct ChildOverlap {
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
 };
 
-// The children of a cube with centre `middle` whose boxes meet the triangle's, which meets the
+// The children of a cube with centre (x, y, z) whose boxes meet the triangle's, which meets the
 // cube.
-uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept;
+inline uint8_t children_in_box(const TriangleSetup& t, int64_t x, int64_t y, int64_t z) noexcept {
+  unsigned children = 0xff;
+  if (t.min.x > x) children &= 0b11110000;
+  if (t.max.x < x) children &= 0b00001111;
+  if (t.min.y > y) children &= 0b11001100;
+  if (t.max.y < y) children &= 0b00110011;
+  if (t.min.z > z) children &= 0b10101010;
+  if (t.max.z < z) children &= 0b01010101;
+  return uint8_t(children);
+}
 
 // `corner` and `side` of the parent cube in lattice units.
 ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,

@@ -64,21 +64,13 @@ EdgeVerdict children_at_edge(const TriangleSetup& t, int k, const LatticePoint& 
 
 }  // namespace
 
-uint8_t children_in_box(const TriangleSetup& t, const LatticePoint& middle) noexcept {
-  uint8_t children = 0xff;
-  for (int a = 0; a < 3; ++a) {
-    if (t.min[a] > middle[a]) children = uint8_t(children & kUpper[a]);
-    if (t.max[a] < middle[a]) children = uint8_t(children & ~kUpper[a]);
-  }
-  return children;
-}
-
 ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
                               int64_t side) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const double half = double(side / 2);
   ChildOverlap result;
-  result.touched = children_in_box(t, corner + LatticePoint(side / 2));
+  const LatticePoint middle = corner + LatticePoint(side / 2);
+  result.touched = children_in_box(t, middle.x, middle.y, middle.z);
   result.touched = children_on_plane(t, corner, half, result.touched);
   std::fill(std::begin(result.edges), std::end(result.edges), entry.edges);
   const double error = filter_error(t, 4 * half);

@@ -33,11 +33,10 @@ namespace svdag {
 
 // Each condition left out gives wrong voxels; tests show it (tests/builder/patch_test.cpp).
 struct PatchConditions {
-  bool whole_column =
-      true;           // P1 over the column of Q, not only the triangle's own plane at its centre
-  bool mates = true;  // P2: edges in the cube have mates ...
-  bool other_side = true;  // ... on the other side
-  bool witness = true;     // P3
+  bool whole_column = true;  // P1 in the column of Q, not only at the cube's corner
+  bool mates = true;         // P2: edges in the cube have mates ...
+  bool other_side = true;    // ... on the other side
+  bool witness = true;       // P3
 };
 
 // Whether the normals are so near that P1 may hold in a cube of `voxels` on a side: a quick look,
