@@ -1,0 +1,22 @@
+// Ctrl-C and its kin: SIGINT, SIGTERM and SIGHUP ask the program to stop.
+//
+// The handler only sets a flag; long work asks for it at least every tenth of a second and unwinds
+// with an exception, so that files are closed and locks given back. A second signal ends the process at
+// once.
+#pragma once
+
+namespace svdag {
+
+// Thrown by check_interrupt(); not an Error, for nothing went wrong. main() exits with 128 + n.
+struct Interrupted {
+  int signal;
+};
+
+// Installs the handlers. Once, from main().
+void catch_interrupts();
+// Throws Interrupted if a signal has arrived. Cheap: one relaxed load.
+void check_interrupt();
+// For tests: pretends that `signal` arrived (0: none).
+void pretend_interrupt(int signal);
+
+}  // namespace svdag

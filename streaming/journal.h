@@ -1,0 +1,36 @@
+// An append-only list of records that survives the process: what of a bake is done.
+//
+// A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
+// append() returns after the record is on disk; whoever appends has synced what it speaks of.
+// Reading stops at the first record that is not whole, and the file is cut there: a killed process
+// loses at most the record it was writing (after ninja's deps log).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "streaming/file.h"
+
+namespace svdag {
+
+struct JournalRecord {
+  uint32_t kind = 0;
+  std::vector<std::byte> payload;
+};
+
+class Journal {
+ public:
+  // `file` is new and empty, or an earlier journal, of which *records gets what is whole.
+  Journal(File file, std::vector<JournalRecord>* records);
+
+  void append(uint32_t kind, std::span<const std::byte> payload);
+
+ private:
+  File file_;
+  uint64_t end_ = 0;
+};
+
+}  // namespace svdag

@@ -1,0 +1,56 @@
+// The private folder in which one bake spills.
+//
+// OUT.svdag.scratch/ beside the output, or under --scratch DIR. The folder has mode 0700 and is
+// owned by the process that holds the flock on its file `owner`; a lock dies with its process, so
+// a folder whose owner was killed can be taken over at once, and a live one never. Files in it are
+// made with O_EXCL | O_NOFOLLOW, mode 0600: nothing that was planted is followed or written to.
+// Rejected: process ids as locks (they are reused), names under /tmp (shared, often in memory).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "streaming/file.h"
+
+namespace svdag {
+
+class ScratchDir {
+ public:
+  // The folder for `output`: OUTPUT.scratch, or, if `under` is not empty, a folder in `under` named
+  // after the output and a hash of its absolute path, so that many bakes may share `under`.
+  static std::string path_for(const std::string& output, const std::string& under);
+
+  // Creates the folder, or takes it over with all it holds. A folder that another process owns is
+  // an Error (kUsage) that says so; one that is not ours to use (a link, another user's, no folder)
+  // and one that cannot be made are Errors (kOutput).
+  explicit ScratchDir(const std::string& path);
+  ScratchDir(const ScratchDir&) = delete;
+  ScratchDir& operator=(const ScratchDir&) = delete;
+  // Gives the lock back; removes the folder unless keep() was called.
+  ~ScratchDir();
+
+  const std::string& path() const { return path_; }
+  bool has(const std::string& name) const;
+  // A new file, open for reading and writing; one of that name that is there is removed first.
+  File create(const std::string& name);
+  // A file that is there, open for reading and writing; none is an Error (kBadInput).
+  File open(const std::string& name);
+  void remove(const std::string& name);
+  // Removes every file but the lock.
+  void clear();
+  // Makes the names of files durable.
+  void sync() const;
+  // From now on the folder outlives this object: something in it can be resumed.
+  void keep(bool kept = true) { kept_ = kept; }
+
+  // Bytes free on its file system for this user.
+  uint64_t free_bytes() const;
+
+ private:
+  std::string path_;
+  File owner_;
+  bool kept_ = false;
+};
+
+}  // namespace svdag

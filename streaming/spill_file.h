@@ -1,0 +1,99 @@
+// A file of framed blocks: where a bake puts what does not fit in memory.
+//
+// A *stream* is a sequence of bytes with a number of its own. Its blocks stand anywhere in the file,
+// so hundreds of streams grow at once in one file, and the blocks of a stream that was freed are
+// used again. Every block has the same size and begins with
+//
+//   magic u32, length u32 (payload bytes), stream u64, index u64 (of the block in its stream),
+//   checksum u64 (XXH3-64 of the 24 bytes before and of the payload), zeros up to 64 bytes
+//
+// so that a flipped bit, a stale block and a block of another stream or place are all found
+// (Error kOutput: "scratch file is damaged"). The file is opened with O_DIRECT where the system has
+// it: spilled bytes are used once, long after they were written, and would only push the rest out
+// of the page cache. Reading ahead and writing behind run on one thread of the file, so that disk
+// and processor overlap. Rejected: a file per stream (thousands of descriptors), mmap (SIGBUS, and
+// no account of memory), checksums per stream (found too late).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "streaming/file.h"
+#include "streaming/memory_budget.h"
+
+namespace svdag {
+
+struct SpillStream {
+  uint64_t number = 0;           // never used twice in one scratch folder
+  uint64_t bytes = 0;            // payload
+  std::vector<uint32_t> blocks;  // where the blocks stand, in order
+};
+
+class SpillFile {
+ public:
+  static constexpr size_t kHeader = 64;
+
+  // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
+  // use already (a file that is resumed).
+  SpillFile(File file, size_t block_bytes, uint32_t first_free = 0);
+  ~SpillFile();
+
+  size_t block_bytes() const;
+  // Payload bytes of a full block: a multiple of 64.
+  size_t payload_bytes() const { return block_bytes() - kHeader; }
+  // Waits for all writes and brings them to disk; a write that failed before is thrown here, too.
+  void sync();
+  // The blocks of `stream` may be used for others. No reader of it may be alive.
+  void free(const SpillStream& stream);
+  // Largest size of the file so far, and all that was written to it and read from it.
+  uint64_t peak_bytes() const;
+  uint64_t written_bytes() const;
+  uint64_t read_bytes() const;
+
+ private:
+  friend class SpillWriter;
+  friend class SpillReader;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Appends to one stream. Holds one block, and one more while it is being written. Streams of one
+// file may be written and read by different threads at once; a writer or reader itself is for one.
+class SpillWriter {
+ public:
+  SpillWriter(SpillFile* file, uint64_t stream, MemoryBudget* budget);
+  SpillWriter(SpillWriter&&) noexcept;
+  SpillWriter& operator=(SpillWriter&&) noexcept;
+  ~SpillWriter();  // without finish(): the stream's blocks are freed
+
+  void append(std::span<const std::byte> bytes);
+  uint64_t bytes() const;
+  // Writes the last block. It is readable at once, and durable after SpillFile::sync().
+  SpillStream finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Reads one stream from its beginning. Holds two blocks.
+class SpillReader {
+ public:
+  // `stream` is copied.
+  SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget);
+  SpillReader(SpillReader&&) noexcept;
+  SpillReader& operator=(SpillReader&&) noexcept;
+  ~SpillReader();
+
+  // The payload of the next block, which may be changed in place; empty at the end. Valid until the
+  // next call. Aligned to 64 bytes.
+  std::span<std::byte> next();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace svdag
