@@ -7,6 +7,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "builder/bake_bins.h"
+#include "builder/checkpoint.h"
+#include "builder/description.h"
+#include "builder/merge.h"
 #include "builder/voxelize.h"
 #include "streaming/error.h"
 
@@ -52,6 +56,203 @@ void describe_output(const Header& header, BuildReport* report) {
   report->content_hash = hash;
 }
 
+// How the memory is shared out. Phases follow each other, so the sum of all is more than the whole.
+struct Shares {
+  Shares(uint64_t memory, size_t workers)
+      : triangles(memory / 4), table(memory / 2 / workers), maps(memory / 2), sources(memory * 3 / 8) {}
+
+  uint64_t triangles;  // of the cells being voxelized
+  uint64_t table;      // a worker's unique nodes
+  uint64_t maps;       // of the merge
+  uint64_t sources;    // blocks of the runs being merged
+};
+
+// A bake from its configuration to its report; one function per phase.
+class Bake {
+ public:
+  Bake(const BuildConfig& config, Executor* executor, Progress* progress)
+      : config_(config),
+        executor_(executor),
+        progress_(progress),
+        budget_(config.memory != 0 ? config.memory : default_memory_limit()),
+        shares_(budget_.limit(), executor->workers()),
+        scene_(config.scene, &budget_),
+        folder_(ScratchDir::path_for(config.output, config.scratch)),
+        scratch_(&folder_, &budget_),
+        checkpoint_(&scratch_) {}
+
+  BuildReport run();
+
+ private:
+  void find_unfinished();
+  void choose_grid();
+  void split();
+  void voxelize();
+  void merge(DagWriter* writer);
+  void describe_work(const Voxelizer& voxelizer);
+  void save(BakedRun baked);
+  void add(BakedRun baked);
+
+  const BuildConfig& config_;
+  Executor* executor_;
+  Progress* progress_;
+  MemoryBudget budget_;
+  Shares shares_;
+  Scene scene_;
+  ScratchDir folder_;
+  Scratch scratch_;
+  Checkpoint checkpoint_;
+  std::optional<SavedBake> saved_;  // by an earlier process
+  BuildReport report_;
+  SplitConfig split_config_;
+  SplitScene split_;
+  std::mutex runs_mutex_;
+  std::vector<Run> runs_;
+  std::vector<CellRoot> roots_;
+  bool spilled_ = false;
+  Stopwatch phase_;
+};
+
+// An earlier process may have left work behind: it is resumed, discarded, or in the way.
+void Bake::find_unfinished() {
+  if (!Checkpoint::exists(folder_)) return folder_.clear();
+  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume();
+  if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
+    saved_.reset();
+    checkpoint_.abandon();
+    return folder_.clear();
+  }
+  folder_.keep();
+  if (config_.unfinished == Unfinished::kRefuse)
+    fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
+               ": continue it with --resume or discard it with --restart");
+  const std::string other = difference(saved_->description, describe(config_));
+  if (!other.empty())
+    fail_usage(config_.output + ": the unfinished bake is another one: " + other +
+               "; discard it with --restart");
+}
+
+void Bake::choose_grid() {
+  progress_->phase("read bounds", 0);
+  report_.grid = saved_            ? saved_->grid
+                 : config_.bounds ? svdag::choose_grid(config_, Box())
+                                  : svdag::choose_grid(config_, scene_.bounds());
+  report_.seconds.bounds = phase_.lap();
+}
+
+void Bake::split() {
+  progress_->phase("split", 0);
+  split_config_ = {choose_cell_level(config_, report_.grid), executor_->workers(),
+                   shares_.triangles, &scratch_};
+  if (saved_ && saved_->split) {
+    split_ = std::move(*saved_->split);
+  } else {
+    split_ = svdag::split(scene_, report_.grid, split_config_, &budget_);
+    if (split_.counts.scene.triangles == 0)
+      fail_input(config_.scene.paths.front(), "the scene has no triangles to bake");
+    if (!split_.tree) {
+      checkpoint_.begin(describe(config_), report_.grid);
+      checkpoint_.save_split(split_);
+      folder_.keep();
+    }
+  }
+  report_.split = split_.counts;
+  report_.seconds.split = phase_.lap();
+}
+
+void Bake::voxelize() {
+  std::vector<MortonRange> finished;
+  if (saved_) {
+    for (BakedRun& baked : saved_->runs) {
+      finished.insert(finished.end(), baked.finished.begin(), baked.finished.end());
+      add(std::move(baked));
+    }
+  }
+  const DoneSet done(std::move(finished));
+  Voxelizer voxelizer(report_.grid,
+                      {config_.descent, shares_.table, config_.checkpoint, &scratch_, &done,
+                       [this](BakedRun baked) { save(std::move(baked)); }},
+                      &budget_, executor_);
+  if (split_.tree) {
+    voxelizer.bake(*split_.tree, morton_range(Cube(), report_.grid.levels), progress_);
+    split_.tree.reset();  // the sort needs the room
+  } else {
+    BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
+                   executor_, progress_);
+    for (const TriangleBin& bin : split_.bins) baker.bake(scratch_.triangles(), bin);
+  }
+  describe_work(voxelizer);
+  report_.seconds.voxelize = phase_.lap();
+  progress_->phase("sort", 0);
+  for (BakedRun& baked : voxelizer.finish(spilled_)) add(std::move(baked));
+  report_.runs = runs_.size();
+  report_.seconds.sort = phase_.lap();
+}
+
+void Bake::describe_work(const Voxelizer& voxelizer) {
+  const VoxelizeCounts counts = voxelizer.counts();
+  report_.cells = counts.cells;
+  report_.decisions = counts.decisions;
+  report_.memo = counts.memo;
+  report_.divided = counts.divided;
+}
+
+// What was spilled is kept for a process that resumes; from any worker.
+void Bake::save(BakedRun baked) {
+  const std::lock_guard lock(runs_mutex_);
+  if (!checkpoint_.begun()) checkpoint_.begin(describe(config_), report_.grid);
+  checkpoint_.save_run(baked);
+  folder_.keep();
+  add(std::move(baked));
+}
+
+void Bake::add(BakedRun baked) {
+  for (CellRoot& root : baked.roots) {
+    root.run = uint32_t(runs_.size());
+    roots_.push_back(root);
+  }
+  report_.voxels += baked.voxels;
+  spilled_ = spilled_ || baked.run.bricks.spilled;
+  runs_.push_back(std::move(baked.run));
+}
+
+void Bake::merge(DagWriter* writer) {
+  progress_->phase("merge", 0);
+  MergeConfig config;
+  config.budget = &budget_;
+  config.scratch = spilled_ ? &scratch_ : nullptr;
+  config.map_bytes = shares_.maps;
+  config.sources = std::max<size_t>(2, shares_.sources / (4 * scratch_.block_bytes()));
+  svdag::merge(runs_, std::move(roots_), report_.grid.levels, config, writer, executor_);
+  report_.seconds.merge = phase_.lap();
+}
+
+BuildReport Bake::run() {
+  Stopwatch total;
+  report_.rule = config_.descent.rule;
+  find_unfinished();
+  report_.resumed = saved_.has_value();
+  choose_grid();
+  // The output is opened before the work begins: an unwritable folder is known at once.
+  DagWriter writer(config_.output, report_.grid, report_.rule);
+  split();
+  voxelize();
+  merge(&writer);
+  writer.finish(report_.voxels, report_.split.largest_snap);
+  folder_.keep(false);
+  report_.seconds.write = phase_.lap();
+  progress_->finish();
+
+  describe_output(writer.header(), &report_);
+  report_.scratch = {scratch_.peak_bytes(), scratch_.written_bytes(), scratch_.read_bytes()};
+  report_.threads = executor_->workers();
+  report_.seconds.total = total.lap();
+  report_.seconds.cpu = cpu_seconds();
+  report_.peak_counted = budget_.peak();
+  report_.peak_resident = peak_resident_bytes();
+  return std::move(report_);
+}
+
 }  // namespace
 
 Grid choose_grid(const BuildConfig& config, const Box& box) {
@@ -62,53 +263,7 @@ Grid choose_grid(const BuildConfig& config, const Box& box) {
 }
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
-  Stopwatch total, phase;
-  BuildReport report;
-  report.rule = config.descent.rule;
-  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
-  const Scene scene(config.scene, &budget);
-
-  progress->phase("read bounds", 0);
-  report.grid = choose_grid(config, config.bounds ? Box() : scene.bounds());
-  report.seconds.bounds = phase.lap();
-
-  // The output is opened before the work begins: an unwritable folder is known at once.
-  DagWriter writer(config.output, report.grid, report.rule);
-  progress->phase("split", 0);
-  auto tree =
-      std::make_unique<CellTree>(report.grid, choose_cell_level(config, report.grid), &budget);
-  report.split = split(scene, tree.get());
-  if (report.split.scene.triangles == 0)
-    fail_input(config.scene.paths.front(), "the scene has no triangles to bake");
-  report.seconds.split = phase.lap();
-
-  VoxelizedCells cells = voxelize(*tree, config.descent, &budget, executor, progress);
-  tree.reset();  // the sort needs the room
-  report.cells = cells.cells;
-  report.voxels = cells.voxels;
-  report.decisions = cells.decisions;
-  report.memo = cells.memo;
-  report.divided = cells.divided;
-  report.seconds.voxelize = phase.lap();
-
-  progress->phase("sort", 0);
-  std::vector<Run> runs = freeze(&cells, executor);
-  report.seconds.sort = phase.lap();
-
-  progress->phase("merge", 0);
-  merge(runs, cells.roots, report.grid.levels, &writer, executor);
-  report.seconds.merge = phase.lap();
-  writer.finish(report.voxels, report.split.largest_snap);
-  report.seconds.write = phase.lap();
-  progress->finish();
-
-  describe_output(writer.header(), &report);
-  report.threads = executor->workers();
-  report.seconds.total = total.lap();
-  report.seconds.cpu = cpu_seconds();
-  report.peak_counted = budget.peak();
-  report.peak_resident = peak_resident_bytes();
-  return report;
+  return Bake(config, executor, progress).run();
 }
 
 }  // namespace svdag

@@ -13,6 +13,9 @@
 
 namespace svdag {
 
+// What to do with an unfinished bake of the same output.
+enum class Unfinished { kRefuse, kResume, kRestart };
+
 struct BuildConfig {
   SceneConfig scene;
   std::string output;
@@ -22,6 +25,9 @@ struct BuildConfig {
   std::optional<Box> bounds;  // --bounds, in world units
   uint64_t memory = 0;        // --memory in bytes; 0: half of the machine
   int cell_level = -1;        // octree level of the cells; -1: chosen by the grid
+  std::string scratch;        // --scratch: the folder for scratch folders; empty: the output's
+  Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
+  double checkpoint = 30;     // --checkpoint: seconds of work that a killed bake may lose
 };
 
 struct BuildReport {
@@ -32,6 +38,8 @@ struct BuildReport {
   PlaneMemoCounts memo;
   std::vector<uint64_t> divided;  // cubes per level that the descent divided, inside the cells
   uint64_t cells = 0;  // visited
+  uint64_t runs = 0;   // merged; those of an earlier process included
+  bool resumed = false;
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
   uint64_t file_bytes = 0;
@@ -41,6 +49,9 @@ struct BuildReport {
     double bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0, total = 0;
     double cpu = 0;  // of all threads, whole process
   } seconds;
+  struct ScratchBytes {
+    uint64_t peak = 0, written = 0, read = 0;
+  } scratch;                   // of this process
   uint64_t peak_counted = 0;   // bytes, by the memory budget
   uint64_t peak_resident = 0;  // bytes, by the kernel
 };

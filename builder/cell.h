@@ -58,4 +58,13 @@ constexpr uint64_t morton(const LatticePoint& p) noexcept {
   return spread(uint64_t(p.x)) << 2 | spread(uint64_t(p.y)) << 1 | spread(uint64_t(p.z));
 }
 
+// The point whose code is `code`.
+constexpr LatticePoint unmorton(uint64_t code) noexcept {
+  LatticePoint p(0);
+  for (int bit = 0; bit < 21; ++bit) {
+    for (int a = 0; a < 3; ++a) p[a] |= int64_t(code >> (3 * bit + 2 - a) & 1) << bit;
+  }
+  return p;
+}
+
 }  // namespace svdag

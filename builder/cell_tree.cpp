@@ -14,13 +14,14 @@ struct CellTree::Node {
   std::vector<TriangleSetup> setups;  // the same, prepared; inner nodes only
 };
 
-CellTree::CellTree(const Grid& grid, int cell_level, MemoryBudget* budget)
+CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget)
     : grid_(grid),
+      root_cube_(root),
       cell_level_(cell_level),
       root_(std::make_unique<Node>()),
       triangles_(budget, "triangles"),
       reservation_(budget->reserve(0, "triangles")) {
-  SVDAG_ASSERT(cell_level >= 0 && cell_level <= grid.levels - 2);
+  SVDAG_ASSERT(cell_level >= root.level && cell_level <= grid.levels - 2);
 }
 
 CellTree::~CellTree() = default;
@@ -43,7 +44,7 @@ void CellTree::add(const LatticeTriangle& triangle) {
     box.min[a] = std::min({v[0][a], v[1][a], v[2][a]});
     box.max[a] = std::max({v[0][a], v[1][a], v[2][a]});
   }
-  insert(root_.get(), Cube(), uint32_t(triangles_.size() - 1), box);
+  insert(root_.get(), root_cube_, uint32_t(triangles_.size() - 1), box);
 }
 
 void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const TriangleSetup& box) {
@@ -52,6 +53,11 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
   if (cube.level == cell_level_ || std::max({size.x, size.y, size.z}) > side / 2) {
     charge(sizeof triangle);
     node->triangles.push_back(triangle);
+    if (cube.level == cell_level_) {
+      heaviest_ = std::max<uint64_t>(heaviest_, node->triangles.size());
+    } else {
+      ++inner_;
+    }
     return;
   }
   const LatticePoint middle = cube.corner(grid_.levels) + LatticePoint(side / 2);
@@ -66,8 +72,15 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
   }
 }
 
+uint64_t CellTree::bytes(size_t workers) const {
+  // Lists divided on the way down hold a triangle a few times, mostly in cubes ever smaller.
+  constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(Entry);
+  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) +
+         (inner_ + workers * (heaviest_ + inner_ / 8)) * kPrepared;
+}
+
 void CellTree::seal() {
-  prepare(root_.get(), 0);
+  prepare(root_.get(), root_cube_.level);
 }
 
 void CellTree::prepare(Node* node, int level) {
@@ -82,7 +95,7 @@ void CellTree::prepare(Node* node, int level) {
 
 std::vector<Cube> CellTree::occupied_cells(uint64_t most) const {
   std::vector<Cube> cells;
-  collect(root_.get(), Cube(), {}, most, &cells);
+  collect(root_.get(), root_cube_, {}, most, &cells);
   return cells;
 }
 
@@ -110,8 +123,8 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint6
 }
 
 CellCursor::CellCursor(const CellTree& tree, const DescentConfig& config)
-    : tree_(tree), config_(config), path_(size_t(tree.cell_level() + 1)) {
-  enter(Cube(), tree.root_.get(), {});
+    : tree_(tree), config_(config), path_(size_t(tree.cell_level() + 1)), depth_(tree.root().level) {
+  enter(tree.root(), tree.root_.get(), {});
 }
 
 void CellCursor::enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited) {
@@ -135,7 +148,7 @@ const EntryList& CellCursor::list(const Cube& cube) {
 }
 
 const CellCursor::Step& CellCursor::path_to(const Cube& cell) {
-  int level = 0;  // the deepest step that is on the way to `cell`
+  int level = tree_.root().level;  // the deepest step that is on the way to `cell`
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
     Step& step = path_[size_t(level)];

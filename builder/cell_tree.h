@@ -21,17 +21,22 @@ namespace svdag {
 
 class CellTree {
  public:
-  CellTree(const Grid& grid, int cell_level, MemoryBudget* budget);
+  // The part of the octree below `root`; root.level <= cell_level.
+  CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget);
   ~CellTree();
 
-  // Adds a triangle whose box meets the closed grid.
+  // Adds a triangle whose box meets the closed root cube.
   void add(const LatticeTriangle& triangle);
   // Prepares the triangles of inner nodes; none may be added after this.
   void seal();
 
   const Grid& grid() const { return grid_; }
   int cell_level() const { return cell_level_; }
+  const Cube& root() const { return root_cube_; }
   uint64_t triangles() const { return triangles_.size(); }
+  const LatticeTriangle& triangle(uint64_t i) const { return triangles_[i]; }
+  // Memory that the tree and `workers` workers take, each in the heaviest cell.
+  uint64_t bytes(size_t workers) const;
   // The cells that triangles may touch, in Morton order; a cell in which more than `most` triangles
   // begin is replaced by its children, so that one worker does not keep the others waiting.
   std::vector<Cube> occupied_cells(uint64_t most = UINT64_MAX) const;
@@ -47,11 +52,14 @@ class CellTree {
   void charge(uint64_t bytes);
 
   Grid grid_;
+  Cube root_cube_;
   int cell_level_;
   std::unique_ptr<Node> root_;
   SegmentedArray<LatticeTriangle> triangles_;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
+  uint64_t heaviest_ = 0;  // triangles that begin in one cell, at most
+  uint64_t inner_ = 0;     // triangles that stand at inner nodes
 };
 
 // Gives a worker the lists of cells, one after the other. Cells in Morton order share most of their
@@ -79,7 +87,7 @@ class CellCursor {
   const CellTree& tree_;
   DescentConfig config_;
   std::vector<Step> path_;             // [k] is at level k
-  int depth_ = 0;                      // path_[0 .. depth_] are valid
+  int depth_;                          // path_[root level .. depth_] are valid
   std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
   EntryList list_;
   std::array<EntryList, 8> parts_;  // of list_, on the way to a cube in the cell

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "streaming/interrupt.h"
+
 namespace svdag {
 namespace {
 
@@ -35,62 +37,131 @@ void divide_list(const EntryList& list, const Cube& cube, int levels, const Desc
   }
 }
 
-Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table)
+Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table,
+                 const DoneSet* done, Spiller* spiller)
     : grid_(grid),
       config_(config),
       table_(table),
       memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table),
+      done_(done != nullptr && !done->empty() ? done : nullptr),
+      spiller_(spiller),
       scratch_(size_t(grid.levels)),
       divided_(size_t(grid.levels)),
       path_(size_t(grid.levels)) {}
 
 void Descent::run(const Cube& cube, const EntryList& list) {
+  check_interrupt();
   admitted_.fill({});  // other triangles may stand at the same addresses now
   memo_.forget();
   cell_side_ = std::ldexp(1.0, grid_.levels - cube.level);
-  const SubDag dag = node(cube, list);
-  if (dag.root != 0) roots_.push_back({cube, dag});
-  if (table_->full()) flush(0);
+  begin(cube);
+  end(cube, node(cube, list));
 }
 
-void Descent::finish() {
-  flush(0);
+void Descent::adopt(const Cube& cube, const SubDag& dag) {
+  begin(cube);
+  end(cube, dag);
+}
+
+void Descent::begin(const Cube& cube) {
+  first_level_ = cube.level;
+  finished_to_ = morton_range(cube, grid_.levels).begin;
+}
+
+void Descent::end(const Cube& cube, const SubDag& dag) {
+  const uint64_t end = morton_range(cube, grid_.levels).end;
+  if (dag.root != 0) roots_.push_back({cube, dag.root});
+  voxels_ += dag.voxels;
+  if (table_->full()) {
+    flush(first_level_);
+    pause(first_level_, end);
+  }
+  append_range(&finished_, {finished_to_, end});
 }
 
 // Between two children of cubes above `level`: their handles, the memo's and the roots' are all
 // that is held.
 void Descent::flush(int level) {
   table_->flush();
-  for (int k = 0; k < level; ++k) {
-    for (uint32_t& child : path_[size_t(k)]) child = table_->settled(k + 1, child);
+  for (int k = first_level_; k < level; ++k) {
+    for (uint32_t& child : path_[size_t(k)].children) child = table_->settled(k + 1, child);
   }
   memo_.settle();
   for (; settled_roots_ < roots_.size(); ++settled_roots_) {
     Root& root = roots_[settled_roots_];
-    root.dag.root = table_->settled(root.cube.level, root.dag.root);
+    root.node = table_->settled(root.cube.level, root.node);
   }
+}
+
+// After a flush(level): all of the cell before Morton code `reached` is baked.
+void Descent::pause(int level, uint64_t reached) {
+  check_interrupt();
+  if (spiller_ == nullptr || !spiller_->due(*table_)) return;
+  append_range(&finished_, {finished_to_, reached});
+  finished_to_ = reached;
+  spill(level);
+}
+
+// Empties the table. The cubes above `level` that are being divided are left open: what is finished
+// of them are roots.
+void Descent::spill(int level) {
+  for (int k = first_level_; k < level; ++k) {
+    path_[size_t(k)].left_open = true;
+    make_roots(&path_[size_t(k)]);
+  }
+  spiller_->spill(*this);
+  memo_.drop_contents();
+  roots_.clear();
+  settled_roots_ = 0;
+  voxels_ = 0;
+  finished_.clear();
+}
+
+void Descent::make_roots(Step* step) {
+  for (unsigned c = 0; c < 8; ++c) {
+    if (step->children[c] != 0) roots_.push_back({step->cube.child(c), step->children[c]});
+  }
+  step->children.fill(0);
+  voxels_ += step->voxels;
+  step->voxels = 0;
 }
 
 SubDag Descent::node(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
+  bool leave_open = false;
+  if (done_ != nullptr) {
+    const DoneSet::State state = done_->state(morton_range(cube, grid_.levels));
+    if (state == DoneSet::State::kAll) return {};
+    leave_open = state == DoneSet::State::kPart;
+  }
   if (cube.level == table_->brick_level()) return brick(cube, list);
-  if (config_.plane_memo && list.size() <= kLargestPatch) {
+  if (config_.plane_memo && !leave_open && list.size() <= kLargestPatch) {
     if (const auto known = find_in_memo(cube, list)) return *known;
   }
-  if (cube.level == grid_.levels - kFlushLog2 && table_->full()) flush(cube.level);
+  if (cube.level == grid_.levels - kFlushLog2) {
+    check_interrupt();
+    if (table_->full()) {
+      flush(cube.level);
+      pause(cube.level, morton_range(cube, grid_.levels).begin);
+    }
+  }
+  return divide(cube, list, leave_open);
+}
+
+SubDag Descent::divide(const Cube& cube, const EntryList& list, bool leave_open) {
   ++divided_[size_t(cube.level)];
   std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_, &lists);
-  NodeKey& key = path_[size_t(cube.level)];
-  key.fill(0);
-  uint64_t voxels = 0;
+  Step& step = path_[size_t(cube.level)];
+  step = {cube, {}, 0, leave_open};
   for (unsigned c = 0; c < 8; ++c) {
     const SubDag child = node(cube.child(c), lists[c]);
-    key[c] = child.root;
-    voxels += child.voxels;
+    step.children[c] = child.root;
+    step.voxels += child.voxels;
   }
-  if (voxels == 0) return {};
-  return {table_->add_node(cube.level, key), voxels};
+  if (step.left_open) make_roots(&step);
+  if (step.voxels == 0) return {};
+  return {table_->add_node(cube.level, step.children), step.voxels};
 }
 
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const EntryList& list) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "builder/cell.h"
+#include "builder/done_set.h"
 #include "builder/kernels.h"
 #include "builder/node_table.h"
 #include "builder/patch.h"
@@ -35,23 +36,46 @@ struct DescentConfig {
 void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
                  std::array<EntryList, 8>* children);
 
+class Descent;
+
+// Asked by a descent between two cubes, when nothing but handles is held.
+class Spiller {
+ public:
+  virtual ~Spiller() = default;
+  // Whether `table` shall be emptied now.
+  virtual bool due(const NodeTable& table) = 0;
+  // Empties the table; roots(), voxels() and finished() of the descent tell what it held.
+  virtual void spill(const Descent& descent) = 0;
+};
+
 class Descent {
  public:
-  // Nodes go to `table`, which must outlive the descent.
-  Descent(const Grid& grid, const DescentConfig& config, NodeTable* table);
-
-  // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there,
-  // its sub-DAG joins roots(). Cubes must be disjoint.
-  void run(const Cube& cube, const EntryList& list);
-  // Settles all handles; nothing may run after this.
-  void finish();
-
-  // The cubes that are not empty; after finish(), root - 1 is a number.
+  // A cube that is not empty, and 1 + the handle of its sub-DAG.
   struct Root {
     Cube cube;
-    SubDag dag;
+    uint32_t node;
   };
+
+  // Nodes go to `table`, which must outlive the descent. What is in `done` is left out.
+  Descent(const Grid& grid, const DescentConfig& config, NodeTable* table,
+          const DoneSet* done = nullptr, Spiller* spiller = nullptr);
+
+  // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there,
+  // its sub-DAG joins roots(): as one, or, if the table was emptied meanwhile or a part was done
+  // before, as the roots of its parts. Cubes must be disjoint.
+  void run(const Cube& cube, const EntryList& list);
+  // Takes `cube`, which was baked by someone else: its sub-DAG is in the table.
+  void adopt(const Cube& cube, const SubDag& dag);
+  // Nothing stands in `range`: it is finished without being run.
+  void note_empty(const MortonRange& range) { append_range(&finished_, range); }
+  // Settles all handles.
+  void settle() { flush(0); }
+
+  // After settle(), node - 1 is a number of the table.
   const std::vector<Root>& roots() const { return roots_; }
+  uint64_t voxels() const { return voxels_; }  // of the roots
+  // What was run since the table was emptied last.
+  const std::vector<MortonRange>& finished() const { return finished_; }
 
   const DecisionCounts& decisions() const { return decisions_; }
   const PlaneMemoCounts& memo() const { return memo_.counts(); }
@@ -59,6 +83,14 @@ class Descent {
   const std::vector<uint64_t>& divided() const { return divided_; }
 
  private:
+  // A cube being divided.
+  struct Step {
+    Cube cube;
+    NodeKey children;     // 1 + handle
+    uint64_t voxels;      // of these
+    bool left_open;       // its children become roots, the cube a node of the top tree
+  };
+
   // What the memo said of a triangle in this cell, when it was first asked.
   struct Admitted {
     const TriangleSetup* triangle = nullptr;
@@ -66,6 +98,13 @@ class Descent {
   };
 
   SubDag node(const Cube& cube, const EntryList& list);
+  SubDag divide(const Cube& cube, const EntryList& list, bool leave_open);
+  void begin(const Cube& cube);
+  void end(const Cube& cube, const SubDag& dag);
+  void flush(int level);
+  void pause(int level, uint64_t reached);
+  void spill(int level);
+  void make_roots(Step* step);
   std::optional<SubDag> find_in_memo(const Cube& cube, const EntryList& list);
   std::optional<SubDag> find_patch(const Cube& cube, const EntryList& list);
   const std::optional<PlaneMemo::Known>& admitted(const TriangleSetup& triangle);
@@ -81,13 +120,18 @@ class Descent {
   PlaneMemo memo_;
   std::array<Admitted, 64> admitted_;  // direct-mapped by address
   double cell_side_ = 0;               // of the cell being baked, in voxels
-  void flush(int level);
 
+  const DoneSet* done_;  // null: nothing
+  Spiller* spiller_;     // null: the table holds everything
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
   std::vector<uint64_t> divided_;
-  std::vector<NodeKey> path_;  // [level]: children (1 + handle) of the cube being divided there
+  std::vector<Step> path_;  // [level]
+  int first_level_ = 0;     // of path_ that is in use: the cell's
   std::vector<Root> roots_;
   size_t settled_roots_ = 0;  // roots_ before this one hold numbers
+  uint64_t voxels_ = 0;
+  std::vector<MortonRange> finished_;
+  uint64_t finished_to_ = 0;  // in the cell being baked
 };
 
 }  // namespace svdag

@@ -25,8 +25,15 @@ struct SubDag {
 
 class NodeTable {
  public:
-  NodeTable(int levels, MemoryBudget* budget)
-      : levels_(levels), budget_(budget), bricks_(budget), numbers_(size_t(levels - 1)) {
+  static constexpr size_t kLargestBatch = size_t(1) << 18;
+
+  // `batch`: how many keys may wait to be numbered.
+  NodeTable(int levels, MemoryBudget* budget, size_t batch = kLargestBatch)
+      : levels_(levels),
+        budget_(budget),
+        batch_(batch),
+        bricks_(budget),
+        numbers_(size_t(levels - 1)) {
     for (int k = 0; k < levels - 2; ++k) nodes_.emplace_back(budget);
   }
 
@@ -46,14 +53,14 @@ class NodeTable {
   }
 
   // Whether enough is pending for a flush to repay.
-  bool full() const { return pending_ >= kBatch; }
+  bool full() const { return pending_ >= batch_; }
   void flush();
   // What became of 1 + handle at the last flush.
   uint32_t settled(int level, uint32_t root) const {
     return root > kPending ? 1 + numbers_[size_t(level)][root - 1 - kPending] : root;
   }
 
-  // Flushes for the last time; from now on keys can only be read.
+  // Flushes; from now on keys can only be read, until every level was cleared.
   void close();
 
   // Everything is settled below.
@@ -85,10 +92,9 @@ class NodeTable {
     }
   };
 
-  static constexpr size_t kBatch = size_t(1) << 18;
-
   int levels_;
   MemoryBudget* budget_;
+  size_t batch_;
   size_t pending_ = 0;  // keys added since the last flush, repetitions included
   UniqueSet<Brick, BrickHash> bricks_;
   std::vector<UniqueSet<NodeKey, NodeHash>> nodes_;

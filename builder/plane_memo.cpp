@@ -328,6 +328,14 @@ void PlaneMemo::settle() {
   }
 }
 
+void PlaneMemo::drop_contents() {
+  for (Table& table : tables_) {
+    std::fill(table.entries.begin(), table.entries.end(), Entry{});
+    table.unsettled.clear();
+    table.used = 0;
+  }
+}
+
 // Starts again with a larger table, if there is room: entries do not know all their buckets, and a
 // table grows only a few times.
 void PlaneMemo::grow(Table* table) {

@@ -77,6 +77,8 @@ class PlaneMemo {
                              Witness* witness);
   // To be called after each flush of the table.
   void settle();
+  // To be called when the table was emptied: what is known of the planes stays.
+  void drop_contents();
 
   const PlaneMemoCounts& counts() const { return counts_; }
 

@@ -5,6 +5,7 @@
 
 #include "builder/exact.h"
 #include "io/lattice.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -34,14 +35,59 @@ bool zero_area(const LatticeTriangle& t) {
   return true;
 }
 
+// Where triangles go: to the tree, or, once that was too much, to bins.
+class Store {
+ public:
+  Store(const Grid& grid, const SplitConfig& config, MemoryBudget* budget)
+      : grid_(grid),
+        config_(config),
+        tree_(std::make_unique<CellTree>(grid, Cube(), config.cell_level, budget)) {}
+
+  void add(const LatticeTriangle& triangle) {
+    if (bins_) return bins_->add(triangle);
+    tree_->add(triangle);
+    if (tree_->triangles() % kLook == 0) look();
+  }
+
+  void finish(SplitScene* scene) {
+    if (!bins_) look();
+    if (bins_) {
+      scene->bins = bins_->finish();
+    } else {
+      tree_->seal();
+      scene->tree = std::move(tree_);
+    }
+  }
+
+ private:
+  static constexpr uint64_t kLook = 1024;  // triangles between two looks at the memory
+
+  void look() {
+    const int depth = std::min(TriangleBins::kDeepest, grid_.levels - 2);
+    if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
+      return;
+    bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
+    for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
+    tree_.reset();
+  }
+
+  const Grid& grid_;
+  const SplitConfig& config_;
+  std::unique_ptr<CellTree> tree_;
+  std::optional<TriangleBins> bins_;
+};
+
 }  // namespace
 
-SplitCounts split(const Scene& scene, CellTree* tree) {
-  const Grid& grid = tree->grid();
+SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
+                 MemoryBudget* budget) {
   const Lattice lattice(grid);
-  SplitCounts counts;
+  SplitScene result;
+  SplitCounts& counts = result.counts;
+  Store store(grid, config, budget);
   double largest_move = 0;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
+    check_interrupt();
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       double move = 0;
@@ -52,12 +98,12 @@ SplitCounts split(const Scene& scene, CellTree* tree) {
       if (place == Place::kOutside) continue;
       counts.degenerate += zero_area(snapped);
       largest_move = std::max(largest_move, move);
-      tree->add(snapped);
+      store.add(snapped);
     }
   });
-  tree->seal();
+  store.finish(&result);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());
-  return counts;
+  return result;
 }
 
 }  // namespace svdag

@@ -1,10 +1,25 @@
 // First phase: the scene, streamed once, snapped to the lattice and sorted into cells.
+//
+// As long as the triangles fit in their share of memory they stand in one CellTree. When they no
+// longer do, all that came and all that comes goes to bins (builder/triangle_bins.h).
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "builder/cell_tree.h"
+#include "builder/triangle_bins.h"
 #include "io/scene/scene.h"
+#include "streaming/progress.h"
 
 namespace svdag {
+
+struct SplitConfig {
+  int cell_level = 0;
+  size_t workers = 1;
+  uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
+  Scratch* scratch = nullptr;            // null: they never are
+};
 
 struct SplitCounts {
   SceneCounts scene;
@@ -14,7 +29,13 @@ struct SplitCounts {
   double largest_snap = 0;  // in voxels, over the triangles that were kept
 };
 
-// Fills `tree` and seals it.
-SplitCounts split(const Scene& scene, CellTree* tree);
+struct SplitScene {
+  SplitCounts counts;
+  std::unique_ptr<CellTree> tree;  // sealed; null if the triangles were spilled
+  std::vector<TriangleBin> bins;   // in Morton order, in the scratch's `triangles`
+};
+
+SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
+                 MemoryBudget* budget);
 
 }  // namespace svdag

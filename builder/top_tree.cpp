@@ -2,11 +2,32 @@
 
 #include <algorithm>
 
-#include "builder/merge.h"
-
 namespace svdag {
+namespace {
 
-std::vector<NodeKey> TopTree::sorted_nodes() {
+std::pair<int32_t, uint32_t> place_of(const CellRoot& root) {
+  return {root.level, root.run};
+}
+
+}  // namespace
+
+TopTree::TopTree(std::vector<CellRoot> roots) : roots_(std::move(roots)) {
+  std::sort(roots_.begin(), roots_.end(), [](const CellRoot& a, const CellRoot& b) {
+    return place_of(a) != place_of(b) ? place_of(a) < place_of(b) : a.morton < b.morton;
+  });
+}
+
+std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t run) const {
+  const auto before = [](const CellRoot& root, const std::pair<int32_t, uint32_t>& place) {
+    return place_of(root) < place;
+  };
+  const auto begin = std::lower_bound(roots_.begin(), roots_.end(), std::pair(level, run), before);
+  auto end = begin;
+  while (end != roots_.end() && end->level == level && end->run == run) ++end;
+  return {begin, end};
+}
+
+const std::vector<NodeKey>& TopTree::sorted_nodes() {
   // Siblings are consecutive in Morton order: one pass makes the parents.
   std::vector<Place> parents;
   std::vector<NodeKey> keys;
@@ -28,13 +49,7 @@ std::vector<NodeKey> TopTree::sorted_nodes() {
   return nodes_;
 }
 
-void TopTree::resolve(int level, const std::vector<HugeVector<uint32_t>>& run_maps,
-                      const HugeVector<uint32_t>& top_map) {
-  for (Place& place : places_) place.index = top_map[place.index];
-  for (const CellRoot& root : roots_) {
-    if (root.cell.level == level)
-      places_.push_back({morton(root.cell.coordinate), run_maps[root.run][root.rank]});
-  }
+void TopTree::end_level() {
   std::sort(places_.begin(), places_.end(),
             [](const Place& a, const Place& b) { return a.morton < b.morton; });
 }

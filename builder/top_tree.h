@@ -2,35 +2,55 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "builder/run.h"
+#include "builder/cell.h"
+#include "io/dag/dag_writer.h"
 
 namespace svdag {
 
-struct CellRoot;
+// Where the sub-DAG of a cube stands: node `rank` of the cube's level in run `run`. The cubes are
+// the cells, or parts of cells in which a node table was emptied.
+struct CellRoot {
+  uint64_t morton;  // of the cube, at its level
+  int32_t level;
+  uint32_t run;
+  uint32_t rank;
+};
 
 class TopTree {
  public:
-  explicit TopTree(std::span<const CellRoot> roots) : roots_(roots) {}
+  explicit TopTree(std::vector<CellRoot> roots);
+
+  // After level `level` was merged, in this order: the top tree's own nodes, by the indices of those
+  // that sorted_nodes() returned; then the roots of each run, by its map from rank to index; then
+  // the end.
+  template <class Map>
+  void resolve_own(const Map& indices) {
+    for (Place& place : places_) place.index = indices[place.index];
+  }
+  template <class Map>
+  void resolve_run(int level, uint32_t run, const Map& map) {
+    for (auto [root, end] = roots_of(level, run); root != end; ++root)
+      places_.push_back({root->morton, map[root->rank]});
+  }
+  void end_level();
 
   // The parents of the cubes resolved last, as nodes, ascending without repeats.
-  std::vector<NodeKey> sorted_nodes();
-  // After level `level` was merged: `run_maps[r]` maps ranks of run r to global indices, `top_map`
-  // the nodes returned by the last sorted_nodes().
-  void resolve(int level, const std::vector<HugeVector<uint32_t>>& run_maps,
-               const HugeVector<uint32_t>& top_map);
+  const std::vector<NodeKey>& sorted_nodes();
 
  private:
   struct Place {
     uint64_t morton;  // of the cube at the current level
     uint32_t index;   // resolved: global index; between the calls: position in nodes_
   };
+  using Roots = std::vector<CellRoot>::const_iterator;
 
-  std::span<const CellRoot> roots_;
-  std::vector<Place> places_;   // occupied cubes of the current level, ascending
-  std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats
+  std::pair<Roots, Roots> roots_of(int level, uint32_t run) const;
+
+  std::vector<CellRoot> roots_;  // by level and run
+  std::vector<Place> places_;    // occupied cubes of the current level, ascending
+  std::vector<NodeKey> nodes_;   // of the level being merged, ascending without repeats
 };
 
 }  // namespace svdag

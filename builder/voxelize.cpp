@@ -1,67 +1,141 @@
 #include "builder/voxelize.h"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 namespace svdag {
 namespace {
 
-constexpr uint64_t kTasksPerWorker = 32;
-constexpr uint64_t kLightCell = 4096;  // triangles: not worth dividing
+using Clock = std::chrono::steady_clock;
 
-struct Worker {
-  Worker(const CellTree& tree, const DescentConfig& config, NodeTable* table)
-      : cursor(tree, config), descent(tree.grid(), config, table) {}
-  CellCursor cursor;
-  Descent descent;
-};
+constexpr uint64_t kTasksPerWorker = 32;
+constexpr uint64_t kLightCell = 4096;     // triangles: not worth dividing
+constexpr uint64_t kBytesPerPending = 48;  // a key not yet numbered, and its number
+
+// Few enough keys that those which wait to be numbered take an eighth of a table's share.
+size_t batch_of(uint64_t table_bytes) {
+  return size_t(std::clamp<uint64_t>(table_bytes / 8 / kBytesPerPending, 1 << 10,
+                                     NodeTable::kLargestBatch));
+}
 
 }  // namespace
 
-VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,
-                        Executor* executor, Progress* progress) {
-  const uint64_t share = tree.triangles() / (kTasksPerWorker * executor->workers());
-  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kLightCell));
-  progress->phase("voxelize", cells.size());
-  VoxelizedCells result;
-  result.cells = cells.size();
-  for (size_t w = 0; w < executor->workers(); ++w)
-    result.tables.push_back(std::make_unique<NodeTable>(tree.grid().levels, budget));
-  std::vector<std::optional<Worker>> workers(executor->workers());
-  executor->for_each(cells.size(), [&](size_t w, size_t i) {
-    if (!workers[w]) workers[w].emplace(tree, config, result.tables[w].get());
-    workers[w]->descent.run(cells[i], workers[w]->cursor.list(cells[i]));
-    progress->advance();
-  });
-  for (size_t w = 0; w < workers.size(); ++w) {
-    if (!workers[w]) continue;
-    Descent& descent = workers[w]->descent;
-    descent.finish();
-    result.decisions += descent.decisions();
-    result.memo += descent.memo();
-    result.divided.resize(descent.divided().size());
-    for (size_t k = 0; k < result.divided.size(); ++k) result.divided[k] += descent.divided()[k];
-    for (const Descent::Root& root : descent.roots()) {
-      result.roots.push_back({root.cube, uint32_t(w), root.dag.root - 1});
-      result.voxels += root.dag.voxels;
-    }
+class Voxelizer::Worker : public Spiller {
+ public:
+  Worker(const Grid& grid, const VoxelizeConfig& config, MemoryBudget* budget)
+      : config_(config),
+        table_(grid.levels, budget, batch_of(config.table_bytes)),
+        descent_(grid, config.descent, &table_, config.done, this),
+        last_(Clock::now()) {}
+
+  void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent); }
+  void end() { cursor_.reset(); }
+  void bake(const Cube& cell) { descent_.run(cell, cursor_->list(cell)); }
+  void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(&table_)); }
+  void note_empty(uint64_t begin, uint64_t end) { descent_.note_empty({begin, end}); }
+  const Descent& descent() const { return descent_; }
+
+  bool due(const NodeTable& table) override {
+    if (config_.scratch == nullptr) return false;
+    const uint64_t bytes = freeze_bytes(table);
+    const std::chrono::duration<double> age = Clock::now() - last_;
+    return bytes >= config_.table_bytes || (bytes != 0 && age.count() >= config_.seconds);
   }
-  return result;
+  void spill(const Descent&) override {
+    config_.save(freeze_table(true));
+    last_ = Clock::now();
+  }
+
+  BakedRun finish(bool spill) {
+    descent_.settle();
+    return freeze_table(spill);
+  }
+
+ private:
+  BakedRun freeze_table(bool spill) {
+    BakedRun baked;
+    std::vector<NodeNumber> numbers;
+    for (const Descent::Root& root : descent_.roots())
+      numbers.push_back({root.cube.level, root.node - 1});
+    std::optional<SpillTarget> target;
+    if (spill)
+      target = {config_.scratch->runs(), config_.scratch->new_streams(uint64_t(table_.levels()))};
+    baked.run = freeze(&table_, numbers, target ? &*target : nullptr);
+    for (size_t i = 0; i < numbers.size(); ++i)
+      baked.roots.push_back({morton(descent_.roots()[i].cube.coordinate), numbers[i].level, 0,
+                             numbers[i].number});
+    baked.voxels = descent_.voxels();
+    baked.finished = descent_.finished();
+    return baked;
+  }
+
+  const VoxelizeConfig& config_;
+  NodeTable table_;
+  Descent descent_;
+  std::optional<CellCursor> cursor_;
+  Clock::time_point last_;  // when the table was emptied
+};
+
+Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,
+                     Executor* executor)
+    : grid_(grid), config_(std::move(config)), executor_(executor) {
+  for (size_t w = 0; w < executor->workers(); ++w)
+    workers_.push_back(std::make_unique<Worker>(grid, config_, budget));
 }
 
-std::vector<Run> freeze(VoxelizedCells* cells, Executor* executor) {
-  std::vector<Run> runs(cells->tables.size());
-  std::vector<Ranks> ranks(runs.size());
-  std::vector<std::vector<NodeNumber>> roots(runs.size());
-  for (const CellRoot& root : cells->roots)
-    roots[root.run].push_back({root.cell.level, root.rank});
-  executor->for_each(runs.size(), [&](size_t, size_t r) {
-    runs[r] = freeze(cells->tables[r].get(), roots[r], &ranks[r]);
-    cells->tables[r].reset();
+Voxelizer::~Voxelizer() = default;
+
+void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* progress) {
+  const uint64_t share = tree.triangles() / (kTasksPerWorker * workers_.size());
+  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kLightCell));
+  std::vector<MortonRange> ranges;
+  for (const Cube& cell : cells) ranges.push_back(morton_range(cell, grid_.levels));
+  progress->phase("voxelize", cells.size());
+  cells_ += cells.size();
+  for (const auto& worker : workers_) worker->begin(tree);
+  if (cells.empty()) workers_[0]->note_empty(range.begin, range.end);
+  executor_->for_each(cells.size(), [&](size_t w, size_t i) {
+    Worker& worker = *workers_[w];
+    if (i == 0) worker.note_empty(range.begin, ranges[0].begin);
+    if (config_.done == nullptr || config_.done->state(ranges[i]) != DoneSet::State::kAll)
+      worker.bake(cells[i]);
+    worker.note_empty(ranges[i].end, i + 1 < cells.size() ? ranges[i + 1].begin : range.end);
+    progress->advance();
   });
-  for (CellRoot& root : cells->roots)
-    root.rank = ranks[root.run][size_t(root.cell.level)][root.rank];
+  for (const auto& worker : workers_) worker->end();
+}
+
+void Voxelizer::bake(const DenseCube& cube, const MortonRange& range) {
+  ++cells_;
+  const MortonRange own = morton_range(cube.cube(), grid_.levels);
+  workers_[0]->note_empty(range.begin, own.begin);
+  workers_[0]->bake(cube);
+  workers_[0]->note_empty(own.end, range.end);
+}
+
+void Voxelizer::note_empty(const MortonRange& range) {
+  workers_[0]->note_empty(range.begin, range.end);
+}
+
+std::vector<BakedRun> Voxelizer::finish(bool spill) {
+  std::vector<BakedRun> runs(workers_.size());
+  executor_->for_each(workers_.size(),
+                      [&](size_t, size_t w) { runs[w] = workers_[w]->finish(spill); });
   return runs;
+}
+
+VoxelizeCounts Voxelizer::counts() const {
+  VoxelizeCounts counts;
+  counts.cells = cells_;
+  counts.divided.resize(size_t(grid_.levels));
+  for (const auto& worker : workers_) {
+    const Descent& descent = worker->descent();
+    counts.decisions += descent.decisions();
+    counts.memo += descent.memo();
+    for (size_t k = 0; k < counts.divided.size(); ++k) counts.divided[k] += descent.divided()[k];
+  }
+  return counts;
 }
 
 }  // namespace svdag

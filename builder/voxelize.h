@@ -1,34 +1,73 @@
 // Second phase: each cell's triangles become the cell's sub-DAG, on all workers.
 //
-// A worker keeps one node table for all its cells, so what cells share is found at once. Which
-// worker bakes which cell does not reach the output: numbers become ranks when the tables freeze.
+// A worker keeps one node table for all its cells, so what cells share is found at once. A table
+// that has had its share of memory, or that shall be saved, is frozen to a run (builder/run.h) and
+// begins anew, wherever its worker stands. Which worker bakes which cell, and when tables are
+// emptied, does not reach the output: numbers become ranks when the tables freeze.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "builder/cell_tree.h"
-#include "builder/merge.h"
-#include "builder/node_table.h"
+#include "builder/dense_cube.h"
+#include "builder/run.h"
+#include "builder/scratch.h"
+#include "builder/top_tree.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
 
 namespace svdag {
 
-struct VoxelizedCells {
-  std::vector<std::unique_ptr<NodeTable>> tables;  // [worker]
-  std::vector<CellRoot> roots;                     // rank: still the number in the table
-  uint64_t cells = 0;                              // with at least one triangle near them
-  uint64_t voxels = 0;
+struct VoxelizeCounts {
+  uint64_t cells = 0;  // with at least one triangle near them
   DecisionCounts decisions;
   PlaneMemoCounts memo;
   std::vector<uint64_t> divided;  // cubes per level, inside the cells
 };
 
-VoxelizedCells voxelize(const CellTree& tree, const DescentConfig& config, MemoryBudget* budget,
-                        Executor* executor, Progress* progress);
+// A frozen table: the run, and what of the scene it holds.
+struct BakedRun {
+  Run run;
+  std::vector<CellRoot> roots;  // `run` is not set in them
+  uint64_t voxels = 0;
+  std::vector<MortonRange> finished;
+};
 
-// Third phase: sorts the tables into runs and makes `rank` of the roots what its name says.
-std::vector<Run> freeze(VoxelizedCells* cells, Executor* executor);
+struct VoxelizeConfig {
+  DescentConfig descent;
+  uint64_t table_bytes = UINT64_MAX;   // freeze_bytes() of a table from which on it is frozen
+  double seconds = 1e30;               // after which a table is frozen, however small
+  Scratch* scratch = nullptr;          // null: tables are never emptied
+  const DoneSet* done = nullptr;       // what is there already; null: nothing
+  std::function<void(BakedRun)> save;  // gets what was spilled, from any thread
+};
+
+class Voxelizer {
+ public:
+  Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget, Executor* executor);
+  ~Voxelizer();
+
+  // Bakes all cells of a sealed tree, which holds all that stands in `range`.
+  void bake(const CellTree& tree, const MortonRange& range, Progress* progress);
+  // Bakes a cube that was voxelized otherwise; nothing else stands in `range`.
+  void bake(const DenseCube& cube, const MortonRange& range);
+  // Nothing stands in `range`.
+  void note_empty(const MortonRange& range);
+  // Freezes what is left in the tables, to the scratch if `spill`, else in memory. The last call.
+  std::vector<BakedRun> finish(bool spill);
+
+  VoxelizeCounts counts() const;
+
+ private:
+  class Worker;
+
+  Grid grid_;
+  VoxelizeConfig config_;
+  Executor* executor_;
+  uint64_t cells_ = 0;
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
 
 }  // namespace svdag

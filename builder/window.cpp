@@ -15,9 +15,10 @@ void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSi
 }  // namespace
 
 uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
-                         std::span<const LatticeTriangle> triangles, const BrickSink& sink) {
-  MemoryBudget budget;
-  NodeTable table(grid.levels, &budget);
+                         std::span<const LatticeTriangle> triangles, const BrickSink& sink,
+                         MemoryBudget* budget) {
+  MemoryBudget unlimited;
+  NodeTable table(grid.levels, budget != nullptr ? budget : &unlimited);
   std::vector<TriangleSetup> setups;
   setups.reserve(triangles.size());
   EntryList list;
@@ -30,11 +31,10 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
   }
   Descent descent(grid, config, &table);
   descent.run(window, list);
-  descent.finish();
+  descent.settle();
   if (descent.roots().empty()) return 0;
-  const SubDag& result = descent.roots().front().dag;
-  emit(table, window, result.root, sink);
-  return result.voxels;
+  emit(table, window, descent.roots().front().node, sink);
+  return descent.voxels();
 }
 
 }  // namespace svdag

@@ -17,6 +17,7 @@ using BrickSink = std::function<void(const LatticePoint& coordinate, Brick brick
 // All bricks with a voxel in `window` that `triangles` set, in Morton order; returns
 // the number of voxels. `grid.levels` bounds the window's level at grid.levels - 2.
 uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
-                         std::span<const LatticeTriangle> triangles, const BrickSink& sink);
+                         std::span<const LatticeTriangle> triangles, const BrickSink& sink,
+                         MemoryBudget* budget = nullptr);
 
 }  // namespace svdag

@@ -72,6 +72,12 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"write", s.write},
                  {"total", s.total},
                  {"cpu", s.cpu}}},
+               {"runs", r.runs},
+               {"resumed", r.resumed},
+               {"scratch",
+                {{"peak", r.scratch.peak},
+                 {"written", r.scratch.written},
+                 {"read", r.scratch.read}}},
                {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
   return json.dump(2) + "\n";
 }
@@ -105,6 +111,11 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
       "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
       "CPU %.2f on %zu threads\n",
       s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
+  if (r.scratch.written != 0)
+    std::printf("  scratch: %s at most, %s written, %s read; %s runs merged%s\n",
+                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.written).c_str(),
+                format_bytes(r.scratch.read).c_str(), format_count(r.runs).c_str(),
+                r.resumed ? "; resumed" : "");
   std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),
               format_bytes(r.peak_resident).c_str());
 }

@@ -6,6 +6,7 @@
 #include "builder/commands/commands.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -95,6 +96,20 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->type_name("SIZE");
   app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
       ->check(CLI::Range(size_t(1), size_t(1024)));
+  app->add_option("--scratch", build->scratch,
+                  "Folder for what does not fit in memory (default: OUT.svdag.scratch)")
+      ->type_name("DIR");
+  CLI::Option* resume = app->add_flag_callback(
+      "--resume", [build] { build->unfinished = Unfinished::kResume; },
+      "Continue an unfinished bake of this output, if there is one");
+  app->add_flag_callback(
+         "--restart", [build] { build->unfinished = Unfinished::kRestart; },
+         "Discard an unfinished bake of this output")
+      ->excludes(resume);
+  app->add_option("--checkpoint", build->checkpoint,
+                  "Save the work of every so many seconds for --resume (default: 30)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);
@@ -151,7 +166,11 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    svdag::catch_interrupts();
     return svdag::run_program(argc, argv);
+  } catch (const svdag::Interrupted& interrupted) {
+    std::fprintf(stderr, "svdag: stopped; the same command with --resume continues\n");
+    return 128 + interrupted.signal;
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "svdag: %s\n", error.what());
     return int(error.code());

@@ -8,6 +8,7 @@
 
 #include "builder/merge.h"
 #include "builder/run.h"
+#include "builder/tournament.h"
 #include "builder/unique_set.h"
 #include "io/dag/dag_file.h"
 #include "tests/reference_reduction.h"
@@ -73,15 +74,46 @@ struct RandomCells {
   std::mt19937_64 random_;
 };
 
-TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
-  const TemporaryFolder folder;
+// How runs are held and merged; the result is the same.
+struct MergeWay {
+  const char* name;
+  bool spilled;
+  uint64_t map_bytes;
+  size_t sources;
+};
+
+class Merge : public ::testing::TestWithParam<MergeWay> {
+ protected:
+  Merge() : folder_(directory_.file("scratch")), scratch_(&folder_, &budget_) {}
+
+  // Freezes `table`, of which `roots` holds the cells as 1 + settled number.
+  svdag::Run freeze_cells(NodeTable* table, uint32_t run, int level, std::vector<CellRoot>* roots) {
+    std::vector<NodeNumber> numbers;
+    for (const CellRoot& root : *roots) {
+      if (root.run == run) numbers.push_back({level, root.rank});
+    }
+    const SpillTarget target{scratch_.runs(), scratch_.new_streams(20)};
+    svdag::Run frozen = freeze(table, numbers, GetParam().spilled ? &target : nullptr);
+    size_t next = 0;
+    for (CellRoot& root : *roots) {
+      if (root.run == run) root.rank = numbers[next++].number;
+    }
+    return frozen;
+  }
+
+  TemporaryFolder directory_;
+  MemoryBudget budget_;
+  ScratchDir folder_;
+  Scratch scratch_;
+};
+
+TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const int levels = 5 + int(seed % 3), cell_level = int(seed % 3);
-    const size_t workers = 1 + seed % 4;
-    MemoryBudget budget;
+    const size_t workers = 1 + seed % 7;
     std::vector<std::unique_ptr<NodeTable>> tables;
     for (size_t w = 0; w < workers; ++w)
-      tables.push_back(std::make_unique<NodeTable>(levels, &budget));
+      tables.push_back(std::make_unique<NodeTable>(levels, &budget_));
     RandomCells cells(levels, seed);
     std::vector<CellRoot> roots;
     const int64_t side = int64_t(1) << cell_level;
@@ -89,37 +121,33 @@ TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
       const Cube cube{cell_level, {i / side / side, i / side % side, i % side}};
       const uint32_t w = uint32_t(size_t(i * 7 + 3) % workers);
       const uint32_t root = cells.fill(tables[w].get(), cube);
-      if (root != 0) roots.push_back({cube, w, root - 1});
+      if (root != 0) roots.push_back({morton(cube.coordinate), cell_level, w, root});
     }
     std::vector<svdag::Run> runs;
-    std::vector<Ranks> ranks(workers);
     for (size_t w = 0; w < workers; ++w) {
       tables[w]->flush();
       for (CellRoot& root : roots) {
-        if (root.run == w) root.rank = tables[w]->settled(cell_level, 1 + root.rank) - 1;
-      }
-      std::vector<NodeNumber> own;
-      for (const CellRoot& root : roots) {
-        if (root.run == w) own.push_back({cell_level, root.rank});
+        if (root.run == w) root.rank = tables[w]->settled(cell_level, root.rank) - 1;
       }
       // What no root reaches does not stay.
       tables[w]->add_brick(0xdeadbeef12345678 + w);
       tables[w]->add_node(0, {1, 0, 0, 0, 0, 0, 0, 0});
-      runs.push_back(freeze(tables[w].get(), own, &ranks[w]));
-      EXPECT_TRUE(std::is_sorted(runs[w].bricks.begin(), runs[w].bricks.end()));
+      runs.push_back(freeze_cells(tables[w].get(), uint32_t(w), cell_level, &roots));
+      EXPECT_TRUE(std::is_sorted(runs[w].bricks.keys.begin(), runs[w].bricks.keys.end()));
       for (const auto& level : runs[w].nodes) {
-        EXPECT_EQ(std::adjacent_find(level.begin(), level.end(), std::greater_equal<>()),
-                  level.end());
+        EXPECT_EQ(std::adjacent_find(level.keys.begin(), level.keys.end(), std::greater_equal<>()),
+                  level.keys.end());
       }
     }
-    for (CellRoot& root : roots) root.rank = ranks[root.run][size_t(cell_level)][root.rank];
     Grid grid;
     grid.levels = levels;
     grid.selection = grid.whole();
-    const std::string path = folder.file("out.svdag");
+    const std::string path = directory_.file("out.svdag");
     DagWriter writer(path, grid, Rule::kConservative);
     SequentialExecutor executor;
-    merge(runs, roots, levels, &writer, &executor);
+    MergeConfig config{&budget_, GetParam().spilled ? &scratch_ : nullptr, GetParam().map_bytes,
+                       GetParam().sources};
+    merge(runs, roots, levels, config, &writer, &executor);
     writer.finish(0, 0);
     const DagFile file = DagFile::open(path);
     EXPECT_EQ(bricks_of(file.view()), cells.bricks) << seed;
@@ -127,6 +155,39 @@ TEST(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     for (uint32_t k = 0; k < file.header().section_count; ++k)
       nodes.push_back(file.header().sections[k].nodes);
     EXPECT_EQ(nodes, reference_node_counts(cells.bricks, levels)) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, Merge,
+    ::testing::Values(MergeWay{"in_memory", false, 0, 2}, MergeWay{"spilled", true, 1 << 30, 99},
+                      MergeWay{"maps_spilled", true, 0, 99},
+                      MergeWay{"some_maps_spilled", true, 2000, 99},
+                      MergeWay{"two_at_a_time", true, 1 << 30, 2},
+                      MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Tournament, GivesTheSmallestHeadAsALinearSearchDoes) {
+  std::mt19937 random(1);
+  for (size_t sources = 1; sources < 40; ++sources) {
+    std::vector<std::vector<int>> lists(sources);
+    for (auto& list : lists) {
+      for (size_t n = random() % 20; n > 0; --n) list.push_back(int(random() % 50));
+      std::sort(list.rbegin(), list.rend());
+      list.insert(list.begin(), 1000);  // the end
+    }
+    Tournament tournament(sources,
+                          [&](size_t a, size_t b) { return lists[a].back() < lists[b].back(); });
+    int last = -1;
+    for (;;) {
+      auto& list = lists[tournament.winner()];
+      for (const auto& other : lists) ASSERT_LE(list.back(), other.back());
+      if (list.back() == 1000) break;
+      ASSERT_GE(list.back(), last);
+      last = list.back();
+      list.pop_back();
+      tournament.replay();
+    }
   }
 }
 

@@ -1,0 +1,96 @@
+#include "builder/bake_bins.h"
+
+#include <algorithm>
+
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kBatch = 4096;         // triangles read at once
+constexpr int kCellsBelow = 2;          // levels from a bin's cube to its cells: work to share out
+constexpr int kSmallestCellLog2 = 6;    // of the side of such a cell in voxels
+
+}  // namespace
+
+BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
+                   const DoneSet* done, Voxelizer* voxelizer, MemoryBudget* budget,
+                   Executor* executor, Progress* progress)
+    : grid_(grid),
+      split_(split),
+      descent_(descent),
+      done_(done),
+      voxelizer_(voxelizer),
+      budget_(budget),
+      executor_(executor),
+      progress_(progress) {}
+
+void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
+  if (done_ != nullptr && done_->state(bin.range) == DoneSet::State::kAll) return;
+  if (const auto tree = load(file, bin)) return voxelizer_->bake(*tree, bin.range, progress_);
+  if (grid_.levels - bin.cube.level <= DenseCube::kLargestLog2) return bake_dense(file, bin);
+  bake_parts(file, bin);
+}
+
+// The bin as a tree; null if that is too much.
+std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin) {
+  if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return nullptr;
+  const int finest = std::max(grid_.levels - kSmallestCellLog2, bin.cube.level);
+  const int cell_level = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
+  auto tree = std::make_unique<CellTree>(
+      grid_, bin.cube, std::min({cell_level, finest, grid_.levels - 2}), budget_);
+  BinReader reader(file, bin, budget_);
+  std::vector<LatticeTriangle> batch;
+  for (; reader.read(kBatch, &batch); batch.clear()) {
+    check_interrupt();
+    for (const LatticeTriangle& triangle : batch) tree->add(triangle);
+    if (tree->bytes(split_.workers) > split_.triangle_bytes) return nullptr;
+  }
+  tree->seal();
+  return tree;
+}
+
+void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
+  constexpr uint64_t kPerTriangle =
+      sizeof(LatticeTriangle) + sizeof(TriangleSetup) + 8 * sizeof(Entry);
+  const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
+  const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
+  DenseCube cube(grid_, bin.cube, budget_);
+  BinReader reader(file, bin, budget_);
+  std::vector<LatticeTriangle> batch;
+  batch.reserve(std::min(most, bin.triangles));
+  progress_->phase("voxelize a dense cube", bin.triangles);
+  for (; reader.read(most, &batch); batch.clear()) {
+    cube.add(batch, descent_, executor_);
+    progress_->advance(batch.size());
+  }
+  voxelizer_->bake(cube, bin.range);
+}
+
+void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
+  // A surface in 4^depth parts of as many: deep enough that most fit.
+  const uint64_t fitting = split_.triangle_bytes / (2 * sizeof(LatticeTriangle));
+  int depth = 1;
+  while (depth < TriangleBins::kDeepest && (fitting << (2 * depth)) < bin.triangles) ++depth;
+  depth = std::min(depth, grid_.levels - 2 - bin.cube.level);
+  SpillFile* passing = split_.scratch->passing();
+  TriangleBins bins(grid_, bin.cube, depth, passing, split_.scratch);
+  {
+    BinReader reader(file, bin, budget_);
+    std::vector<LatticeTriangle> batch;
+    for (; reader.read(kBatch, &batch); batch.clear()) {
+      check_interrupt();
+      for (const LatticeTriangle& triangle : batch) bins.add(triangle);
+    }
+  }
+  uint64_t at = bin.range.begin;
+  for (const TriangleBin& part : bins.finish()) {
+    voxelizer_->note_empty({at, part.range.begin});
+    bake(passing, part);
+    passing->free(part.stream);
+    at = part.range.end;
+  }
+  voxelizer_->note_empty({at, bin.range.end});
+}
+
+}  // namespace svdag

@@ -1,0 +1,38 @@
+// Bakes spilled triangles, bin by bin, whatever a bin holds.
+//
+// A bin whose triangles fit in memory becomes a CellTree. One that does not is dealt into bins of
+// its parts, which are baked in turn and freed; and one that is but a small cube and still does not
+// fit (10^9 triangles in one voxel) is collected in a bitmap, batch by batch.
+#pragma once
+
+#include "builder/split.h"
+#include "builder/voxelize.h"
+
+namespace svdag {
+
+class BinBaker {
+ public:
+  // All must outlive the baker. `split` tells the cells and the share of memory.
+  BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
+           const DoneSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
+           Progress* progress);
+
+  // `file` holds the bin.
+  void bake(SpillFile* file, const TriangleBin& bin);
+
+ private:
+  std::unique_ptr<CellTree> load(SpillFile* file, const TriangleBin& bin);
+  void bake_dense(SpillFile* file, const TriangleBin& bin);
+  void bake_parts(SpillFile* file, const TriangleBin& bin);
+
+  const Grid& grid_;
+  const SplitConfig& split_;
+  const DescentConfig& descent_;
+  const DoneSet* done_;
+  Voxelizer* voxelizer_;
+  MemoryBudget* budget_;
+  Executor* executor_;
+  Progress* progress_;
+};
+
+}  // namespace svdag

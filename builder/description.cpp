@@ -1,0 +1,78 @@
+#include "builder/description.h"
+
+#include <sstream>
+
+#include "io/units.h"
+#include "streaming/byte_stream.h"
+#include "streaming/checksum.h"
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr const char* kAlgorithm = "1";  // changes when nodes or bricks would
+
+std::string hash_of(const std::string& path) {
+  const File file = File::open_read(path);
+  ByteStream stream(file);
+  Hasher128 hasher;
+  for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {
+    check_interrupt();
+    hasher.update(bytes);
+    stream.skip(bytes.size());
+  }
+  const Hash128 hash = hasher.digest();
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash[1]),
+                static_cast<unsigned long long>(hash[0]));
+  return text;
+}
+
+std::string list(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : " ") + item;
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const BuildConfig& config) {
+  std::ostringstream out;
+  out << "algorithm: " << kAlgorithm << '\n';
+  out << "rule: " << (config.descent.rule == Rule::kThin ? "thin" : "conservative") << '\n';
+  if (config.voxel_size != 0) {
+    out << "voxel size: " << format_double(config.voxel_size) << '\n';
+  } else {
+    out << "resolution: " << (uint64_t(1) << config.levels) << '\n';
+  }
+  if (config.bounds) {
+    out << "bounds:";
+    for (const Point& p : {config.bounds->min, config.bounds->max}) {
+      for (int a = 0; a < 3; ++a) out << ' ' << format_double(p[a]);
+    }
+    out << '\n';
+  }
+  out << "included parts: " << list(config.scene.names.include) << '\n';
+  out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
+  out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
+  for (const std::string& path : config.scene.paths)
+    out << "content of " << path.substr(path.find_last_of('/') + 1) << ": " << hash_of(path) << '\n';
+  return out.str();
+}
+
+std::string difference(const std::string& saved, const std::string& now) {
+  std::istringstream a(saved), b(now);
+  std::string old_line, new_line;
+  for (;;) {
+    const bool more_old = bool(std::getline(a, old_line));
+    const bool more_new = bool(std::getline(b, new_line));
+    if (!more_old && !more_new) return {};
+    if (more_old && more_new && old_line == new_line) continue;
+    const auto shown = [](bool more, const std::string& line) {
+      return more ? "\"" + line + "\"" : std::string("nothing");
+    };
+    return shown(more_old, old_line) + " then, " + shown(more_new, new_line) + " now";
+  }
+}
+
+}  // namespace svdag

@@ -1,0 +1,74 @@
+// The keys of one level of a run in ascending order, one at a time: from memory, or block by block
+// from a scratch file. Children are rewritten on the way where a map says so.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "builder/rank_maps.h"
+#include "builder/run.h"
+
+namespace svdag {
+
+// Rewrites run-local children (1 + rank) to global ones (1 + index).
+inline void rewrite(std::span<NodeKey> nodes, const RankMap& map) noexcept {
+  for (NodeKey& key : nodes) {
+    for (uint32_t& child : key) child = child == 0 ? 0 : 1 + map[child - 1];
+  }
+}
+
+template <class Key>
+class LevelSource {
+ public:
+  explicit LevelSource(std::span<const Key> keys)
+      : at_(keys.data()), end_(keys.data() + keys.size()), count_(keys.size()) {
+    see();
+  }
+  // `map`, if given, rewrites the children; it must outlive the source.
+  LevelSource(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
+              const RankMap* map = nullptr)
+      : count_(stream.bytes / sizeof(Key)), map_(map), reader_(std::in_place, file, stream, budget) {
+    refill();
+  }
+
+  uint64_t count() const { return count_; }
+  bool ended() const { return at_ == end_; }
+  const Key& head() const { return *at_; }
+  void advance() {
+    if (++at_ == end_ && reader_) return refill();
+    see();
+  }
+  // Whether the head goes before that of `other`; an ended source goes last.
+  bool before(const LevelSource& other) const {
+    if (prefix_ != other.prefix_) return prefix_ < other.prefix_;
+    if (ended() || other.ended()) return !ended();
+    return *at_ < *other.at_;
+  }
+
+ private:
+  // The first 64 bits of the head decide most comparisons.
+  static uint64_t prefix(Brick brick) { return brick; }
+  static uint64_t prefix(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
+  void see() { prefix_ = ended() ? UINT64_MAX : prefix(*at_); }
+
+  void refill() {
+    const std::span<std::byte> block = reader_->next();
+    const std::span<Key> keys(reinterpret_cast<Key*>(block.data()), block.size() / sizeof(Key));
+    if constexpr (std::is_same_v<Key, NodeKey>) {
+      if (map_ != nullptr) rewrite(keys, *map_);
+    }
+    at_ = keys.data();
+    end_ = at_ + keys.size();
+    see();
+  }
+
+  const Key* at_ = nullptr;
+  const Key* end_ = nullptr;
+  uint64_t prefix_ = 0;
+  uint64_t count_;
+  const RankMap* map_ = nullptr;
+  std::optional<SpillReader> reader_;
+};
+
+}  // namespace svdag

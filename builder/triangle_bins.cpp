@@ -1,0 +1,152 @@
+#include "builder/triangle_bins.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "builder/overlap.h"
+#include "io/lattice.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kLongest = 90;  // bytes of nine numbers
+
+uint8_t* put(int64_t value, uint8_t* out) {
+  uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
+  for (; code >= 0x80; code >>= 7) *out++ = uint8_t(code | 0x80);
+  *out++ = uint8_t(code);
+  return out;
+}
+
+}  // namespace
+
+TriangleBins::TriangleBins(const Grid& grid, const Cube& parent, int depth, SpillFile* file,
+                           Scratch* scratch)
+    : grid_(grid),
+      parent_(parent),
+      bin_level_(parent.level + depth),
+      file_(file),
+      scratch_(scratch),
+      bins_(size_t(1) << (3 * depth)) {
+  SVDAG_ASSERT(depth >= 1 && depth <= kDeepest && bin_level_ <= grid.levels - 2);
+}
+
+void TriangleBins::add(const LatticeTriangle& triangle) {
+  const auto& v = triangle.v;
+  const Cube whole{bin_level_, {}};
+  const int shift = whole.side_log2(grid_.levels);
+  LatticePoint min, max, first, last;
+  for (int a = 0; a < 3; ++a) {
+    min[a] = std::min({v[0][a], v[1][a], v[2][a]});
+    max[a] = std::max({v[0][a], v[1][a], v[2][a]});
+    const int64_t begin = parent_.coordinate[a] << (bin_level_ - parent_.level);
+    const int64_t end = begin + (int64_t(1) << (bin_level_ - parent_.level)) - 1;
+    first[a] = std::clamp(-((-min[a]) >> shift) - 1, begin, end);
+    last[a] = std::clamp(max[a] >> shift, begin, end);
+  }
+  if (first == last) return append({bin_level_, first}, triangle, min, max);
+  deal(triangle, make_setup(triangle), parent_);
+}
+
+void TriangleBins::deal(const LatticeTriangle& triangle, const TriangleSetup& setup,
+                        const Cube& cube) {
+  if (cube.level == bin_level_) return append(cube, triangle, setup.min, setup.max);
+  const Entry entry{&setup, setup.edges};
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const ChildOverlap overlap = overlap_children(entry, cube.corner(grid_.levels), side);
+  for (unsigned c = 0; c < 8; ++c) {
+    if (overlap.touched >> c & 1) deal(triangle, setup, cube.child(c));
+  }
+}
+
+void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
+                          const LatticePoint& min, const LatticePoint& max) {
+  Open& bin = bins_[morton(cube.coordinate) % bins_.size()];
+  if (!bin.writer) {
+    bin.writer.emplace(file_, scratch_->new_streams(), scratch_->budget());
+    bin.min = min;
+    bin.max = max;
+  }
+  bin.min = glm::min(bin.min, min);
+  bin.max = glm::max(bin.max, max);
+  uint8_t bytes[kLongest];
+  uint8_t* end = bytes;
+  for (int a = 0; a < 3; ++a) end = put(triangle.v[0][a], end);
+  for (int i = 1; i < 3; ++i) {
+    for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
+  }
+  bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
+  ++bin.triangles;
+}
+
+std::vector<TriangleBin> TriangleBins::finish() {
+  std::vector<TriangleBin> bins;
+  const uint64_t first = morton(parent_.coordinate) * bins_.size();
+  for (uint64_t i = 0; i < bins_.size(); ++i) {
+    Open& bin = bins_[i];
+    if (!bin.writer) continue;
+    const Cube cube{bin_level_, unmorton(first + i)};
+    bins.push_back({shrink(cube, bin), morton_range(cube, grid_.levels), bin.triangles,
+                    bin.writer->finish()});
+    bin.writer.reset();
+  }
+  return bins;
+}
+
+// The smallest cube that holds all voxels of `cube` that the boxes touch.
+Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
+  const int f = grid_.fraction(), log2 = grid_.levels - cube.level;
+  LatticePoint low, high;
+  for (int a = 0; a < 3; ++a) {
+    const int64_t begin = cube.coordinate[a] << log2, end = begin + (int64_t(1) << log2) - 1;
+    low[a] = std::clamp(-((-bin.min[a]) >> f) - 1, begin, end);
+    high[a] = std::clamp(bin.max[a] >> f, begin, end);
+  }
+  Cube least = cube;
+  for (int level = cube.level + 1; level <= grid_.levels - 2; ++level) {
+    const int up = grid_.levels - level;
+    for (int a = 0; a < 3; ++a) {
+      if (low[a] >> up != high[a] >> up) return least;
+    }
+    least = {level, {low.x >> up, low.y >> up, low.z >> up}};
+  }
+  return least;
+}
+
+BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
+    : reader_(file, bin.stream, budget), left_(bin.triangles) {}
+
+uint8_t BinReader::byte() {
+  if (at_ == end_) {
+    const std::span<std::byte> block = reader_.next();
+    SVDAG_ASSERT(!block.empty());
+    at_ = reinterpret_cast<const uint8_t*>(block.data());
+    end_ = at_ + block.size();
+  }
+  return *at_++;
+}
+
+int64_t BinReader::number() {
+  uint64_t code = 0;
+  for (int shift = 0;; shift += 7) {
+    const uint8_t b = byte();
+    code |= uint64_t(b & 0x7f) << shift;
+    if (b < 0x80) break;
+  }
+  return int64_t(code >> 1) ^ -int64_t(code & 1);
+}
+
+bool BinReader::read(size_t most, std::vector<LatticeTriangle>* out) {
+  if (left_ == 0) return false;
+  for (; most > 0 && left_ > 0; --most, --left_) {
+    LatticeTriangle& t = out->emplace_back();
+    for (int a = 0; a < 3; ++a) t.v[0][a] = number();
+    for (size_t i = 1; i < 3; ++i) {
+      for (int a = 0; a < 3; ++a) t.v[i][a] = t.v[0][a] + number();
+    }
+  }
+  return true;
+}
+
+}  // namespace svdag

@@ -1,0 +1,79 @@
+// Values to bytes and back, for records that only this machine reads again.
+//
+// Trivially copyable values as they stand in memory, vectors and strings with their length in
+// front. A record is checksummed where it is stored; one that ends too early all the same is an
+// Error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+class RecordWriter {
+ public:
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void put(const T& value) {
+    const auto* from = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), from, from + sizeof value);
+  }
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void put(const std::vector<T>& values) {
+    put(uint64_t(values.size()));
+    const auto bytes = std::as_bytes(std::span(values));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void put(const std::string& text) { put(std::vector<char>(text.begin(), text.end())); }
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class RecordReader {
+ public:
+  explicit RecordReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void get(T* value) {
+    std::memcpy(value, take(sizeof *value), sizeof *value);
+  }
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void get(std::vector<T>* values) {
+    uint64_t count = 0;
+    get(&count);
+    SVDAG_ASSERT(count <= bytes_.size() / sizeof(T));
+    values->resize(count);
+    const std::byte* from = take(count * sizeof(T));
+    if (count != 0) std::memcpy(values->data(), from, count * sizeof(T));
+  }
+  void get(std::string* text) {
+    std::vector<char> characters;
+    get(&characters);
+    text->assign(characters.begin(), characters.end());
+  }
+
+ private:
+  const std::byte* take(size_t n) {
+    SVDAG_ASSERT(n <= bytes_.size());
+    const std::byte* at = bytes_.data();
+    bytes_ = bytes_.subspan(n);
+    return at;
+  }
+
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace svdag
