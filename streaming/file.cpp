@@ -1,16 +1,16 @@
 #include "streaming/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <utility>
 
-#include "streaming/error.h"
+#include "streaming/file_calls.h"
 
 namespace svdag {
 namespace {
@@ -34,18 +34,6 @@ std::string reason(int error) {
   }
 }
 
-[[noreturn]] void fail(ExitCode code, const char* what, const std::string& path, int error) {
-  throw Error(code, std::string(what) + ": " + reason(error), path);
-}
-
-template <class Call>
-auto retry_interrupted(Call call) {
-  for (;;) {
-    const auto result = call();
-    if (result >= 0 || errno != EINTR) return result;
-  }
-}
-
 std::string random_suffix() {
   uint64_t bits = 0;
   if (getrandom(&bits, sizeof bits, 0) != ssize_t(sizeof bits)) bits = uint64_t(getpid());
@@ -54,16 +42,26 @@ std::string random_suffix() {
   return text;
 }
 
+// From direct transfers back to those through the page cache; false if they were that already.
+bool leave_direct(int fd) {
+  const int flags = ::fcntl(fd, F_GETFL);
+  return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
+}
+
 }  // namespace
+
+void fail_call(ExitCode code, const char* what, const std::string& path, int error) {
+  throw Error(code, std::string(what) + ": " + reason(error), path);
+}
 
 File File::open_read(const std::string& path) {
   // O_NONBLOCK: opening a pipe must not hang before fstat can refuse it.
   const int fd =
       retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
-  if (fd < 0) fail(ExitCode::kBadInput, "cannot be opened", path, errno);
-  File file(fd, path);
+  if (fd < 0) fail_call(ExitCode::kBadInput, "cannot be opened", path, errno);
+  File file(fd, path, ExitCode::kBadInput);
   struct stat status;
-  if (::fstat(fd, &status) != 0) fail(ExitCode::kBadInput, "cannot be examined", path, errno);
+  if (::fstat(fd, &status) != 0) fail_call(ExitCode::kBadInput, "cannot be examined", path, errno);
   if (!S_ISREG(status.st_mode)) fail_input(path, "is not a regular file");
   return file;
 }
@@ -72,23 +70,24 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   const std::string& shown = shown_as.empty() ? folder : shown_as;
   int fd = retry_interrupted(
       [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
-  if (fd >= 0) return File(fd, shown);
+  if (fd >= 0) return File(fd, shown, ExitCode::kOutput);
   if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)
-    fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+    fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   if (::access(folder.c_str(), F_OK) != 0)
-    fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+    fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   const std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
   fd = retry_interrupted([&] {
     return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   });
-  if (fd < 0) fail(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  File file(fd, shown);
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  File file(fd, shown, ExitCode::kOutput);
   file.temporary_ = name;
   return file;
 }
 
 File::File(File&& other) noexcept
     : fd_(std::exchange(other.fd_, -1)),
+      unreadable_(other.unreadable_),
       path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, {})) {}
 
@@ -96,6 +95,7 @@ File& File::operator=(File&& other) noexcept {
   if (this != &other) {
     discard();
     fd_ = std::exchange(other.fd_, -1);
+    unreadable_ = other.unreadable_;
     path_ = std::move(other.path_);
     temporary_ = std::exchange(other.temporary_, {});
   }
@@ -114,7 +114,7 @@ void File::discard() noexcept {
 
 uint64_t File::size() const {
   struct stat status;
-  if (::fstat(fd_, &status) != 0) fail(ExitCode::kBadInput, "cannot be examined", path_, errno);
+  if (::fstat(fd_, &status) != 0) fail_call(unreadable_, "cannot be examined", path_, errno);
   return uint64_t(status.st_size);
 }
 
@@ -123,7 +123,8 @@ size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
   while (done < out.size()) {
     const ssize_t n = retry_interrupted(
         [&] { return ::pread(fd_, out.data() + done, out.size() - done, off_t(offset + done)); });
-    if (n < 0) fail(ExitCode::kBadInput, "cannot be read", path_, errno);
+    if (n < 0 && errno == EINVAL && leave_direct(fd_)) continue;
+    if (n < 0) fail_call(unreadable_, "cannot be read", path_, errno);
     if (n == 0) break;
     done += size_t(n);
   }
@@ -132,7 +133,7 @@ size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
 
 void File::read_at(uint64_t offset, std::span<std::byte> out) const {
   const size_t n = read_some_at(offset, out);
-  if (n < out.size()) fail_input(path_, "ends too early", offset + n);
+  if (n < out.size()) throw Error(unreadable_, "ends too early", path_, offset + n);
 }
 
 void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
@@ -141,14 +142,31 @@ void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
     const ssize_t n = retry_interrupted([&] {
       return ::pwrite(fd_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
     });
-    if (n < 0) fail(ExitCode::kOutput, "cannot be written", path_, errno);
-    if (n == 0) fail(ExitCode::kOutput, "cannot be written", path_, ENOSPC);
+    if (n < 0 && errno == EINVAL && leave_direct(fd_)) continue;
+    if (n < 0) fail_call(ExitCode::kOutput, "cannot be written", path_, errno);
+    if (n == 0) fail_call(ExitCode::kOutput, "cannot be written", path_, ENOSPC);
     done += size_t(n);
   }
 }
 
+void File::truncate(uint64_t size) {
+  if (retry_interrupted([&] { return ::ftruncate(fd_, off_t(size)); }) != 0)
+    fail_call(ExitCode::kOutput, "cannot be cut", path_, errno);
+}
+
+bool File::use_direct() {
+  const int flags = ::fcntl(fd_, F_GETFL);
+  return flags >= 0 && ::fcntl(fd_, F_SETFL, flags | O_DIRECT) == 0;
+}
+
+bool File::try_lock() {
+  if (retry_interrupted([&] { return ::flock(fd_, LOCK_EX | LOCK_NB); }) == 0) return true;
+  if (errno != EWOULDBLOCK) fail_call(ExitCode::kOutput, "cannot be locked", path_, errno);
+  return false;
+}
+
 void File::sync() {
-  if (::fsync(fd_) != 0) fail(ExitCode::kOutput, "cannot be brought to disk", path_, errno);
+  if (::fsync(fd_) != 0) fail_call(ExitCode::kOutput, "cannot be brought to disk", path_, errno);
 }
 
 void File::link_as(const std::string& path) {
@@ -156,33 +174,37 @@ void File::link_as(const std::string& path) {
     const std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
     const std::string self = "/proc/self/fd/" + std::to_string(fd_);
     if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      fail(ExitCode::kOutput, "cannot be named", path, errno);
+      fail_call(ExitCode::kOutput, "cannot be named", path, errno);
     temporary_ = name;
   }
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  if (::fchmod(fd_, 0666 & ~mask) != 0) fail(ExitCode::kOutput, "cannot be opened up", path, errno);
+  if (::fchmod(fd_, 0666 & ~mask) != 0)
+    fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
   if (::rename(temporary_.c_str(), path.c_str()) != 0)
-    fail(ExitCode::kOutput, "cannot be replaced", path, errno);
+    fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
   temporary_.clear();
   path_ = path;
 }
 
 void File::close() {
   const int fd = std::exchange(fd_, -1);
-  if (::close(fd) != 0 && errno != EINTR) fail(ExitCode::kOutput, "cannot be closed", path_, errno);
+  if (::close(fd) != 0 && errno != EINTR)
+    fail_call(ExitCode::kOutput, "cannot be closed", path_, errno);
 }
 
 void sync_folder(const std::string& folder) {
   const int fd =
       retry_interrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (fd < 0) fail(ExitCode::kOutput, "cannot be opened", folder, errno);
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", folder, errno);
   const int result = ::fsync(fd);
   const int error = errno;
   ::close(fd);
-  // Some file systems cannot sync a folder and say EINVAL: nothing more can be done there.
-  if (result != 0 && error != EINVAL)
-    fail(ExitCode::kOutput, "cannot be brought to disk", folder, error);
+  if (result != 0) fail_folder_sync(folder, error);
+}
+
+void fail_folder_sync(const std::string& folder, int error) {
+  if (error != EINVAL) fail_call(ExitCode::kOutput, "cannot be brought to disk", folder, error);
 }
 
 std::string folder_of(const std::string& path) {

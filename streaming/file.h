@@ -1,9 +1,10 @@
 // The seam to the operating system: every system call on a file goes through here.
 //
 // Reads and writes are positional and complete: EINTR and short transfers are retried, everything
-// else becomes an Error (reading: kBadInput, writing: kOutput) that names the path. close() is
-// checked because NFS and quotas report there; fsync is never retried after it failed, because the
-// kernel marks the dirty pages clean (PostgreSQL's "fsyncgate").
+// else becomes an Error that names the path: kBadInput for reading what was given to us, kOutput
+// for writing, and for reading what we made. close() is checked because NFS and quotas report
+// there; fsync is never retried after it failed, because the kernel marks the dirty pages clean
+// (PostgreSQL's "fsyncgate"). Folder, in file_folder.h, is the other half of the seam.
 // Rejected: mmap for inputs (a file that shrinks is SIGBUS), FILE* (errors surface late).
 #pragma once
 
@@ -11,6 +12,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+
+#include "streaming/error.h"
 
 namespace svdag {
 
@@ -40,6 +43,14 @@ class File {
   // As read_at, but returns the bytes read, fewer than asked only at the end of the file.
   size_t read_some_at(uint64_t offset, std::span<std::byte> out) const;
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  void truncate(uint64_t size);
+
+  // From now on bytes go past the page cache (O_DIRECT): offsets, sizes and memory must be
+  // multiples of 4096. False where the file system has no such transfers; one that is refused later
+  // goes through the page cache after all, and so do those after it.
+  bool use_direct();
+  // Locks the file until it is closed, or the process dies; false if somebody else holds the lock.
+  bool try_lock();
 
   void sync();
   // Gives the file the name `path` and permission 0666 & ~umask, replacing a file of that name
@@ -48,10 +59,13 @@ class File {
   void close();
 
  private:
-  File(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+  friend class Folder;
+  File(int fd, std::string path, ExitCode unreadable)
+      : fd_(fd), unreadable_(unreadable), path_(std::move(path)) {}
   void discard() noexcept;
 
   int fd_ = -1;
+  ExitCode unreadable_ = ExitCode::kBadInput;  // of an Error when reading fails
   std::string path_;
   std::string temporary_;  // the fallback name that must be unlinked if never linked
 };

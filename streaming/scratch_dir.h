@@ -9,9 +9,9 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "streaming/file.h"
+#include "streaming/file_folder.h"
 
 namespace svdag {
 
@@ -30,26 +30,28 @@ class ScratchDir {
   // Gives the lock back; removes the folder unless keep() was called.
   ~ScratchDir();
 
-  const std::string& path() const { return path_; }
-  bool has(const std::string& name) const;
+  const std::string& path() const { return folder_.path(); }
+  bool has(const std::string& name) const { return folder_.has(name); }
   // A new file, open for reading and writing; one of that name that is there is removed first.
   File create(const std::string& name);
   // A file that is there, open for reading and writing; none is an Error (kBadInput).
-  File open(const std::string& name);
-  void remove(const std::string& name);
+  File open(const std::string& name) { return folder_.open(name); }
+  void remove(const std::string& name) { folder_.remove(name); }
   // Removes every file but the lock.
   void clear();
   // Makes the names of files durable.
-  void sync() const;
+  void sync() const { folder_.sync(); }
   // From now on the folder outlives this object: something in it can be resumed.
   void keep(bool kept = true) { kept_ = kept; }
 
   // Bytes free on its file system for this user.
-  uint64_t free_bytes() const;
+  uint64_t free_bytes() const { return folder_.free_bytes(); }
 
  private:
-  std::string path_;
-  File owner_;
+  static Folder own(const std::string& path, File* owner);
+
+  File owner_;  // before folder_: own() sets both
+  Folder folder_;
   bool kept_ = false;
 };
 

@@ -1,18 +1,19 @@
 // A file of framed blocks: where a bake puts what does not fit in memory.
 //
-// A *stream* is a sequence of bytes with a number of its own. Its blocks stand anywhere in the file,
-// so hundreds of streams grow at once in one file, and the blocks of a stream that was freed are
-// used again. Every block has the same size and begins with
+// A *stream* is a sequence of bytes with a number of its own. Its blocks stand anywhere in the
+// file, so hundreds of streams grow at once in one file, and the blocks of a stream that was freed
+// are used again. Every block has the same size and begins with
 //
 //   magic u32, length u32 (payload bytes), stream u64, index u64 (of the block in its stream),
-//   checksum u64 (XXH3-64 of the 24 bytes before and of the payload), zeros up to 64 bytes
+//   checksum u64 (XXH3-64 of the whole block, with zeros here), zeros up to 64 bytes
 //
-// so that a flipped bit, a stale block and a block of another stream or place are all found
-// (Error kOutput: "scratch file is damaged"). The file is opened with O_DIRECT where the system has
-// it: spilled bytes are used once, long after they were written, and would only push the rest out
-// of the page cache. Reading ahead and writing behind run on one thread of the file, so that disk
-// and processor overlap. Rejected: a file per stream (thousands of descriptors), mmap (SIGBUS, and
-// no account of memory), checksums per stream (found too late).
+// and the last block of a stream is filled up with zeros, so that a flipped bit, a stale block and
+// a block of another stream or place are all found (Error kOutput: "scratch file is damaged"). The
+// file is opened with O_DIRECT where the system has it: spilled bytes are used once, long after
+// they were written, and would only push the rest out of the page cache. Reading ahead and writing
+// behind run on one thread of the file, so that disk and processor overlap. Rejected: a file per
+// stream (thousands of descriptors), mmap (SIGBUS, and no account of memory), checksums per stream
+// (found too late).
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@
 
 #include "streaming/file.h"
 #include "streaming/memory_budget.h"
+#include "streaming/spill_block.h"
 
 namespace svdag {
 
@@ -33,7 +35,7 @@ struct SpillStream {
 
 class SpillFile {
  public:
-  static constexpr size_t kHeader = 64;
+  static constexpr size_t kHeader = kSpillHeader;
 
   // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
   // use already (a file that is resumed).
@@ -59,8 +61,11 @@ class SpillFile {
   std::unique_ptr<Impl> impl_;
 };
 
-// Appends to one stream. Holds one block, and one more while it is being written. Streams of one
-// file may be written and read by different threads at once; a writer or reader itself is for one.
+// Appends to one stream. Holds one block from its first byte on; the writers of a file share spare
+// blocks for what is being written, at most one for each writer and four in all, and none where the
+// budget has no room (the writer waits for the disk instead). Streams of one file may be written
+// and read by different threads at once; a writer or reader itself is for one, and dies before the
+// file does. A write that failed fails all that is done with the file afterwards.
 class SpillWriter {
  public:
   SpillWriter(SpillFile* file, uint64_t stream, MemoryBudget* budget);
@@ -70,7 +75,8 @@ class SpillWriter {
 
   void append(std::span<const std::byte> bytes);
   uint64_t bytes() const;
-  // Writes the last block. It is readable at once, and durable after SpillFile::sync().
+  // Writes the last block. It is readable at once, and durable after SpillFile::sync(). The memory
+  // goes back to the budget when the writer dies, which waits for that block.
   SpillStream finish();
 
  private:
@@ -78,7 +84,7 @@ class SpillWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads one stream from its beginning. Holds two blocks.
+// Reads one stream from its beginning, a block ahead. Holds two blocks, one if there is but one.
 class SpillReader {
  public:
   // `stream` is copied.

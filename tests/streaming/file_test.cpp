@@ -89,6 +89,35 @@ TEST(File, AFolderThatIsMissingIsAnOutputError) {
                      "missing: cannot write in this folder: no such file or folder");
 }
 
+TEST(File, WhatWeMadeFailsToBeReadAsAnOutputError) {
+  const TempFolder folder;
+  File file = File::create_anonymous(folder.path());
+  file.write_at(0, bytes_of("abc"));
+  EXPECT_SVDAG_ERROR(read_text(file, 0, 4), ExitCode::kOutput, "ends too early (at byte 3)");
+}
+
+TEST(File, ATransferThatCannotBeDirectGoesThroughThePageCache) {
+  const TempFolder folder;
+  File file = File::create_anonymous(folder.path());
+  file.use_direct();
+  file.write_at(3, bytes_of("neither offset, size nor memory is aligned"));
+  EXPECT_EQ(read_text(file, 11, 6), "offset");
+  file.truncate(10);
+  EXPECT_EQ(file.size(), 10U);
+}
+
+TEST(File, ALockIsForOneAtATime) {
+  const TempFolder folder;
+  const std::string path = folder.write("a", "A");
+  File second = File::open_read(path);
+  {
+    File first = File::open_read(path);
+    EXPECT_TRUE(first.try_lock());
+    EXPECT_FALSE(second.try_lock());
+  }
+  EXPECT_TRUE(second.try_lock());
+}
+
 TEST(File, MovingHandsTheDescriptorOn) {
   const TempFolder folder;
   File a = File::open_read(folder.write("a", "A"));
