@@ -31,8 +31,8 @@ class Bake(NamedTuple):
     scene: list
     options: list
 
-    def command(self, *more):
-        return [BUILD / "svdag", "build", "scene.ply", "-o", OUTPUT, "-q", *self.options, *more]
+    def command(self, *more, output=OUTPUT):
+        return [BUILD / "svdag", "build", "scene.ply", "-o", output, "-q", *self.options, *more]
 
 
 # Small enough that every call can fail once.
@@ -41,9 +41,10 @@ SMALL_LONG = SMALL + [
     Bake("one thread", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "1"]),
     Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
     Bake("hairball", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "256M", "-j", "2"])]
-# Long enough to be caught in the middle by a signal.
-SECONDS = Bake("seconds", ["hairball", "-n", "100K"], ["-r", "1K", "-m", "1G", "-j", "2"])
-SECONDS_LONG = Bake("more seconds", ["hairball", "-n", "200K"], ["-r", "2K", "-m", "2G", "-j", "2"])
+# Long enough to be caught in the middle.
+HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "1G", "-j", "2"])
+A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2"])
+SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "2G", "-j", "2"])
 
 
 def knows(option):
@@ -84,9 +85,9 @@ class Kitchen:
         (folder / OUTPUT).write_bytes(self.old)
         return folder
 
-    def state(self, folder):
+    def state(self, folder, output=OUTPUT):
         """What the output name holds: "old", "new", or what is wrong with it."""
-        path = folder / OUTPUT
+        path = folder / output
         data = path.read_bytes() if path.exists() else None
         return "nothing" if data is None else {self.old: "old", self.new: "new"}.get(data, "a damaged file")
 
