@@ -19,10 +19,12 @@ SHIM = BUILD / "tests/libsvdag_fault_shim.so"
 LONG = "--long" in sys.argv or os.environ.get("SVDAG_LONG") == "1"
 
 OUTPUT = "out.svdag"
-SCRATCH = OUTPUT + ".scratch"
-# What a process that was killed may leave. TIGHTEN to [SCRATCH] once the name that link_as() uses between
+SCRATCH = OUTPUT + ".scratch"  # a bake's own folder beside the output
+SHARED_SCRATCH = "scratch"  # the folder of bakes whose options say --scratch scratch
+OF_SCRATCH = rf"{re.escape(SCRATCH)}|{SHARED_SCRATCH}/[^/]+"
+# What a process that was killed may leave. TIGHTEN to [OF_SCRATCH] once the name that link_as() uses between
 # linkat and rename (and where O_TMPFILE is missing) stands in the scratch folder.
-LEFT_BY_KILL = [re.escape(SCRATCH), r"\.svdag-[0-9a-f]{16}\.tmp"]
+LEFT_BY_KILL = [OF_SCRATCH, r"\.svdag-[0-9a-f]{16}\.tmp"]
 
 
 class Bake(NamedTuple):
@@ -61,6 +63,7 @@ class Kitchen:
         self.folder = tempfile.TemporaryDirectory(prefix="svdag-fault-")
         self.root = pathlib.Path(self.folder.name).resolve()
         self.scene = self.root / "scene.ply"
+        self.lay(self.root)
         subprocess.run([BUILD / "svdag-scene", *bake.scene, "-q", "-o", self.scene], check=True)
         self.old = self.bytes_of([BUILD / "svdag", "build", "scene.ply", "-o", OUTPUT, "-q", "-r", "8"])
         self.new = self.bytes_of(bake.command())
@@ -78,10 +81,16 @@ class Kitchen:
         (self.root / OUTPUT).unlink()
         return data
 
+    def lay(self, folder):
+        """The folders that the options name."""
+        if "--scratch" in self.bake.options:
+            (folder / SHARED_SCRATCH).mkdir()
+
     def table(self):
         """A fresh folder with the scene and the old file."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="table-", dir=self.root))
         shutil.copy(self.scene, folder)
+        self.lay(folder)
         (folder / OUTPUT).write_bytes(self.old)
         return folder
 
@@ -92,10 +101,21 @@ class Kitchen:
         return "nothing" if data is None else {self.old: "old", self.new: "new"}.get(data, "a damaged file")
 
 
+def others(folder):
+    """Names of what is neither scene nor output; for the shared scratch folder, of what is in it."""
+    names = {p.name for p in folder.iterdir()} - {"scene.ply", OUTPUT, SHARED_SCRATCH}
+    shared = folder / SHARED_SCRATCH
+    return sorted(names | {f"{SHARED_SCRATCH}/{p.name}" for p in (shared.iterdir() if shared.exists() else ())})
+
+
 def leftovers(folder, allowed=()):
     """Complaints about files that should not be there."""
-    names = sorted(p.name for p in folder.iterdir() if p.name not in ("scene.ply", OUTPUT))
-    return [f"{name} was left" for name in names if not any(re.fullmatch(a, name) for a in allowed)]
+    return [f"{name} was left" for name in others(folder) if not any(re.fullmatch(a, name) for a in allowed)]
+
+
+def scratch_left(folder):
+    """Complaints about scratch folders that outlived a finished bake."""
+    return [f"{name} outlived the bake" for name in others(folder) if re.fullmatch(OF_SCRATCH, name)]
 
 
 def sentences(stderr):

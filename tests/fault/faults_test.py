@@ -8,6 +8,7 @@ a killed process may leave its scratch folder, which the next bake takes over or
 import errno
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -42,13 +43,17 @@ def faults(counts, no_tmpfile):
             for action, stays in ways(kind)]
 
 
+def is_scratch(path, folder):
+    return re.match(rf"{re.escape(str(folder))}/({bakes.OF_SCRATCH})/", path) is not None
+
+
 def codes_of_call(fault, path, folder):
     """The exit codes that one failed call of a file allows."""
     if fault.action == "short" or (fault.action == INTERRUPTED and fault.kind != "fsync"):
         return {0}
     if fault.kind == "close" and path in (str(folder), str(folder / "scene.ply")):
         return {0}  # what was only read loses nothing when it is closed
-    if fault.kind == "unlink" or (fault.kind == "close" and bakes.SCRATCH in path):
+    if fault.kind == "unlink" or (fault.kind == "close" and is_scratch(path, folder)):
         return {0, 4}  # nobody needs the file any more
     return {3} if path == str(folder / "scene.ply") else {4}
 
@@ -73,12 +78,11 @@ def complaints_about_the_next(kitchen, folder):
     """After a kill: the next bake finishes, or says what it found and obeys --restart."""
     command = kitchen.bake.command()
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    if done.returncode == 2 and bakes.SCRATCH in done.stderr and not bakes.sentences(done.stderr):
+    if done.returncode == 2 and re.search(bakes.OF_SCRATCH, done.stderr) and not bakes.sentences(done.stderr):
         done = subprocess.run([*command, "--restart"], cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         return [f"the next bake: exit {done.returncode}, {done.stderr!r}"]
-    left = bakes.leftovers(folder, bakes.LEFT_BY_KILL)
-    left += [f"{bakes.SCRATCH} outlived the next bake"] if (folder / bakes.SCRATCH).exists() else []
+    left = bakes.leftovers(folder, bakes.LEFT_BY_KILL) + bakes.scratch_left(folder)
     return left + ([] if kitchen.state(folder) == "new" else [f"the next bake gave {kitchen.state(folder)}"])
 
 

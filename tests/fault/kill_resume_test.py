@@ -11,10 +11,9 @@ import subprocess
 import bakes
 from moments import Moments, hit, time_of
 
-KILLS = 1000 if bakes.LONG else 10
 DOUBLE = 5  # every fifth bake is killed once more while it resumes
-# A bake that has something to resume: give it so little memory that it spills.
-BAKES = [bakes.A_SECOND, bakes.SECONDS] if bakes.LONG else [bakes.HALF_A_SECOND]
+# Bakes, and how many of each are killed. One that has something to resume has so little memory that it spills.
+BAKES = [(bakes.A_SECOND, 900), (bakes.SECONDS, 100)] if bakes.LONG else [(bakes.HALF_A_SECOND, 10)]
 
 
 def run(kitchen, folder, *more):
@@ -25,9 +24,7 @@ def complaints_about_the_end(kitchen, folder, done):
     found = [] if done.returncode == 0 else [f"exit {done.returncode}, {done.stderr!r}"]
     if kitchen.state(folder) != "new":
         found.append(f"the output is {kitchen.state(folder)}")
-    if (folder / bakes.SCRATCH).exists():
-        found.append(f"{bakes.SCRATCH} outlived the bake")
-    return found + bakes.leftovers(folder, bakes.LEFT_BY_KILL)
+    return found + bakes.scratch_left(folder) + bakes.leftovers(folder, bakes.LEFT_BY_KILL)
 
 
 def complaints_without_resume(kitchen, folder):
@@ -67,17 +64,17 @@ def main():
     if not bakes.knows("--resume"):
         report.skip("svdag build has no --resume yet")
         report.finish()
-    for bake in BAKES:
+    for bake, runs in BAKES:
         with bakes.Kitchen(bake) as kitchen:
             folder = kitchen.table()
             moments = Moments(time_of(kitchen.bake.command("--resume"), folder))  # nothing to resume: as a new bake
             report.judge(f"{bake.name}: --resume begins afresh", ["other bytes"] * (kitchen.state(folder) != "new"))
             killed = 0
-            for n in range(KILLS // len(BAKES)):
+            for n in range(runs):
                 name, complaints, kills = kill_and_resume(kitchen, moments, n)
                 report.judge(f"{bake.name}: {name}", complaints)
                 killed += kills
-            report.judge(f"{bake.name}: kills come in time", [f"only {killed}"] * (2 * killed < KILLS // len(BAKES)))
+            report.judge(f"{bake.name}: kills come in time", [f"only {killed}"] * (2 * killed < runs))
             print(f"{bake.name}: {killed} kills in {moments.seconds:.1f} s bakes, seed {moments.seed}")
     report.finish()
 

@@ -10,9 +10,10 @@ from moments import Moments, hit, time_of
 # TIGHTEN to False once the program ends itself with status 128 + n.
 DEATH_BY_THE_SIGNAL_ITSELF = True
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
-RUNS = 300 if bakes.LONG else 3  # of each
+# Bakes, and how often each signal hits them.
+BAKES = [(bakes.A_SECOND, 300), (bakes.SECONDS, 34)] if bakes.LONG else [(bakes.A_SECOND, 3)]
 AT_MOST = 1.0  # seconds from the signal to the end
-LEFT = bakes.LEFT_BY_KILL if DEATH_BY_THE_SIGNAL_ITSELF else [bakes.SCRATCH.replace(".", r"\.")]
+LEFT = bakes.LEFT_BY_KILL if DEATH_BY_THE_SIGNAL_ITSELF else [bakes.OF_SCRATCH]
 
 
 def complaints_about(kitchen, folder, number, ending, twice):
@@ -34,26 +35,32 @@ def complaints_about_the_next(kitchen, folder):
     done = subprocess.run(kitchen.bake.command(*more), cwd=folder, capture_output=True, text=True)
     if done.returncode != 0 or kitchen.state(folder) != "new":
         return [f"the next bake: exit {done.returncode}, {done.stderr!r}, the output is {kitchen.state(folder)}"]
-    return [f"{bakes.SCRATCH} outlived the next bake"] if (folder / bakes.SCRATCH).exists() else []
+    return bakes.scratch_left(folder)
+
+
+def hit_once(kitchen, number, moment, run):
+    """(name, complaints, whether the signal came in time)."""
+    folder, twice = kitchen.table(), run % 3 == 2
+    ending = hit(kitchen.bake.command(), folder, moment, [number] * (1 + twice))
+    complaints = complaints_about(kitchen, folder, number, ending, twice)
+    if ending.code != 0 and run % 3 == 0:
+        complaints += complaints_about_the_next(kitchen, folder)
+    shutil.rmtree(folder)
+    return f"{number.name}{' twice' * twice} after {moment:.3f} s", complaints, ending.code != 0
 
 
 def main():
-    report, caught = bakes.Report(), 0
-    with bakes.Kitchen(bakes.SECONDS if bakes.LONG else bakes.A_SECOND) as kitchen:
-        moments = Moments(time_of(kitchen.bake.command(), kitchen.table()))
-        for run in range(RUNS):
-            for number in SIGNALS:
-                folder, twice, moment = kitchen.table(), run % 3 == 2, moments.next()
-                ending = hit(kitchen.bake.command(), folder, moment, [number] * (1 + twice))
-                caught += ending.code != 0
-                complaints = complaints_about(kitchen, folder, number, ending, twice)
-                if ending.code != 0 and run % 3 == 0:
-                    complaints += complaints_about_the_next(kitchen, folder)
-                shutil.rmtree(folder)
-                report.judge(f"{number.name}{' twice' * twice} after {moment:.3f} s", complaints)
-        total = RUNS * len(SIGNALS)
-        report.judge("most signals come in time", [f"{caught} of {total}"] * (caught < total / 2))
-        print(f"{caught} of {total} bakes of {moments.seconds:.1f} s were caught, seed {moments.seed}")
+    report = bakes.Report()
+    for bake, runs in BAKES:
+        with bakes.Kitchen(bake) as kitchen:
+            moments, caught, total = Moments(time_of(bake.command(), kitchen.table())), 0, runs * len(SIGNALS)
+            for run in range(runs):
+                for number in SIGNALS:
+                    name, complaints, in_time = hit_once(kitchen, number, moments.next(), run)
+                    report.judge(f"{bake.name}: {name}", complaints)
+                    caught += in_time
+            report.judge(f"{bake.name}: signals come in time", [f"{caught} of {total}"] * (caught < total / 2))
+            print(f"{caught} of {total} bakes of {moments.seconds:.1f} s were caught, seed {moments.seed}")
     report.finish()
 
 
