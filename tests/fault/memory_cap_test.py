@@ -52,9 +52,10 @@ class Peak(threading.Thread):
         while not self.done.wait(0.002):
             with contextlib.suppress(OSError):
                 fields = dict(line.split(":", 1) for line in self.status.read_text().splitlines())
-                kib = {name: int(fields[name].split()[0]) for name in ("RssAnon", "RssShmem", "RssFile") if name in fields}
-                self.own = max(self.own, 1024 * (kib.get("RssAnon", 0) + kib.get("RssShmem", 0)))
-                self.of_files = max(self.of_files, 1024 * kib.get("RssFile", 0))
+                anonymous, shared, files = (1024 * int(fields.get(name, "0 kB").split()[0])
+                                            for name in ("RssAnon", "RssShmem", "RssFile"))
+                self.own = max(self.own, anonymous + shared)
+                self.of_files = max(self.of_files, files)
 
 
 @contextlib.contextmanager
