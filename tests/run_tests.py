@@ -15,7 +15,8 @@ import time
 import xml.etree.ElementTree as xml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TIERS = [("unit", "unit"), ("command line", "cli"), ("numerical stress", "stress"), ("shared scenes", "shared")]
+TIERS = [("unit", "unit"), ("command line", "cli"), ("numerical stress", "stress"), ("shared scenes", "shared"),
+         ("faults", "fault")]
 
 
 class Counts:

@@ -1,0 +1,234 @@
+// Faults from outside, for LD_PRELOAD: at the k-th call of one kind the system says no, transfers
+// less than asked, or the process is gone (plan.h says where from; shim.py sets it).
+//
+// fopen and opendir open inside libc and are not seen; the program opens its files by open().
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+
+#include "tests/fault/plan.h"
+
+using namespace fault;
+
+namespace {
+
+[[gnu::destructor]] void tell_counts() {
+  std::string lines;
+  for (int k = 0; k < kKinds; ++k)
+    lines += std::string("count ") + kNames[k] + " " + std::to_string(plan().counts[k]) + "\n";
+  mark(lines);
+}
+
+template <class Call>
+auto on_path(Kind kind, int folder, const char* path, Call call) -> decltype(call()) {
+  const std::string full = absolute(folder, path);
+  const int error = is_watched(full) ? strike(kind, full) : 0;
+  if (error <= 0) return call();
+  errno = error;
+  return -1;
+}
+
+template <class Call>
+auto on_descriptor(Kind kind, int fd, Call call) -> decltype(call()) {
+  const int error = is_watched(fd) ? strike(kind, of_descriptor(fd)) : 0;
+  if (error <= 0) return call();
+  errno = error;
+  return -1;
+}
+
+// Half of n, and whole pages of a file that is written directly.
+size_t less_than(size_t n) {
+  return n >= 8192 ? n / 2 & ~size_t(4095) : std::max<size_t>(n / 2, 1);
+}
+
+template <class Call>
+ssize_t on_bytes(Kind kind, int fd, size_t n, Call call) {
+  const int error = is_watched(fd) ? strike(kind, of_descriptor(fd)) : 0;
+  if (error <= 0) return call(error == kShort ? less_than(n) : n);
+  errno = error;
+  return -1;
+}
+
+template <class Call>
+ssize_t on_vector(Kind kind, int fd, const iovec* v, int n, Call call) {
+  const int error = is_watched(fd) && n > 0 ? strike(kind, of_descriptor(fd)) : 0;
+  if (error == 0) return call(v, n);
+  const iovec half = {v->iov_base, less_than(v->iov_len)};
+  if (error == kShort) return call(&half, 1);
+  errno = error;
+  return -1;
+}
+
+template <class Call>
+int on_open(int folder, const char* path, int flags, Call call) {
+  const std::string full = absolute(folder, path);
+  const bool watched = is_watched(full);
+  const bool anonymous = (flags & O_TMPFILE) == O_TMPFILE;
+  int error = 0;
+  if (watched && anonymous && plan().no_tmpfile)
+    error = EOPNOTSUPP;
+  else if (watched)
+    error = strike(kOpen, full);
+  if (error > 0) return errno = error, -1;
+  const int fd = call();
+  if (fd >= 0 && fd < kDescriptors) plan().watched[size_t(fd)] = watched;
+  return fd;
+}
+
+}  // namespace
+
+// The next definition of the same name: libc's.
+#define NEXT(name) \
+  static const auto next = reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name))
+
+#define MODE_OF(flags)                                         \
+  mode_t mode = 0;                                             \
+  if ((flags & O_CREAT) || (flags & O_TMPFILE) == O_TMPFILE) { \
+    va_list rest;                                              \
+    va_start(rest, flags);                                     \
+    mode = va_arg(rest, mode_t);                               \
+    va_end(rest);                                              \
+  }
+
+#define OPEN(name)                                                                  \
+  int name(const char* path, int flags, ...) {                                      \
+    NEXT(name);                                                                     \
+    MODE_OF(flags)                                                                  \
+    return on_open(AT_FDCWD, path, flags, [&] { return next(path, flags, mode); }); \
+  }
+#define OPENAT(name)                                                                      \
+  int name(int folder, const char* path, int flags, ...) {                                \
+    NEXT(name);                                                                           \
+    MODE_OF(flags)                                                                        \
+    return on_open(folder, path, flags, [&] { return next(folder, path, flags, mode); }); \
+  }
+#define POSITIONAL(name, kind, bytes)                                                  \
+  ssize_t name(int fd, bytes data, size_t n, off_t offset) {                           \
+    NEXT(name);                                                                        \
+    return on_bytes(kind, fd, n, [&](size_t m) { return next(fd, data, m, offset); }); \
+  }
+#define VECTOR(name, kind)                                                           \
+  ssize_t name(int fd, const iovec* v, int n, off_t offset) {                        \
+    NEXT(name);                                                                      \
+    return on_vector(kind, fd, v, n,                                                 \
+                     [&](const iovec* w, int m) { return next(fd, w, m, offset); }); \
+  }
+#define SYNC(name)                                              \
+  int name(int fd) {                                            \
+    NEXT(name);                                                 \
+    return on_descriptor(kFsync, fd, [&] { return next(fd); }); \
+  }
+#define TRUNCATE(name)                                                   \
+  int name(int fd, off_t size) noexcept {                                \
+    NEXT(name);                                                          \
+    return on_descriptor(kTruncate, fd, [&] { return next(fd, size); }); \
+  }
+#define ALLOCATE(name)                                                                 \
+  int name(int fd, int mode, off_t offset, off_t size) {                               \
+    NEXT(name);                                                                        \
+    return on_descriptor(kTruncate, fd, [&] { return next(fd, mode, offset, size); }); \
+  }
+#define ON_PATH(name, kind)                                           \
+  int name(const char* path) noexcept {                               \
+    NEXT(name);                                                       \
+    return on_path(kind, AT_FDCWD, path, [&] { return next(path); }); \
+  }
+
+extern "C" {
+
+OPEN(open)
+OPEN(open64)
+OPENAT(openat)
+OPENAT(openat64)
+POSITIONAL(pread, kRead, void*)
+POSITIONAL(pread64, kRead, void*)
+POSITIONAL(pwrite, kWrite, const void*)
+POSITIONAL(pwrite64, kWrite, const void*)
+VECTOR(preadv, kRead)
+VECTOR(preadv64, kRead)
+VECTOR(pwritev, kWrite)
+VECTOR(pwritev64, kWrite)
+SYNC(fsync)
+SYNC(fdatasync)
+TRUNCATE(ftruncate)
+TRUNCATE(ftruncate64)
+ALLOCATE(fallocate)
+ALLOCATE(fallocate64)
+ON_PATH(unlink, kUnlink)
+ON_PATH(rmdir, kUnlink)
+ON_PATH(remove, kUnlink)
+
+ssize_t read(int fd, void* data, size_t n) {
+  NEXT(read);
+  return on_bytes(kRead, fd, n, [&](size_t m) { return next(fd, data, m); });
+}
+
+ssize_t write(int fd, const void* data, size_t n) {
+  NEXT(write);
+  return on_bytes(kWrite, fd, n, [&](size_t m) { return next(fd, data, m); });
+}
+
+// As on Linux, the descriptor is closed whatever close() says.
+int close(int fd) {
+  NEXT(close);
+  if (!is_watched(fd)) return next(fd);
+  const int error = strike(kClose, of_descriptor(fd));
+  plan().watched[size_t(fd)] = false;
+  const int result = next(fd);
+  return error > 0 ? (errno = error, -1) : result;
+}
+
+int rename(const char* from, const char* to) noexcept {
+  NEXT(rename);
+  return on_path(kRename, AT_FDCWD, to, [&] { return next(from, to); });
+}
+
+int renameat(int from_folder, const char* from, int folder, const char* to) noexcept {
+  NEXT(renameat);
+  return on_path(kRename, folder, to, [&] { return next(from_folder, from, folder, to); });
+}
+
+int renameat2(int from_folder, const char* from, int folder, const char* to,
+              unsigned flags) noexcept {
+  NEXT(renameat2);
+  return on_path(kRename, folder, to, [&] { return next(from_folder, from, folder, to, flags); });
+}
+
+int linkat(int from_folder, const char* from, int folder, const char* to, int flags) noexcept {
+  NEXT(linkat);
+  return on_path(kLink, folder, to, [&] { return next(from_folder, from, folder, to, flags); });
+}
+
+int unlinkat(int folder, const char* path, int flags) noexcept {
+  NEXT(unlinkat);
+  return on_path(kUnlink, folder, path, [&] { return next(folder, path, flags); });
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  NEXT(mkdir);
+  return on_path(kMkdir, AT_FDCWD, path, [&] { return next(path, mode); });
+}
+
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+  NEXT(mkdirat);
+  return on_path(kMkdir, folder, path, [&] { return next(folder, path, mode); });
+}
+
+int flock(int fd, int operation) noexcept {
+  NEXT(flock);
+  return on_descriptor(kLock, fd, [&] { return next(fd, operation); });
+}
+
+int fchmod(int fd, mode_t mode) noexcept {
+  NEXT(fchmod);
+  return on_descriptor(kMode, fd, [&] { return next(fd, mode); });
+}
+
+}  // extern "C"
