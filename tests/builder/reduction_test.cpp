@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                       MergeWay{"some_maps_spilled", true, 2000, 99},
                       MergeWay{"two_at_a_time", true, 1 << 30, 2},
                       MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& way) { return way.param.name; });
 
 TEST(Tournament, GivesTheSmallestHeadAsALinearSearchDoes) {
   std::mt19937 random(1);
