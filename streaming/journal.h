@@ -1,7 +1,8 @@
 // An append-only list of records that survives the process: what of a bake is done.
 //
 // A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
-// append() returns after the record is on disk; whoever appends has synced what it speaks of.
+// append() returns after the record is on disk; whoever appends has synced what it speaks of. Once it
+// has thrown, the journal is not used any more.
 // Reading stops at the first record that is not whole, and the file is cut there: a killed process
 // loses at most the record it was writing (after ninja's deps log).
 #pragma once
