@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "builder/merge.h"
 #include "builder/voxelize.h"
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -81,9 +83,11 @@ class Bake {
         scratch_(&folder_, &budget_),
         checkpoint_(&scratch_) {}
 
-  BuildReport run();
+  BuildReport run_or_tell();
 
  private:
+  BuildReport run();
+  void keep_scratch();
   void find_unfinished();
   void choose_grid();
   void split();
@@ -110,6 +114,7 @@ class Bake {
   std::vector<Run> runs_;
   std::vector<CellRoot> roots_;
   bool spilled_ = false;
+  std::atomic<bool> saves_{false};  // something can be resumed
   Stopwatch phase_;
 };
 
@@ -130,6 +135,12 @@ void Bake::find_unfinished() {
   if (!other.empty())
     fail_usage(config_.output + ": the unfinished bake is another one: " + other +
                "; discard it with --restart");
+  saves_ = true;
+}
+
+void Bake::keep_scratch() {
+  folder_.keep();
+  saves_ = true;
 }
 
 void Bake::choose_grid() {
@@ -153,7 +164,7 @@ void Bake::split() {
     if (!split_.tree) {
       checkpoint_.begin(describe(config_), report_.grid);
       checkpoint_.save_split(split_);
-      folder_.keep();
+      keep_scratch();
     }
   }
   report_.split = split_.counts;
@@ -202,7 +213,7 @@ void Bake::save(BakedRun baked) {
   const std::lock_guard lock(runs_mutex_);
   if (!checkpoint_.begun()) checkpoint_.begin(describe(config_), report_.grid);
   checkpoint_.save_run(baked);
-  folder_.keep();
+  keep_scratch();
   add(std::move(baked));
 }
 
@@ -225,6 +236,20 @@ void Bake::merge(DagWriter* writer) {
   config.sources = std::max<size_t>(2, shares_.sources / (4 * scratch_.block_bytes()));
   svdag::merge(runs_, std::move(roots_), report_.grid.levels, config, writer, executor_);
   report_.seconds.merge = phase_.lap();
+}
+
+// As run(), and who can be resumed says so.
+BuildReport Bake::run_or_tell() {
+  try {
+    return run();
+  } catch (Interrupted& interrupted) {
+    interrupted.resumable = saves_;
+    throw;
+  } catch (const Error& error) {
+    if (!saves_ || error.code() == ExitCode::kInternal) throw;
+    throw Error(error.code(),
+                std::string(error.what()) + "; what is done so far is kept for --resume");
+  }
 }
 
 BuildReport Bake::run() {
@@ -263,7 +288,7 @@ Grid choose_grid(const BuildConfig& config, const Box& box) {
 }
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
-  return Bake(config, executor, progress).run();
+  return Bake(config, executor, progress).run_or_tell();
 }
 
 }  // namespace svdag

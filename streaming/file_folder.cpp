@@ -28,15 +28,23 @@ bool same(const struct stat& a, const struct stat& b) {
 Folder Folder::open_private(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();  // "link/" would follow the link
   int fd = -1;
+  bool made = false;
   do {  // again if the owner of the folder removes it between the two calls
-    if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST)
-      fail_call(ExitCode::kOutput, "cannot be made", path, errno);
+    made = ::mkdir(path.c_str(), 0700) == 0;
+    if (!made && errno != EEXIST)
+      fail_call(ExitCode::kOutput, "cannot write in this folder", folder_of(path), errno);
     fd = retry_interrupted([&] { return ::open(path.c_str(), kFolder); });
   } while (fd < 0 && errno == ENOENT);
+  if (fd < 0 && made) {
+    const int error = errno;
+    ::rmdir(path.c_str());
+    errno = error;
+  }
   if (fd < 0 && (errno == ENOTDIR || errno == ELOOP))
     throw Error(ExitCode::kOutput, "is a link or a file, but a folder is needed here", path);
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path, errno);
   Folder folder(fd, std::move(path));
+  folder.made_ = made;
   struct stat status;
   if (::fstat(fd, &status) != 0)
     fail_call(ExitCode::kOutput, "cannot be examined", folder.path_, errno);
@@ -49,7 +57,7 @@ Folder Folder::open_private(std::string path) {
 }
 
 Folder::Folder(Folder&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)) {}
+    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), made_(other.made_) {}
 
 Folder::~Folder() {
   if (fd_ >= 0) ::close(fd_);

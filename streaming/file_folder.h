@@ -23,6 +23,8 @@ class Folder {
   ~Folder();
 
   const std::string& path() const { return path_; }
+  // True if open_private() has made it: it was empty.
+  bool made() const { return made_; }
   // True if there is a regular file of this name.
   bool has(const std::string& name) const;
   // Makes a file (0600) that is not there yet, and opens it for reading and writing.
@@ -50,6 +52,7 @@ class Folder {
 
   int fd_;
   std::string path_;
+  bool made_ = false;
 };
 
 // The path from the root, the links in its folders resolved, but not the last name.

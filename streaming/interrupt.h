@@ -10,6 +10,7 @@ namespace svdag {
 // Thrown by check_interrupt(); not an Error, for nothing went wrong. main() exits with 128 + n.
 struct Interrupted {
   int signal;
+  bool resumable = false;  // set by who catches it and has saved work
 };
 
 // Installs the handlers. Once, from main().

@@ -1,6 +1,8 @@
 #include "streaming/scratch_dir.h"
 
+#include <chrono>
 #include <cstdio>
+#include <thread>
 
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -28,47 +30,79 @@ std::string ScratchDir::path_for(const std::string& output, const std::string& u
 ScratchDir::ScratchDir(const std::string& path) : folder_(own(path, &owner_)) {}
 
 // A lock counts only if the locked file still has its name: between open and lock the former owner
-// may have removed file and folder, and somebody else made new ones.
+// may have removed file and folder, and somebody else made new ones. An owner that was killed may
+// take a moment to die.
 Folder ScratchDir::own(const std::string& path, File* owner) {
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   for (;;) {
     Folder folder = Folder::open_private(path);
-    File file = folder.open_or_create(kOwner);
-    if (file.descriptor() < 0) continue;
-    if (!file.try_lock())
-      throw Error(ExitCode::kUsage,
-                  "another bake is using this scratch folder: wait for it, or end it", path);
-    if (!folder.holds(file, kOwner)) continue;
-    *owner = std::move(file);
+    try {
+      File file = folder.open_or_create(kOwner);
+      if (file.descriptor() < 0) continue;
+      if (!file.try_lock()) {
+        if (std::chrono::steady_clock::now() > patience)
+          throw Error(ExitCode::kUsage,
+                      "another bake is using this scratch folder: wait for it, or end it", path);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
+      if (!folder.holds(file, kOwner)) continue;
+      *owner = std::move(file);
+    } catch (const Error& error) {
+      if (folder.made() && error.code() != ExitCode::kUsage) discard(folder, {});
+      throw;
+    }
     return folder;
   }
 }
 
 // The lock goes last: as long as `owner` has its name nobody else can come in, and afterwards only
 // an empty folder is removed.
+void ScratchDir::discard(const Folder& folder, const std::set<std::string>& names) noexcept {
+  const auto attempt = [](const auto& action) {
+    try {
+      action();
+    } catch (const std::exception&) {  // left behind; the next bake of this output takes it over
+    }
+  };
+  for (const std::string& name : names) attempt([&] { folder.remove(name); });
+  attempt([&] { folder.remove(kOwner); });
+  attempt([&] { folder.remove_itself(); });
+}
+
 ScratchDir::~ScratchDir() {
   if (kept_) return;
+  std::set<std::string> all = made_;
   try {
-    for (const std::string& name : folder_.names()) {
-      try {
-        if (name != kOwner) folder_.remove(name);
-      } catch (const Error&) {  // a folder that somebody put there
-      }
-    }
-    folder_.remove(kOwner);
-    folder_.remove_itself();
-  } catch (const std::exception&) {  // left behind; the next bake of this output takes it over
+    all = names();
+  } catch (const Error&) {  // then at least those that are known
   }
+  discard(folder_, all);
+}
+
+// A folder that was made here holds nothing else; only one that was taken over must be listed.
+std::set<std::string> ScratchDir::names() const {
+  std::set<std::string> names = made_;
+  if (!folder_.made()) {
+    for (const std::string& name : folder_.names()) names.insert(name);
+  }
+  names.erase(kOwner);
+  return names;
 }
 
 File ScratchDir::create(const std::string& name) {
   folder_.remove(name);
+  made_.insert(name);
   return folder_.create(name);
 }
 
+void ScratchDir::remove(const std::string& name) {
+  folder_.remove(name);
+  made_.erase(name);
+}
+
 void ScratchDir::clear() {
-  for (const std::string& name : folder_.names()) {
-    if (name != kOwner) folder_.remove(name);
-  }
+  for (const std::string& name : names()) remove(name);
 }
 
 }  // namespace svdag

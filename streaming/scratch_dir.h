@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include "streaming/file.h"
@@ -36,7 +37,7 @@ class ScratchDir {
   File create(const std::string& name);
   // A file that is there, open for reading and writing; none is an Error (kBadInput).
   File open(const std::string& name) { return folder_.open(name); }
-  void remove(const std::string& name) { folder_.remove(name); }
+  void remove(const std::string& name);
   // Removes every file but the lock.
   void clear();
   // Makes the names of files durable.
@@ -49,9 +50,12 @@ class ScratchDir {
 
  private:
   static Folder own(const std::string& path, File* owner);
+  static void discard(const Folder& folder, const std::set<std::string>& names) noexcept;
+  std::set<std::string> names() const;
 
   File owner_;  // before folder_: own() sets both
   Folder folder_;
+  std::set<std::string> made_;  // names of files
   bool kept_ = false;
 };
 

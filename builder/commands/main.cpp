@@ -169,7 +169,9 @@ int main(int argc, char** argv) {
     svdag::catch_interrupts();
     return svdag::run_program(argc, argv);
   } catch (const svdag::Interrupted& interrupted) {
-    std::fprintf(stderr, "svdag: stopped; the same command with --resume continues\n");
+    std::fprintf(stderr, interrupted.resumable
+                             ? "svdag: stopped; the same command with --resume continues\n"
+                             : "svdag: stopped; nothing was saved to continue from\n");
     return 128 + interrupted.signal;
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "svdag: %s\n", error.what());

@@ -22,8 +22,8 @@ OUTPUT = "out.svdag"
 SCRATCH = OUTPUT + ".scratch"  # a bake's own folder beside the output
 SHARED_SCRATCH = "scratch"  # the folder of bakes whose options say --scratch scratch
 OF_SCRATCH = rf"{re.escape(SCRATCH)}|{SHARED_SCRATCH}/[^/]+"
-# What a process that was killed may leave. TIGHTEN to [OF_SCRATCH] once the name that link_as() uses between
-# linkat and rename (and where O_TMPFILE is missing) stands in the scratch folder.
+# What a process that was killed may leave: its scratch folder, and the name that a finished file has between
+# linkat and rename (from the start, where O_TMPFILE is missing).
 LEFT_BY_KILL = [OF_SCRATCH, r"\.svdag-[0-9a-f]{16}\.tmp"]
 
 
@@ -37,16 +37,17 @@ class Bake(NamedTuple):
         return [BUILD / "svdag", "build", "scene.ply", "-o", output, "-q", *self.options, *more]
 
 
-# Small enough that every call can fail once.
-SMALL = [Bake("small", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "2"])]
+# Small enough that every call can fail once; the second has triangles, runs and maps to spill.
+SMALL = [Bake("small", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "2"]),
+         Bake("spilling", ["hairball", "-n", "5K"], ["-r", "256", "-m", "3M", "-j", "1", "--scratch", SHARED_SCRATCH])]
 SMALL_LONG = SMALL + [
     Bake("one thread", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "1"]),
     Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
-    Bake("hairball", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "256M", "-j", "2"])]
-# Long enough to be caught in the middle.
-HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "1G", "-j", "2"])
-A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2"])
-SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "2G", "-j", "2"])
+    Bake("hairball", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "16M", "-j", "2"])]
+# Long enough to be caught in the middle, and with work to resume.
+HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "32M", "-j", "2"])
+A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2", "--checkpoint", "0.1"])
+SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "128M", "-j", "2"])
 
 
 def knows(option):
@@ -82,9 +83,9 @@ class Kitchen:
         return data
 
     def lay(self, folder):
-        """The folders that the options name."""
+        """The folder that the options name."""
         if "--scratch" in self.bake.options:
-            (folder / SHARED_SCRATCH).mkdir()
+            (folder / self.bake.options[self.bake.options.index("--scratch") + 1]).mkdir()
 
     def table(self):
         """A fresh folder with the scene and the old file."""

@@ -28,9 +28,10 @@ class Case(NamedTuple):
     exact: bool  # a disk that is smaller than the old and the new file together never suffices
 
 
-# With --scratch: Case("scratch", bake with ["-m", "small", "--scratch", "disk"], bakes.OUTPUT, False)
 CASES = [Case("output", bakes.Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
-              f"disk/{bakes.OUTPUT}", True)]
+              f"disk/{bakes.OUTPUT}", True),
+         Case("scratch", bakes.Bake("hairball", ["hairball", "-n", "100K"],
+                                    ["-r", "1K", "-m", "16M", "-j", "2", "--scratch", "disk"]), bakes.OUTPUT, False)]
 
 
 def in_own_namespace():
@@ -52,7 +53,7 @@ def in_own_namespace():
 def small_disk(kitchen, case, size):
     """A folder as Kitchen.table(), with `disk` of `size` bytes."""
     folder = kitchen.table()
-    (folder / "disk").mkdir()
+    (folder / "disk").mkdir(exist_ok=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", folder / "disk"], check=True)
     try:
         (folder / bakes.OUTPUT).rename(folder / "old")

@@ -21,7 +21,7 @@ GIVEN_CGROUP = os.environ.get("SVDAG_CGROUP")
 
 
 class Row(NamedTuple):
-    """A bake within a budget. TIGHTEN "refuses" (exit 5, one sentence) to "finishes" as bakes learn to spill."""
+    """A bake within a budget; the verdict is "finishes", or "refuses" (exit 5, one sentence)."""
     scene: list
     resolution: str
     threads: int
@@ -31,13 +31,13 @@ class Row(NamedTuple):
 
 HAIRBALL, CITY, ATRIUM, TERRAIN = (["hairball", "-n", "100K"], ["city", "-n", "60K"], ["atrium", "-n", "200K"],
                                    ["terrain", "-n", "200K"])
-ROWS = [Row(HAIRBALL, "8K", 2, 32, "refuses"), Row(HAIRBALL, "8K", 2, 96, "finishes"),
-        Row(CITY, "4K", 1, 64, "finishes"), Row(ATRIUM, "4K", 2, 32, "refuses"), Row(TERRAIN, "4K", 2, 96, "finishes")]
+ROWS = [Row(HAIRBALL, "8K", 2, 32, "finishes"), Row(HAIRBALL, "8K", 2, 96, "finishes"),
+        Row(CITY, "4K", 1, 64, "finishes"), Row(ATRIUM, "4K", 2, 32, "finishes"), Row(TERRAIN, "4K", 2, 96, "finishes")]
 ROWS_LONG = ROWS + [
-    Row(scene, resolution, threads, mib, "finishes" if mib >= need else "refuses")
-    for scene, resolution, need in [(HAIRBALL, "16K", 256), (CITY, "16K", 64), (ATRIUM, "8K", 256),
-                                    (TERRAIN, "8K", 256), (["scan", "-n", "1M"], "4K", 256)]
-    for threads in (1, 2) for mib in (64, 256, 512, 1024, 4096)]
+    Row(scene, resolution, threads, mib, "finishes")
+    for scene, resolution in [(HAIRBALL, "16K"), (CITY, "16K"), (ATRIUM, "8K"), (TERRAIN, "8K"),
+                              (["scan", "-n", "1M"], "4K")]
+    for threads in (1, 2) for mib in (96, 256, 512, 1024, 4096)]
 
 
 class Peak(threading.Thread):

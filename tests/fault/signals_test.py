@@ -7,8 +7,8 @@ import subprocess
 import bakes
 from moments import Moments, hit, time_of
 
-# TIGHTEN to False once the program ends itself with status 128 + n.
-DEATH_BY_THE_SIGNAL_ITSELF = True
+# False: the program ends itself, with status 128 + n.
+DEATH_BY_THE_SIGNAL_ITSELF = False
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 # Bakes, and how often each signal hits them.
 BAKES = [(bakes.A_SECOND, 300), (bakes.SECONDS, 34)] if bakes.LONG else [(bakes.A_SECOND, 3)]

@@ -143,7 +143,7 @@ TEST(ScratchDir, ALinkOrAFileInItsPlaceIsRefused) {
   EXPECT_TRUE(fs::is_empty(temp.file("elsewhere")));
   EXPECT_FALSE(fs::exists(temp.file("nowhere")));
   EXPECT_SVDAG_ERROR(ScratchDir(temp.file("no/s")), ExitCode::kOutput,
-                     "no/s: cannot be made: no such file or folder");
+                     "no: cannot write in this folder: no such file or folder");
 }
 
 TEST(ScratchDir, AnotherUsersFolderIsRefused) {
