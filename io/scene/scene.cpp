@@ -98,8 +98,8 @@ std::string lower_extension(const std::string& path) {
 
 }  // namespace
 
-Scene::Scene(SceneConfig config, MemoryBudget* budget)
-    : config_(std::move(config)), budget_(budget) {}
+Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
+    : config_(std::move(config)), budget_(budget), spill_(spill) {}
 
 SceneCounts Scene::stream(const TriangleSink& sink) const {
   SceneCounts counts;
@@ -109,7 +109,7 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
     const File file = File::open_read(path);
     const bool by_name = !config_.names.include.empty() && config_.names.includes(name);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
-    read_file(file, {&config_.names, by_name, budget_}, std::ref(filter));
+    read_file(file, {&config_.names, by_name, budget_, spill_}, std::ref(filter));
   }
   return counts;
 }

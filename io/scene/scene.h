@@ -25,8 +25,8 @@ struct SceneCounts {
 
 class Scene {
  public:
-  // Opens nothing yet. `budget` must outlive the scene.
-  Scene(SceneConfig config, MemoryBudget* budget);
+  // Opens nothing yet. `budget` and `spill` (io/scene/mesh_reader.h) must outlive the scene.
+  Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill = nullptr);
 
   // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless
   // skip_invalid. An unknown or broken file is an Error (kBadInput).
@@ -40,6 +40,7 @@ class Scene {
  private:
   SceneConfig config_;
   MemoryBudget* budget_;
+  const SpillSpace* spill_;
 };
 
 // Tells the format by content, and by extension where content cannot tell (.obj, .stl, .off).
