@@ -55,6 +55,7 @@ class VertexWindows {
   // Vertices of a window: a power of two.
   uint64_t window() const { return uint64_t(1) << shift_; }
   uint64_t size() const { return size_; }
+  uint64_t most_vertices() const { return most_windows_ << shift_; }
 
   // Appends whole positions.
   void add(std::span<const std::byte> positions);
