@@ -132,7 +132,8 @@ class GltfReader {
       assemble(mode, indices.count(), corners, out);
     };
     if (positions.spilled())
-      record_corners(&positions, [&](auto& recorder, auto& out) { draw_at(recorder, {}, out); });
+      record_corners(&positions, positions.size(),
+                     [&](auto& recorder, auto& out) { draw_at(recorder, {}, out); });
     for (uint64_t i = 0; i < instances.count(); ++i) {
       const Affine to_world = instances.next();
       if (positions.spilled()) {

@@ -56,6 +56,12 @@ struct SpillSpace {
   std::function<uint64_t()> stream_number;  // one that no stream of the file ever had
 };
 
+// What is left of a mesh for who wants its box alone.
+struct MeshBox {
+  Box box;
+  uint64_t triangles = 0;
+};
+
 struct ReadOptions {
   const NameFilter* names = nullptr;  // never null in a reader
   // The file's own name matched --include: its parts need not match again.
@@ -63,6 +69,8 @@ struct ReadOptions {
   MemoryBudget* budget = nullptr;  // never null in a reader
   // Null: a mesh whose positions exceed the budget is an Error (kMemory).
   const SpillSpace* spill = nullptr;
+  // Not null: a reader may add triangles to this instead of handing them on, if all are finite.
+  MeshBox* box_alone = nullptr;
 
   // Whether a part called `name` inside the file is wanted.
   bool wants(const std::string& name) const {

@@ -5,7 +5,7 @@
 namespace svdag {
 
 void Positions::grow() {
-  if (spilled()) return hand_over(0, size_ - windows_->size());
+  if (spilled()) return hand_over();
   const uint64_t bytes = reservation_.bytes() + bytes_of(kChunk);
   const SpillSpace* space = options_.spill;
   // An eighth of the share is kept for the blocks on their way out.
@@ -39,11 +39,6 @@ void Positions::hand_over(uint64_t chunk, uint64_t count) {
   const auto bytes = single_ ? std::as_bytes(std::span(singles_[chunk].get(), size_t(3 * count)))
                              : std::as_bytes(std::span(doubles_[chunk].get(), size_t(3 * count)));
   windows_->add(bytes);
-}
-
-void Positions::join() {
-  hand_over(0, size_ - windows_->size());
-  windows_->join();
 }
 
 }  // namespace svdag

@@ -48,8 +48,9 @@ class Positions {
   // Whether the positions have left memory.
   bool spilled() const { return windows_ != nullptr; }
   VertexWindows& windows() { return *windows_; }
-  // All positions were added and all corners recorded: the windows can answer.
-  void join();
+  // Spilled, and all were added: the windows have them all.
+  void hand_over() { hand_over(0, size_ - windows_->size()); }
+  const ReadOptions& options() const { return options_; }
 
  private:
   static constexpr uint64_t kChunk = 1 << 15;

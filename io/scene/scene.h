@@ -18,9 +18,9 @@ struct SceneConfig {
 };
 
 struct SceneCounts {
-  uint64_t triangles = 0;  // handed to the sink
+  uint64_t triangles = 0;   // handed to the sink
   double quantisation = 0;  // largest step that positions were stored in, in world units
-  uint64_t invalid = 0;    // dropped: a coordinate was NaN or infinite
+  uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
 };
 
 class Scene {
@@ -38,6 +38,8 @@ class Scene {
   const SceneConfig& config() const { return config_; }
 
  private:
+  SceneCounts read(const TriangleSink& sink, MeshBox* box_alone) const;
+
   SceneConfig config_;
   MemoryBudget* budget_;
   const SpillSpace* spill_;

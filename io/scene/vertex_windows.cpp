@@ -24,6 +24,10 @@ OwnedStream::~OwnedStream() {
   if (file_ != nullptr) file_->free(stream_);
 }
 
+void fail_changed() {
+  throw Error(ExitCode::kBadInput, "a scene file changed while it was being read");
+}
+
 // The largest windows that leave room for the references and the answers: few large windows give
 // few streams.
 VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool single)
@@ -41,6 +45,7 @@ VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool
 }
 
 void VertexWindows::add(std::span<const std::byte> positions) {
+  check_interrupt();
   while (!positions.empty()) {
     const uint64_t room = window() - (size_ & (window() - 1));
     const uint64_t n = std::min(room, positions.size() / position_bytes_);
@@ -59,6 +64,7 @@ void VertexWindows::add(std::span<const std::byte> positions) {
 }
 
 void VertexWindows::finish_window() {
+  if (!positions_out_) return;
   positions_.emplace_back(file_, positions_out_->finish());
   positions_out_.reset();
 }
@@ -69,7 +75,7 @@ void VertexWindows::open_references(uint64_t w) {
 }
 
 void VertexWindows::join() {
-  if (positions_out_) finish_window();
+  finish_window();
   std::vector<OwnedStream> references(positions_.size());
   for (size_t w = 0; w < references_.size(); ++w) {
     if (references_[w]) references[w] = OwnedStream(file_, references_[w]->finish());
@@ -121,16 +127,14 @@ void VertexWindows::rewind() {
 }
 
 // A position of which not all bytes are in the block: some are in the next.
-Point VertexWindows::next_beyond(uint64_t i) {
-  const size_t w = size_t(i >> shift_);
-  Answers& from = replay_[w];
-  if (!from.reader && !answers_[w].empty()) from.reader = answers_[w].read(budget_);
+Point VertexWindows::next_beyond(Cursor& from, const OwnedStream& stream) {
+  if (!from.reader && !stream.empty()) from.reader = stream.read(budget_);
   std::array<std::byte, 3 * sizeof(double)> position;
   for (size_t done = 0; done < position_bytes_;) {
     if (from.here == from.end) {
+      check_interrupt();
       const auto block = from.reader ? from.reader->next() : std::span<std::byte>();
-      if (block.empty())
-        throw Error(ExitCode::kBadInput, "a scene file changed while it was being read");
+      if (block.empty()) fail_changed();
       from.here = block.data();
       from.end = from.here + block.size();
     }

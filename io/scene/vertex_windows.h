@@ -13,6 +13,7 @@
 // back by corner (the same bytes three times).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,9 @@ class OwnedStream {
   SpillStream stream_;
 };
 
+// A run over the same bytes met other corners or vertices than the run before.
+[[noreturn]] void fail_changed();
+
 class VertexWindows {
  public:
   // Positions are three floats each, or (`single` is false) three doubles.
@@ -65,26 +69,40 @@ class VertexWindows {
     const uint32_t local = uint32_t(i & (window() - 1));
     references_[w]->append(std::as_bytes(std::span(&local, 1)));
   }
+  // Every position was added: calls use(i, position) for each, in order.
+  template <class Use>
+  void visit(const Use& use) {
+    finish_window();
+    uint64_t i = 0;
+    for (const OwnedStream& window_positions : positions_) {
+      Cursor from;
+      for (const uint64_t end = std::min(i + window(), size_); i < end; ++i)
+        use(i, next_of(from, window_positions));
+    }
+  }
   // Every position was added and every corner recorded.
   void join();
   // The next corner asked for is again the first that was recorded.
   void rewind();
   // Position `i`, which must have been recorded here in the order of asking.
   Point next(uint64_t i) {
-    Answers& from = replay_[i >> shift_];
-    if (size_t(from.end - from.here) < position_bytes_) return next_beyond(i);
-    const std::byte* p = from.here;
-    from.here += position_bytes_;
-    return point_at(p);
+    const uint64_t w = i >> shift_;
+    return next_of(replay_[w], answers_[w]);
   }
 
  private:
-  // The answers of a window on their way out.
-  struct Answers {
+  // A place in a stream of positions.
+  struct Cursor {
     const std::byte *here = nullptr, *end = nullptr;  // in the block of the reader
     std::optional<SpillReader> reader;
   };
 
+  Point next_of(Cursor& from, const OwnedStream& stream) {
+    if (size_t(from.end - from.here) < position_bytes_) return next_beyond(from, stream);
+    const std::byte* p = from.here;
+    from.here += position_bytes_;
+    return point_at(p);
+  }
   Point point_at(const std::byte* p) const {
     return single_ ? load_point<float>(p) : load_point<double>(p);
   }
@@ -100,7 +118,7 @@ class VertexWindows {
   void load(const OwnedStream& positions, std::byte* to) const;
   template <class T>
   OwnedStream answer(const OwnedStream& references, const std::byte* positions);
-  Point next_beyond(uint64_t i);
+  Point next_beyond(Cursor& from, const OwnedStream& stream);
 
   SpillFile* file_;
   const std::function<uint64_t()>& new_number_;
@@ -113,7 +131,7 @@ class VertexWindows {
   std::optional<SpillWriter> positions_out_;  // of the last window
   std::vector<OwnedStream> positions_, answers_;
   std::vector<std::optional<SpillWriter>> references_;
-  std::vector<Answers> replay_;
+  std::vector<Cursor> replay_;
 };
 
 }  // namespace svdag
