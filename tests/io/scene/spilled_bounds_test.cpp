@@ -1,6 +1,6 @@
 // Scene::bounds over spilled positions: the same box bit by bit, the same counts and the same error
 // as over positions in memory, and without the join where that is certain.
-#include <cmath>
+#include <fstream>
 
 #include "io/scene/scene.h"
 #include "tests/io/scene/random_mesh.h"
@@ -105,6 +105,33 @@ TEST(SpilledBounds, TakeNoJoin) {
   std::mt19937_64 random(2);
   const RandomMesh mesh(random, 5000, 40000);
   EXPECT_LT(expect_same_bounds("a.off", mesh.off()), 5000U * 24 * 3 / 2) << "the positions alone";
+}
+
+// What this process has read so far, by any system call.
+uint64_t bytes_read() {
+  std::ifstream counters("/proc/self/io");
+  std::string name;
+  uint64_t bytes = 0;
+  counters >> name >> bytes;
+  return bytes;
+}
+
+// A bake asks for the bounds and then for the triangles. Every pass may read a window too much.
+TEST(SpilledBounds, ABakeReadsTheFileAtMostThreeTimes) {
+  std::mt19937_64 random(3);
+  const RandomMesh mesh(random, 10000, 100000);
+  const TempFolder folder;
+  const std::string obj = mesh.obj(random);
+  for (const std::string& path : {folder.write("a.obj", obj), folder.write("a.off", mesh.off())}) {
+    TestSpill spill(kShare);
+    MemoryBudget budget;
+    const Scene scene({{path}, {}, false}, &budget, spill.space());
+    const uint64_t before = bytes_read();
+    scene.bounds();
+    scene.stream([](const TriangleBatch&) {});
+    const uint64_t read = bytes_read() - before - spill.file()->read_bytes();
+    EXPECT_LE(read, 33 * File::open_read(path).size() / 10) << path;
+  }
 }
 
 }  // namespace
