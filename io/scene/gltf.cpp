@@ -1,17 +1,19 @@
 // glTF 2.0 and GLB: streams the triangles of every drawn primitive in world space.
 //
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
-// triangles. Only the positions of an indexed primitive are held, and small primitives that nodes
-// share; indices, unindexed positions and instances pass through small windows. Skinned meshes come
-// as stored (bind pose under the node's transform); morph targets, points and lines are ignored. A
-// Draco primitive that also has plain data is read from the plain data, which is exact.
+// triangles. Only the positions of an indexed primitive are held (or joined: corners.h), and small
+// primitives that nodes share; indices, unindexed positions and instances pass through small
+// windows. Skinned meshes come as stored (bind pose under the node's transform); morph targets,
+// points and lines are ignored. A Draco primitive that also has plain data is read from the plain
+// data, which is exact.
+#include <algorithm>
 #include <array>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "io/scene/draco.h"
 #include "io/scene/gltf_buffers.h"
+#include "io/scene/gltf_corners.h"
 #include "io/scene/gltf_document.h"
 #include "io/scene/gltf_elements.h"
 #include "io/scene/gltf_kept.h"
@@ -21,126 +23,6 @@
 
 namespace svdag {
 namespace {
-
-enum Mode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
-
-// Reserved memory for points, kept from one primitive to the next: fresh pages cost more than the
-// triangles of a small mesh.
-class PointArray {
- public:
-  std::span<Point> resize(uint64_t count, MemoryBudget* budget) {
-    if (count > capacity_) {
-      points_.reset();
-      memory_.release();
-      memory_ = budget->reserve(count * sizeof(Point), "glTF vertices");
-      points_ = std::make_unique_for_overwrite<Point[]>(size_t(count));
-      capacity_ = count;
-    }
-    return {points_.get(), size_t(count)};
-  }
-
- private:
-  MemoryBudget::Reservation memory_;
-  std::unique_ptr<Point[]> points_;
-  uint64_t capacity_ = 0;
-};
-
-// The corners of an unindexed primitive, transformed.
-class SoupCorners {
- public:
-  SoupCorners(const Accessor& positions, const Affine& to_world)
-      : stream_(positions), to_world_(to_world) {}
-
-  Point operator()() {
-    if (next_ == filled_) {
-      filled_ = stream_.read(as_numbers(window_));
-      next_ = 0;
-    }
-    return to_world_(window_[next_++]);
-  }
-
- private:
-  ElementStream stream_;
-  Affine to_world_;
-  std::array<Point, 1024> window_;
-  size_t next_ = 0, filled_ = 0;
-};
-
-// Out of line, so that the loops below stay small enough to be inlined.
-[[noreturn, gnu::noinline]] void fail_index(const std::string& path, uint32_t index, size_t count) {
-  fail_input(path, "has the vertex index " + std::to_string(index) + " in a mesh of only " +
-                       std::to_string(count) + " vertices");
-}
-
-// The corners of an indexed primitive; `points` are in world space already.
-class IndexedCorners {
- public:
-  IndexedCorners(const Accessor& indices, std::span<const Point> points)
-      : stream_(indices), points_(points), path_(indices.path) {}
-
-  const Point& operator()() {
-    if (next_ == filled_) {
-      filled_ = stream_.read(std::span<uint32_t>(window_));
-      next_ = 0;
-    }
-    const uint32_t index = window_[next_++];
-    if (index >= points_.size()) fail_index(*path_, index, points_.size());
-    return points_[index];
-  }
-
- private:
-  ElementStream stream_;
-  std::span<const Point> points_;
-  const std::string* path_;
-  std::array<uint32_t, 4096> window_;
-  size_t next_ = 0, filled_ = 0;
-};
-
-// The same of a primitive whose indices are in memory.
-class KeptCorners {
- public:
-  KeptCorners(std::span<const uint32_t> indices, std::span<const Point> points,
-              const std::string& path)
-      : next_(indices.data()), points_(points), path_(path) {}
-
-  const Point& operator()() {
-    const uint32_t index = *next_++;
-    if (index >= points_.size()) fail_index(path_, index, points_.size());
-    return points_[index];
-  }
-
- private:
-  const uint32_t* next_;
-  std::span<const Point> points_;
-  const std::string& path_;
-};
-
-// Makes triangles of `count` corners, in the order of section 3.7.2.1 of the specification.
-template <class Corners>
-void assemble(uint64_t mode, uint64_t count, Corners& corner, BatchWriter& out) {
-  if (mode == kTriangles) {
-    for (uint64_t i = 0; i + 2 < count; i += 3) {
-      const Point a = corner(), b = corner();
-      out.add(a, b, corner());
-    }
-    return;
-  }
-  if (count < 3) return;
-  const Point first = corner();
-  Point a = first, b = corner();
-  for (uint64_t i = 0; i + 2 < count; ++i) {
-    const Point c = corner();
-    if (mode == kTriangleFan) {
-      out.add(b, c, first);
-    } else if (i % 2 == 0) {
-      out.add(a, b, c);
-    } else {
-      out.add(a, c, b);
-    }
-    a = b;
-    b = c;
-  }
-}
 
 class GltfReader {
  public:
@@ -212,6 +94,8 @@ class GltfReader {
     if (const KeptPrimitive* kept = kept_.meet(key, positions, indices)) {
       return draw(*kept, mode, std::move(instances));
     }
+    if (!make_room(positions.count(), instances.count()))
+      return join_primitive(positions, indices, mode, std::move(instances));
     std::span<Point> points = local_.resize(positions.count(), options_.budget);
     ElementStream(positions).read(as_numbers(points));
     const auto placed = place_for(points, instances);
@@ -219,6 +103,46 @@ class GltfReader {
       IndexedCorners corners(indices, placed);
       assemble(mode, indices.count(), corners, out_);
     });
+  }
+
+  // Whether the points fit in memory, and have the room of earlier ones if need be.
+  bool make_room(uint64_t points, uint64_t instances) {
+    if (options_.spill == nullptr) return true;
+    const uint64_t copies = instances > 1 ? 2 : 1, share = options_.spill->share;
+    const bool fits = points <= share / (copies * sizeof(Point));
+    if (!fits || points * copies * sizeof(Point) > share - local_.bytes() - placed_.bytes()) {
+      local_.release();
+      placed_.release();
+    }
+    return fits;
+  }
+
+  // Positions that do not fit in memory as points of the world, and perhaps not at all.
+  void join_primitive(const Accessor& accessor, const Accessor& indices, uint64_t mode,
+                      InstanceStream instances) {
+    const bool single = accessor.base.type == ComponentType::kFloat;
+    Positions positions(options_,
+                        single ? Positions::Precision::kSingle : Positions::Precision::kDouble);
+    ElementStream stream(accessor);
+    std::array<Point, 1024> window;
+    while (const size_t n = stream.read(as_numbers(window)))
+      std::for_each_n(window.begin(), n, [&](const Point& p) { positions.add(p); });
+    const auto draw_at = [&](auto& points, const Affine& to_world, BatchWriter& out) {
+      IndexedCorners corners(indices, PlacedPoints(&points, to_world));
+      assemble(mode, indices.count(), corners, out);
+    };
+    if (positions.spilled())
+      record_corners(&positions, positions.size(),
+                     [&](auto& recorder, auto& out) { draw_at(recorder, {}, out); });
+    for (uint64_t i = 0; i < instances.count(); ++i) {
+      const Affine to_world = instances.next();
+      if (positions.spilled()) {
+        CornerReplayer replayer(&positions, positions.size());
+        draw_at(replayer, to_world, out_);
+      } else {
+        draw_at(positions, to_world, out_);
+      }
+    }
   }
 
   void read_draco_primitive(const JsonObject& draco, uint64_t accessor, InstanceStream instances) {

@@ -1,8 +1,10 @@
 // What every scene format gives: triangles in world space, in batches.
 //
 // One function per format, one file per function. A reader streams: it holds at most the vertex
-// positions of one mesh (reserved in `budget`), never the faces. It checks every count against the
-// remaining bytes before it allocates, and answers a broken file with one Error (kBadInput).
+// positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
+// memory go to a spill file where it was given one (io/scene/positions.h). It checks every count
+// against the remaining bytes before it allocates, and answers a broken file with one Error
+// (kBadInput).
 // Readers hand on non-finite coordinates as they are; io/scene/scene.cpp decides about them.
 #pragma once
 
@@ -42,11 +44,33 @@ struct NameFilter {
   bool empty() const { return include.empty() && exclude.empty(); }
 };
 
+class SpillFile;
+
+// Where a reader may put the vertex positions of a mesh that do not fit in memory. STL needs none;
+// Draco and OpenMesh are decoded in memory and take no notice.
+struct SpillSpace {
+  // Bytes of the budget that the reader takes for positions: at least 16 blocks of the file. With
+  // blocks of b bytes a mesh may have share^2 / 8b bytes of positions (12 or 24 a vertex) at least.
+  uint64_t share = 0;
+  std::function<SpillFile*()> file;         // opened when it is first asked for
+  std::function<uint64_t()> stream_number;  // one that no stream of the file ever had
+};
+
+// What is left of a mesh for who wants its box alone.
+struct MeshBox {
+  Box box;
+  uint64_t triangles = 0;
+};
+
 struct ReadOptions {
   const NameFilter* names = nullptr;  // never null in a reader
   // The file's own name matched --include: its parts need not match again.
   bool file_included = false;
   MemoryBudget* budget = nullptr;  // never null in a reader
+  // Null: a mesh whose positions exceed the budget is an Error (kMemory).
+  const SpillSpace* spill = nullptr;
+  // Not null: a reader may add triangles to this instead of handing them on, if all are finite.
+  MeshBox* box_alone = nullptr;
 
   // Whether a part called `name` inside the file is wanted.
   bool wants(const std::string& name) const {

@@ -1,4 +1,4 @@
-// Wavefront OBJ: polygons and groups, in one pass.
+// Wavefront OBJ: polygons and groups, in one pass if the positions fit in memory.
 //
 // A face may use the vertices that stand before it, counted from 1, or backwards from -1. Texture
 // coordinates, normals and materials are skipped; free-form surfaces are refused, for they would be
@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "io/scene/corners.h"
 #include "io/scene/mesh_reader.h"
 #include "io/scene/obj_plain.h"
-#include "io/scene/positions.h"
 #include "io/scene/text_scan.h"
 #include "io/scene/triangulate.h"
 
@@ -25,23 +25,39 @@ constexpr std::array<std::string_view, 28> kSkipped = {
     "d_interp", "deg", "bmat",       "step",      "cstype", "curv",  "curv2",
     "parm",     "end", "shadow_obj", "trace_obj", "ctech",  "stech", "sp"};
 
-class ObjReader {
- public:
-  ObjReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
-      : options_(options),
-        stream_(file),
-        scanner_(&stream_, {'#', true}),
-        positions_(options.budget, Positions::Precision::kDouble),
-        triangulator_(options.budget),
-        writer_(sink) {}
+// Where a pass over the lines stands, and what the lines before it say about those behind.
+struct ObjPlace {
+  uint64_t offset = 0, line = 1;
+  std::string object;
+  std::vector<std::string> groups;
+  std::string mesh;
+  bool wanted = true;
+};
 
-  void read() {
-    choose();
-    while (!scanner_.at_end()) {
+// One pass over the lines, for positions wherever they are (corners.h).
+template <class Corners>
+class ObjLines {
+ public:
+  ObjLines(const File& file, const ReadOptions& options, const ObjPlace& from, Corners* positions,
+           BatchWriter* writer)
+      : options_(options),
+        stream_(file, from.offset),
+        scanner_(&stream_, {'#', true}, from.line),
+        at_(from),
+        positions_(*positions),
+        triangulator_(options.budget),
+        writer_(*writer) {}
+
+  // To the end of the file, or of the line with which the positions leave memory.
+  ObjPlace read() {
+    if (at_.offset == 0) choose();
+    while (!positions_.spilled() && !scanner_.at_end()) {
       if (!read_plain_line()) read_line();
       scanner_.next_line();
     }
-    writer_.flush();
+    at_.offset = scanner_.offset();
+    at_.line = scanner_.line();
+    return at_;
   }
 
  private:
@@ -54,7 +70,7 @@ class ObjReader {
       Point p;
       stop = read_plain_vertex(text.substr(2), &p);
       if (stop != nullptr) positions_.add(p);
-    } else if (text.starts_with("f ") && wanted_) {
+    } else if (text.starts_with("f ") && at_.wanted) {
       PlainFace face;
       stop = read_plain_face(text.substr(2), positions_.size(), &face);
       if (stop != nullptr) add(face);
@@ -68,7 +84,11 @@ class ObjReader {
 
   void add(const PlainFace& face) {
     const auto& i = face.index;
-    if (face.corners == 3) return writer_.add(positions_[i[0]], positions_[i[1]], positions_[i[2]]);
+    if (face.corners == 3) {
+      const Point a = positions_[i[0]], b = positions_[i[1]],
+                  c = positions_[i[2]];  // in this order
+      return writer_.add(a, b, c);
+    }
     for (size_t c = 0; c < face.corners; ++c) triangulator_.corner(positions_[i[c]]);
     triangulator_.finish(writer_);
   }
@@ -82,7 +102,7 @@ class ObjReader {
     } else if (statement == "g") {
       read_groups();
     } else if (statement == "o") {
-      object_ = scanner_.rest_of_line();
+      at_.object = scanner_.rest_of_line();
       choose();
     } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
       refuse(statement);
@@ -104,7 +124,7 @@ class ObjReader {
   }
 
   void read_face() {
-    if (!wanted_) return;
+    if (!at_.wanted) return;
     std::array<Point, 3> first;
     size_t corners = 0;
     for (; !scanner_.at_line_end(); ++corners) {
@@ -129,7 +149,7 @@ class ObjReader {
       scanner_.fail("has a corner of a face that is no index/index/index");
   }
 
-  Point position(int64_t index) const {
+  Point position(int64_t index) {
     const uint64_t count = positions_.size();
     const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
     if (i >= count)
@@ -139,40 +159,45 @@ class ObjReader {
   }
 
   void read_groups() {
-    groups_.clear();
-    while (!scanner_.at_line_end()) groups_.emplace_back(scanner_.word());
+    at_.groups.clear();
+    while (!scanner_.at_line_end()) at_.groups.emplace_back(scanner_.word());
     choose();
   }
 
   // Decides about the faces that follow, and names their mesh.
   void choose() {
-    std::vector<std::string> names = groups_;
-    if (!object_.empty() || names.empty()) names.push_back(object_);
+    std::vector<std::string> names = at_.groups;
+    if (!at_.object.empty() || names.empty()) names.push_back(at_.object);
     const auto wants = [&](const std::string& name) { return options_.wants(name); };
     const auto excluded = [&](const std::string& name) { return options_.names->excludes(name); };
-    wanted_ = std::any_of(names.begin(), names.end(), wants) &&
-              std::none_of(names.begin(), names.end(), excluded);
+    at_.wanted = std::any_of(names.begin(), names.end(), wants) &&
+                 std::none_of(names.begin(), names.end(), excluded);
     const std::string& mesh = names.front();
-    if (mesh != mesh_) writer_.mesh(mesh);
-    mesh_ = mesh;
+    if (mesh != at_.mesh) writer_.mesh(mesh);
+    at_.mesh = mesh;
   }
 
   const ReadOptions& options_;
   ByteStream stream_;
   TextScanner scanner_;
-  Positions positions_;
+  ObjPlace at_;
+  Corners& positions_;
   Triangulator triangulator_;
-  BatchWriter writer_;
-  std::string object_;
-  std::vector<std::string> groups_;
-  std::string mesh_;
-  bool wanted_ = true;
+  BatchWriter& writer_;
 };
 
 }  // namespace
 
 void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  ObjReader(file, options, sink).read();
+  Positions positions(options, Positions::Precision::kDouble);
+  BatchWriter writer(sink);
+  ObjPlace from;
+  read_corners(&positions, writer, [&](auto& corners, BatchWriter& out) {
+    ObjLines lines(file, options, from, &corners, &out);
+    const ObjPlace end = lines.read();
+    if constexpr (std::is_same_v<decltype(corners), Positions&>) from = end;
+  });
+  writer.flush();
 }
 
 }  // namespace svdag

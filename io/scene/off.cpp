@@ -4,34 +4,80 @@
 // they are skipped. The binary form and dimensions other than three are refused by name.
 #include <string>
 
+#include "io/scene/corners.h"
 #include "io/scene/mesh_reader.h"
-#include "io/scene/positions.h"
 #include "io/scene/text_scan.h"
 #include "io/scene/triangulate.h"
 
 namespace svdag {
 namespace {
 
-class OffReader {
- public:
-  OffReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
-      : stream_(file),
-        scanner_(&stream_, {'#', false}),
-        positions_(options.budget, Positions::Precision::kDouble),
-        triangulator_(options.budget),
-        writer_(sink) {}
+// A number of things that take at least `bytes` each (the last one may lack its line end).
+uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
+  scanner.at_end();
+  const int64_t n = scanner.integer();
+  if (n < 0 || uint64_t(n) > (scanner.remaining() + 1) / bytes)
+    scanner.fail("promises " + std::to_string(n) + " " + things + ", more than its bytes can hold");
+  return uint64_t(n);
+}
 
-  void read() {
-    read_keyword();
-    const uint64_t vertices = count("vertices", 6);  // "0 0 0\n"
-    const uint64_t faces = count("faces", 2);        // "0\n"
-    scanner_.next_line();                            // the number of edges means nothing
-    for (uint64_t i = 0; i < vertices; ++i) read_vertex();
-    for (uint64_t i = 0; i < faces; ++i) read_face();
-    writer_.flush();
+// The faces, for positions wherever they are (corners.h).
+template <class Corners>
+class OffFaces {
+ public:
+  OffFaces(TextScanner* scanner, Corners* positions, MemoryBudget* budget)
+      : scanner_(*scanner), positions_(*positions), triangulator_(budget) {}
+
+  void read(uint64_t faces, BatchWriter& writer) {
+    for (; faces > 0; --faces) {
+      for (uint64_t corners = read_count(scanner_, "corners", 2); corners > 0; --corners)
+        read_corner();
+      triangulator_.finish(writer);
+      scanner_.next_line();
+    }
   }
 
  private:
+  void read_corner() {
+    scanner_.at_end();
+    const int64_t index = scanner_.integer();
+    if (index < 0 || uint64_t(index) >= positions_.size())
+      scanner_.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
+                    std::to_string(positions_.size()) + " vertices");
+    triangulator_.corner(positions_[uint64_t(index)]);
+  }
+
+  TextScanner& scanner_;
+  Corners& positions_;
+  Triangulator triangulator_;
+};
+
+class OffReader {
+ public:
+  OffReader(const File& file, const ReadOptions& options)
+      : options_(options),
+        stream_(file),
+        scanner_(&stream_, kSyntax),
+        positions_(options, Positions::Precision::kDouble) {}
+
+  void read(const TriangleSink& sink) {
+    read_keyword();
+    const uint64_t vertices = read_count(scanner_, "vertices", 6);  // "0 0 0\n"
+    const uint64_t faces = read_count(scanner_, "faces", 2);        // "0\n"
+    scanner_.next_line();  // the number of edges means nothing
+    for (uint64_t i = 0; i < vertices; ++i) read_vertex();
+    BatchWriter writer(sink);
+    read_corners(&positions_, writer, [&](auto& corners, BatchWriter& out) {
+      ByteStream stream(stream_.file(), scanner_.offset());
+      TextScanner scanner(&stream, kSyntax, scanner_.line());
+      OffFaces(&scanner, &corners, options_.budget).read(faces, out);
+    });
+    writer.flush();
+  }
+
+ private:
+  static constexpr TextScanner::Syntax kSyntax = {'#', false};
+
   // [ST][C][N]OFF, then the counts in the same line or in the next.
   void read_keyword() {
     scanner_.at_end();
@@ -46,16 +92,6 @@ class OffReader {
       scanner_.fail("is a binary OFF file, which svdag does not read: convert it to text or PLY");
   }
 
-  // A number of things that take at least `bytes` each (the last one may lack its line end).
-  uint64_t count(const char* things, uint64_t bytes) {
-    scanner_.at_end();
-    const int64_t n = scanner_.integer();
-    if (n < 0 || uint64_t(n) > (scanner_.remaining() + 1) / bytes)
-      scanner_.fail("promises " + std::to_string(n) + " " + things +
-                    ", more than its bytes can hold");
-    return uint64_t(n);
-  }
-
   void read_vertex() {
     Point p;
     for (int a = 0; a < 3; ++a) {
@@ -66,30 +102,16 @@ class OffReader {
     scanner_.next_line();
   }
 
-  void read_face() {
-    for (uint64_t corners = count("corners", 2); corners > 0; --corners) {
-      scanner_.at_end();
-      const int64_t index = scanner_.integer();
-      if (index < 0 || uint64_t(index) >= positions_.size())
-        scanner_.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
-                      std::to_string(positions_.size()) + " vertices");
-      triangulator_.corner(positions_[uint64_t(index)]);
-    }
-    triangulator_.finish(writer_);
-    scanner_.next_line();
-  }
-
+  const ReadOptions& options_;
   ByteStream stream_;
   TextScanner scanner_;
   Positions positions_;
-  Triangulator triangulator_;
-  BatchWriter writer_;
 };
 
 }  // namespace
 
 void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  if (options.wants("")) OffReader(file, options, sink).read();
+  if (options.wants("")) OffReader(file, options).read(sink);
 }
 
 }  // namespace svdag

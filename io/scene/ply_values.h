@@ -1,12 +1,14 @@
 // The values in the body of a PLY file, one after the other, binary or as text.
 //
 // Both classes have the same interface, so that the reader is written once as a template: number,
-// integer, skip, the place to come back to, and the checks of counts against the bytes left.
+// integer, skip, the place to come back to, and the checks of counts against the bytes left. Behind
+// them what takes any of the two: lists, and rows to skip.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "io/scene/endian.h"
 #include "io/scene/ply_header.h"
@@ -117,5 +119,38 @@ class PlyTextValues {
   ByteStream stream_;
   TextScanner scanner_;
 };
+
+// A count that the rest of the file cannot hold is refused before anything trusts it.
+template <class Values>
+void check_count(const Values& values, const PlyElement& element) {
+  if (!element.properties.empty() && !values.may_hold(element))
+    values.fail("promises " + std::to_string(element.count) + " elements \"" +
+                element.name.substr(0, 40) + "\", more than its bytes can hold");
+}
+
+template <class Values>
+uint64_t list_length(Values& values, const PlyProperty& list) {
+  const int64_t length = values.integer(*list.count_type);
+  if (length < 0 || !values.may_hold(uint64_t(length), list.type))
+    values.fail("has a list of " + std::to_string(length) + " items, which it cannot hold");
+  return uint64_t(length);
+}
+
+template <class Values>
+void skip_property(Values& values, const PlyProperty& property) {
+  values.skip(property.type, property.is_list() ? list_length(values, property) : 1);
+}
+
+template <class Values>
+void skip_rows(Values& values, const PlyElement& element) {
+  if (element.properties.empty()) return;
+  check_count(values, element);
+  if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
+    if (!element.has_lists()) return values.stream().skip(element.count * element.least_bytes());
+  }
+  for (uint64_t row = 0; row < element.count; ++row) {
+    for (const PlyProperty& property : element.properties) skip_property(values, property);
+  }
+}
 
 }  // namespace svdag

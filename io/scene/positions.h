@@ -2,7 +2,9 @@
 //
 // They grow in chunks, each reserved in the budget before it is allocated, so a header cannot ask
 // for more memory than the file has vertices, and growing never copies. Positions that the file
-// stores as float are kept as float: half the memory, the same values.
+// stores as float are kept as float: half the memory, the same values. Positions beyond the share
+// that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
+// (io/scene/corners.h).
 // Rejected: std::vector (twice the memory while it grows, or trust in the header's count).
 #pragma once
 
@@ -10,6 +12,8 @@
 #include <memory>
 #include <vector>
 
+#include "io/scene/mesh_reader.h"
+#include "io/scene/vertex_windows.h"
 #include "io/triangle.h"
 #include "streaming/memory_budget.h"
 
@@ -19,13 +23,15 @@ class Positions {
  public:
   enum class Precision { kSingle, kDouble };
 
-  Positions(MemoryBudget* budget, Precision precision)
-      : single_(precision == Precision::kSingle), reservation_(budget->reserve(0, kPurpose)) {}
+  Positions(const ReadOptions& options, Precision precision)
+      : single_(precision == Precision::kSingle),
+        options_(options),
+        reservation_(options.budget->reserve(0, kPurpose)) {}
 
   uint64_t size() const { return size_; }
 
   void add(const Point& p) {
-    if (size_ % kChunk == 0) grow();
+    if ((size_ & chunk_mask_) == 0) grow();
     if (single_) {
       store(singles_.back().get(), p);
     } else {
@@ -34,27 +40,33 @@ class Positions {
     ++size_;
   }
 
-  // `i` < size()
+  // `i` < size(), and all positions are in memory.
   Point operator[](uint64_t i) const {
     return single_ ? fetch(singles_[i / kChunk].get(), i) : fetch(doubles_[i / kChunk].get(), i);
   }
 
+  // Whether the positions have left memory.
+  bool spilled() const { return windows_ != nullptr; }
+  VertexWindows& windows() { return *windows_; }
+  // Spilled, and all were added: the windows have them all.
+  void hand_over() { hand_over(0, size_ - windows_->size()); }
+  const ReadOptions& options() const { return options_; }
+
  private:
   static constexpr uint64_t kChunk = 1 << 15;
+  static constexpr uint64_t kOutgoing = 1 << 9;  // positions that go to the windows at once
   static constexpr const char* kPurpose = "vertex positions";
 
-  void grow() {
-    const uint64_t bytes = kChunk * 3 * (single_ ? sizeof(float) : sizeof(double));
-    reservation_.resize(reservation_.bytes() + bytes, kPurpose);
-    if (single_) {
-      singles_.push_back(std::make_unique_for_overwrite<float[]>(3 * kChunk));
-    } else {
-      doubles_.push_back(std::make_unique_for_overwrite<double[]>(3 * kChunk));
-    }
+  void grow();
+  void spill();
+  void hand_over(uint64_t chunk, uint64_t count);
+  uint64_t bytes_of(uint64_t count) const {
+    return count * 3 * (single_ ? sizeof(float) : sizeof(double));
   }
+  void append_chunk(uint64_t count);
   template <class T>
   void store(T* chunk, const Point& p) {
-    T* out = chunk + 3 * (size_ % kChunk);
+    T* out = chunk + 3 * (size_ & chunk_mask_);
     for (int a = 0; a < 3; ++a) out[a] = static_cast<T>(p[a]);
   }
   template <class T>
@@ -64,10 +76,13 @@ class Positions {
   }
 
   bool single_;
+  const ReadOptions& options_;
   uint64_t size_ = 0;
+  uint64_t chunk_mask_ = kChunk - 1;
   MemoryBudget::Reservation reservation_;
   std::vector<std::unique_ptr<float[]>> singles_;
   std::vector<std::unique_ptr<double[]>> doubles_;
+  std::unique_ptr<VertexWindows> windows_;  // spilled: the chunk is what is not yet there
 };
 
 }  // namespace svdag

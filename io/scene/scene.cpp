@@ -98,10 +98,14 @@ std::string lower_extension(const std::string& path) {
 
 }  // namespace
 
-Scene::Scene(SceneConfig config, MemoryBudget* budget)
-    : config_(std::move(config)), budget_(budget) {}
+Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
+    : config_(std::move(config)), budget_(budget), spill_(spill) {}
 
 SceneCounts Scene::stream(const TriangleSink& sink) const {
+  return read(sink, nullptr);
+}
+
+SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   SceneCounts counts;
   for (const std::string& path : config_.paths) {
     const std::string name = base_name(path);
@@ -109,18 +113,22 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
     const File file = File::open_read(path);
     const bool by_name = !config_.names.include.empty() && config_.names.includes(name);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
-    read_file(file, {&config_.names, by_name, budget_}, std::ref(filter));
+    read_file(file, {&config_.names, by_name, budget_, spill_, box_alone}, std::ref(filter));
   }
   return counts;
 }
 
 Box Scene::bounds(SceneCounts* counts) const {
   Box box;
-  const SceneCounts seen = stream([&](const TriangleBatch& batch) {
+  const auto grow = [&](const TriangleBatch& batch) {
     Box grown = box;  // a copy that stays in registers
     for (const Triangle& t : batch.triangles) grown.add(t);
     box = grown;
-  });
+  };
+  MeshBox alone;
+  SceneCounts seen = read(grow, &alone);
+  seen.triangles += alone.triangles;
+  box.add(alone.box);
   if (counts != nullptr) *counts = seen;
   if (box.empty()) fail_input(config_.paths.front(), "the scene has no triangles to bake");
   return box;

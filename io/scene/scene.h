@@ -18,15 +18,15 @@ struct SceneConfig {
 };
 
 struct SceneCounts {
-  uint64_t triangles = 0;  // handed to the sink
+  uint64_t triangles = 0;   // handed to the sink
   double quantisation = 0;  // largest step that positions were stored in, in world units
-  uint64_t invalid = 0;    // dropped: a coordinate was NaN or infinite
+  uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
 };
 
 class Scene {
  public:
-  // Opens nothing yet. `budget` must outlive the scene.
-  Scene(SceneConfig config, MemoryBudget* budget);
+  // Opens nothing yet. `budget` and `spill` (io/scene/mesh_reader.h) must outlive the scene.
+  Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill = nullptr);
 
   // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless
   // skip_invalid. An unknown or broken file is an Error (kBadInput).
@@ -38,8 +38,11 @@ class Scene {
   const SceneConfig& config() const { return config_; }
 
  private:
+  SceneCounts read(const TriangleSink& sink, MeshBox* box_alone) const;
+
   SceneConfig config_;
   MemoryBudget* budget_;
+  const SpillSpace* spill_;
 };
 
 // Tells the format by content, and by extension where content cannot tell (.obj, .stl, .off).
