@@ -61,8 +61,13 @@ void describe_output(const Header& header, BuildReport* report) {
 // How the memory is shared out. Phases follow each other, so the sum of all is more than the whole.
 struct Shares {
   Shares(uint64_t memory, size_t workers)
-      : triangles(memory / 4), table(memory / 2 / workers), maps(memory / 2), sources(memory * 3 / 8) {}
+      : vertices(memory / 4),
+        triangles(memory / 4),
+        table(memory / 2 / workers),
+        maps(memory / 2),
+        sources(memory * 3 / 8) {}
 
+  uint64_t vertices;   // of a mesh being read
   uint64_t triangles;  // of the cells being voxelized
   uint64_t table;      // a worker's unique nodes
   uint64_t maps;       // of the merge
@@ -78,9 +83,11 @@ class Bake {
         progress_(progress),
         budget_(config.memory != 0 ? config.memory : default_memory_limit()),
         shares_(budget_.limit(), executor->workers()),
-        scene_(config.scene, &budget_),
         folder_(ScratchDir::path_for(config.output, config.scratch)),
         scratch_(&folder_, &budget_),
+        vertices_{shares_.vertices, [this] { return scratch_.passing(); },
+                  [this] { return scratch_.new_streams(); }},
+        scene_(config.scene, &budget_, &vertices_),
         checkpoint_(&scratch_) {}
 
   BuildReport run_or_tell();
@@ -102,9 +109,10 @@ class Bake {
   Progress* progress_;
   MemoryBudget budget_;
   Shares shares_;
-  Scene scene_;
   ScratchDir folder_;
   Scratch scratch_;
+  SpillSpace vertices_;
+  Scene scene_;
   Checkpoint checkpoint_;
   std::optional<SavedBake> saved_;  // by an earlier process
   BuildReport report_;
