@@ -70,9 +70,10 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
   // A surface in 4^depth parts of as many: deep enough that most fit.
   const uint64_t fitting = split_.triangle_bytes / (2 * sizeof(LatticeTriangle));
+  const int most =
+      TriangleBins::depth_for(split_.triangle_bytes / 2, *split_.scratch, grid_, bin.cube);
   int depth = 1;
-  while (depth < TriangleBins::kDeepest && (fitting << (2 * depth)) < bin.triangles) ++depth;
-  depth = std::min(depth, grid_.levels - 2 - bin.cube.level);
+  while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
   SpillFile* passing = split_.scratch->passing();
   TriangleBins bins(grid_, bin.cube, depth, passing, split_.scratch);
   {

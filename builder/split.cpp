@@ -63,9 +63,10 @@ class Store {
   static constexpr uint64_t kLook = 1024;  // triangles between two looks at the memory
 
   void look() {
-    const int depth = std::min(TriangleBins::kDeepest, grid_.levels - 2);
     if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
       return;
+    const int depth =
+        TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
     for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
     tree_.reset();

@@ -32,6 +32,14 @@ TriangleBins::TriangleBins(const Grid& grid, const Cube& parent, int depth, Spil
   SVDAG_ASSERT(depth >= 1 && depth <= kDeepest && bin_level_ <= grid.levels - 2);
 }
 
+int TriangleBins::depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
+                            const Cube& parent) {
+  const int most = std::min(kDeepest, grid.levels - 2 - parent.level);
+  int depth = 1;
+  while (depth < most && scratch.block_bytes() << (3 * (depth + 1)) <= bytes) ++depth;
+  return depth;
+}
+
 void TriangleBins::add(const LatticeTriangle& triangle) {
   const auto& v = triangle.v;
   const Cube whole{bin_level_, {}};

@@ -30,6 +30,10 @@ class TriangleBins {
 
   TriangleBins(const Grid& grid, const Cube& parent, int depth, SpillFile* file, Scratch* scratch);
 
+  // The deepest that `bytes` of open blocks and the grid allow.
+  static int depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
+                       const Cube& parent);
+
   // A triangle whose box meets the closed parent.
   void add(const LatticeTriangle& triangle);
   // The bins that triangles met, in Morton order.
