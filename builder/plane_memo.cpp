@@ -99,11 +99,8 @@ void PlaneMemo::forget() {
   normals_ = {};
   planes_ = {};
   std::fill(slots_.begin(), slots_.end(), 0);
-  for (Table& table : tables_) {
-    table.entries = {};
-    table.unsettled.clear();
-    table.used = 0;
-  }
+  drop_contents();
+  for (Table& table : tables_) table.entries = {};
   reservation_.resize(0, "plane memo");
 }
 

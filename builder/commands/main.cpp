@@ -57,6 +57,32 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
       ->group(kGroup);
 }
 
+// Memory, threads and disk; the result is the same with any of them.
+void add_resource_options(CLI::App* app, BuildCommandConfig* config) {
+  BuildConfig* build = &config->build;
+  app->add_option_function<std::string>(
+         "-m,--memory",
+         [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
+         "Memory budget, for example 4G (default: half of the machine)")
+      ->type_name("SIZE");
+  app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
+      ->check(CLI::Range(size_t(1), size_t(1024)));
+  app->add_option("--scratch", build->scratch,
+                  "Folder for what does not fit in memory (default: OUT.svdag.scratch)")
+      ->type_name("DIR");
+  CLI::Option* resume = app->add_flag_callback(
+      "--resume", [build] { build->unfinished = Unfinished::kResume; },
+      "Continue an unfinished bake of this output, if there is one");
+  app->add_flag_callback(
+         "--restart", [build] { build->unfinished = Unfinished::kRestart; },
+         "Discard an unfinished bake of this output")
+      ->excludes(resume);
+  app->add_option("--checkpoint", build->checkpoint,
+                  "Save the work of every so many seconds for --resume (default: 30)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+}
+
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
   app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
@@ -89,27 +115,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
-  app->add_option_function<std::string>(
-         "-m,--memory",
-         [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
-         "Memory budget, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
-  app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
-      ->check(CLI::Range(size_t(1), size_t(1024)));
-  app->add_option("--scratch", build->scratch,
-                  "Folder for what does not fit in memory (default: OUT.svdag.scratch)")
-      ->type_name("DIR");
-  CLI::Option* resume = app->add_flag_callback(
-      "--resume", [build] { build->unfinished = Unfinished::kResume; },
-      "Continue an unfinished bake of this output, if there is one");
-  app->add_flag_callback(
-         "--restart", [build] { build->unfinished = Unfinished::kRestart; },
-         "Discard an unfinished bake of this output")
-      ->excludes(resume);
-  app->add_option("--checkpoint", build->checkpoint,
-                  "Save the work of every so many seconds for --resume (default: 30)")
-      ->check(CLI::PositiveNumber)
-      ->type_name("SECONDS");
+  add_resource_options(app, config);
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);
