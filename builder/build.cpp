@@ -11,6 +11,7 @@
 #include "builder/bake_bins.h"
 #include "builder/checkpoint.h"
 #include "builder/description.h"
+#include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/voxelize.h"
 #include "streaming/error.h"
@@ -114,6 +115,7 @@ class Bake {
   SpillSpace vertices_;
   Scene scene_;
   Checkpoint checkpoint_;
+  DiskNeed disk_need_{&scratch_};
   std::optional<SavedBake> saved_;  // by an earlier process
   BuildReport report_;
   SplitConfig split_config_;
@@ -122,6 +124,8 @@ class Bake {
   std::vector<Run> runs_;
   std::vector<CellRoot> roots_;
   bool spilled_ = false;
+  uint64_t spilled_bytes_ = 0;           // of runs_
+  double bins_done_ = 0, bin_share_ = 1;  // of the triangles: bins that are done, the current one
   std::atomic<bool> saves_{false};  // something can be resumed
   Stopwatch phase_;
 };
@@ -153,9 +157,14 @@ void Bake::keep_scratch() {
 
 void Bake::choose_grid() {
   progress_->phase("read bounds", 0);
-  report_.grid = saved_            ? saved_->grid
-                 : config_.bounds ? svdag::choose_grid(config_, Box())
-                                  : svdag::choose_grid(config_, scene_.bounds());
+  if (saved_) {
+    report_.grid = saved_->grid;
+  } else {
+    SceneCounts counts;
+    const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
+    report_.grid = svdag::choose_grid(config_, box);
+    disk_need_.expect_triangles(counts.triangles, shares_.triangles);
+  }
   report_.seconds.bounds = phase_.lap();
 }
 
@@ -198,7 +207,14 @@ void Bake::voxelize() {
   } else {
     BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
                    executor_, progress_);
-    for (const TriangleBin& bin : split_.bins) baker.bake(scratch_.triangles(), bin);
+    uint64_t triangles = 0, done_triangles = 0;
+    for (const TriangleBin& bin : split_.bins) triangles += bin.triangles;
+    for (const TriangleBin& bin : split_.bins) {
+      bins_done_ = double(done_triangles) / double(triangles);
+      bin_share_ = double(bin.triangles) / double(triangles);
+      baker.bake(scratch_.triangles(), bin);
+      done_triangles += bin.triangles;
+    }
   }
   describe_work(voxelizer);
   report_.seconds.voxelize = phase_.lap();
@@ -223,6 +239,7 @@ void Bake::save(BakedRun baked) {
   checkpoint_.save_run(baked);
   keep_scratch();
   add(std::move(baked));
+  disk_need_.expect_runs(spilled_bytes_, bins_done_ + bin_share_ * progress_->share());
 }
 
 void Bake::add(BakedRun baked) {
@@ -231,7 +248,11 @@ void Bake::add(BakedRun baked) {
     roots_.push_back(root);
   }
   report_.voxels += baked.voxels;
-  spilled_ = spilled_ || baked.run.bricks.spilled;
+  if (baked.run.bricks.spilled) {
+    spilled_ = true;
+    spilled_bytes_ += baked.run.bricks.spilled->bytes;
+    for (const auto& level : baked.run.nodes) spilled_bytes_ += level.spilled->bytes;
+  }
   runs_.push_back(std::move(baked.run));
 }
 
@@ -277,7 +298,7 @@ BuildReport Bake::run() {
   progress_->finish();
 
   describe_output(writer.header(), &report_);
-  report_.scratch = {scratch_.peak_bytes(), scratch_.written_bytes(), scratch_.read_bytes()};
+  report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(), scratch_.read_bytes()};
   report_.threads = executor_->workers();
   report_.seconds.total = total.lap();
   report_.seconds.cpu = cpu_seconds();

@@ -50,7 +50,7 @@ struct BuildReport {
     double cpu = 0;  // of all threads, whole process
   } seconds;
   struct ScratchBytes {
-    uint64_t peak = 0, written = 0, read = 0;
+    uint64_t estimated = 0, peak = 0, written = 0, read = 0;
   } scratch;                   // of this process
   uint64_t peak_counted = 0;   // bytes, by the memory budget
   uint64_t peak_resident = 0;  // bytes, by the kernel

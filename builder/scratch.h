@@ -36,7 +36,6 @@ class Scratch {
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
-  bool used() const { return triangles_ || runs_ || passing_; }
   // Of the folder so far: the largest size of its files, and bytes written and read.
   uint64_t peak_bytes() const { return sum(&SpillFile::peak_bytes); }
   uint64_t written_bytes() const { return sum(&SpillFile::written_bytes); }

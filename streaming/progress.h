@@ -20,6 +20,8 @@ class Progress {
   // Counts steps; safe to call from any thread.
   void advance(uint64_t steps = 1);
   void finish();
+  // The share of the phase that is done; 0 if its length is unknown.
+  double share() const { return total_ == 0 ? 0 : double(done_.load()) / double(total_); }
 
  private:
   void draw(uint64_t done);

@@ -75,7 +75,8 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"runs", r.runs},
                {"resumed", r.resumed},
                {"scratch",
-                {{"peak", r.scratch.peak},
+                {{"estimated", r.scratch.estimated},
+                 {"peak", r.scratch.peak},
                  {"written", r.scratch.written},
                  {"read", r.scratch.read}}},
                {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
@@ -112,8 +113,8 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
       "CPU %.2f on %zu threads\n",
       s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
   if (r.scratch.written != 0)
-    std::printf("  scratch: %s at most, %s written, %s read; %s runs merged%s\n",
-                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.written).c_str(),
+    std::printf("  scratch: %s at most (%s estimated), %s written, %s read; %s runs merged%s\n",
+                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(), format_bytes(r.scratch.written).c_str(),
                 format_bytes(r.scratch.read).c_str(), format_count(r.runs).c_str(),
                 r.resumed ? "; resumed" : "");
   std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),

@@ -1,0 +1,32 @@
+// How much scratch a bake will take, told before hours of work instead of after them.
+//
+// What triangles take is known as soon as they were counted. How much a scene repeats itself nobody
+// knows before it is baked, so what runs will take is reckoned from those there are and the share of the
+// cells that is done. A disk that cannot hold four fifths of it is an Error (kOutput).
+#pragma once
+
+#include <cstdint>
+
+#include "builder/scratch.h"
+
+namespace svdag {
+
+class DiskNeed {
+ public:
+  explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
+
+  // `count` triangles will be spilled, if they take more than `triangle_bytes` in memory.
+  void expect_triangles(uint64_t count, uint64_t triangle_bytes);
+  // Runs of `bytes` were spilled for `share` of the work.
+  void expect_runs(uint64_t bytes, double share);
+
+  uint64_t estimate() const { return triangles_ + runs_; }  // bytes; 0: nothing was spilled
+
+ private:
+  void check(uint64_t more, const char* purpose) const;
+
+  Scratch* scratch_;
+  uint64_t triangles_ = 0, runs_ = 0;
+};
+
+}  // namespace svdag
