@@ -42,10 +42,10 @@ double cpu_seconds() {
 }
 
 // 64 cells along the grid, of at least 64 voxels: enough cells to share out, few enough to be
-// cheap.
-int choose_cell_level(const BuildConfig& config, const Grid& grid) {
+// cheap. Where memory is so little that their list would matter, 32.
+int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory) {
   if (config.cell_level >= 0) return std::min(config.cell_level, grid.levels - 2);
-  return std::clamp(grid.levels - 6, 0, 6);
+  return std::clamp(grid.levels - 6, 0, memory < uint64_t(512) << 20 ? 5 : 6);
 }
 
 void describe_output(const Header& header, BuildReport* report) {
@@ -170,7 +170,7 @@ void Bake::choose_grid() {
 
 void Bake::split() {
   progress_->phase("split", 0);
-  split_config_ = {choose_cell_level(config_, report_.grid), executor_->workers(),
+  split_config_ = {choose_cell_level(config_, report_.grid, budget_.limit()), executor_->workers(),
                    shares_.triangles, &scratch_};
   if (saved_ && saved_->split) {
     split_ = std::move(*saved_->split);

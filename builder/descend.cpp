@@ -42,7 +42,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
     : grid_(grid),
       config_(config),
       table_(table),
-      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table),
+      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table, config.memo_bytes),
       done_(done != nullptr && !done->empty() ? done : nullptr),
       spiller_(spiller),
       scratch_(size_t(grid.levels)),

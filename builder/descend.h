@@ -27,7 +27,8 @@ struct DescentConfig {
   const Kernels* kernels = &svdag::kernels();
   bool covering = true;        // switch the edges of a triangle off where it covers a cube
   bool plane_memo = true;      // answer covered cubes from a memo; needs `covering`
-  double memo_repeats = 0.5;     // contents of a plane must repeat so often to be kept; 0: keep all
+  double memo_repeats = 0.5;   // contents of a plane must repeat so often to be kept; 0: keep all
+  uint64_t memo_bytes = UINT64_MAX;  // of the memo, at most; nor more than 1/32 of the budget
   bool patches = true;         // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};  // for tests: all are needed
 };

@@ -44,7 +44,7 @@ PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
 }
 
 PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
-                     NodeTable* table)
+                     NodeTable* table, uint64_t bytes)
     : levels_(levels),
       rule_(rule),
       kernels_(kernels),
@@ -52,7 +52,7 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       table_(table),
       tables_(size_t(levels - 1)),
       slots_(1024),
-      most_(std::min(table->budget()->limit() / 32, uint64_t(1) << 29)),
+      most_(std::min({bytes, table->budget()->limit() / 32, uint64_t(1) << 29})),
       reservation_(table->budget()->reserve(0, "plane memo")) {
   for (int level = 0; level <= levels - 2; ++level) {
     const int log2 = std::min(14 + 2 * (levels - 2 - level), kLargestTable);

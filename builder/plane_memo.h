@@ -52,8 +52,9 @@ struct Witness {
 class PlaneMemo {
  public:
   // An entry is kept where a plane meets at least `repeats` cubes per content; 0 keeps all. Takes
-  // at most 1/32 of the table's memory budget, and needs none of it.
-  PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table);
+  // at most `bytes`, and 1/32 of the table's memory budget, and needs none of it.
+  PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table,
+            uint64_t bytes = UINT64_MAX);
 
   // What the memo knows about a triangle's plane.
   struct Known {

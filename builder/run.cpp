@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "streaming/interrupt.h"
 #include "streaming/radix_sort.h"
 
 namespace svdag {
@@ -123,6 +124,7 @@ class Freezer {
  private:
   template <class Key, class KeyOf>
   void sort(SortRoom<Key>* room, int level, RunLevel<Key>* out, const KeyOf& key_of) {
+    check_interrupt();
     const std::vector<bool>& own = marks_[size_t(level)];
     room->make(own, key_of);
     table_->clear(level);

@@ -5,7 +5,6 @@
 
 #include "builder/exact.h"
 #include "io/lattice.h"
-#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -88,7 +87,6 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   Store store(grid, config, budget);
   double largest_move = 0;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
-    check_interrupt();
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       double move = 0;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -35,6 +36,7 @@ class FiniteFilter {
       : path_(path), skip_(skip), sink_(sink), counts_(counts) {}
 
   void operator()(const TriangleBatch& batch) {
+    check_interrupt();
     if (surely_finite(batch.triangles)) return pass(batch);
     const auto bad = std::find_if_not(batch.triangles.begin(), batch.triangles.end(), finite);
     if (bad == batch.triangles.end()) return pass(batch);
