@@ -1,5 +1,6 @@
 #include "streaming/scratch_dir.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -14,6 +15,11 @@ constexpr const char* kOwner = "owner";
 
 std::string name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
+}
+
+// The lock is the first file that an owner makes and the last that it removes.
+bool holds_others_only(const std::vector<std::string>& names) {
+  return !names.empty() && std::find(names.begin(), names.end(), kOwner) == names.end();
 }
 
 }  // namespace
@@ -36,6 +42,9 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   for (;;) {
     Folder folder = Folder::open_private(path);
+    if (!folder.made() && holds_others_only(folder.names()))
+      throw Error(ExitCode::kOutput, "holds other files and is no scratch folder: move it away",
+                  path);
     try {
       File file = folder.open_or_create(kOwner);
       if (file.descriptor() < 0) continue;

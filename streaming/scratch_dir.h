@@ -23,8 +23,8 @@ class ScratchDir {
   static std::string path_for(const std::string& output, const std::string& under);
 
   // Creates the folder, or takes it over with all it holds. A folder that another process owns is
-  // an Error (kUsage) that says so; one that is not ours to use (a link, another user's, no folder)
-  // and one that cannot be made are Errors (kOutput).
+  // an Error (kUsage) that says so; one that is not ours to use (a link, another user's, no folder,
+  // one with files but without a lock) and one that cannot be made are Errors (kOutput).
   explicit ScratchDir(const std::string& path);
   ScratchDir(const ScratchDir&) = delete;
   ScratchDir& operator=(const ScratchDir&) = delete;

@@ -131,6 +131,15 @@ TEST(ScratchDir, AFolderPutIntoItIsNotOursAndKeepsOnlyItselfAlive) {
   EXPECT_FALSE(fs::exists(temp.file("s/spill")));
 }
 
+TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
+  const TempFolder folder;
+  const std::string path = folder.file("s");
+  std::filesystem::create_directory(path);
+  folder.write("s/thesis.txt", "years");
+  EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "no scratch folder");
+  EXPECT_EQ(folder.read("s/thesis.txt"), "years");
+}
+
 TEST(ScratchDir, ALinkOrAFileInItsPlaceIsRefused) {
   const TempFolder temp;
   fs::create_directory(temp.file("elsewhere"));
@@ -158,6 +167,7 @@ TEST(ScratchDir, PlantedNamesAreNeitherFollowedNorWrittenTo) {
   const TempFolder temp;
   temp.write("precious", "keep");
   fs::create_directory(temp.file("s"));
+  temp.write("s/owner", "");
   fs::create_symlink(temp.file("precious"), temp.file("s/link"));
   fs::create_hard_link(temp.file("precious"), temp.file("s/second"));
   ASSERT_EQ(mkfifo(temp.file("s/pipe").c_str(), 0600), 0);
