@@ -48,10 +48,12 @@ class ExternalSort {
         block_bytes_(std::bit_floor(std::clamp(room.bytes / kBlocks, kSmallestBlock, kLargestBlock))),
         capacity_((room.bytes - 2 * workers() * block_bytes_) / (2 * sizeof(Record))) {
     SVDAG_ASSERT(room.bytes >= workers() * ExternalSortRoom::kLeast);
+    buffers_ = own_.reserve(2 * capacity_ * sizeof(Record), "sorting");
+    in_.reserve(capacity_);  // memory is taken when it is first touched
   }
 
   void push(const Record& record) {
-    if (in_.size() == limit_) make_room();
+    if (in_.size() == capacity_) spill();
     in_.push_back(record);
   }
 
@@ -77,35 +79,19 @@ class ExternalSort {
 
  private:
   static constexpr uint64_t kBlocks = 512, kSmallestBlock = 4096, kLargestBlock = 1 << 20;
-  static constexpr size_t kFirstBuffer = size_t(1) << 16;  // records
   using Stream = SortedStream<Record>;
   using Bucket = SortBucket<Record>;
 
   size_t workers() const { return room_.executor->workers(); }
 
-  // The buffers grow by doubling to the capacity, so that few records take little memory.
-  void make_room() {
-    if (limit_ == capacity_) return spill();
-    const size_t wanted = std::min(capacity_, std::max(2 * limit_, kFirstBuffer));
-    out_ = {};
-    MemoryBudget::Reservation more = own_.reserve((wanted - limit_) * 2 * sizeof(Record), "sorting");
-    HugeVector<Record> grown;
-    grown.reserve(wanted);
-    grown.insert(grown.end(), in_.begin(), in_.end());
-    in_ = std::move(grown);
-    buffers_.push_back(std::move(more));
-    limit_ = wanted;
-  }
-
   void give_up_buffers() {
     in_ = {};
     out_ = {};
-    buffers_.clear();
-    limit_ = 0;
+    buffers_.release();
   }
 
   std::vector<Bucket> split() {
-    if (out_.size() < in_.size()) out_.resize(limit_);
+    out_.resize(in_.size());
     const size_t most = std::max<size_t>(in_.size() / (16 * workers()), size_t(1) << 14);
     ParallelSplit<Record, Word> split(order_, room_.executor);
     return split.split({in_.data(), out_.data(), in_.size(), 0}, most);
@@ -205,9 +191,8 @@ class ExternalSort {
   MemoryBudget own_;  // how `bytes` are used
   const RadixSort<Record, Word> order_;
   const size_t block_bytes_, capacity_;
-  size_t limit_ = 0;  // records that in_ may hold now
   HugeVector<Record> in_, out_;
-  std::vector<MemoryBudget::Reservation> buffers_;  // of these
+  MemoryBudget::Reservation buffers_;  // of these
   std::unique_ptr<SpillFile> file_;
   std::vector<Stream> streams_;
   uint64_t next_stream_ = 1;

@@ -58,6 +58,12 @@ def bake_with_threads(bakes, wanted):
             for name, log2 in THREADS.items() if name in wanted and bakes.scene(name)]
 
 
+def processor():
+    """Its name, and how many of it."""
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    return f"{model.group(1) if model else 'unknown processor'}, {len(os.sched_getaffinity(0))} threads"
+
+
 def machine(row):
     """Processor, vectors and compiler, for people who compare times."""
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
