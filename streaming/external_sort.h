@@ -24,8 +24,8 @@
 namespace svdag {
 
 struct ExternalSortRoom {
-  MemoryBudget* budget;            // `bytes` are taken from it as long as the sort lives
-  uint64_t bytes;                  // at least kLeast per worker
+  MemoryBudget* budget;  // `bytes` are taken from it as long as the sort lives
+  uint64_t bytes;        // at least kLeast per worker
   Executor* executor;
   std::function<File()> new_file;  // called if something must be spilled
 
@@ -45,7 +45,8 @@ class ExternalSort {
         taken_(room.budget->reserve(room.bytes, "sort buffers")),
         own_(room.bytes),
         order_(words, word),
-        block_bytes_(std::bit_floor(std::clamp(room.bytes / kBlocks, kSmallestBlock, kLargestBlock))),
+        block_bytes_(
+            std::bit_floor(std::clamp(room.bytes / kBlocks, kSmallestBlock, kLargestBlock))),
         capacity_((room.bytes - 2 * workers() * block_bytes_) / (2 * sizeof(Record))) {
     SVDAG_ASSERT(room.bytes >= workers() * ExternalSortRoom::kLeast);
     buffers_ = own_.reserve(2 * capacity_ * sizeof(Record), "sorting");
@@ -65,7 +66,8 @@ class ExternalSort {
     if (!in_.empty()) spill();
     give_up_buffers();
     const size_t blocks = room_.bytes / block_bytes_ - 2;  // a writer has two
-    const size_t most = std::max<size_t>(PieceMerge<Record, Word>::most_streams(blocks, workers()), 2);
+    const size_t most =
+        std::max<size_t>(PieceMerge<Record, Word>::most_streams(blocks, workers()), 2);
     while (streams_.size() > most) merge_group(most, blocks);
     merge(streams_, blocks, take);
     for (const auto& stream : streams_) file_->free(stream.stream);

@@ -166,7 +166,8 @@ class PieceMerge {
       coming_.pop_front();
       const std::span<std::byte> bytes = fetch->wait();
       const auto* const records = reinterpret_cast<const Record*>(bytes.data());
-      piece.blocks.push_back({schedule_[cut_], std::move(fetch), {records, bytes.size() / sizeof(Record)}});
+      piece.blocks.push_back(
+          {schedule_[cut_], std::move(fetch), {records, bytes.size() / sizeof(Record)}});
     }
     ask(step_);
     if (until < schedule_.size()) {
@@ -202,7 +203,8 @@ class PieceMerge {
     std::vector<PieceSource<Record>> sources;
     for (size_t b = 0; b < piece->blocks.size(); ++b) {
       if (piece->blocks[b].left.empty()) continue;
-      const bool same = !sources.empty() && last_stream_of(*piece, b) == piece->blocks[b].place.stream;
+      const bool same =
+          !sources.empty() && last_stream_of(*piece, b) == piece->blocks[b].place.stream;
       if (!same) sources.emplace_back();
       sources.back().add(piece->blocks[b].left);
     }
@@ -276,7 +278,7 @@ class PieceMerge {
   std::mutex idle_mutex_;
   std::vector<SpillBlock> idle_;  // memory to read into; before all that gives it back
   Turns turns_;
-  std::mutex cut_mutex_;  // the next three
+  std::mutex cut_mutex_;        // the next three
   size_t asked_ = 0, cut_ = 0;  // places of the schedule
   std::deque<std::shared_ptr<SpillFetch>> coming_;
   std::vector<Block> open_;  // with records that no piece has got yet

@@ -94,8 +94,8 @@ bool compare(const std::string& kind, const char* memory, const Case& c,
   const double keys = double(c.keys.size());
   for (size_t s = 0; s < sorters.size(); ++s) {
     const SortCost& cost = least[s];
-    std::printf("%s,%s,%s,%.0f,%.3f,%.3f,%.1f,%.1f,%d\n", kind.c_str(), memory, sorters[s].name, keys,
-                cost.wall, cost.cpu, double(cost.written) / keys, double(cost.read) / keys,
+    std::printf("%s,%s,%s,%.0f,%.3f,%.3f,%.1f,%.1f,%d\n", kind.c_str(), memory, sorters[s].name,
+                keys, cost.wall, cost.cpu, double(cost.written) / keys, double(cost.read) / keys,
                 int(cost.right));
     right = right && cost.right;
   }
@@ -117,7 +117,8 @@ bool run(const std::string& folder, int log2, int rounds, bool disk) {
     std::vector<Sorter> sorters{{"svdag", our_sort}};
     if (!disk) sorters.push_back({"std::sort", std_sort});
 #ifdef SVDAG_HAS_STXXL
-    sorters.push_back({"stxxl", [](const Case& of) { return stxxl_sort(of.keys, of.memory, of.digest); }});
+    sorters.push_back(
+        {"stxxl", [](const Case& of) { return stxxl_sort(of.keys, of.memory, of.digest); }});
 #endif
     right = compare(kind, disk ? "1/8" : "all", c, sorters, rounds) && right;
   }

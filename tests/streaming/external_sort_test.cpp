@@ -37,9 +37,8 @@ struct Sorter {
              [](const Key& k, size_t i) { return k[i]; }) {}
   std::vector<Key> finish() {
     std::vector<Key> sorted;
-    sort.finish([&](std::span<const Key> keys) {
-      sorted.insert(sorted.end(), keys.begin(), keys.end());
-    });
+    sort.finish(
+        [&](std::span<const Key> keys) { sorted.insert(sorted.end(), keys.begin(), keys.end()); });
     return sorted;
   }
 
@@ -61,8 +60,8 @@ void expect_sorted_like_std_sort(std::vector<Key> keys, uint64_t bytes, size_t t
 
 TEST(ExternalSort, GivesWhatStdSortGives) {
   std::mt19937_64 random(1);
-  for (const Kind kind : {Kind::kRandom, Kind::kFew, Kind::kEqual, Kind::kAscending,
-                          Kind::kDescending}) {
+  for (const Kind kind :
+       {Kind::kRandom, Kind::kFew, Kind::kEqual, Kind::kAscending, Kind::kDescending}) {
     for (const size_t count : {0, 1, 2, 1000, 70000, 200000}) {
       for (const size_t threads : {1, 2, 5}) {
         const uint64_t least = threads * ExternalSortRoom::kLeast;
