@@ -39,18 +39,19 @@ class LevelSource {
     if (++at_ == end_ && reader_) return refill();
     see();
   }
-  // Whether the head goes before that of `other`; an ended source goes last.
+  // The first 64 bits of the head decide most comparisons; UINT64_MAX at the end.
+  uint64_t prefix() const { return prefix_; }
+  // Whether the head goes before that of `other`, which has the same prefix; an ended source goes
+  // last.
   bool before(const LevelSource& other) const {
-    if (prefix_ != other.prefix_) return prefix_ < other.prefix_;
     if (ended() || other.ended()) return !ended();
     return *at_ < *other.at_;
   }
 
  private:
-  // The first 64 bits of the head decide most comparisons.
-  static uint64_t prefix(Brick brick) { return brick; }
-  static uint64_t prefix(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
-  void see() { prefix_ = ended() ? UINT64_MAX : prefix(*at_); }
+  static uint64_t prefix_of(Brick brick) { return brick; }
+  static uint64_t prefix_of(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
+  void see() { prefix_ = ended() ? UINT64_MAX : prefix_of(*at_); }
 
   void refill() {
     const std::span<std::byte> block = reader_->next();

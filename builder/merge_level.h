@@ -8,9 +8,9 @@
 
 #include "builder/level_source.h"
 #include "builder/rank_maps.h"
-#include "builder/tournament.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/tournament.h"
 
 namespace svdag {
 
@@ -42,8 +42,9 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
     sources.push_back(input.open(budget));
   }
   RankMaps maps(counts, scratch, budget);
+  const auto prefix = [&](size_t s) { return sources[s].prefix(); };
   const auto before = [&](size_t a, size_t b) { return sources[a].before(sources[b]); };
-  Tournament tournament(sources.size(), before);
+  Tournament tournament(sources.size(), prefix, before);
   uint64_t merged = 0;
   for (size_t s = tournament.winner(); !sources[s].ended();) {
     if (++merged % kLook == 0) check_interrupt();

@@ -40,6 +40,17 @@ class SpillFile::Impl {
     return uint64_t(end_) * block_bytes;
   }
 
+  // Opens a block that was read; its payload.
+  std::span<std::byte> open(const SpillBlock& block, const SpillStream& stream, uint64_t index) {
+    const uint64_t payload = block_bytes - kHeader;
+    const uint32_t length = uint32_t(std::min<uint64_t>(payload, stream.bytes - index * payload));
+    if (!open_block(block.bytes(), {stream.number, index, length})) fail_damaged();
+    return block.bytes().subspan(kHeader, length);
+  }
+  [[noreturn]] void fail_damaged() const {
+    throw Error(ExitCode::kOutput, "scratch file is damaged", queue.path());
+  }
+
   const size_t block_bytes;
   SpillQueue queue;
 
@@ -168,12 +179,10 @@ SpillStream SpillWriter::finish() {
 class SpillReader::Impl {
  public:
   Impl(SpillFile* file, const SpillStream& stream, MemoryBudget* budget)
-      : file_(file->impl_.get()),
-        payload_(file->payload_bytes()),
-        budget_(budget),
-        stream_(stream) {
-    if (stream_.blocks.size() != stream_.bytes / payload_ + (stream_.bytes % payload_ != 0))
-      fail_damaged();
+      : file_(file->impl_.get()), budget_(budget), stream_(stream) {
+    const size_t payload = file->payload_bytes();
+    if (stream_.blocks.size() != stream_.bytes / payload + (stream_.bytes % payload != 0))
+      file_->fail_damaged();
     ask();
   }
 
@@ -188,10 +197,7 @@ class SpillReader::Impl {
     const uint64_t index = index_++;
     ask();
     // Checked here and not by the thread: so it is in the cache of whoever uses it.
-    const uint32_t length =
-        uint32_t(std::min<uint64_t>(payload_, stream_.bytes - index * payload_));
-    if (!open_block(current_.bytes(), {stream_.number, index, length})) fail_damaged();
-    return current_.bytes().subspan(SpillFile::kHeader, length);
+    return file_->open(current_, stream_, index);
   }
 
  private:
@@ -203,12 +209,7 @@ class SpillReader::Impl {
     file_->queue.submit(&ahead_);
   }
 
-  [[noreturn]] void fail_damaged() const {
-    throw Error(ExitCode::kOutput, "scratch file is damaged", file_->queue.path());
-  }
-
   SpillFile::Impl* file_;
-  const size_t payload_;
   MemoryBudget* budget_;
   const SpillStream stream_;
   size_t index_ = 0;    // of the block that is asked for
@@ -224,6 +225,49 @@ SpillReader::~SpillReader() = default;
 
 std::span<std::byte> SpillReader::next() {
   return impl_->next();
+}
+
+class SpillFetch::Impl {
+ public:
+  Impl(SpillFile* file, const SpillStream& stream, size_t index, SpillBlock block)
+      : file_(file->impl_.get()), index_(index) {
+    stream_.number = stream.number;
+    stream_.bytes = stream.bytes;
+    transfer_.block = std::move(block);
+    transfer_.place = stream.blocks[index];
+    file_->queue.submit(&transfer_);
+  }
+  ~Impl() { file_->queue.wait(&transfer_); }
+
+  std::span<std::byte> wait() {
+    file_->queue.wait(&transfer_);
+    file_->queue.check();
+    if (transfer_.failure) std::rethrow_exception(transfer_.failure);
+    return file_->open(transfer_.block, stream_, index_);
+  }
+  SpillBlock take_block() {
+    file_->queue.wait(&transfer_);
+    return std::move(transfer_.block);
+  }
+
+ private:
+  SpillFile::Impl* file_;
+  SpillStream stream_;  // without its blocks
+  uint64_t index_;
+  SpillTransfer transfer_;
+};
+
+SpillFetch::SpillFetch(SpillFile* file, const SpillStream& stream, size_t index, SpillBlock block)
+    : impl_(std::make_unique<Impl>(file, stream, index, std::move(block))) {}
+SpillFetch::SpillFetch(SpillFetch&&) noexcept = default;
+SpillFetch::~SpillFetch() = default;
+
+std::span<std::byte> SpillFetch::wait() {
+  return impl_->wait();
+}
+
+SpillBlock SpillFetch::take_block() {
+  return impl_->take_block();
 }
 
 }  // namespace svdag

@@ -57,6 +57,7 @@ class SpillFile {
  private:
   friend class SpillWriter;
   friend class SpillReader;
+  friend class SpillFetch;
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -96,6 +97,24 @@ class SpillReader {
   // The payload of the next block, which may be changed in place; empty at the end. Valid until the
   // next call. Aligned to 64 bytes.
   std::span<std::byte> next();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Reads one block of a stream, whichever is wanted next: asked for when this is made, there after
+// wait(). The memory is lent and can be had back.
+class SpillFetch {
+ public:
+  SpillFetch(SpillFile* file, const SpillStream& stream, size_t index, SpillBlock block);
+  SpillFetch(SpillFetch&&) noexcept;
+  ~SpillFetch();
+
+  // The payload. Aligned to 64 bytes. To be called once.
+  std::span<std::byte> wait();
+  // The memory, when the payload is not needed any more.
+  SpillBlock take_block();
 
  private:
   class Impl;

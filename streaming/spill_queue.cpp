@@ -105,7 +105,15 @@ void SpillQueue::enter_writer() {
 void SpillQueue::leave_writer() {
   std::unique_lock lock(mutex_);
   --writers_;
-  while (spares_.size() > std::min(kSpares, writers_)) spares_.erase(idle_spare(&lock));
+  // Asked again after each wait: others may leave meanwhile, and whoever stays needs a spare.
+  while (spares_.size() > std::min(kSpares, writers_)) {
+    const auto idle = std::ranges::find_if(spares_, [](const auto& spare) { return spare->done; });
+    if (idle != spares_.end()) {
+      spares_.erase(idle);
+    } else {
+      done_.wait(lock);
+    }
+  }
 }
 
 SpillTransfer* SpillQueue::take_spare(MemoryBudget* budget) {

@@ -42,6 +42,7 @@ LIBRARIES = {
     r"OpenMesh/": r"io/scene/openmesh\.cpp|tests/io/scene/openmesh_test\.cpp",
     r"draco/": r"io/scene/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",
+    r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge_vdb\.cpp|io/formats/vdb\.cpp",
     r"nanovdb/": r"io/formats/nvdb\.cpp",

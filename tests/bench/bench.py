@@ -58,11 +58,16 @@ def bake_with_threads(bakes, wanted):
             for name, log2 in THREADS.items() if name in wanted and bakes.scene(name)]
 
 
+def processor(threads=len(os.sched_getaffinity(0))):
+    """Its name, and how many threads are used."""
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    return f"{model.group(1) if model else 'unknown processor'}, {threads} threads"
+
+
 def machine(row):
     """Processor, vectors and compiler, for people who compare times."""
-    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    return (f"{model.group(1) if model else 'unknown processor'}, {row['threads']} threads, vectors {row['vectors']} "
+    return (f"{processor(row['threads'])}, vectors {row['vectors']} "
             f"({32 * row['lanes']} bits, {row['lanes']} floats). Compiler: {compiler}, release build.")
 
 

@@ -8,7 +8,6 @@
 
 #include "builder/merge.h"
 #include "builder/run.h"
-#include "builder/tournament.h"
 #include "builder/unique_set.h"
 #include "io/dag/dag_file.h"
 #include "tests/reference_reduction.h"
@@ -166,30 +165,6 @@ INSTANTIATE_TEST_SUITE_P(
                       MergeWay{"two_at_a_time", true, 1 << 30, 2},
                       MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
     [](const auto& way) { return way.param.name; });
-
-TEST(Tournament, GivesTheSmallestHeadAsALinearSearchDoes) {
-  std::mt19937 random(1);
-  for (size_t sources = 1; sources < 40; ++sources) {
-    std::vector<std::vector<int>> lists(sources);
-    for (auto& list : lists) {
-      for (size_t n = random() % 20; n > 0; --n) list.push_back(int(random() % 50));
-      std::sort(list.rbegin(), list.rend());
-      list.insert(list.begin(), 1000);  // the end
-    }
-    Tournament tournament(sources,
-                          [&](size_t a, size_t b) { return lists[a].back() < lists[b].back(); });
-    int last = -1;
-    for (;;) {
-      auto& list = lists[tournament.winner()];
-      for (const auto& other : lists) ASSERT_LE(list.back(), other.back());
-      if (list.back() == 1000) break;
-      ASSERT_GE(list.back(), last);
-      last = list.back();
-      list.pop_back();
-      tournament.replay();
-    }
-  }
-}
 
 }  // namespace
 }  // namespace svdag

@@ -1,0 +1,69 @@
+// Which of many sorted sources has the smallest head: a tree of losers (Knuth, TAOCP 3, 5.4.1).
+//
+// Every inner node remembers the loser of the match that was played there, so replacing the winner
+// costs one comparison per level, up the path from its leaf. A node holds the first 64 bits of its
+// loser's head as well: they decide most matches without a look at the sources, and without a
+// branch. Rejected: a binary heap (two comparisons per level), a linear search (linear in sources:
+// fine for three, not for three hundred).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svdag {
+
+// `prefix(a)`: of the head of source a, UINT64_MAX if it has ended. `less(a, b)`: whether source a
+// goes before source b where the prefixes are equal; one that has ended goes after all.
+template <class Prefix, class Less>
+class Tournament {
+ public:
+  Tournament(size_t sources, Prefix prefix, Less less)
+      : prefix_(prefix), less_(less), losers_(sources) {
+    if (sources > 0) winner_ = sources > 1 ? play(1) : Player{prefix_(0), 0};
+  }
+
+  // The source that goes first.
+  size_t winner() const { return winner_.source; }
+  // To be called when the winner's head has changed.
+  void replay() {
+    Player contender{prefix_(winner_.source), winner_.source};
+    for (size_t node = (contender.source + losers_.size()) / 2; node > 0; node /= 2) {
+      const Player other = losers_[node];
+      const bool loses = before(other, contender);
+      losers_[node] = loses ? contender : other;
+      contender = loses ? other : contender;
+    }
+    winner_ = contender;
+  }
+
+ private:
+  struct Player {
+    uint64_t prefix = 0;
+    size_t source = 0;
+  };
+
+  bool before(const Player& a, const Player& b) const {
+    if (a.prefix == b.prefix) [[unlikely]]
+      return less_(a.source, b.source);
+    return a.prefix < b.prefix;
+  }
+  // Nodes 1 .. n-1 are matches, n .. 2n-1 the sources.
+  Player play(size_t node) {
+    if (node >= losers_.size()) {
+      const size_t source = node - losers_.size();
+      return {prefix_(source), source};
+    }
+    const Player left = play(2 * node), right = play(2 * node + 1);
+    const bool swapped = before(right, left);
+    losers_[node] = swapped ? left : right;
+    return swapped ? right : left;
+  }
+
+  Prefix prefix_;
+  Less less_;
+  std::vector<Player> losers_;  // [0] is not used
+  Player winner_;
+};
+
+}  // namespace svdag
