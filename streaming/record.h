@@ -28,15 +28,18 @@ class RecordWriter {
   template <class T>
     requires std::is_trivially_copyable_v<T>
   void put(const std::vector<T>& values) {
-    put(uint64_t(values.size()));
-    const auto bytes = std::as_bytes(std::span(values));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    put_list(std::as_bytes(std::span(values)), values.size());
   }
-  void put(const std::string& text) { put(std::vector<char>(text.begin(), text.end())); }
+  void put(const std::string& text) { put_list(std::as_bytes(std::span(text)), text.size()); }
 
   std::span<const std::byte> bytes() const { return bytes_; }
 
  private:
+  void put_list(std::span<const std::byte> bytes, uint64_t count) {
+    put(count);
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
   std::vector<std::byte> bytes_;
 };
 
