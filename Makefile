@@ -7,6 +7,7 @@
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
+#   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
@@ -22,7 +23,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-accuracy bundle cuda clean
+.PHONY: all deps build demo test stress bench bench-giants bench-out-of-core bench-accuracy bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -64,6 +65,9 @@ bench: build
 
 bench-giants: build
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS) --giants
+
+bench-out-of-core: build
+	@$(PYTHON) tests/bench/out_of_core.py --programs $(PROGRAMS)
 
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))

@@ -271,6 +271,7 @@ BuildReport Bake::run() {
   split();
   voxelize();
   merge(&writer);
+  progress_->phase("write", 0);
   writer.finish(report_.voxels, report_.split.largest_snap);
   folder_.keep(false);
   report_.seconds.write = phase_.lap();

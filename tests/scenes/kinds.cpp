@@ -11,7 +11,8 @@ const std::vector<Kind>& kinds() {
                                         {"city", 120'000, make_city},
                                         {"terrain", 500'000, make_terrain},
                                         {"rectangle", 2, make_rectangle},
-                                        {"sheet", 2, make_sheet}};
+                                        {"sheet", 2, make_sheet},
+                                        {"speck", 1'000'000, make_speck}};
   return all;
 }
 
