@@ -203,7 +203,8 @@ void Bake::voxelize() {
   describe_work(voxelizer);
   report_.seconds.voxelize = phase_.lap();
   progress_->phase("sort", 0);
-  for (BakedRun& baked : voxelizer.finish(spilled_)) add(std::move(baked));
+  for (BakedRun& baked : voxelizer.finish(spilled_))
+    spilled_ ? save(std::move(baked)) : add(std::move(baked));
   report_.runs = runs_.size();
   report_.seconds.sort = phase_.lap();
 }
