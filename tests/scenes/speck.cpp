@@ -6,10 +6,10 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr double kHalf = 64;             // of the box's side
-constexpr double kStep = 1.0 / 65536;    // what coordinates are multiples of
-constexpr uint64_t kReach = 8;           // steps around the centre: a millionth of the side is 8.4
-constexpr uint64_t kFarVertices = 6;     // two triangles that set the box
+constexpr double kHalf = 64;           // of the box's side
+constexpr double kStep = 1.0 / 65536;  // what coordinates are multiples of
+constexpr uint64_t kReach = 8;         // steps around the centre: a millionth of the side is 8.4
+constexpr uint64_t kFarVertices = 6;   // two triangles that set the box
 // The centre of a voxel at 64K, as far from its sides as at any coarser grid or farther.
 constexpr Point kCentre{8773.5 / 512, -5054.5 / 512, 12009.5 / 512};
 
