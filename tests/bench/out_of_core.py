@@ -23,6 +23,9 @@ from peak import Peak  # noqa: E402
 KNOWN = OUT / "out_of_core.json"
 MIB = 1 << 20
 MARGIN = 64 * MIB  # beside --memory: code, stacks, the heap's small change
+SMALL = 1e6  # bytes of a file with which scratch is not compared
+HEAD = ["scene", "memory", "seconds", "CPU", "counted MiB", "own MiB", "resident MiB", "limit MiB", "file MB",
+        "scratch MB", "scratch / file", "read / scene", "content", "asked"]
 LOOK = 0.01  # seconds between two looks at a process
 
 
@@ -120,17 +123,16 @@ def assert_same_hashes(known):
 def line(row, known):
     m, head = known[row.name], [f"{row.scene}, {label(row.log2)}³", row.memory or "default"]
     if "failed" in m:
-        return [*head, *[""] * 10, m["failed"]]
+        return [*head, *[""] * (len(HEAD) - 3), m["failed"]]
     good = {name: other for name, other in known.items() if "wall" in other}
     return [*head, f"{m['wall']:.1f}", f"{m['cpu']:.1f}", *[f"{m[key] / MIB:,.0f}" for key in ("counted", "own", "resident")],
-            f"{m['limit'] / MIB:,.0f}" if m["limit"] else "–", f"{m['file'] / 1e6:,.0f}", f"{m['scratch']:.1f}",
+            f"{m['limit'] / MIB:,.0f}" if m["limit"] else "–", f"{m['file'] / 1e6:,.0f}",
+            f"{m['scratch'] * m['file'] / 1e6:,.0f}", f"{m['scratch']:.1f}" if m["file"] > SMALL else "–",
             f"{m['read']:.1f}", m["hash"][:8], ", ".join(asked.verdict(m, good) for asked in row.asked)]
 
 
 def made_table(known):
-    head = ["scene", "memory", "seconds", "CPU", "counted MiB", "own MiB", "resident MiB", "limit MiB", "file MB",
-            "scratch / file", "read / scene", "content", "asked"]
-    return table(head, [line(row, known) for row in ROWS if row.name in known])
+    return table(HEAD, [line(row, known) for row in ROWS if row.name in known])
 
 
 def clean_up(bakes, scene, needed, keep):
