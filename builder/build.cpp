@@ -203,6 +203,7 @@ void Bake::voxelize() {
   describe_work(voxelizer);
   report_.seconds.voxelize = phase_.lap();
   progress_->phase("sort", 0);
+  // Where others were saved, the last are, too: a bake killed in the merge voxelizes nothing again.
   for (BakedRun& baked : voxelizer.finish(spilled_))
     spilled_ ? save(std::move(baked)) : add(std::move(baked));
   report_.runs = runs_.size();
