@@ -3,8 +3,7 @@
 //   SVDAG_FAULT_UNDER   the watched folders, absolute and resolved, separated by ':'
 //   SVDAG_FAULT_MARK    a file: gets "fired KIND K PATH", and "count KIND N" per kind at the end
 //   SVDAG_FAULT_KIND    open, read, write, fsync, close, rename, link, unlink, truncate, mkdir,
-//   lock
-//                       or mode; without it the calls are only counted
+//                       lock, mode or alloc; without it the calls are only counted
 //   SVDAG_FAULT_AT      k, from 1
 //   SVDAG_FAULT_DO      an errno (a number), "short" or "exit" (status 137, before the call)
 //   SVDAG_FAULT_STAYS   1: so do all later calls of the kind
@@ -44,10 +43,12 @@ enum Kind {
   kMkdir,
   kLock,
   kMode,
+  kAlloc,  // requests for memory (memory.cpp), wherever
   kKinds
 };
-constexpr const char* kNames[kKinds] = {"open", "read",   "write",    "fsync", "close", "rename",
-                                        "link", "unlink", "truncate", "mkdir", "lock",  "mode"};
+constexpr const char* kNames[kKinds] = {"open",   "read", "write",  "fsync",    "close",
+                                        "rename", "link", "unlink", "truncate", "mkdir",
+                                        "lock",   "mode", "alloc"};
 
 inline std::string setting(const char* name) {
   const char* text = std::getenv(name);
