@@ -133,13 +133,14 @@ class Bake {
 // An earlier process may have left work behind: it is resumed, discarded, or in the way.
 void Bake::find_unfinished() {
   if (!Checkpoint::exists(folder_)) return folder_.clear();
+  folder_.keep();  // also if it cannot be read now
   if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume();
   if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
     saved_.reset();
-    checkpoint_.abandon();
+    checkpoint_.discard();
+    folder_.keep(false);
     return folder_.clear();
   }
-  folder_.keep();
   if (config_.unfinished == Unfinished::kRefuse)
     fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
                ": continue it with --resume or discard it with --restart");
@@ -277,7 +278,8 @@ BuildReport Bake::run_or_tell() {
   } catch (const Error& error) {
     if (!saves_ || error.code() == ExitCode::kInternal) throw;
     throw Error(error.code(),
-                std::string(error.what()) + "; what is done so far is kept for --resume");
+                std::string(error.what()) + "; what is done so far is kept for --resume" +
+                    (report_.resumed ? ", --restart begins anew" : ""));
   }
 }
 
@@ -293,7 +295,9 @@ BuildReport Bake::run() {
   voxelize();
   merge(&writer);
   writer.finish(report_.voxels, report_.split.largest_snap);
+  saves_ = false;
   folder_.keep(false);
+  checkpoint_.discard();
   report_.seconds.write = phase_.lap();
   progress_->finish();
 

@@ -112,6 +112,13 @@ std::optional<SavedBake> Checkpoint::resume() {
   return saved;
 }
 
+void Checkpoint::discard() {
+  journal_.reset();
+  if (!exists(*scratch_->folder())) return;
+  scratch_->folder()->remove(kName);
+  scratch_->folder()->sync();
+}
+
 void Checkpoint::begin(const std::string& description, const Grid& grid) {
   const std::lock_guard lock(mutex_);
   if (journal_) return;

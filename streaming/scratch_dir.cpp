@@ -72,12 +72,11 @@ void ScratchDir::discard(const Folder& folder, const std::set<std::string>& name
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  std::set<std::string> all = made_;
   try {
-    all = names();
-  } catch (const Error&) {  // then at least those that are known
+    made_ = names();
+  } catch (const std::exception&) {  // then at least those that are known
   }
-  discard(folder_, all);
+  discard(folder_, made_);
 }
 
 // A folder that was made here holds nothing else; only one that was taken over must be listed.
@@ -99,6 +98,11 @@ File ScratchDir::create(const std::string& name) {
 void ScratchDir::remove(const std::string& name) {
   folder_.remove(name);
   made_.erase(name);
+}
+
+void ScratchDir::sync() const {
+  folder_.sync();
+  sync_folder(folder_of(path()));
 }
 
 void ScratchDir::clear() {

@@ -5,6 +5,7 @@
 A bake is logged once (log.h); states that the disk may be in after a cut at a random place of the log are laid out
 (replay.py), judged and resumed. What the journal has promised must be there: --resume finds it.
 """
+import itertools
 import os
 import random
 import shutil
@@ -22,10 +23,11 @@ STATES = 10_000 if bakes.LONG else 200  # in all
 AT_ONCE = 64
 SEED = int(os.environ.get("SVDAG_SEED", "1"))
 IN_MEMORY = bakes.SMALL[0]
-SPILLING = bakes.Bake("spilling", ["hairball", "-n", "5K"],
-                      ["-r", "256", "-m", "3M", "-j", "1", "--checkpoint", "0.01"])
+SPILLING = bakes.SAVING
 # Of the same scene; what it spills looks like what the other spills.
-COARSER = SPILLING._replace(options=["-r", "128", *SPILLING.options[2:]])
+COARSER = SPILLING._replace(options=["-r", "512", *SPILLING.options[2:]])
+# Runs alone: the triangles stay in memory.
+RUNS = SPILLING._replace(options=["-r", "2K", "-m", "16M", "-j", "2", "--checkpoint", "0.001"])
 
 
 class Case(NamedTuple):
@@ -40,7 +42,8 @@ class Case(NamedTuple):
 
 CASES = [Case("in memory", 0.1, IN_MEMORY, []),
          Case("in memory, no O_TMPFILE", 0.1, IN_MEMORY, [], no_tmpfile=True),
-         Case("spilling", 0.4, SPILLING, []),
+         Case("spilling", 0.3, SPILLING, []),
+         Case("runs alone", 0.1, RUNS, []),
          Case("resumed", 0.2, SPILLING, ["--resume"], before=SPILLING),
          Case("restarted", 0.2, SPILLING, ["--restart"], before=COARSER)]
 
@@ -87,18 +90,18 @@ def complaints_about_replay(disk, operations, folder):
 
 
 def resume(kitchen, folder):
-    """The complaints about --resume, and whether it resumed, restarted or refused."""
+    """The complaints about --resume, and with what sentence it refused."""
     run = lambda *more: subprocess.run(kitchen.bake.command(*more), cwd=folder, capture_output=True, text=True)
     done = run("--resume")
     if done.returncode == 0:
-        return [f"--resume gave {kitchen.state(folder)}"] * (kitchen.state(folder) != "new"), False
+        return [f"--resume gave {kitchen.state(folder)}"] * (kitchen.state(folder) != "new"), ""
     found = bakes.sentences(done.stderr)
     if done.returncode not in (2, 4):
         found.append(f"--resume: exit {done.returncode}, {done.stderr!r}")
-    done = run("--restart")
-    if done.returncode != 0 or kitchen.state(folder) != "new":
-        found.append(f"--restart after that: exit {done.returncode}, {done.stderr!r}, {kitchen.state(folder)}")
-    return found, True
+    again = run("--restart")
+    if again.returncode != 0 or kitchen.state(folder) != "new":
+        found.append(f"--restart after that: exit {again.returncode}, {again.stderr!r}, {kitchen.state(folder)}")
+    return found, done.stderr
 
 
 def judge(case, kitchens, state):
@@ -121,7 +124,7 @@ def judge(case, kitchens, state):
             refusals.append(refused)
             shutil.rmtree(copy)
         if state.promised and refusals[0]:
-            found.append("what the journal promised cannot be resumed")
+            found.append(f"what the journal promised cannot be resumed: {refusals[0]!r}")
     return f"{case.name}, {state.place}", found, refusals[0]
 
 
@@ -147,11 +150,11 @@ def run(report, case, pool):
         report.judge(f"{case.name}: logged", complaints)
         count, refused, promised = int(STATES * case.share), 0, 0
         todo = states(replay.Disk(folder), operations, count, kitchen.new)
-        while batch := [s for s, _ in zip(todo, range(AT_ONCE))]:
+        while batch := list(itertools.islice(todo, AT_ONCE)):
             promised += sum(state.promised for state in batch)
             for name, found, did_refuse in pool.map(lambda state: judge(case, kitchens, state), batch):
                 report.judge(name, found)
-                refused += did_refuse
+                refused += did_refuse != ""
     print(f"{case.name}: {len(operations)} operations, {count} states, {promised} with a promise, {refused} refused")
 
 
