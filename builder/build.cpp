@@ -95,6 +95,7 @@ class Bake {
 
  private:
   BuildReport run();
+  std::string kept() const;
   void keep_scratch();
   void find_unfinished();
   void choose_grid();
@@ -268,6 +269,11 @@ void Bake::merge(DagWriter* writer) {
   report_.seconds.merge = phase_.lap();
 }
 
+std::string Bake::kept() const {
+  return std::string("; what is done so far is kept for --resume") +
+         (report_.resumed ? ", --restart begins anew" : "");
+}
+
 // As run(), and who can be resumed says so.
 BuildReport Bake::run_or_tell() {
   try {
@@ -277,9 +283,10 @@ BuildReport Bake::run_or_tell() {
     throw;
   } catch (const Error& error) {
     if (!saves_ || error.code() == ExitCode::kInternal) throw;
-    throw Error(error.code(),
-                std::string(error.what()) + "; what is done so far is kept for --resume" +
-                    (report_.resumed ? ", --restart begins anew" : ""));
+    throw Error(error.code(), error.what() + kept());
+  } catch (const std::exception& error) {
+    if (!saves_ || !is_lack_of_memory(error)) throw;
+    throw Error(ExitCode::kMemory, kNoMemory + kept());
   }
 }
 

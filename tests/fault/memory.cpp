@@ -23,22 +23,17 @@ using Main = int (*)(int, char**, char**);
 
 Main program = nullptr;
 std::atomic<bool> begun{false};
-// Requests of the shim itself do not count.
-[[gnu::tls_model("initial-exec")]] thread_local bool ours = false;
 
 bool refused() {
-  if (!begun.load(std::memory_order_relaxed) || ours) return false;
-  ours = true;
+  if (!begun.load(std::memory_order_relaxed) || fault::own_requests > 0) return false;
+  const fault::OwnRequests own;
   const int error = fault::strike(fault::kAlloc, "memory");
-  ours = false;
   if (error > 0) errno = ENOMEM;
   return error > 0;
 }
 
 int begin_main(int count, char** arguments, char** environment) {
-  ours = true;
   fault::plan();
-  ours = false;
   begun = true;
   const int result = program(count, arguments, environment);
   begun = false;
