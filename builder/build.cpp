@@ -14,6 +14,7 @@
 #include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/voxelize.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -246,7 +247,7 @@ void Bake::save(BakedRun baked) {
 
 void Bake::add(BakedRun baked) {
   for (CellRoot& root : baked.roots) {
-    root.run = uint32_t(runs_.size());
+    root.run = as_u32(runs_.size(), "runs");
     roots_.push_back(root);
   }
   report_.voxels += baked.voxels;

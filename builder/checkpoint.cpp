@@ -130,6 +130,7 @@ void Checkpoint::begin(const std::string& description, const Grid& grid) {
   record.put(scratch_->block_bytes());
   journal_->append(kBake, record.bytes());
   scratch_->folder()->sync();
+  scratch_->folder()->sync_itself();
 }
 
 void Checkpoint::save_split(const SplitScene& split) {

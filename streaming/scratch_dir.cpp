@@ -100,11 +100,6 @@ void ScratchDir::remove(const std::string& name) {
   made_.erase(name);
 }
 
-void ScratchDir::sync() const {
-  folder_.sync();
-  sync_folder(folder_of(path()));
-}
-
 void ScratchDir::clear() {
   for (const std::string& name : names()) remove(name);
 }

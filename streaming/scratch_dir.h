@@ -40,8 +40,10 @@ class ScratchDir {
   void remove(const std::string& name);
   // Removes every file but the lock.
   void clear();
-  // Makes the names of files durable, and that of the folder.
-  void sync() const;
+  // Makes the names of files durable.
+  void sync() const { folder_.sync(); }
+  // Makes the name of the folder durable.
+  void sync_itself() const { sync_folder(folder_of(path())); }
   // From now on the folder outlives this object: something in it can be resumed.
   void keep(bool kept = true) { kept_ = kept; }
 
