@@ -139,7 +139,8 @@ def run(report, case, pool):
         start = kitchen.root / "start"
         shutil.copytree(folder, start)
         log = kitchen.root / "log"
-        outcome = shim.run(bakes.SHIM, case.bake.command(*case.more), folder, Fault(no_tmpfile=case.no_tmpfile), log=log)
+        fault = Fault(no_tmpfile=case.no_tmpfile)
+        outcome = shim.run(bakes.SHIM, case.bake.command(*case.more), folder, fault, log=log)
         shutil.copytree(folder, kitchen.root / "end")
         # The log speaks of `folder`, so that is where the disk begins.
         shutil.rmtree(folder)
