@@ -14,6 +14,7 @@
 #include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/voxelize.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -95,6 +96,7 @@ class Bake {
 
  private:
   BuildReport run();
+  std::string kept() const;
   void keep_scratch();
   void find_unfinished();
   void choose_grid();
@@ -133,13 +135,14 @@ class Bake {
 // An earlier process may have left work behind: it is resumed, discarded, or in the way.
 void Bake::find_unfinished() {
   if (!Checkpoint::exists(folder_)) return folder_.clear();
+  folder_.keep();  // also if it cannot be read now
   if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume();
   if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
     saved_.reset();
-    checkpoint_.abandon();
+    checkpoint_.discard();
+    folder_.keep(false);
     return folder_.clear();
   }
-  folder_.keep();
   if (config_.unfinished == Unfinished::kRefuse)
     fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
                ": continue it with --resume or discard it with --restart");
@@ -246,7 +249,7 @@ void Bake::save(BakedRun baked) {
 
 void Bake::add(BakedRun baked) {
   for (CellRoot& root : baked.roots) {
-    root.run = uint32_t(runs_.size());
+    root.run = as_u32(runs_.size(), "runs");
     roots_.push_back(root);
   }
   report_.voxels += baked.voxels;
@@ -269,6 +272,11 @@ void Bake::merge(DagWriter* writer) {
   report_.seconds.merge = phase_.lap();
 }
 
+std::string Bake::kept() const {
+  return std::string("; what is done so far is kept for --resume") +
+         (report_.resumed ? ", --restart begins anew" : "");
+}
+
 // As run(), and who can be resumed says so.
 BuildReport Bake::run_or_tell() {
   try {
@@ -278,8 +286,10 @@ BuildReport Bake::run_or_tell() {
     throw;
   } catch (const Error& error) {
     if (!saves_ || error.code() == ExitCode::kInternal) throw;
-    throw Error(error.code(),
-                std::string(error.what()) + "; what is done so far is kept for --resume");
+    throw Error(error.code(), error.what() + kept());
+  } catch (const std::exception& error) {
+    if (!saves_ || !is_lack_of_memory(error)) throw;
+    throw Error(ExitCode::kMemory, kNoMemory + kept());
   }
 }
 
@@ -296,7 +306,9 @@ BuildReport Bake::run() {
   merge(&writer);
   progress_->phase("write", 0);
   writer.finish(report_.voxels, report_.split.largest_snap);
+  saves_ = false;
   folder_.keep(false);
+  checkpoint_.discard();
   report_.seconds.write = phase_.lap();
   progress_->finish();
 

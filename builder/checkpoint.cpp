@@ -112,6 +112,13 @@ std::optional<SavedBake> Checkpoint::resume() {
   return saved;
 }
 
+void Checkpoint::discard() {
+  journal_.reset();
+  if (!exists(*scratch_->folder())) return;
+  scratch_->folder()->remove(kName);
+  scratch_->folder()->sync();
+}
+
 void Checkpoint::begin(const std::string& description, const Grid& grid) {
   const std::lock_guard lock(mutex_);
   if (journal_) return;
@@ -123,6 +130,7 @@ void Checkpoint::begin(const std::string& description, const Grid& grid) {
   record.put(scratch_->block_bytes());
   journal_->append(kBake, record.bytes());
   scratch_->folder()->sync();
+  scratch_->folder()->sync_itself();
 }
 
 void Checkpoint::save_split(const SplitScene& split) {

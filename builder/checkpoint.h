@@ -36,8 +36,9 @@ class Checkpoint {
   // journal has no bake.
   std::optional<SavedBake> resume();
 
-  // Lets go of the journal.
-  void abandon() { journal_.reset(); }
+  // Removes the journal, if there is one, for good: no power cut brings it back beside files that
+  // were removed or made since.
+  void discard();
   // Begins a journal, once; without one nothing is saved.
   void begin(const std::string& description, const Grid& grid);
   bool begun() const { return journal_.has_value(); }

@@ -12,7 +12,7 @@ DenseCube::DenseCube(const Grid& grid, const Cube& cube, MemoryBudget* budget)
   const int log2 = grid.levels - cube.level - 2;  // of the side in bricks
   SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= kLargestLog2);
   const uint64_t bricks = uint64_t(1) << (3 * log2);
-  reservation_ = budget->reserve(bricks * sizeof(Brick), "a dense cube");
+  reservation_ = budget->reserve(bricks * sizeof(Brick), "voxels of a dense cube");
   bricks_.assign(bricks, 0);
 }
 

@@ -38,6 +38,7 @@ std::string list(const std::vector<std::string>& items) {
 
 std::string describe(const BuildConfig& config) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // a lack of memory must not shorten the text
   out << "algorithm: " << kAlgorithm << '\n';
   out << "rule: " << (config.descent.rule == Rule::kThin ? "thin" : "conservative") << '\n';
   if (config.voxel_size != 0) {
@@ -62,6 +63,8 @@ std::string describe(const BuildConfig& config) {
 
 std::string difference(const std::string& saved, const std::string& now) {
   std::istringstream a(saved), b(now);
+  a.exceptions(std::ios::badbit);
+  b.exceptions(std::ios::badbit);
   std::string old_line, new_line;
   for (;;) {
     const bool more_old = bool(std::getline(a, old_line));

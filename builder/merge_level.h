@@ -8,6 +8,7 @@
 
 #include "builder/level_source.h"
 #include "builder/rank_maps.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 #include "streaming/tournament.h"
@@ -17,10 +18,10 @@ namespace svdag {
 // Where the keys of a source stand.
 template <class Key>
 struct LevelInput {
-  std::span<const Key> keys;             // in memory, if `file` is null
+  std::span<const Key> keys;  // in memory, if `file` is null
   SpillFile* file = nullptr;
   const SpillStream* stream = nullptr;
-  const RankMap* map = nullptr;          // rewrites the children of what is read from `file`
+  const RankMap* map = nullptr;  // rewrites the children of what is read from `file`
 
   uint64_t count() const { return file == nullptr ? keys.size() : stream->bytes / sizeof(Key); }
   LevelSource<Key> open(MemoryBudget* budget) const {
@@ -71,10 +72,10 @@ RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add
   std::vector<SpillStream> merged;
   for (size_t begin = 0; begin < inputs.size(); begin += most) {
     SpillWriter writer(scratch->passing(), scratch->new_streams(), budget);
-    uint32_t next = 0;
+    uint64_t next = 0;
     const auto append = [&](const Key& key) {
       writer.append(std::as_bytes(std::span(&key, 1)));
-      return next++;
+      return as_u32(next++, "nodes in a level of some runs");
     };
     const auto group = inputs.subspan(begin, std::min(most, inputs.size() - begin));
     into.push_back(merge_at_once<Key>(group, append, scratch, budget));

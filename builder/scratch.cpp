@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "streaming/error.h"
+
 namespace svdag {
 namespace {
 
@@ -18,18 +20,29 @@ Scratch::Scratch(ScratchDir* folder, MemoryBudget* budget)
 
 SpillFile* Scratch::file(std::unique_ptr<SpillFile>* file, const char* name) {
   const std::lock_guard lock(mutex_);
-  if (!*file) *file = std::make_unique<SpillFile>(folder_->create(name), block_bytes_);
+  if (!*file) {
+    *file = std::make_unique<SpillFile>(folder_->create(name), block_bytes_);
+    if (file != &passing_) folder_->sync();
+  }
   return file->get();
+}
+
+std::unique_ptr<SpillFile> Scratch::earlier(const char* name, uint32_t blocks) {
+  if (blocks == 0) return nullptr;
+  if (!folder_->has(name))
+    throw Error(ExitCode::kOutput,
+                std::string("its file \"") + name +
+                    "\" is missing: discard the unfinished bake with --restart",
+                folder_->path());
+  return std::make_unique<SpillFile>(folder_->open(name), block_bytes_, blocks);
 }
 
 void Scratch::resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
                      uint64_t next_stream) {
   block_bytes_ = block_bytes;
   next_stream_ = next_stream;
-  if (triangle_blocks != 0)
-    triangles_ = std::make_unique<SpillFile>(folder_->open("triangles"), block_bytes, triangle_blocks);
-  if (run_blocks != 0)
-    runs_ = std::make_unique<SpillFile>(folder_->open("runs"), block_bytes, run_blocks);
+  triangles_ = earlier("triangles", triangle_blocks);
+  runs_ = earlier("runs", run_blocks);
 }
 
 uint64_t Scratch::sum(uint64_t (SpillFile::*bytes)() const) const {

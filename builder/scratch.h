@@ -26,6 +26,7 @@ class Scratch {
   MemoryBudget* budget() const { return budget_; }
   size_t block_bytes() const { return block_bytes_; }
 
+  // A file that a journal may speak of has its name on disk from the beginning.
   SpillFile* triangles() { return file(&triangles_, "triangles"); }
   SpillFile* runs() { return file(&runs_, "runs"); }
   SpillFile* passing() { return file(&passing_, "passing"); }
@@ -33,6 +34,7 @@ class Scratch {
   uint64_t new_streams(uint64_t count = 1) { return next_stream_.fetch_add(count); }
 
   // Continues the files of an earlier process: block size, blocks in use, and numbers not used yet.
+  // Error (kOutput) if one is missing.
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
@@ -43,6 +45,7 @@ class Scratch {
 
  private:
   SpillFile* file(std::unique_ptr<SpillFile>* file, const char* name);
+  std::unique_ptr<SpillFile> earlier(const char* name, uint32_t blocks);
   uint64_t sum(uint64_t (SpillFile::*bytes)() const) const;
 
   ScratchDir* folder_;

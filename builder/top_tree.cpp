@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "streaming/counts.h"
+
 namespace svdag {
 namespace {
 
@@ -33,7 +35,7 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
   std::vector<NodeKey> keys;
   for (const Place& place : places_) {
     if (parents.empty() || parents.back().morton != place.morton >> 3) {
-      parents.push_back({place.morton >> 3, uint32_t(keys.size())});
+      parents.push_back({place.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
       keys.push_back({});
     }
     keys.back()[place.morton & 7] = 1 + place.index;

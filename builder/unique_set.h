@@ -25,11 +25,10 @@ namespace svdag {
 
 constexpr uint32_t kPending = 0x80000000U;
 
-template <class Key, class Hash>
+// `most`: members; 1 + any handle must fit u32.
+template <class Key, class Hash, uint32_t most = 0x7ffffffdU>
 class UniqueSet {
  public:
-  static constexpr uint32_t kLimit = 0x7ffffffdU;  // 1 + any handle fits u32
-
   explicit UniqueSet(MemoryBudget* budget)
       : keys_(budget, kPurpose), reservation_(budget->reserve(0, kPurpose)) {}
 
@@ -110,8 +109,10 @@ class UniqueSet {
       if (slot >> 32 == tag && same(keys_[number], key)) return number;
       at = (at + 1) & mask_;
     }
-    if (keys_.size() >= kLimit)
-      throw Error(ExitCode::kMemory, "one level needs more than 2^31 nodes: lower the resolution");
+    if (keys_.size() >= most)
+      throw Error(ExitCode::kMemory,
+                  "the cells of one worker need more than 2^31 - 3 nodes in one level: lower the "
+                  "resolution");
     keys_.push_back(key);
     slots()[at] = uint64_t(tag) << 32 | keys_.size();
     return uint32_t(keys_.size() - 1);

@@ -1,5 +1,8 @@
 #include "streaming/error.h"
 
+#include <new>
+#include <system_error>
+
 namespace svdag {
 namespace {
 
@@ -26,6 +29,13 @@ void fail_input(const std::string& path, const std::string& sentence,
 
 void fail_usage(const std::string& sentence) {
   throw Error(ExitCode::kUsage, sentence);
+}
+
+bool is_lack_of_memory(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return system != nullptr && (system->code() == std::errc::resource_unavailable_try_again ||
+                               system->code() == std::errc::not_enough_memory);
 }
 
 void assertion_failed(const char* condition, const char* file, int line) {

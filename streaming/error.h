@@ -46,6 +46,11 @@ class Error : public std::runtime_error {
                              std::optional<uint64_t> offset = {});
 [[noreturn]] void fail_usage(const std::string& sentence);
 
+constexpr const char* kNoMemory =
+    "the machine has no memory left: give less with --memory or free some";
+// True if `error` says that the system has no memory, or no thread, to give.
+bool is_lack_of_memory(const std::exception& error);
+
 // Called by SVDAG_ASSERT: throws an Error with kInternal that asks for a bug report.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
 

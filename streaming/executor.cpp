@@ -36,7 +36,12 @@ void ParallelExecutor::for_each(size_t count, const Task& task) {
   };
   {
     std::vector<std::jthread> threads;
-    for (size_t w = 1; w < std::min(threads_, count); ++w) threads.emplace_back(work, w);
+    try {
+      for (size_t w = 1; w < std::min(threads_, count); ++w) threads.emplace_back(work, w);
+    } catch (...) {  // no more threads, or no memory for them: those that run stop soon
+      next = count;
+      throw;
+    }
     work(0);
   }
   if (first_error) std::rethrow_exception(first_error);

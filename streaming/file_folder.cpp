@@ -76,10 +76,7 @@ File Folder::create(const std::string& name) const {
 }
 
 File Folder::open(const std::string& name) const {
-  const int fd = retry_interrupted([&] { return ::openat(fd_, name.c_str(), kFile); });
-  if (fd < 0 && errno == ENOENT)
-    fail_call(ExitCode::kBadInput, "cannot be opened", path_of(name), errno);
-  return regular(fd, name);
+  return regular(retry_interrupted([&] { return ::openat(fd_, name.c_str(), kFile); }), name);
 }
 
 File Folder::open_or_create(const std::string& name) const {

@@ -29,7 +29,7 @@ class Folder {
   bool has(const std::string& name) const;
   // Makes a file (0600) that is not there yet, and opens it for reading and writing.
   File create(const std::string& name) const;
-  // Opens a regular file for reading and writing; Error (kBadInput) if there is none.
+  // Opens a regular file for reading and writing.
   File open(const std::string& name) const;
   // Opens it, or makes it. A File without descriptor if the folder itself was removed meanwhile.
   File open_or_create(const std::string& name) const;

@@ -56,7 +56,8 @@ Journal::Journal(File file, std::vector<JournalRecord>* records) : file_(std::mo
 }
 
 void Journal::append(uint32_t kind, std::span<const std::byte> payload) {
-  SVDAG_ASSERT(payload.size() <= kLongest);
+  if (payload.size() > kLongest)
+    throw Error(ExitCode::kOutput, "cannot hold a record of more than 2^30 bytes", file_.path());
   const Tag tag = {kind, uint32_t(payload.size())};
   std::vector<std::byte> record(kHeader + payload.size());
   std::copy(payload.begin(), payload.end(), record.begin() + kHeader);

@@ -1,10 +1,10 @@
 // An append-only list of records that survives the process: what of a bake is done.
 //
 // A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
-// append() returns after the record is on disk; whoever appends has synced what it speaks of. Once it
-// has thrown, the journal is not used any more.
-// Reading stops at the first record that is not whole, and the file is cut there: a killed process
-// loses at most the record it was writing (after ninja's deps log).
+// append() returns after the record is on disk; whoever appends has synced what it speaks of. Once
+// it has thrown, the journal is not used any more. Reading stops at the first record that is not
+// whole, and the file is cut there: a killed process loses at most the record it was writing (after
+// ninja's deps log).
 #pragma once
 
 #include <cstddef>
@@ -27,6 +27,7 @@ class Journal {
   // `file` is new and empty, or an earlier journal, of which *records gets what is whole.
   Journal(File file, std::vector<JournalRecord>* records);
 
+  // A payload of more than 2^30 bytes is an Error (kOutput).
   void append(uint32_t kind, std::span<const std::byte> payload);
 
  private:

@@ -81,12 +81,11 @@ void ScratchDir::discard(const Folder& folder, const std::set<std::string>& name
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  std::set<std::string> all = made_;
   try {
-    all = names();
-  } catch (const Error&) {  // then at least those that are known
+    made_ = names();
+  } catch (const std::exception&) {  // then at least those that are known
   }
-  discard(folder_, all);
+  discard(folder_, made_);
 }
 
 // A folder that was made here holds nothing else; only one that was taken over must be listed.

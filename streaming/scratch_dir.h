@@ -35,13 +35,15 @@ class ScratchDir {
   bool has(const std::string& name) const { return folder_.has(name); }
   // A new file, open for reading and writing; one of that name that is there is removed first.
   File create(const std::string& name);
-  // A file that is there, open for reading and writing; none is an Error (kBadInput).
+  // A file that is there, open for reading and writing.
   File open(const std::string& name) { return folder_.open(name); }
   void remove(const std::string& name);
   // Removes every file but the lock.
   void clear();
   // Makes the names of files durable.
   void sync() const { folder_.sync(); }
+  // Makes the name of the folder durable.
+  void sync_itself() const { sync_folder(folder_of(path())); }
   // From now on the folder outlives this object: something in it can be resumed.
   void keep(bool kept = true) { kept_ = kept; }
 

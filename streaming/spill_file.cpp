@@ -21,7 +21,9 @@ class SpillFile::Impl {
   uint32_t allocate() {
     const std::lock_guard lock(mutex_);
     if (free_.empty()) {
-      SVDAG_ASSERT(end_ < UINT32_MAX);
+      if (end_ == UINT32_MAX)
+        throw Error(ExitCode::kOutput, "a scratch file cannot hold more than 2^32 - 1 blocks",
+                    queue.path());
       return end_++;
     }
     const uint32_t place = free_.back();
@@ -29,10 +31,14 @@ class SpillFile::Impl {
     return place;
   }
 
-  // In such an order that they are used again from the first to the last.
-  void free(const std::vector<uint32_t>& blocks) {
+  // In such an order that they are used again from the first to the last. For destructors: where
+  // there is no memory for the list, the blocks are not used again.
+  void free(const std::vector<uint32_t>& blocks) noexcept {
     const std::lock_guard lock(mutex_);
-    free_.insert(free_.end(), blocks.rbegin(), blocks.rend());
+    try {
+      free_.insert(free_.end(), blocks.rbegin(), blocks.rend());
+    } catch (const std::bad_alloc&) {
+    }
   }
 
   uint64_t peak_bytes() const {
@@ -139,12 +145,19 @@ class SpillWriter::Impl {
     file_->queue.check();
   }
 
+  // Whatever fails here, the transfer is not left waiting for a write that nobody asked for.
   void write(SpillTransfer* transfer) {
-    transfer->place = file_->allocate();
+    try {
+      stream_.blocks.push_back(file_->allocate());
+    } catch (...) {
+      file_->queue.take_back(transfer);
+      throw;
+    }
+    transfer->place = stream_.blocks.back();
     transfer->writes = true;
     // Sealed here, where the block still is in the cache.
-    seal_block(transfer->block.bytes(), {stream_.number, stream_.blocks.size(), uint32_t(filled_)});
-    stream_.blocks.push_back(transfer->place);
+    const SpillLabel label = {stream_.number, stream_.blocks.size() - 1, uint32_t(filled_)};
+    seal_block(transfer->block.bytes(), label);
     filled_ = 0;
     file_->queue.submit(transfer);
   }

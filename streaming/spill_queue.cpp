@@ -21,15 +21,24 @@ SpillQueue::~SpillQueue() {
 }
 
 void SpillQueue::submit(SpillTransfer* transfer) {
-  {
+  try {
     const std::lock_guard lock(mutex_);
+    if (!thread_.joinable()) thread_ = std::jthread([this] { work(); });
+    queue_.push_back(transfer);
     transfer->done = false;
     transfer->failure = nullptr;
-    queue_.push_back(transfer);
     ++submitted_;
-    if (!thread_.joinable()) thread_ = std::jthread([this] { work(); });
+  } catch (...) {
+    take_back(transfer);
+    throw;
   }
   asked_.notify_one();
+}
+
+void SpillQueue::take_back(SpillTransfer* transfer) noexcept {
+  const std::lock_guard lock(mutex_);
+  transfer->done = true;
+  done_.notify_all();
 }
 
 void SpillQueue::work() {

@@ -34,7 +34,10 @@ class SpillQueue {
   ~SpillQueue();
 
   const std::string& path() const { return file_.path(); }
+  // If it throws (no memory, no thread), the transfer is done as it is.
   void submit(SpillTransfer* transfer);
+  // The transfer is done without having been asked for.
+  void take_back(SpillTransfer* transfer) noexcept;
   void wait(SpillTransfer* transfer);
   // Throws what the first write that failed threw. Cheap if none has.
   void check() const;

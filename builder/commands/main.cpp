@@ -182,11 +182,11 @@ int main(int argc, char** argv) {
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "svdag: %s\n", error.what());
     return int(error.code());
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr,
-                 "svdag: the machine has no memory left: give less with --memory or free some\n");
-    return int(svdag::ExitCode::kMemory);
   } catch (const std::exception& error) {
+    if (svdag::is_lack_of_memory(error)) {
+      std::fprintf(stderr, "svdag: %s\n", svdag::kNoMemory);
+      return int(svdag::ExitCode::kMemory);
+    }
     std::fprintf(stderr, "svdag: internal error: %s; please report this\n", error.what());
     return int(svdag::ExitCode::kInternal);
   }

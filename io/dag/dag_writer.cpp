@@ -18,8 +18,8 @@ std::string json_list(std::initializer_list<std::string> items) {
 
 }  // namespace
 
-DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule)
-    : file_(path), level_(grid.levels - 1) {
+DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t most_words)
+    : file_(path), most_words_(most_words), level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kMagic, sizeof kMagic);
   header_.version = kFormatVersion;
@@ -83,7 +83,7 @@ void DagWriter::begin_level(int level) {
 
 uint32_t DagWriter::add_brick(Brick brick) {
   SVDAG_ASSERT(brick != 0 && level_ + 2 == int(header_.levels));
-  if (words_ >= kMaxWords)
+  if (words_ >= most_words_)
     throw Error(ExitCode::kOutput,
                 "the scene needs more than 2^32 - 2 different bricks, which "
                 "format version 1 cannot hold: lower the resolution");
@@ -102,7 +102,7 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   }
   words[0] = mask;
   SVDAG_ASSERT(mask != 0 && level_ + 2 < int(header_.levels));
-  if (uint64_t(words_) + count > kMaxWords)
+  if (uint64_t(words_) + count > most_words_)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " needs more than 2^32 - 2 words, which format "
                                        "version 1 cannot hold: lower the resolution");

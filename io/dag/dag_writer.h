@@ -21,7 +21,8 @@ using NodeKey = std::array<uint32_t, 8>;
 
 class DagWriter {
  public:
-  DagWriter(const std::string& path, const Grid& grid, Rule rule);
+  // `most_words`: of a section; tests ask for less than the format holds.
+  DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t most_words = kMaxWords);
 
   // Begins the section of `level`; the order is L-2, L-3, ..., 0, each exactly once.
   void begin_level(int level);
@@ -44,6 +45,7 @@ class DagWriter {
 
   AtomicFile file_;
   Header header_{};
+  uint64_t most_words_;
   int level_;                     // the level being written
   uint32_t words_ = 0;            // words (bricks) in it
   uint64_t written_ = 0;          // payload bytes in the file

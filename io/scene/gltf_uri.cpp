@@ -51,6 +51,7 @@ bool has_scheme(const std::string& text) {
 
 bool has_parent_part(const std::string& text) {
   std::istringstream parts(text);
+  parts.exceptions(std::ios::badbit);  // a lack of memory must not shorten the path
   for (std::string part; std::getline(parts, part, '/');) {
     if (part == "..") return true;
   }

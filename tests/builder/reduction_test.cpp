@@ -10,6 +10,7 @@
 #include "builder/run.h"
 #include "builder/unique_set.h"
 #include "io/dag/dag_file.h"
+#include "tests/expect_error.h"
 #include "tests/reference_reduction.h"
 #include "tests/soup.h"
 
@@ -42,6 +43,19 @@ TEST(UniqueSet, NumbersKeysInOrderOfArrivalEvenIfHashesCollide) {
   }
   EXPECT_EQ(set.size(), expected.size());
   EXPECT_GT(budget.peak(), 1400 * sizeof(uint64_t));
+}
+
+TEST(UniqueSet, AMemberTooManyIsToldOf) {
+  MemoryBudget budget;
+  UniqueSet<uint64_t, WeakHash, 100> set(&budget);
+  std::vector<uint32_t> numbers;
+  for (uint64_t key = 0; key < 100; ++key) set.add(key);
+  set.resolve(&numbers);
+  set.add(50);  // is a member
+  set.resolve(&numbers);
+  EXPECT_EQ(numbers.front(), 50U);
+  set.add(100);
+  EXPECT_SVDAG_ERROR(set.resolve(&numbers), ExitCode::kMemory, "2^31 - 3 nodes in one level");
 }
 
 // Adds random octree content of `bricks` to a table, cell by cell at `cell_level`, and remembers
@@ -157,14 +171,14 @@ TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Ways, Merge,
-    ::testing::Values(MergeWay{"in_memory", false, 0, 2}, MergeWay{"spilled", true, 1 << 30, 99},
-                      MergeWay{"maps_spilled", true, 0, 99},
-                      MergeWay{"some_maps_spilled", true, 2000, 99},
-                      MergeWay{"two_at_a_time", true, 1 << 30, 2},
-                      MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
-    [](const auto& way) { return way.param.name; });
+INSTANTIATE_TEST_SUITE_P(Ways, Merge,
+                         ::testing::Values(MergeWay{"in_memory", false, 0, 2},
+                                           MergeWay{"spilled", true, 1 << 30, 99},
+                                           MergeWay{"maps_spilled", true, 0, 99},
+                                           MergeWay{"some_maps_spilled", true, 2000, 99},
+                                           MergeWay{"two_at_a_time", true, 1 << 30, 2},
+                                           MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
+                         [](const auto& way) { return way.param.name; });
 
 }  // namespace
 }  // namespace svdag

@@ -44,6 +44,8 @@ SMALL_LONG = SMALL + [
     Bake("one thread", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "1"]),
     Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
     Bake("hairball", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "16M", "-j", "2"])]
+# Small, and yet it spills triangles and runs and saves both for --resume.
+SAVING = Bake("saving", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "8M", "-j", "2", "--checkpoint", "0.001"])
 # Long enough to be caught in the middle, and with work to resume.
 HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "32M", "-j", "2"])
 A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2", "--checkpoint", "0.1"])

@@ -3,8 +3,7 @@
 //   SVDAG_FAULT_UNDER   the watched folders, absolute and resolved, separated by ':'
 //   SVDAG_FAULT_MARK    a file: gets "fired KIND K PATH", and "count KIND N" per kind at the end
 //   SVDAG_FAULT_KIND    open, read, write, fsync, close, rename, link, unlink, truncate, mkdir,
-//   lock
-//                       or mode; without it the calls are only counted
+//                       lock, mode or alloc; without it the calls are only counted
 //   SVDAG_FAULT_AT      k, from 1
 //   SVDAG_FAULT_DO      an errno (a number), "short" or "exit" (status 137, before the call)
 //   SVDAG_FAULT_STAYS   1: so do all later calls of the kind
@@ -44,10 +43,19 @@ enum Kind {
   kMkdir,
   kLock,
   kMode,
+  kAlloc,  // requests for memory (memory.cpp), wherever
   kKinds
 };
-constexpr const char* kNames[kKinds] = {"open", "read",   "write",    "fsync", "close", "rename",
-                                        "link", "unlink", "truncate", "mkdir", "lock",  "mode"};
+constexpr const char* kNames[kKinds] = {"open",   "read", "write",  "fsync",    "close",
+                                        "rename", "link", "unlink", "truncate", "mkdir",
+                                        "lock",   "mode", "alloc"};
+
+// While one lives, its thread's requests for memory are the shim's own and are not refused.
+[[gnu::tls_model("initial-exec")]] inline thread_local int own_requests = 0;
+struct OwnRequests {
+  OwnRequests() { ++own_requests; }
+  ~OwnRequests() { --own_requests; }
+};
 
 inline std::string setting(const char* name) {
   const char* text = std::getenv(name);
@@ -86,6 +94,7 @@ inline void mark(const std::string& line) {
 }
 
 inline std::string of_descriptor(int fd) {
+  const OwnRequests own;
   char target[4096];
   const ssize_t n =
       readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), target, sizeof target);
@@ -93,6 +102,7 @@ inline std::string of_descriptor(int fd) {
 }
 
 inline std::string absolute(int folder, const char* path) {
+  const OwnRequests own;
   if (path[0] == '/') return path;
   char here[4096];
   const std::string base = folder != AT_FDCWD                     ? of_descriptor(folder)
@@ -102,6 +112,7 @@ inline std::string absolute(int folder, const char* path) {
 }
 
 inline bool is_watched(const std::string& path) {
+  const OwnRequests own;
   const std::string& under = plan().under;
   for (size_t begin = 0, end; (end = under.find(':', begin)) != std::string::npos;
        begin = end + 1) {
@@ -117,6 +128,7 @@ inline bool is_watched(int fd) {
 
 // Counts one call; what is to happen to it: 0 (nothing), an errno, kShort.
 inline int strike(Kind kind, const std::string& path) {
+  const OwnRequests own;
   Plan& p = plan();
   const long k = ++p.counts[kind];
   if (p.kind != kNames[kind] || k < p.at || (k > p.at && !p.stays)) return 0;

@@ -1,5 +1,6 @@
 // Faults from outside, for LD_PRELOAD: at the k-th call of one kind the system says no, transfers
-// less than asked, or the process is gone (plan.h says where from; shim.py sets it).
+// less than asked, or the process is gone (plan.h says where from; shim.py sets it). Or nothing
+// fails, and what changes files is logged (log.h).
 //
 // fopen and opendir open inside libc and are not seen; the program opens its files by open().
 #include <dlfcn.h>
@@ -13,7 +14,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "tests/fault/plan.h"
+#include "tests/fault/log.h"
 
 using namespace fault;
 
@@ -26,21 +27,37 @@ namespace {
   mark(lines);
 }
 
+// Logged as `what`; `inode` is that of what gets a name.
 template <class Call>
-auto on_path(Kind kind, int folder, const char* path, Call call) -> decltype(call()) {
+auto on_path(Kind kind, const char* what, int folder, const char* path, Call call, ino_t inode = 0)
+    -> decltype(call()) {
   const std::string full = absolute(folder, path);
-  const int error = is_watched(full) ? strike(kind, full) : 0;
-  if (error <= 0) return call();
+  const bool watched = is_watched(full);
+  const int error = watched ? strike(kind, full) : 0;
+  if (error <= 0) return logged(watched, call, [&](int) { tell(what, inode, 0, full); });
+  errno = error;
+  return -1;
+}
+
+// Logged by then(result).
+template <class Call, class Then>
+auto on_descriptor(Kind kind, int fd, Call call, Then then) -> decltype(call()) {
+  const bool watched = is_watched(fd);
+  const int error = watched ? strike(kind, of_descriptor(fd)) : 0;
+  if (error <= 0) return logged(watched, call, then);
   errno = error;
   return -1;
 }
 
 template <class Call>
 auto on_descriptor(Kind kind, int fd, Call call) -> decltype(call()) {
-  const int error = is_watched(fd) ? strike(kind, of_descriptor(fd)) : 0;
-  if (error <= 0) return call();
-  errno = error;
-  return -1;
+  return on_descriptor(kind, fd, call, [](int) {});
+}
+
+void tell_sync(int fd) {
+  struct stat status = {};
+  fstat(fd, &status);
+  tell(S_ISDIR(status.st_mode) ? "syncdir" : "sync", status.st_ino, 0, of_descriptor(fd));
 }
 
 // Half of n, and whole pages of a file that is written directly.
@@ -77,7 +94,10 @@ int on_open(int folder, const char* path, int flags, Call call) {
   else if (watched)
     error = strike(kOpen, full);
   if (error > 0) return errno = error, -1;
-  const int fd = call();
+  const bool writes = (flags & (O_WRONLY | O_RDWR)) != 0;
+  const int fd = logged(watched && writes, call, [&](int made) {
+    tell(anonymous ? "make" : (flags & O_TRUNC) != 0 ? "other" : "open", inode_of(made), 0, full);
+  });
   if (fd >= 0 && fd < kDescriptors) plan().watched[size_t(fd)] = watched;
   return fd;
 }
@@ -114,31 +134,48 @@ int on_open(int folder, const char* path, int flags, Call call) {
     NEXT(name);                                                                        \
     return on_bytes(kind, fd, n, [&](size_t m) { return next(fd, data, m, offset); }); \
   }
+#define PWRITE(name)                                                                    \
+  ssize_t name(int fd, const void* data, size_t n, off_t offset) {                      \
+    NEXT(name);                                                                         \
+    const auto call = [&](size_t m) {                                                   \
+      return logged(                                                                    \
+          is_watched(fd), [&] { return next(fd, data, m, offset); },                    \
+          [&](ssize_t done) {                                                           \
+            tell("write", inode_of(fd), offset, of_descriptor(fd), data, size_t(done)); \
+          });                                                                           \
+    };                                                                                  \
+    return on_bytes(kWrite, fd, n, call);                                               \
+  }
 #define VECTOR(name, kind)                                                           \
   ssize_t name(int fd, const iovec* v, int n, off_t offset) {                        \
     NEXT(name);                                                                      \
     return on_vector(kind, fd, v, n,                                                 \
                      [&](const iovec* w, int m) { return next(fd, w, m, offset); }); \
   }
-#define SYNC(name)                                              \
-  int name(int fd) {                                            \
-    NEXT(name);                                                 \
-    return on_descriptor(kFsync, fd, [&] { return next(fd); }); \
+#define SYNC(name)                                                          \
+  int name(int fd) {                                                        \
+    NEXT(name);                                                             \
+    return on_descriptor(                                                   \
+        kFsync, fd, [&] { return next(fd); }, [&](int) { tell_sync(fd); }); \
   }
-#define TRUNCATE(name)                                                   \
-  int name(int fd, off_t size) noexcept {                                \
-    NEXT(name);                                                          \
-    return on_descriptor(kTruncate, fd, [&] { return next(fd, size); }); \
+#define TRUNCATE(name)                                                                       \
+  int name(int fd, off_t size) noexcept {                                                    \
+    NEXT(name);                                                                              \
+    const auto then = [&](int) { tell("truncate", inode_of(fd), size, of_descriptor(fd)); }; \
+    return on_descriptor(                                                                    \
+        kTruncate, fd, [&] { return next(fd, size); }, then);                                \
   }
-#define ALLOCATE(name)                                                                 \
-  int name(int fd, int mode, off_t offset, off_t size) {                               \
-    NEXT(name);                                                                        \
-    return on_descriptor(kTruncate, fd, [&] { return next(fd, mode, offset, size); }); \
+#define ALLOCATE(name)                                                                      \
+  int name(int fd, int mode, off_t offset, off_t size) {                                    \
+    NEXT(name);                                                                             \
+    const auto then = [&](int) { tell("other", inode_of(fd), offset, of_descriptor(fd)); }; \
+    return on_descriptor(                                                                   \
+        kTruncate, fd, [&] { return next(fd, mode, offset, size); }, then);                 \
   }
-#define ON_PATH(name, kind)                                           \
-  int name(const char* path) noexcept {                               \
-    NEXT(name);                                                       \
-    return on_path(kind, AT_FDCWD, path, [&] { return next(path); }); \
+#define ON_PATH(name, what)                                                    \
+  int name(const char* path) noexcept {                                        \
+    NEXT(name);                                                                \
+    return on_path(kUnlink, what, AT_FDCWD, path, [&] { return next(path); }); \
   }
 
 extern "C" {
@@ -149,8 +186,8 @@ OPENAT(openat)
 OPENAT(openat64)
 POSITIONAL(pread, kRead, void*)
 POSITIONAL(pread64, kRead, void*)
-POSITIONAL(pwrite, kWrite, const void*)
-POSITIONAL(pwrite64, kWrite, const void*)
+PWRITE(pwrite)
+PWRITE(pwrite64)
 VECTOR(preadv, kRead)
 VECTOR(preadv64, kRead)
 VECTOR(pwritev, kWrite)
@@ -161,9 +198,9 @@ TRUNCATE(ftruncate)
 TRUNCATE(ftruncate64)
 ALLOCATE(fallocate)
 ALLOCATE(fallocate64)
-ON_PATH(unlink, kUnlink)
-ON_PATH(rmdir, kUnlink)
-ON_PATH(remove, kUnlink)
+ON_PATH(unlink, "unlink")
+ON_PATH(rmdir, "rmdir")
+ON_PATH(remove, "other")
 
 ssize_t read(int fd, void* data, size_t n) {
   NEXT(read);
@@ -172,7 +209,11 @@ ssize_t read(int fd, void* data, size_t n) {
 
 ssize_t write(int fd, const void* data, size_t n) {
   NEXT(write);
-  return on_bytes(kWrite, fd, n, [&](size_t m) { return next(fd, data, m); });
+  return on_bytes(kWrite, fd, n, [&](size_t m) {
+    return logged(
+        is_watched(fd), [&] { return next(fd, data, m); },
+        [&](ssize_t) { tell("other", inode_of(fd), 0, of_descriptor(fd)); });
+  });
 }
 
 // As on Linux, the descriptor is closed whatever close() says.
@@ -187,38 +228,43 @@ int close(int fd) {
 
 int rename(const char* from, const char* to) noexcept {
   NEXT(rename);
-  return on_path(kRename, AT_FDCWD, to, [&] { return next(from, to); });
+  return on_path(
+      kRename, "rename", AT_FDCWD, to, [&] { return next(from, to); }, inode_of(AT_FDCWD, from, 0));
 }
 
 int renameat(int from_folder, const char* from, int folder, const char* to) noexcept {
   NEXT(renameat);
-  return on_path(kRename, folder, to, [&] { return next(from_folder, from, folder, to); });
+  return on_path(kRename, "other", folder, to, [&] { return next(from_folder, from, folder, to); });
 }
 
 int renameat2(int from_folder, const char* from, int folder, const char* to,
               unsigned flags) noexcept {
   NEXT(renameat2);
-  return on_path(kRename, folder, to, [&] { return next(from_folder, from, folder, to, flags); });
+  return on_path(kRename, "other", folder, to,
+                 [&] { return next(from_folder, from, folder, to, flags); });
 }
 
 int linkat(int from_folder, const char* from, int folder, const char* to, int flags) noexcept {
   NEXT(linkat);
-  return on_path(kLink, folder, to, [&] { return next(from_folder, from, folder, to, flags); });
+  return on_path(
+      kLink, "link", folder, to, [&] { return next(from_folder, from, folder, to, flags); },
+      inode_of(from_folder, from, (flags & AT_SYMLINK_FOLLOW) != 0 ? 0 : AT_SYMLINK_NOFOLLOW));
 }
 
 int unlinkat(int folder, const char* path, int flags) noexcept {
   NEXT(unlinkat);
-  return on_path(kUnlink, folder, path, [&] { return next(folder, path, flags); });
+  return on_path(kUnlink, (flags & AT_REMOVEDIR) != 0 ? "rmdir" : "unlink", folder, path,
+                 [&] { return next(folder, path, flags); });
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {
   NEXT(mkdir);
-  return on_path(kMkdir, AT_FDCWD, path, [&] { return next(path, mode); });
+  return on_path(kMkdir, "mkdir", AT_FDCWD, path, [&] { return next(path, mode); });
 }
 
 int mkdirat(int folder, const char* path, mode_t mode) noexcept {
   NEXT(mkdirat);
-  return on_path(kMkdir, folder, path, [&] { return next(folder, path, mode); });
+  return on_path(kMkdir, "mkdir", folder, path, [&] { return next(folder, path, mode); });
 }
 
 int flock(int fd, int operation) noexcept {

@@ -26,17 +26,19 @@ class Outcome(NamedTuple):
     counts: dict  # of calls by kind; empty if the process was killed
 
 
-def environment(library, folders, mark, fault):
-    return dict(os.environ, LC_ALL="C", LD_PRELOAD=str(library), SVDAG_FAULT_MARK=str(mark),
+def environment(library, folders, mark, fault, log=""):
+    return dict(os.environ, SVDAG_FAULT_LOG=str(log), LC_ALL="C", LD_PRELOAD=str(library), SVDAG_FAULT_MARK=str(mark),
                 SVDAG_FAULT_UNDER=":".join(str(pathlib.Path(f).resolve()) for f in folders),
                 SVDAG_FAULT_KIND=fault.kind, SVDAG_FAULT_AT=str(fault.at), SVDAG_FAULT_DO=fault.action,
                 SVDAG_FAULT_STAYS=str(int(fault.stays)), SVDAG_FAULT_NO_TMPFILE=str(int(fault.no_tmpfile)))
 
 
-def run(library, command, cwd, fault, folders=()):
-    """Runs `command` in `cwd`; calls below `cwd` and the `folders` count. A program that hangs is killed."""
+def run(library, command, cwd, fault, folders=(), log=""):
+    """Runs `command` in `cwd`; calls below `cwd` and the `folders` count. A program that hangs is killed.
+
+    `log`: a file that gets all that changes those folders (log.h)."""
     with tempfile.NamedTemporaryFile(prefix="svdag-mark-") as mark:
-        program = subprocess.Popen(command, cwd=cwd, env=environment(library, [cwd, *folders], mark.name, fault),
+        program = subprocess.Popen(command, cwd=cwd, env=environment(library, [cwd, *folders], mark.name, fault, log),
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
             _, stderr = program.communicate(timeout=TIMEOUT)

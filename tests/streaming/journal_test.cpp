@@ -128,6 +128,15 @@ TEST(Journal, AHugeLengthIsNotBelieved) {
   EXPECT_EQ(std::filesystem::file_size(temp.file("journal")), 0U);
 }
 
+TEST(Journal, ARecordThatIsTooLongIsToldOfAndNothingIsWritten) {
+  JournalFile file;
+  auto [journal, records] = file.open();
+  const std::byte first{};  // the rest is not looked at
+  const std::span<const std::byte> payload(&first, (size_t(1) << 30) + 1);
+  EXPECT_SVDAG_ERROR(journal.append(1, payload), ExitCode::kOutput, "more than 2^30 bytes");
+  EXPECT_EQ(file.bytes(), "");
+}
+
 TEST(Journal, AnAppendThatCannotBeWrittenIsAnOutputError) {
   TempFolder temp;
   std::vector<JournalRecord> records;

@@ -86,7 +86,7 @@ TEST(ScratchDir, FilesAreMadeAnewOpenedAndRemoved) {
   const TempFolder temp;
   ScratchDir dir(temp.file("s"));
   EXPECT_FALSE(dir.has("a"));
-  EXPECT_SVDAG_ERROR(dir.open("a"), ExitCode::kBadInput, "s/a: cannot be opened: no such file");
+  EXPECT_SVDAG_ERROR(dir.open("a"), ExitCode::kOutput, "s/a: cannot be opened: no such file");
   dir.create("a").write_at(0, bytes_of("first"));
   EXPECT_TRUE(dir.has("a"));
   EXPECT_EQ(text_of(dir.open("a")), "first");

@@ -158,6 +158,19 @@ TEST(SpillFile, IsResumedFromItsStreamsAlone) {
   EXPECT_EQ(read(&file, stream, &budget), bytes);
 }
 
+TEST(SpillFile, ABlockTooManyIsToldOfAndEverybodyGoesOn) {
+  const TempFolder temp;
+  const Folder folder = Folder::open_private(temp.path());
+  MemoryBudget budget;
+  SpillFile file(folder.create("spill"), kBlock, UINT32_MAX);
+  SpillWriter own(&file, 1, &budget);
+  EXPECT_SVDAG_ERROR(own.append(random_bytes(2 * kPayload, 1)), ExitCode::kOutput,
+                     "more than 2^32 - 1 blocks");
+  SpillWriter other(&file, 2, &budget);
+  other.append(random_bytes(10, 2));
+  EXPECT_SVDAG_ERROR(other.finish(), ExitCode::kOutput, "more than 2^32 - 1 blocks");
+}
+
 TEST(SpillFile, FreedBlocksAreUsedAgainAndThoseOfAnUnfinishedWriterToo) {
   Spill spill;
   const SpillStream first = spill.write(1, random_bytes(4 * kPayload, 1));

@@ -146,10 +146,11 @@ int main(int argc, char** argv) {
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "svdag-verify: %s\n", error.what());
     return int(error.code());
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "svdag-verify: this machine has too little memory for that\n");
-    return int(svdag::ExitCode::kMemory);
   } catch (const std::exception& error) {
+    if (svdag::is_lack_of_memory(error)) {
+      std::fprintf(stderr, "svdag-verify: this machine has too little memory for that\n");
+      return int(svdag::ExitCode::kMemory);
+    }
     std::fprintf(stderr, "svdag-verify: internal error: %s; please report this\n", error.what());
     return int(svdag::ExitCode::kInternal);
   }

@@ -5,6 +5,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_stats.h"
 #include "streaming/error.h"
+#include "tests/expect_error.h"
 #include "tests/soup.h"
 
 namespace svdag {
@@ -65,6 +66,19 @@ TEST(DagStats, CountTreeAndDag) {
   EXPECT_EQ(stats.svo_nodes(), 1U + 2 + 2 + 2);
   EXPECT_EQ(stats.dag_nodes(), 1U + 2 + 2);
   EXPECT_EQ(stats.paper_dag_nodes(), 1U + 2 + 2 + 2);
+}
+
+TEST(DagWriter, ASectionThatIsFullIsToldOf) {
+  const TemporaryFolder folder;
+  DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, 4);
+  writer.begin_level(2);
+  for (Brick brick = 1; brick <= 4; ++brick) writer.add_brick(brick);
+  EXPECT_SVDAG_ERROR(writer.add_brick(5), ExitCode::kOutput, "different bricks");
+  writer.begin_level(1);
+  writer.add_node({1});
+  EXPECT_SVDAG_ERROR(writer.add_node({1, 2}), ExitCode::kOutput, "level 1 needs more than");
+  EXPECT_EQ(writer.add_node({2}), 2U);
+  EXPECT_SVDAG_ERROR(writer.add_node({3}), ExitCode::kOutput, "level 1 needs more than");
 }
 
 TEST(DagWriter, RefusesWhatTheFormatForbids) {
