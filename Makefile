@@ -8,6 +8,7 @@
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
+#   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
@@ -23,7 +24,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-accuracy bundle cuda clean
+.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
+  bench-accuracy bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -71,6 +73,9 @@ bench-sort: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target sort_bench
 	@$(PYTHON) tests/bench/bench_sort.py --programs $(PROGRAMS)
+
+bench-out-of-core: build
+	@$(PYTHON) tests/bench/out_of_core.py --programs $(PROGRAMS)
 
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))

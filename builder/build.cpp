@@ -219,7 +219,9 @@ void Bake::voxelize() {
   describe_work(voxelizer);
   report_.seconds.voxelize = phase_.lap();
   progress_->phase("sort", 0);
-  for (BakedRun& baked : voxelizer.finish(spilled_)) add(std::move(baked));
+  // Where others were saved, the last are, too: a bake killed in the merge voxelizes nothing again.
+  for (BakedRun& baked : voxelizer.finish(spilled_))
+    spilled_ ? save(std::move(baked)) : add(std::move(baked));
   report_.runs = runs_.size();
   report_.seconds.sort = phase_.lap();
 }
@@ -292,6 +294,7 @@ BuildReport Bake::run() {
   split();
   voxelize();
   merge(&writer);
+  progress_->phase("write", 0);
   writer.finish(report_.voxels, report_.split.largest_snap);
   folder_.keep(false);
   report_.seconds.write = phase_.lap();

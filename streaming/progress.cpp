@@ -17,6 +17,7 @@ void Progress::phase(const std::string& name, uint64_t total) {
   done_ = 0;
   next_draw_ = 0;
   start_ = std::chrono::steady_clock::now();
+  if (enabled_) draw(0);
 }
 
 void Progress::advance(uint64_t steps) {
@@ -35,8 +36,10 @@ void Progress::draw(uint64_t done) {
   if (total_ > 0) {
     std::fprintf(stderr, "\r\033[K%s %3.0f %%", name_.c_str(),
                  100.0 * double(done) / double(total_));
-  } else {
+  } else if (done > 0) {
     std::fprintf(stderr, "\r\033[K%s %llu", name_.c_str(), static_cast<unsigned long long>(done));
+  } else {
+    std::fprintf(stderr, "\r\033[K%s", name_.c_str());
   }
   std::fflush(stderr);
 }

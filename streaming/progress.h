@@ -1,4 +1,5 @@
-// A progress line on stderr: only on a terminal, at most ten times a second, erased at the end.
+// A progress line on stderr: only on a terminal, erased at the end. It names a phase as it begins,
+// and counts its steps at most ten times a second.
 #pragma once
 
 #include <atomic>

@@ -7,7 +7,9 @@ import subprocess
 # Arguments of svdag-scene.
 GENERATED = {"atrium": ["atrium"], "scan": ["scan"], "sheet": ["sheet"],
              "scan 70K": ["scan", "-n", "70K"], "scan 9M": ["scan", "-n", "9M"],
-             "hairball": ["hairball", "-n", "2880K"], "city": ["city", "-n", "120K"],
+             "scan 100M": ["scan", "-n", "100M"], "scan 100M, shuffled": ["scan", "-n", "100M", "--shuffle"],
+             "speck": ["speck", "-n", "100M"], "hairball": ["hairball", "-n", "2880K"],
+             "city": ["city", "-n", "120K"],
              "city, 0.5 rad": ["city", "-n", "120K", "--yaw", "28.6478897565412"]}
 # Files in the folder that SVDAG_SCENES names.
 SHARED = {"sponza": "crytek_sponza.glb", "dragon": "stanford_dragon.ply"}
@@ -34,10 +36,13 @@ class Bakes:
         if name in SHARED:
             path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), SHARED[name])
             return path if "SVDAG_SCENES" in os.environ and path.exists() else None
-        path = self.folder / ("_".join(a.strip("-") for a in GENERATED[name]) + ".ply")
+        path = self.generated_file(name)
         if not path.exists():
             subprocess.run([self.programs / "svdag-scene", *GENERATED[name], "-q", "-o", path], check=True)
         return path
+
+    def generated_file(self, name):
+        return self.folder / ("_".join(a.strip("-") for a in GENERATED[name]) + ".ply")
 
     def log2(self, log2):
         return max(3, log2 - self.coarser)

@@ -10,10 +10,10 @@ import pathlib
 import resource
 import shutil
 import subprocess
-import threading
 from typing import NamedTuple
 
 import bakes
+from peak import Peak
 
 MIB = 1 << 20
 MARGIN = 64 * MIB  # code, stacks, the heap's small change
@@ -38,24 +38,6 @@ ROWS_LONG = ROWS + [
     for scene, resolution in [(HAIRBALL, "16K"), (CITY, "16K"), (ATRIUM, "8K"), (TERRAIN, "8K"),
                               (["scan", "-n", "1M"], "4K")]
     for threads in (1, 2) for mib in (96, 256, 512, 1024, 4096)]
-
-
-class Peak(threading.Thread):
-    """Watches anonymous and shared memory of a process; the largest sum seen, and the largest of its files."""
-
-    def __init__(self, pid):
-        super().__init__(daemon=True)
-        self.status, self.done = pathlib.Path(f"/proc/{pid}/status"), threading.Event()
-        self.own = self.of_files = 0
-
-    def run(self):
-        while not self.done.wait(0.002):
-            with contextlib.suppress(OSError):
-                fields = dict(line.split(":", 1) for line in self.status.read_text().splitlines())
-                anonymous, shared, files = (1024 * int(fields.get(name, "0 kB").split()[0])
-                                            for name in ("RssAnon", "RssShmem", "RssFile"))
-                self.own = max(self.own, anonymous + shared)
-                self.of_files = max(self.of_files, files)
 
 
 @contextlib.contextmanager

@@ -23,6 +23,8 @@ std::unique_ptr<Mesh> make_terrain(uint64_t triangles, uint64_t seed);
 std::unique_ptr<Mesh> make_rectangle(uint64_t triangles, uint64_t seed);
 // One square of two triangles, tilted against all axes so that no part of it repeats another.
 std::unique_ptr<Mesh> make_sheet(uint64_t triangles, uint64_t seed);
+// A soup within one millionth of its box: more triangles in a voxel than fit in memory.
+std::unique_ptr<Mesh> make_speck(uint64_t triangles, uint64_t seed);
 
 struct Kind {
   const char* name;

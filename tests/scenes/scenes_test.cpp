@@ -20,7 +20,7 @@ namespace svdag::scenes {
 namespace {
 
 constexpr uint64_t kSmall[] = {90'000, 10'000, 10'000, 10'000,
-                               10'000, 2,      2};  // in the order of kinds()
+                               10'000, 2,      2,      10'000};  // in the order of kinds()
 
 using Position = std::array<double, 3>;
 using Soup = std::multiset<std::array<Position, 3>>;
@@ -126,6 +126,18 @@ TEST(Ply, ShufflingChangesTheOrderAlone) {
   EXPECT_LT(same_place, plain.vertices() / 20);
 }
 
+// Shuffling holds no list, so that the size of a scene does not matter.
+TEST(Ply, ShufflingIsTheSameOnEveryRunAndAnotherWithAnotherSeed) {
+  const auto mesh = make_scene("terrain", 2'000, 1);
+  const auto bytes = [&](uint64_t seed) {
+    const TempFolder folder;
+    write_ply(*mesh, {.shuffle = true, .seed = seed}, folder.file("a.ply"));
+    return folder.read("a.ply");
+  };
+  EXPECT_EQ(bytes(1), bytes(1));
+  EXPECT_NE(bytes(1), bytes(2));
+}
+
 TEST(Ply, AQuarterTurnOfYawIsExact) {
   const auto mesh = make_scene("city", 120, 1);
   const PlyMesh plain = written(*mesh, {}), turned = written(*mesh, {.yaw = 90});
@@ -168,12 +180,29 @@ TEST(Sheet, IsFlatAndItsNormalIsNoRatioOfSmallIntegers) {
   }
 }
 
+TEST(Speck, IsInsideOneVoxelOfTheGridThatTwoFarTrianglesSet) {
+  const auto mesh = make_scene("speck", 1'000, 7);
+  Box box, speck;
+  for (uint64_t i = 0; i < mesh->vertices(); ++i) {
+    box.add(mesh->vertex(i));
+    if (i >= 6) speck.add(mesh->vertex(i));
+  }
+  EXPECT_EQ(box.min, Point(-64, -64, -64));
+  EXPECT_EQ(box.max, Point(64, 64, 64));
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_LT(speck.max[a] - speck.min[a], 2 * 1e-6 * 128);
+    EXPECT_EQ(std::floor(512 * speck.min[a]), std::floor(512 * speck.max[a]));  // 64K voxels
+  }
+  EXPECT_GT(soup_of(*mesh).size(), 990u);
+}
+
 TEST(Kinds, UnknownNamesAndImpossibleCountsAreUsageErrors) {
   EXPECT_SVDAG_ERROR(make_scene("teapot", 0, 1), ExitCode::kUsage,
                      "\"teapot\" is not a kind of scene");
   EXPECT_SVDAG_ERROR(make_scene("atrium", 100, 1), ExitCode::kUsage, "needs at least");
   EXPECT_SVDAG_ERROR(make_scene("rectangle", 3, 1), ExitCode::kUsage, "2 triangles");
   EXPECT_SVDAG_ERROR(make_scene("sheet", 3, 1), ExitCode::kUsage, "2 triangles");
+  EXPECT_SVDAG_ERROR(make_scene("speck", 2, 1), ExitCode::kUsage, "at least 3 triangles");
   EXPECT_SVDAG_ERROR(make_scene("scan", uint64_t(1) << 40, 1), ExitCode::kUsage, "at most");
 }
 

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""kill -9 in the middle of a phase, then --resume: little of the work is done twice, and the bytes are the same.
+
+What is repeated is the CPU time of the killed and of the resumed bake beyond that of an undisturbed one, as a share
+of it. The short form is judged less strictly: its bakes are short, and other tests run beside it.
+"""
+import json
+import os
+import random
+import re
+import select
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from typing import NamedTuple
+
+import bakes
+
+PHASES = ["split", "voxelize", "merge", "write"]
+AFTER_VOXELIZE = ["merge", "write"]  # what was voxelized is all on disk by then
+KILLS = 10 if bakes.LONG else 2  # of each phase
+TRIES = 5  # a short phase may be over before the signal arrives
+MOST_REPEATED = 0.10 if bakes.LONG else 0.25  # median over all kills
+UNDISTURBED = 5 if bakes.LONG else 3  # the median of their CPU times counts
+BAKE = bakes.Bake("some seconds", ["hairball", "-n", "500K"], ["-r", "8K", "-m", "64M", "-j", "2"])
+BAKE_SHORT = bakes.Bake("a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "16M", "-j", "2"])
+
+
+class Life(NamedTuple):
+    """One process: exit code, CPU seconds, and when its phases began, in seconds after its start."""
+    code: int
+    cpu: float
+    begun: dict
+    seconds: float
+
+    def length(self, phase):
+        return min([t for t in self.begun.values() if t > self.begun[phase]], default=self.seconds) - self.begun[phase]
+
+
+def live(command, folder, phase=None, delay=0.0):
+    """Runs a bake; kills it `delay` seconds after `phase` began, if a phase is named."""
+    start = time.monotonic()
+    program = subprocess.Popen([*(a for a in command if a != "-q"), "--progress"], cwd=folder, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    begun, due, told = {}, None, b""
+    while True:
+        wait = None if due is None else max(0.0, due - time.monotonic())
+        if not select.select([program.stderr], [], [], wait)[0]:
+            program.kill()
+            due = None
+            continue
+        data = os.read(program.stderr.fileno(), 1 << 16)
+        if not data:
+            break
+        told += data
+        for name in re.findall(rb"\x1b\[K([a-z]+)", data):
+            if begun.setdefault(name.decode(), time.monotonic() - start) and name.decode() == phase and due is None:
+                due = start + begun[phase] + delay
+    program.stderr.close()
+    _, status, usage = os.wait4(program.pid, 0)
+    program.returncode = os.waitstatus_to_exitcode(status)
+    if program.returncode > 0:
+        print(told.decode(), file=sys.stderr)
+    return Life(program.returncode, usage.ru_utime + usage.ru_stime, begun, time.monotonic() - start)
+
+
+def undisturbed(kitchen):
+    lives = []
+    for _ in range(UNDISTURBED):
+        folder = kitchen.table()
+        lives.append(live(kitchen.bake.command(), folder))
+        shutil.rmtree(folder)
+    return sorted(lives, key=lambda one: one.cpu)[len(lives) // 2]
+
+
+def killed_in(kitchen, phase, length):
+    """(folder, Life) of a bake that was killed in `phase`, before its output was there; the folder is None if none
+    could be."""
+    for _ in range(TRIES):
+        folder = kitchen.table()
+        life = live(kitchen.bake.command(), folder, phase, random.uniform(0, length))
+        if life.code != 0 and list(life.begun)[-1] == phase and kitchen.state(folder) == "old":
+            return folder, life
+        shutil.rmtree(folder)
+    return None, life
+
+
+def repeated(report, kitchen, phase, plain):
+    """Share of the work that one kill made the two bakes repeat; None if no kill came in time."""
+    folder, killed = killed_in(kitchen, phase, plain.length(phase))
+    if folder is None:
+        return None
+    resumed = live(kitchen.bake.command("--resume", "--report", "report.json"), folder)
+    found = [] if resumed.code == 0 else [f"exit {resumed.code}"]
+    found += [] if kitchen.state(folder) == "new" else [f"the output is {kitchen.state(folder)}"]
+    if phase in AFTER_VOXELIZE and not found and json.loads((folder / "report.json").read_text())["decisions"] != 0:
+        found.append("voxelized again")
+    report.judge(f"killed in {phase} after {killed.seconds:.3f} s", found + bakes.scratch_left(folder))
+    shutil.rmtree(folder)
+    return (killed.cpu + resumed.cpu - plain.cpu) / plain.cpu
+
+
+def main():
+    report = bakes.Report()
+    seed = random.randrange(10**6)
+    random.seed(seed)
+    with bakes.Kitchen(BAKE if bakes.LONG else BAKE_SHORT) as kitchen:
+        plain = undisturbed(kitchen)
+        print(f"undisturbed: {plain.cpu:.2f} CPU seconds, {plain.seconds:.2f} s; seed {seed}")
+        print(f"{'phase':<10} {'seconds':>7} {'kills':>5} {'median repeated':>15} {'most':>6}")
+        shares = []
+        for phase in PHASES:
+            tried = [repeated(report, kitchen, phase, plain) for _ in range(KILLS)]
+            own = [share for share in tried if share is not None]
+            shares += own
+            told = f"{statistics.median(own):>15.1%} {max(own):>6.1%}" if own else ""
+            print(f"{phase:<10} {plain.length(phase):>7.3f} {len(own):>5} {told}", flush=True)
+            report.judge(f"{phase}: kills come in time", ["none did"] * (not own))
+    median = statistics.median(shares)
+    print(f"all        {'':>7} {len(shares):>5} {median:>15.1%} {max(shares):>6.1%}")
+    report.judge(f"at most {MOST_REPEATED:.0%} of the work is repeated", [f"{median:.1%}"] * (median > MOST_REPEATED))
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,34 @@
+// What Progress draws.
+#include "streaming/progress.h"
+
+#include <gtest/gtest.h>
+
+namespace svdag {
+namespace {
+
+std::string drawn(Progress::Mode mode, uint64_t total, uint64_t steps) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(mode);
+    progress.phase("split", total);
+    if (steps != 0) progress.advance(steps);
+  }
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, NamesAPhaseAsItBeginsAndErasesTheLineAtTheEnd) {
+  EXPECT_EQ(drawn(Progress::Mode::kOn, 0, 0), "\r\033[Ksplit\r\033[K");
+}
+
+TEST(Progress, CountsStepsOrTheirShare) {
+  EXPECT_NE(drawn(Progress::Mode::kOn, 0, 7).find("\r\033[Ksplit 7"), std::string::npos);
+  EXPECT_NE(drawn(Progress::Mode::kOn, 4, 1).find("\r\033[Ksplit  25 %"), std::string::npos);
+}
+
+TEST(Progress, SaysNothingUnlessItIsOn) {
+  EXPECT_EQ(drawn(Progress::Mode::kOff, 4, 1), "");
+  EXPECT_EQ(drawn(Progress::Mode::kAuto, 4, 1), "");  // stderr is no terminal here
+}
+
+}  // namespace
+}  // namespace svdag
