@@ -5,6 +5,7 @@
 // HashDAG and SymVox, so that bricks go there unchanged).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace svdag {
@@ -21,6 +22,12 @@ constexpr unsigned child_index(unsigned x, unsigned y, unsigned z) {
 // The bit of voxel (x, y, z), each in 0 .. 3, of a brick.
 constexpr unsigned brick_bit(unsigned x, unsigned y, unsigned z) {
   return 8 * child_index(x >> 1, y >> 1, z >> 1) + child_index(x & 1, y & 1, z & 1);
+}
+
+// The voxel (x, y, z) of bit `bit`.
+constexpr std::array<unsigned, 3> brick_voxel(unsigned bit) {
+  return {(bit >> 4 & 2) | (bit >> 2 & 1), (bit >> 3 & 2) | (bit >> 1 & 1),
+          (bit >> 2 & 2) | (bit & 1)};
 }
 
 }  // namespace svdag

@@ -1,0 +1,6 @@
+# The thin rule keeps a part of what the conservative one sets: nothing is only in the thin file.
+svdag-scene scan -n 5K -q -o a.ply
+svdag build a.ply -r 128 -o whole.svdag -q
+svdag build a.ply -r 128 --rule thin -o thin.svdag -q
+svdag-verify diff thin.svdag whole.svdag --show 3 --write-diff d.ply || echo "exit $?"
+svdag-verify diff thin.svdag whole.svdag -q --write-diff d.ply --write-most 10

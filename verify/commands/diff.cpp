@@ -1,0 +1,102 @@
+#include "verify/commands/diff.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/brick.h"
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/diff.h"
+#include "verify/difference_points.h"
+
+namespace svdag {
+namespace {
+
+struct Offender {
+  LatticePoint voxel;
+  bool in_a;
+};
+
+// Grids of one place and of voxels that divide each other; half voxels are how grids of different
+// resolution lie to each other (io/grid.h).
+void refuse_other_places(const DagFile& a, const DagFile& b) {
+  const Header &ha = a.header(), &hb = b.header();
+  const double size = std::max(ha.voxel_size, hb.voxel_size);
+  const double ratio = std::ldexp(hb.voxel_size / ha.voxel_size, int(hb.levels) - int(ha.levels));
+  bool same = std::abs(ratio - 1) <= 1.0 / double(std::min(1U << ha.levels, 1U << hb.levels));
+  for (int axis = 0; axis < 3; ++axis)
+    same = same && std::abs(ha.corner[axis] - hb.corner[axis]) <= size;
+  if (!same)
+    fail_usage(a.path() + " and " + b.path() +
+               " have grids in different places: to compare them by voxel index add --by-index");
+}
+
+std::vector<Offender> first_offenders(DagDiff* diff, uint64_t most) {
+  std::vector<Offender> offenders;
+  if (most == 0) return offenders;
+  diff->visit([&](const std::array<uint32_t, 3>& at, uint64_t a, uint64_t b) {
+    for (unsigned bit = 0; bit < 64 && offenders.size() < most; ++bit) {
+      if (((a ^ b) >> bit & 1) == 0) continue;
+      const auto [x, y, z] = brick_voxel(bit);
+      offenders.push_back({LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z),
+                           (a >> bit & 1) != 0});
+    }
+    return offenders.size() < most;
+  });
+  return offenders;
+}
+
+void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
+                const std::vector<Offender>& offenders) {
+  nlohmann::json json = {{"command", "diff"},       {"a", config.a},
+                         {"b", config.b},           {"same", counts.same()},
+                         {"both", counts.both},     {"only_a", counts.only_a},
+                         {"only_b", counts.only_b}, {"resolution", uint64_t(1) << diff.levels()},
+                         {"pairs", counts.pairs}};
+  json["first"] = nlohmann::json::array();
+  for (const Offender& o : offenders)
+    json["first"].push_back(
+        {{"voxel", {o.voxel.x, o.voxel.y, o.voxel.z}}, {"in", o.in_a ? "a" : "b"}});
+  std::printf("%s\n", json.dump().c_str());
+}
+
+void print_text(const DagDiff& diff, const DiffCounts& counts,
+                const std::vector<Offender>& offenders) {
+  std::printf("compared at %s^3, %s pairs of nodes\n",
+              format_resolution(uint64_t(1) << diff.levels()).c_str(),
+              format_count(counts.pairs).c_str());
+  std::printf("both    %s voxels\nonly A  %s\nonly B  %s\n", format_count(counts.both).c_str(),
+              format_count(counts.only_a).c_str(), format_count(counts.only_b).c_str());
+  for (const Offender& o : offenders)
+    std::printf("only %c  voxel (%lld, %lld, %lld)\n", o.in_a ? 'A' : 'B',
+                static_cast<long long>(o.voxel.x), static_cast<long long>(o.voxel.y),
+                static_cast<long long>(o.voxel.z));
+  std::printf(counts.same() ? "same\n" : "different\n");
+}
+
+}  // namespace
+
+int run(const DiffConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  Progress progress(config.common.progress);
+  progress.phase("checksums", 0);
+  const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);
+  if (!config.by_index) refuse_other_places(a, b);
+  progress.phase("compare", 0);
+  DagDiff diff(a.view(), b.view());
+  const DiffCounts counts = diff.count();
+  if (!config.write_diff.empty())
+    write_difference(&diff, counts, a.grid(), config.write_diff, config.write_most);
+  const auto offenders = first_offenders(&diff, counts.same() ? 0 : config.show);
+  progress.finish();
+  if (config.common.json) {
+    print_json(config, diff, counts, offenders);
+  } else if (!config.common.quiet) {
+    print_text(diff, counts, offenders);
+  }
+  return int(counts.same() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag

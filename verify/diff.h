@@ -1,0 +1,86 @@
+// The symmetric difference of two DAGs, without unpacking either.
+//
+// Two voxel sets are compared by descending both DAGs at once. A pair of nodes (a, b) of one level
+// always has the same difference wherever it stands, so it is computed once and remembered: time
+// follows the number of different pairs, which for DAGs of one scene is about the number of nodes, not
+// of voxels. A node that stands alone is a pair with nothing.
+//
+// DAGs of different resolution are compared at the coarser one: there a voxel of the finer DAG is
+// set if any voxel in it is.
+//
+// Rejected: comparing by content (a set of the finer DAG's subtrees): misses shifted contents.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "io/dag/dag_view.h"
+
+namespace svdag {
+
+struct DiffCounts {
+  uint64_t only_a = 0, only_b = 0;  // voxels
+  uint64_t both = 0;
+  uint64_t pairs = 0;  // of nodes that were compared
+  bool same() const { return only_a == 0 && only_b == 0; }
+};
+
+// A brick that differs; its coordinates in bricks.
+using DiffSink = std::function<bool(const std::array<uint32_t, 3>& brick, uint64_t a, uint64_t b)>;
+
+class DagDiff {
+ public:
+  // Both views must outlive this.
+  DagDiff(const DagView& a, const DagView& b);
+
+  // Log2 of the resolution of the comparison.
+  uint32_t levels() const { return levels_; }
+  DiffCounts count();
+  // After count(): the bricks that differ, in Morton order, until the sink returns false.
+  void visit(const DiffSink& sink);
+
+ private:
+  struct Pair {
+    uint32_t a, b;  // kNoChild: nothing stands there
+  };
+  struct Counts {
+    uint64_t only_a = 0, only_b = 0, both = 0;
+  };
+  // Remembered pairs of one level: open addressing, grown at 5/8.
+  class Memo {
+   public:
+    Counts* find(Pair pair);
+    void prefetch(Pair pair) const;
+    void put(Pair pair, const Counts& counts);
+    size_t size() const { return used_; }
+
+   private:
+    struct Slot {
+      Pair pair{kNoChild, kNoChild};
+      Counts counts;
+    };
+    size_t home(Pair pair) const;
+    void grow();
+
+    std::vector<Slot> slots_;
+    size_t used_ = 0;
+  };
+
+  Counts count(uint32_t level, Pair pair);
+  void prefetch(uint32_t level, Pair pair) const;
+  bool visit(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at, const DiffSink& sink);
+  std::array<uint64_t, 2> bricks_of(Pair pair) const;
+  Pair child(uint32_t level, Pair pair, unsigned c) const;
+
+  DagView a_, b_;
+  uint32_t levels_;
+  std::vector<Memo> memos_;  // [level], above the bricks
+};
+
+// The brick of the node (or brick) `index` of level `level` <= levels - 2: 4^3 parts of the cube, set
+// where a voxel is.
+uint64_t dag_brick_at(const DagView& dag, uint32_t level, uint32_t index);
+
+}  // namespace svdag
