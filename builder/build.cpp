@@ -126,9 +126,9 @@ class Bake {
   std::vector<Run> runs_;
   std::vector<CellRoot> roots_;
   bool spilled_ = false;
-  uint64_t spilled_bytes_ = 0;           // of runs_
+  uint64_t spilled_bytes_ = 0;            // of runs_
   double bins_done_ = 0, bin_share_ = 1;  // of the triangles: bins that are done, the current one
-  std::atomic<bool> saves_{false};  // something can be resumed
+  std::atomic<bool> saves_{false};        // something can be resumed
   Stopwatch phase_;
 };
 
@@ -313,7 +313,8 @@ BuildReport Bake::run() {
   progress_->finish();
 
   describe_output(writer.header(), &report_);
-  report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(), scratch_.read_bytes()};
+  report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),
+                     scratch_.read_bytes()};
   report_.threads = executor_->workers();
   report_.seconds.total = total.lap();
   report_.seconds.cpu = cpu_seconds();

@@ -8,13 +8,13 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kBytesPerTriangle = 48;  // in bins, those on borders twice
-constexpr double kEarliest = 0.02;          // share of the work that tells about the rest
+constexpr double kEarliest = 0.2;           // share of the work that tells about the rest
 
 }  // namespace
 
 void DiskNeed::check(uint64_t more, const char* purpose) const {
   const uint64_t free = scratch_->folder()->free_bytes();
-  if (more / 5 * 4 <= free) return;
+  if (more / 2 <= free) return;
   throw Error(ExitCode::kOutput,
               std::string("spilling the ") + purpose + " takes about " + format_bytes(more) +
                   " more, but the disk has only " + format_bytes(free) +

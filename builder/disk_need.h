@@ -1,8 +1,9 @@
 // How much scratch a bake will take, told before hours of work instead of after them.
 //
 // What triangles take is known as soon as they were counted. How much a scene repeats itself nobody
-// knows before it is baked, so what runs will take is reckoned from those there are and the share of the
-// cells that is done. A disk that cannot hold four fifths of it is an Error (kOutput).
+// knows before it is baked, so what runs will take is reckoned from those there are and the share of
+// the cells that is done, once that is a fifth. Cells differ, so only a disk that cannot hold half of
+// what was reckoned is an Error (kOutput).
 #pragma once
 
 #include <cstdint>

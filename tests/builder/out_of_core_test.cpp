@@ -9,6 +9,7 @@
 
 #include "builder/build.h"
 #include "builder/description.h"
+#include "builder/disk_need.h"
 #include "builder/done_set.h"
 #include "builder/triangle_bins.h"
 #include "streaming/interrupt.h"
@@ -292,6 +293,25 @@ TEST(TriangleBins, GiveBackWhatTheyGotAndNothingStandsBesideTheirCubes) {
     // A triangle whose centre lies in the grid meets a bin there.
     EXPECT_GT(std::count(met.begin(), met.end(), true), 1500);
   }
+}
+
+TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
+  const TemporaryFolder directory;
+  MemoryBudget budget;
+  ScratchDir folder(directory.file("scratch"));
+  Scratch scratch(&folder, &budget);
+  DiskNeed need(&scratch);
+  const uint64_t free = folder.free_bytes();
+  need.expect_triangles(1000, kMiB);  // they stay in memory
+  EXPECT_EQ(need.estimate(), 0U);
+  need.expect_triangles(100'000, kMiB);
+  EXPECT_GT(need.estimate(), 100'000U * 30);
+  EXPECT_SVDAG_ERROR(need.expect_triangles(free, kMiB), ExitCode::kOutput, "only");
+  DiskNeed runs(&scratch);
+  runs.expect_runs(free, 0.1);  // too early to tell
+  runs.expect_runs(free / 4, 0.5);
+  EXPECT_EQ(runs.estimate(), free / 4 * 2);
+  EXPECT_SVDAG_ERROR(runs.expect_runs(4 * free, 0.5), ExitCode::kOutput, "free");
 }
 
 TEST(DoneSet, KnowsNoneSomeAndAllOfARange) {
