@@ -32,6 +32,18 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
   bake_parts(file, bin);
 }
 
+template <class Visit>
+bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit) {
+  BinReader reader(file, bin, budget_);
+  std::vector<LatticeTriangle> triangles;
+  triangles.reserve(std::min<uint64_t>(batch, bin.triangles));
+  for (; reader.read(batch, &triangles); triangles.clear()) {
+    check_interrupt();
+    if (!visit(triangles)) return false;
+  }
+  return true;
+}
+
 // The bin as a tree; null if that is too much.
 std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin) {
   if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return nullptr;
@@ -39,13 +51,11 @@ std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin
   const int cell_level = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
   auto tree = std::make_unique<CellTree>(
       grid_, bin.cube, std::min({cell_level, finest, grid_.levels - 2}), budget_);
-  BinReader reader(file, bin, budget_);
-  std::vector<LatticeTriangle> batch;
-  for (; reader.read(kBatch, &batch); batch.clear()) {
-    check_interrupt();
-    for (const LatticeTriangle& triangle : batch) tree->add(triangle);
-    if (tree->bytes(split_.workers) > split_.triangle_bytes) return nullptr;
-  }
+  const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
+    for (const LatticeTriangle& triangle : triangles) tree->add(triangle);
+    return tree->bytes(split_.workers) <= split_.triangle_bytes;
+  });
+  if (!fits) return nullptr;
   tree->seal();
   return tree;
 }
@@ -56,14 +66,12 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
   const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
   DenseCube cube(grid_, bin.cube, budget_);
-  BinReader reader(file, bin, budget_);
-  std::vector<LatticeTriangle> batch;
-  batch.reserve(std::min(most, bin.triangles));
   progress_->phase("voxelize a dense cube", bin.triangles);
-  for (; reader.read(most, &batch); batch.clear()) {
-    cube.add(batch, descent_, executor_);
-    progress_->advance(batch.size());
-  }
+  read(file, bin, most, [&](const std::vector<LatticeTriangle>& triangles) {
+    cube.add(triangles, descent_, executor_);
+    progress_->advance(triangles.size());
+    return true;
+  });
   voxelizer_->bake(cube, bin.range);
 }
 
@@ -76,14 +84,10 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
   while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
   SpillFile* passing = split_.scratch->passing();
   TriangleBins bins(grid_, bin.cube, depth, passing, split_.scratch);
-  {
-    BinReader reader(file, bin, budget_);
-    std::vector<LatticeTriangle> batch;
-    for (; reader.read(kBatch, &batch); batch.clear()) {
-      check_interrupt();
-      for (const LatticeTriangle& triangle : batch) bins.add(triangle);
-    }
-  }
+  read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
+    for (const LatticeTriangle& triangle : triangles) bins.add(triangle);
+    return true;
+  });
   uint64_t at = bin.range.begin;
   for (const TriangleBin& part : bins.finish()) {
     voxelizer_->note_empty({at, part.range.begin});

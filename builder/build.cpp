@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 
 #include "builder/bake_bins.h"
@@ -14,6 +13,7 @@
 #include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/voxelize.h"
+#include "streaming/checksum.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -53,11 +53,7 @@ void describe_output(const Header& header, BuildReport* report) {
   for (uint32_t k = 0; k < header.section_count; ++k)
     report->nodes.push_back(header.sections[k].nodes);
   report->file_bytes = header.file_bytes;
-  char hash[33];
-  std::snprintf(hash, sizeof hash, "%016llx%016llx",
-                static_cast<unsigned long long>(header.content_hash[1]),
-                static_cast<unsigned long long>(header.content_hash[0]));
-  report->content_hash = hash;
+  report->content_hash = to_hex({header.content_hash[0], header.content_hash[1]});
 }
 
 // How the memory is shared out. Phases follow each other, so the sum of all is more than the whole.

@@ -29,12 +29,6 @@ void put_level(const RunLevel<Key>& level, RecordWriter* out) {
   SVDAG_ASSERT(level.spilled);
   put_stream(*level.spilled, out);
 }
-template <class Key>
-void get_level(RecordReader* in, RunLevel<Key>* level) {
-  level->spilled = get_stream(in);
-  level->count = level->spilled->bytes / sizeof(Key);
-}
-
 SplitScene get_split(RecordReader* in) {
   SplitScene split;
   in->get(&split.counts);
@@ -56,8 +50,8 @@ BakedRun get_run(RecordReader* in) {
   uint64_t levels = 0;
   in->get(&levels);
   baked.run.nodes.resize(levels);
-  get_level(in, &baked.run.bricks);
-  for (auto& level : baked.run.nodes) get_level(in, &level);
+  baked.run.bricks.spilled = get_stream(in);
+  for (auto& level : baked.run.nodes) level.spilled = get_stream(in);
   in->get(&baked.roots);
   in->get(&baked.voxels);
   in->get(&baked.finished);

@@ -21,11 +21,7 @@ std::string hash_of(const std::string& path) {
     hasher.update(bytes);
     stream.skip(bytes.size());
   }
-  const Hash128 hash = hasher.digest();
-  char text[33];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash[1]),
-                static_cast<unsigned long long>(hash[0]));
-  return text;
+  return to_hex(hasher.digest());
 }
 
 std::string list(const std::vector<std::string>& items) {

@@ -22,17 +22,16 @@ template <class Key>
 class LevelSource {
  public:
   explicit LevelSource(std::span<const Key> keys)
-      : at_(keys.data()), end_(keys.data() + keys.size()), count_(keys.size()) {
+      : at_(keys.data()), end_(keys.data() + keys.size()) {
     see();
   }
   // `map`, if given, rewrites the children; it must outlive the source.
   LevelSource(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
               const RankMap* map = nullptr)
-      : count_(stream.bytes / sizeof(Key)), map_(map), reader_(std::in_place, file, stream, budget) {
+      : map_(map), reader_(std::in_place, file, stream, budget) {
     refill();
   }
 
-  uint64_t count() const { return count_; }
   bool ended() const { return at_ == end_; }
   const Key& head() const { return *at_; }
   void advance() {
@@ -67,7 +66,6 @@ class LevelSource {
   const Key* at_ = nullptr;
   const Key* end_ = nullptr;
   uint64_t prefix_ = 0;
-  uint64_t count_;
   const RankMap* map_ = nullptr;
   std::optional<SpillReader> reader_;
 };

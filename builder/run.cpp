@@ -71,7 +71,6 @@ class SortRoom {
         std::span(records_), sizeof(Key) / 4,
         [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch_);
     HugeVector<uint32_t> ranks(numbers);
-    level->count = records_.size();
     if (writer == nullptr) {
       level->reservation = budget_->reserve(records_.size() * sizeof(Key), kPurpose);
       level->keys.resize(records_.size());

@@ -18,10 +18,9 @@ namespace svdag {
 
 template <class Key>
 struct RunLevel {
-  uint64_t count = 0;
-  HugeVector<Key> keys;                // empty if spilled
+  HugeVector<Key> keys;                   // empty if spilled
   MemoryBudget::Reservation reservation;  // of these
-  std::optional<SpillStream> spilled;  // the keys as bytes
+  std::optional<SpillStream> spilled;     // the keys as bytes
 };
 
 struct Run {

@@ -3,7 +3,16 @@
 #define XXH_STATIC_LINKING_ONLY  // makes the state's size known, nothing is linked statically
 #include <xxhash.h>
 
+#include <cstdio>
+
 namespace svdag {
+
+std::string to_hex(const Hash128& hash) {
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash[1]),
+                static_cast<unsigned long long>(hash[0]));
+  return text;
+}
 
 uint64_t checksum64(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());

@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace svdag {
 
 using Hash128 = std::array<uint64_t, 2>;  // low word, high word of XXH128_hash_t
+
+// 32 hex digits, the high word first: how a hash is shown to people.
+std::string to_hex(const Hash128& hash);
 
 uint64_t checksum64(std::span<const std::byte> bytes);
 

@@ -7,6 +7,7 @@
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
 #include "io/units.h"
+#include "streaming/checksum.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -67,8 +68,7 @@ void info_dag(const InfoConfig& config) {
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
-  std::printf("  content hash %016llx%016llx\n", static_cast<unsigned long long>(h.content_hash[1]),
-              static_cast<unsigned long long>(h.content_hash[0]));
+  std::printf("  content hash %s\n", to_hex({h.content_hash[0], h.content_hash[1]}).c_str());
   if (config.levels) print_levels(stats);
 }
 

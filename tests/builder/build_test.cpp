@@ -11,6 +11,7 @@
 #include "io/dag/dag_stats.h"
 #include "io/float_rounding.h"
 #include "io/lattice.h"
+#include "tests/builder/bakes.h"
 #include "tests/reference_reduction.h"
 #include "tests/soup.h"
 #include "tests/stress/paths.h"
@@ -18,19 +19,6 @@
 
 namespace svdag {
 namespace {
-
-BuildConfig config_for(const std::string& scene, const std::string& output, int levels) {
-  BuildConfig config;
-  config.scene.paths = {scene};
-  config.output = output;
-  config.levels = levels;
-  return config;
-}
-
-BuildReport bake(const BuildConfig& config, Executor* executor) {
-  Progress progress;
-  return build(config, executor, &progress);
-}
 
 struct NamedScene {
   const char* name;

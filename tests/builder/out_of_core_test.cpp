@@ -13,6 +13,7 @@
 #include "builder/done_set.h"
 #include "builder/triangle_bins.h"
 #include "streaming/interrupt.h"
+#include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
 
@@ -20,20 +21,6 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kMiB = 1 << 20;
-
-BuildConfig config_for(const std::string& scene, const std::string& output, int levels) {
-  BuildConfig config;
-  config.scene.paths = {scene};
-  config.output = output;
-  config.levels = levels;
-  return config;
-}
-
-BuildReport bake(const BuildConfig& config, size_t threads = 1) {
-  ParallelExecutor executor(threads);
-  Progress progress;
-  return build(config, &executor, &progress);
-}
 
 class OutOfCore : public ::testing::Test {
  protected:

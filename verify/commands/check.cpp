@@ -1,11 +1,11 @@
 #include "verify/commands/check.h"
 
-#include <cinttypes>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
 #include "io/units.h"
+#include "streaming/checksum.h"
 #include "streaming/error.h"
 #include "verify/integrity.h"
 
@@ -13,9 +13,8 @@ namespace svdag {
 namespace {
 
 void print_json(const DagFile& file, const IntegrityReport& report) {
-  char hash[33];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, file.header().content_hash[1],
-                file.header().content_hash[0]);
+  const Header& h = file.header();
+  const std::string hash = to_hex({h.content_hash[0], h.content_hash[1]});
   const nlohmann::json json = {{"command", "check"},      {"file", file.path()},
                                {"ok", report.sound()},    {"defects", report.defects},
                                {"voxels", report.voxels}, {"nodes", report.nodes},
