@@ -56,6 +56,7 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
         continue;
       }
       if (!folder.holds(file, kOwner)) continue;
+      if (folder.made()) folder.sync();  // the lock's name is on the disk before any other's
       *owner = std::move(file);
     } catch (const Error& error) {
       if (folder.made() && error.code() != ExitCode::kUsage) discard(folder, {});
@@ -65,8 +66,8 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
   }
 }
 
-// The lock goes last: as long as `owner` has its name nobody else can come in, and afterwards only
-// an empty folder is removed.
+// The lock goes last, on the disk as well: as long as `owner` has its name nobody else can come in,
+// files without it are taken for somebody else's, and afterwards only an empty folder is removed.
 void ScratchDir::discard(const Folder& folder, const std::set<std::string>& names) noexcept {
   const auto attempt = [](const auto& action) {
     try {
@@ -75,6 +76,7 @@ void ScratchDir::discard(const Folder& folder, const std::set<std::string>& name
     }
   };
   for (const std::string& name : names) attempt([&] { folder.remove(name); });
+  if (!names.empty()) attempt([&] { folder.sync(); });
   attempt([&] { folder.remove(kOwner); });
   attempt([&] { folder.remove_itself(); });
 }
