@@ -12,11 +12,14 @@ DEATH_BY_THE_SIGNAL_ITSELF = False
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 # Bakes, and how often each signal hits them.
 BAKES = [(bakes.A_SECOND, 300), (bakes.SECONDS, 34)] if bakes.LONG else [(bakes.A_SECOND, 3)]
+START = 0.05  # seconds in which the system loads the program: until then it dies by the signal itself
 AT_MOST = 1.0  # seconds from the signal to the end
 LEFT = bakes.LEFT_BY_KILL if DEATH_BY_THE_SIGNAL_ITSELF else [bakes.OF_SCRATCH]
 
 
-def complaints_about(kitchen, folder, number, ending, twice):
+def complaints_about(kitchen, folder, number, ending, twice, moment):
+    if ending.code == -number and moment < START and not twice:
+        return bakes.leftovers(folder) + (["not begun, but no old file"] if kitchen.state(folder) != "old" else [])
     if ending.code == 0:  # it was faster, or the file was already there
         return bakes.leftovers(folder) + (["no new file"] if kitchen.state(folder) != "new" else [])
     found, itself = [], DEATH_BY_THE_SIGNAL_ITSELF or twice
@@ -43,7 +46,7 @@ def hit_once(kitchen, number, moments, run):
     folder, twice, moment = kitchen.table(), run % 3 == 2, moments.next()
     ending = hit(kitchen.bake.command(), folder, moment, [number] * (1 + twice))
     moments.learn(ending)
-    complaints = complaints_about(kitchen, folder, number, ending, twice)
+    complaints = complaints_about(kitchen, folder, number, ending, twice, moment)
     if ending.code != 0 and run % 3 == 0:
         complaints += complaints_about_the_next(kitchen, folder)
     shutil.rmtree(folder)
