@@ -49,6 +49,9 @@ std::string describe(const BuildConfig& config) {
     }
     out << '\n';
   }
+  if (config.part)
+    out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
+        << config.part->level << '\n';
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
