@@ -69,8 +69,7 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
 // Memory, threads and disk; the result is the same with any of them.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
   app->add_option_function<std::string>(
-         "-m,--memory",
-         [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
+         "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
          "Memory budget, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   app->add_option("-j,--threads", *threads, "Threads (default: all processors)")
