@@ -31,7 +31,7 @@ struct MergeCommandConfig {
 };
 
 struct InfoConfig {
-  std::vector<std::string> paths;  // one .svdag, or the files of one scene
+  std::vector<std::string> paths;  // one .svdag or .run, or the files of one scene
   bool json = false;
   bool levels = false;  // a table of levels
   NameFilter names;     // for scenes
@@ -44,7 +44,8 @@ int run_build(const BuildCommandConfig& config);
 int run_merge(const MergeCommandConfig& config);
 int run_info(const InfoConfig& config);
 
-// The part of run_info that looks at scenes.
+// The parts of run_info that look at runs and at scenes.
+void info_run(const InfoConfig& config);
 void info_scene(const InfoConfig& config);
 
 }  // namespace svdag

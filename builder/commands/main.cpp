@@ -156,7 +156,7 @@ void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
 }
 
 void set_up_info(CLI::App* app, InfoConfig* config) {
-  app->add_option("FILE", config->paths, "A .svdag file, or the files of a scene")->required();
+  app->add_option("FILE", config->paths, "A .svdag or .run file, or the files of a scene")->required();
   app->add_flag("--json", config->json, "Print JSON");
   app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
   add_scene_options(app, &config->names, &config->skip_invalid);
@@ -178,7 +178,7 @@ int run_program(int argc, char** argv) {
   InfoConfig info;
   CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
   CLI::App* merge_app = app.add_subcommand("merge", "Join the runs of parts of one bake");
-  CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag or a scene contains");
+  CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
   set_up_build(build_app, &build);
   set_up_merge(merge_app, &merge);
   set_up_info(info_app, &info);
