@@ -93,11 +93,7 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
       ->type_name("SECONDS");
 }
 
-void set_up_build(CLI::App* app, BuildCommandConfig* config) {
-  BuildConfig* build = &config->build;
-  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
-      ->required();
-  app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")->required();
+void add_grid_options(CLI::App* app, BuildConfig* build) {
   CLI::Option_group* grid = app->add_option_group("grid");
   grid->add_option_function<std::string>(
           "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
@@ -120,6 +116,14 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
          "--part", [build](const std::string& s) { build->part = parse_part(s); },
          "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
       ->type_name("I/N");
+}
+
+void set_up_build(CLI::App* app, BuildCommandConfig* config) {
+  BuildConfig* build = &config->build;
+  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
+      ->required();
+  app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")->required();
+  add_grid_options(app, build);
   static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
                                                      {"thin", Rule::kThin}};
   app->add_option(
@@ -156,7 +160,8 @@ void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
 }
 
 void set_up_info(CLI::App* app, InfoConfig* config) {
-  app->add_option("FILE", config->paths, "A .svdag or .run file, or the files of a scene")->required();
+  app->add_option("FILE", config->paths, "A .svdag or .run file, or the files of a scene")
+      ->required();
   app->add_flag("--json", config->json, "Print JSON");
   app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
   add_scene_options(app, &config->names, &config->skip_invalid);
