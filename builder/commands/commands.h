@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "builder/build.h"
+#include "builder/merge_runs.h"
 
 namespace svdag {
 
@@ -23,8 +24,14 @@ struct BuildCommandConfig {
   OutputConfig output;
 };
 
+struct MergeCommandConfig {
+  MergeRunsConfig merge;
+  size_t threads = 0;  // 0: all processors
+  OutputConfig output;
+};
+
 struct InfoConfig {
-  std::vector<std::string> paths;  // one .svdag, or the files of one scene
+  std::vector<std::string> paths;  // one .svdag or .run, or the files of one scene
   bool json = false;
   bool levels = false;  // a table of levels
   NameFilter names;     // for scenes
@@ -34,9 +41,11 @@ struct InfoConfig {
 
 // Each returns the exit code and throws Error for everything that went wrong.
 int run_build(const BuildCommandConfig& config);
+int run_merge(const MergeCommandConfig& config);
 int run_info(const InfoConfig& config);
 
-// The part of run_info that looks at scenes.
+// The parts of run_info that look at runs and at scenes.
+void info_run(const InfoConfig& config);
 void info_scene(const InfoConfig& config);
 
 }  // namespace svdag
