@@ -11,12 +11,13 @@
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
+#   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
-  librapidcheck-dev python3 python3-numpy python3-xxhash valgrind
+  librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
 
@@ -25,7 +26,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-accuracy bundle cuda clean
+  bench-accuracy bundle deb cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -89,6 +90,9 @@ bundle: build
 	cmake --install $(PROGRAMS) --component bundle --strip --prefix build/bundle/$$name >/dev/null && \
 	tar -C build/bundle --sort=name --owner=0 --group=0 -czf build/bundle/$$name.tar.gz $$name && \
 	echo "build/bundle/$$name.tar.gz"
+
+deb: build
+	@cd $(PROGRAMS) && cpack -G DEB -B ../deb >/dev/null && cd ../deb && ls $$PWD/*.deb
 
 cuda:
 	@if [ -f verify/trace/cuda.cu ] && command -v nvcc >/dev/null; then \

@@ -142,7 +142,7 @@ void Bake::find_unfinished() {
   if (config_.unfinished == Unfinished::kRefuse)
     fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
                ": continue it with --resume or discard it with --restart");
-  const std::string other = difference(saved_->description, describe(config_));
+  const std::string other = difference(saved_->description, describe(config_, scene_));
   if (!other.empty())
     fail_usage(config_.output + ": the unfinished bake is another one: " + other +
                "; discard it with --restart");
@@ -180,7 +180,7 @@ void Bake::split() {
     if (split_.counts.scene.triangles == 0)
       fail_input(config_.scene.paths.front(), "the scene has no triangles to bake");
     if (!split_.tree) {
-      checkpoint_.begin(describe(config_), report_.grid);
+      checkpoint_.begin(describe(config_, scene_), report_.grid);
       checkpoint_.save_split(split_);
       keep_scratch();
     }
@@ -238,7 +238,7 @@ void Bake::describe_work(const Voxelizer& voxelizer) {
 // What was spilled is kept for a process that resumes; from any worker.
 void Bake::save(BakedRun baked) {
   const std::lock_guard lock(runs_mutex_);
-  if (!checkpoint_.begun()) checkpoint_.begin(describe(config_), report_.grid);
+  if (!checkpoint_.begun()) checkpoint_.begin(describe(config_, scene_), report_.grid);
   checkpoint_.save_run(baked);
   keep_scratch();
   add(std::move(baked));

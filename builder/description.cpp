@@ -12,8 +12,7 @@ namespace {
 
 constexpr const char* kAlgorithm = "1";  // changes when nodes or bricks would
 
-std::string hash_of(const std::string& path) {
-  const File file = File::open_read(path);
+std::string hash_of(const File& file) {
   ByteStream stream(file);
   Hasher128 hasher;
   for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {
@@ -32,7 +31,7 @@ std::string list(const std::vector<std::string>& items) {
 
 }  // namespace
 
-std::string describe(const BuildConfig& config) {
+std::string describe(const BuildConfig& config, const Scene& scene) {
   std::ostringstream out;
   out.exceptions(std::ios::badbit);  // a lack of memory must not shorten the text
   out << "algorithm: " << kAlgorithm << '\n';
@@ -55,8 +54,10 @@ std::string describe(const BuildConfig& config) {
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
-  for (const std::string& path : config.scene.paths)
-    out << "content of " << path.substr(path.find_last_of('/') + 1) << ": " << hash_of(path) << '\n';
+  scene.visit_files([&](const File& file) {
+    const std::string name = file.path().substr(file.path().find_last_of('/') + 1);
+    out << "content of " << name << ": " << hash_of(file) << '\n';
+  });
   return out.str();
 }
 

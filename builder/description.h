@@ -10,9 +10,8 @@
 
 namespace svdag {
 
-// Reads all input files once, for their hashes. Of files that these name (the buffers of a .gltf)
-// it knows nothing.
-std::string describe(const BuildConfig& config);
+// Reads all files of the scene, which is that of `config`, once, for their hashes.
+std::string describe(const BuildConfig& config, const Scene& scene);
 
 // What differs first between two descriptions, for people; empty if nothing does.
 std::string difference(const std::string& saved, const std::string& now);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "builder/commands/commands.h"
+#include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -192,7 +193,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fail_usage(std::string(error.what()) + "; see svdag --help");
+    fail_usage(explain(app, argc, argv, error));
   }
   const int result = build_app->parsed()   ? run_build(build)
                      : merge_app->parsed() ? run_merge(merge)

@@ -89,6 +89,20 @@ Blob GltfBuffers::open(uint64_t index) {
   return Blob::in_memory(decode_data_uri(uri, path), std::move(memory));
 }
 
+std::vector<File> GltfBuffers::files() const {
+  std::vector<File> files;
+  const std::string& path = document_.file->path();
+  for (uint64_t i = 0; i < document_.root().array("buffers").size(); ++i) {
+    const std::string& uri = document_.element("buffers", i).text("uri");
+    if (uri.empty() || is_data_uri(uri)) continue;
+    try {
+      files.push_back(open_beside(path, uri));
+    } catch (const Error&) {  // whoever needs it will say so
+    }
+  }
+  return files;
+}
+
 const Blob& GltfBuffers::blob(uint64_t index) {
   const auto known = blobs_.find(index);
   if (known != blobs_.end()) return known->second;

@@ -83,6 +83,8 @@ class GltfBuffers {
 
   // Accessor `index`, which must be of `type` ("SCALAR", "VEC3", "VEC4") and inside its buffer.
   Accessor accessor(uint64_t index, const std::string& type);
+  // The files that the buffers are in, beside the scene's own; none for one that cannot be opened.
+  std::vector<File> files() const;
   // All bytes of a buffer view, for a decoder that needs them in one piece.
   std::vector<std::byte> view_bytes(uint64_t index, MemoryBudget::Reservation* memory);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/scene/gltf_buffers.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -134,6 +135,16 @@ Box Scene::bounds(SceneCounts* counts) const {
   if (counts != nullptr) *counts = seen;
   if (box.empty()) fail_input(config_.paths.front(), "the scene has no triangles to bake");
   return box;
+}
+
+void Scene::visit_files(const std::function<void(const File&)>& visit) const {
+  for (const std::string& path : config_.paths) {
+    const File file = File::open_read(path);
+    visit(file);
+    if (detect_format(file) != SceneFormat::kGltf) continue;
+    const GltfDocument document = load_gltf(file, budget_);
+    for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
+  }
 }
 
 SceneFormat detect_format(const File& file) {

@@ -35,6 +35,9 @@ class Scene {
   // triangles is an Error (kBadInput).
   Box bounds(SceneCounts* counts = nullptr) const;
 
+  // All files that decide the triangles: those of the scene, and the buffers that a .gltf names.
+  void visit_files(const std::function<void(const File&)>& visit) const;
+
   const SceneConfig& config() const { return config_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <new>
 
+#include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/commands/check.h"
@@ -93,7 +94,8 @@ void add_mesh(CLI::App* app, int* result) {
 
 void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
-  CLI::App* command = app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
+  CLI::App* command =
+      app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
   command->add_option("A", config->a, "A .svdag file")->required();
   command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
       ->required();
@@ -158,8 +160,10 @@ int run_program(int argc, char** argv) {
   add_render(&app, &result);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : int(ExitCode::kUsage);
+    fail_usage(explain(app, argc, argv, error));
   }
   if (std::fflush(stdout) != 0)
     throw Error(ExitCode::kOutput, "the result could not be written to standard output");

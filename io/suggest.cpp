@@ -1,0 +1,87 @@
+#include "io/suggest.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace svdag {
+namespace {
+
+std::string meant(const std::string& guess, const std::string& otherwise) {
+  return guess.empty() ? otherwise : "; did you mean " + guess + "?";
+}
+
+// An option's name without its value; "" for what is no option.
+std::string option_in(const std::string& argument) {
+  const bool is_option =
+      argument.size() > 1 && argument[0] == '-' &&
+      (argument[1] == '-' || std::isalpha(static_cast<unsigned char>(argument[1])));
+  return is_option && argument != "--" ? argument.substr(0, argument.find('=')) : "";
+}
+
+bool knows(const std::vector<std::string>& options, const std::string& option) {
+  if (std::find(options.begin(), options.end(), option) != options.end()) return true;
+  // -j4 is -j with its value
+  return option[1] != '-' &&
+         std::find(options.begin(), options.end(), option.substr(0, 2)) != options.end();
+}
+
+}  // namespace
+
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) {
+    for (size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      d[i][j] =
+          std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+  std::string best;
+  size_t least = word.size() / 3 + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
+                            std::span<const std::string> arguments) {
+  if (arguments.empty()) return "";
+  const bool of_program = !option_in(arguments[0]).empty();
+  const std::string name = of_program ? "" : arguments[0];
+  const std::string whole = of_program ? program : program + " " + name;
+  std::vector<std::string> names;
+  const CommandWords* command = nullptr;
+  for (const CommandWords& c : commands) {
+    if (c.name == name) command = &c;
+    if (!c.name.empty()) names.push_back(c.name);
+  }
+  if (command == nullptr) {
+    if (of_program) return "";
+    return "\"" + name + "\" is no command of " + program +
+           meant(nearest(name, names), "; see " + program + " --help");
+  }
+  for (const std::string& argument : arguments.subspan(of_program ? 0 : 1)) {
+    if (argument == "--") break;
+    const std::string option = option_in(argument);
+    if (option.empty() || knows(command->options, option)) continue;
+    return option + " is no option of " + whole +
+           meant(nearest(option, command->options), "; see " + whole + " --help");
+  }
+  return "";
+}
+
+}  // namespace svdag

@@ -1,0 +1,60 @@
+// What a word on a command line was meant to be.
+//
+// Nearest by the number of letters that were left out, added, changed or swapped with their
+// neighbour (Damerau 1964; the restricted form, where no piece is edited twice).
+#pragma once
+
+#include <exception>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace svdag {
+
+size_t edit_distance(std::string_view a, std::string_view b);
+
+// The candidate nearest to `word`, the first one of equals; "" if none is near enough to have been
+// meant: at most every third letter may be wrong.
+std::string nearest(std::string_view word, std::span<const std::string> candidates);
+
+struct CommandWords {
+  std::string name;                  // "": the program itself
+  std::vector<std::string> options;  // with their dashes
+};
+
+// A sentence about the first argument that is no command, or no option of its command, and what it
+// may have been meant to be; "" if all are known. `arguments` without the program's name.
+std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
+                            std::span<const std::string> arguments);
+
+// The options of a command of CLI11 (App), those in its groups included.
+template <class App>
+std::vector<std::string> option_names(const App& app) {
+  std::vector<std::string> names;
+  for (const auto* option : app.get_options()) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const App* group : app.get_subcommands({})) {
+    if (!group->get_name().empty()) continue;
+    for (std::string& name : option_names(*group)) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+// What is wrong with a command line that CLI11 could not parse, as `error` says, unless a word of
+// it is unknown.
+template <class App>
+std::string explain(const App& app, int argc, char** argv, const std::exception& error) {
+  std::vector<CommandWords> commands = {{"", option_names(app)}};
+  for (const App* command : app.get_subcommands({}))
+    commands.push_back({command->get_name(), option_names(*command)});
+  const std::string unknown =
+      explain_unknown(app.get_name(), commands, std::vector<std::string>(argv + 1, argv + argc));
+  return unknown.empty() ? std::string(error.what()) + "; see " + app.get_name() + " --help"
+                         : unknown;
+}
+
+}  // namespace svdag

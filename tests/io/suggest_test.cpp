@@ -1,0 +1,51 @@
+// A typo is answered with the word that was meant.
+#include "io/suggest.h"
+
+#include <gtest/gtest.h>
+
+namespace svdag {
+namespace {
+
+const std::vector<CommandWords> kCommands = {
+    {"", {"--help", "--version"}},
+    {"build", {"-o", "--output", "-r", "--resolution", "--rule", "-j", "--threads", "--help"}},
+    {"info", {"--json", "--levels"}}};
+
+std::string explain(const std::vector<std::string>& arguments) {
+  return explain_unknown("svdag", kCommands, arguments);
+}
+
+TEST(Suggest, CountsLeftOutAddedChangedAndSwappedLetters) {
+  EXPECT_EQ(edit_distance("build", "build"), 0U);
+  EXPECT_EQ(edit_distance("buid", "build"), 1U);
+  EXPECT_EQ(edit_distance("builld", "build"), 1U);
+  EXPECT_EQ(edit_distance("bulid", "build"), 1U);
+  EXPECT_EQ(edit_distance("bield", "build"), 2U);
+  EXPECT_EQ(edit_distance("", "info"), 4U);
+}
+
+TEST(Suggest, NamesTheCommandThatWasMeant) {
+  EXPECT_EQ(explain({"biuld", "x.ply"}), "\"biuld\" is no command of svdag; did you mean build?");
+  EXPECT_EQ(explain({"frobnicate"}), "\"frobnicate\" is no command of svdag; see svdag --help");
+}
+
+TEST(Suggest, NamesTheOptionThatWasMeant) {
+  EXPECT_EQ(explain({"build", "x.ply", "--resolutoin=64"}),
+            "--resolutoin is no option of svdag build; did you mean --resolution?");
+  EXPECT_EQ(explain({"info", "--quickly"}),
+            "--quickly is no option of svdag info; see svdag info --help");
+}
+
+TEST(Suggest, KnowsTheOptionsOfTheProgramItself) {
+  EXPECT_EQ(explain({"--vesrion"}), "--vesrion is no option of svdag; did you mean --version?");
+  EXPECT_EQ(explain({"--version"}), "");
+}
+
+TEST(Suggest, SaysNothingOfWhatIsKnownOrNoOption) {
+  EXPECT_EQ(explain({"build", "x.ply", "-j4", "-r", "64K", "--rule=thin"}), "");
+  EXPECT_EQ(explain({"build", "-5", "--", "--strange.ply"}), "");
+  EXPECT_EQ(explain({}), "");
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""What `cmake --install` gives other projects, and the packages for Debian.
+
+BUILD is the folder of a finished build; everything else happens in a temporary folder.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
+READER = pathlib.Path(__file__).resolve().parent / "reader"
+
+
+def run(*command, folder=None):
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
+    return done.stdout
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="svdag-package-")
+        cls.root = pathlib.Path(cls.folder.name)
+        run(BUILD / "svdag-scene", "city", "-n", "6K", "-q", "-o", cls.root / "city.ply")
+        cls.file = cls.root / "city.svdag"
+        run(BUILD / "svdag", "build", cls.root / "city.ply", "-r", "256", "-q", "-o", cls.file)
+        info = json.loads(run(BUILD / "svdag", "info", "--json", cls.file))
+        cls.counts = [str(info["resolution"]), str(info["voxels"])]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def install(self):
+        prefix = self.root / "prefix"
+        for component in ("programs", "development"):
+            run("cmake", "--install", BUILD, "--component", component, "--prefix", prefix)
+        return prefix
+
+    def test_another_project_reads_a_file_with_find_package(self):
+        prefix, build = self.install(), self.root / "reader"
+        run("cmake", "-G", "Ninja", "-S", READER, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
+        run("cmake", "--build", build)
+        self.assertEqual(run(build / "count_voxels", self.file).split(), self.counts)
+
+    def test_the_view_needs_a_compiler_and_nothing_else(self):
+        program, prefix = self.root / "mapped", self.install()
+        run("g++", "-std=c++17", "-O1", f"-I{prefix}/include/svdag", READER / "mapped.cpp", "-o", program)
+        self.assertEqual(run(program, self.file).split(), self.counts)
+
+    def test_installed_programs_run_where_they_were_put(self):
+        program = self.install() / "bin" / "svdag-verify"
+        self.assertIn("ok", run(program, "check", self.file))
+
+    def test_debian_packages_name_what_they_need(self):
+        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.root / "deb")
+        packages = {p.name.split("_")[0]: p for p in (self.root / "deb").glob("*.deb")}
+        self.assertEqual(sorted(packages), ["libsvdag-dev", "svdag"])
+        needs = run("dpkg-deb", "-f", packages["svdag"], "Depends")
+        for library in ("libc6", "libstdc++6", "libxxhash0"):
+            self.assertRegex(needs, rf"\b{re.escape(library)}\b")
+        held = run("dpkg-deb", "-c", packages["svdag"])
+        self.assertIn("./usr/bin/svdag-verify\n", held)
+        self.assertIn("./usr/lib/cmake", run("dpkg-deb", "-c", packages["libsvdag-dev"]).replace("/x86_64-linux-gnu", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
