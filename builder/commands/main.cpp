@@ -70,8 +70,7 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
 // Memory, threads and disk; the result is the same with any of them.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
   app->add_option_function<std::string>(
-         "-m,--memory",
-         [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
+         "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
          "Memory budget, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   app->add_option("-j,--threads", *threads, "Threads (default: all processors)")
@@ -93,6 +92,20 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
                   "Save the work of every so many seconds for --resume (default: 30)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+}
+
+void add_cache_options(CLI::App* app, CellCacheConfig* config) {
+  CLI::Option* cache =
+      app->add_option(
+             "--cache", config->folder,
+             "Folder of cells baked before, by any bake: the same cells are not baked again")
+          ->type_name("DIR");
+  app->add_option_function<std::string>(
+         "--cache-size",
+         [config](const std::string& s) { config->most_bytes = parse_count(s, "--cache-size"); },
+         "Most that the cache may hold; the least used goes first (default: 16G)")
+      ->needs(cache)
+      ->type_name("SIZE");
 }
 
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
@@ -133,6 +146,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
   add_resource_options(app, &build->memory, &config->threads, &build->scratch);
   add_resume_options(app, build);
+  add_cache_options(app, &config->cache);
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);
