@@ -9,6 +9,7 @@
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
+#   bench-cache  its table of bakes with --cache, after objects of a scene have moved
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
@@ -16,7 +17,7 @@
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
-  libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
+  libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
   librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
@@ -25,7 +26,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
+.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core bench-cache \
   bench-accuracy bundle deb cuda clean
 all: build
 
@@ -77,6 +78,9 @@ bench-sort: deps
 
 bench-out-of-core: build
 	@$(PYTHON) tests/bench/out_of_core.py --programs $(PROGRAMS)
+
+bench-cache: build
+	@$(PYTHON) tests/bench/cache.py --programs $(PROGRAMS)
 
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))

@@ -13,6 +13,7 @@
 #include "builder/description.h"
 #include "builder/disk_need.h"
 #include "builder/merge.h"
+#include "builder/shares.h"
 #include "builder/voxelize.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -55,22 +56,6 @@ void describe_output(const BakeOutput& output, BuildReport* report) {
   report->content_hash = output.content_hash();
 }
 
-// How the memory is shared out. Phases follow each other, so the sum of all is more than the whole.
-struct Shares {
-  Shares(uint64_t memory, size_t workers)
-      : vertices(memory / 4),
-        triangles(memory / 4),
-        table(memory / 2 / workers),
-        maps(memory / 2),
-        sources(memory * 3 / 8) {}
-
-  uint64_t vertices;   // of a mesh being read
-  uint64_t triangles;  // of the cells being voxelized
-  uint64_t table;      // a worker's unique nodes
-  uint64_t maps;       // of the merge
-  uint64_t sources;    // blocks of the runs being merged
-};
-
 // A bake from its configuration to its report; one function per phase.
 class Bake {
  public:
@@ -99,6 +84,8 @@ class Bake {
   void voxelize();
   std::vector<CellRoot> merge(BakeOutput* output);
   void describe_work(const Voxelizer& voxelizer);
+  void hand_on(BakedRun baked);
+  void take_from_store();
   void save(BakedRun baked);
   void add(BakedRun baked);
 
@@ -115,7 +102,8 @@ class Bake {
   DiskNeed disk_need_{&scratch_};
   std::optional<SavedBake> saved_;  // by an earlier process
   BuildReport report_;
-  std::optional<Part> part_;  // of the grid, that is baked
+  std::optional<Part> part_;          // of the grid, that is baked
+  std::unique_ptr<CellStore> store_;  // of cells that were baked before; null: none
   SplitConfig split_config_;
   SplitScene split_;
   std::mutex runs_mutex_;
@@ -200,7 +188,7 @@ void Bake::voxelize() {
   const DoneSet done(std::move(finished));
   Voxelizer voxelizer(report_.grid,
                       {config_.descent, shares_.table, config_.checkpoint, &scratch_, &done,
-                       [this](BakedRun baked) { save(std::move(baked)); }},
+                       store_.get(), [this](BakedRun baked) { save(std::move(baked)); }},
                       &budget_, executor_);
   if (split_.tree) {
     voxelizer.bake(*split_.tree, morton_range(Cube(), report_.grid.levels), progress_);
@@ -221,10 +209,32 @@ void Bake::voxelize() {
   report_.seconds.voxelize = phase_.lap();
   progress_->phase("sort", 0);
   // Where others were saved, the last are, too: a bake killed in the merge voxelizes nothing again.
-  for (BakedRun& baked : voxelizer.finish(spilled_))
-    spilled_ ? save(std::move(baked)) : add(std::move(baked));
+  for (BakedRun& baked : voxelizer.finish(spilled_)) hand_on(std::move(baked));
+  take_from_store();
   report_.runs = runs_.size();
   report_.seconds.sort = phase_.lap();
+}
+
+void Bake::hand_on(BakedRun baked) {
+  if (spilled_) return save(std::move(baked));
+  if (store_) store_->keep(baked, nullptr);
+  add(std::move(baked));
+}
+
+void Bake::take_from_store() {
+  if (!store_) return;
+  uint64_t left = shares_.triangles;  // nobody needs them any more
+  const auto target = [&](uint64_t bytes) -> std::optional<SpillTarget> {
+    if (!spilled_ && bytes <= left) {
+      left -= bytes;
+      return std::nullopt;
+    }
+    return SpillTarget{scratch_.runs(), scratch_.new_streams(uint64_t(report_.grid.levels))};
+  };
+  store_->taken(target, [this](BakedRun baked) { hand_on(std::move(baked)); });
+  report_.cache_hits = store_->hits();
+  report_.cache_complaint = store_->complaint();
+  store_.reset();
 }
 
 void Bake::describe_work(const Voxelizer& voxelizer) {
@@ -237,6 +247,7 @@ void Bake::describe_work(const Voxelizer& voxelizer) {
 
 // What was spilled is kept for a process that resumes; from any worker.
 void Bake::save(BakedRun baked) {
+  if (store_) store_->keep(baked, scratch_.runs());
   const std::lock_guard lock(runs_mutex_);
   if (!checkpoint_.begun()) checkpoint_.begin(describe(config_, scene_), report_.grid);
   checkpoint_.save_run(baked);
@@ -303,6 +314,7 @@ BuildReport Bake::run() {
   choose_grid();
   // The output is opened before the work begins: an unwritable folder is known at once.
   const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
+  if (config_.open_store) store_ = config_.open_store(report_.grid, report_.rule, &budget_);
   split();
   voxelize();
   const std::vector<CellRoot> tops = merge(output.get());

@@ -1,10 +1,13 @@
 // A bake: scene files in, one `.svdag` out, or a `.run` of all or a part of the grid.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "builder/cell_store.h"
 #include "builder/overlap.h"
 #include "builder/part.h"
 #include "builder/split.h"
@@ -30,6 +33,8 @@ struct BuildConfig {
   std::string scratch;            // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   double checkpoint = 30;  // --checkpoint: seconds of work that a killed bake may lose
+  // --cache: opens the store of cells baked before; empty: there is none.
+  std::function<std::unique_ptr<CellStore>(const Grid&, Rule, MemoryBudget*)> open_store;
 };
 
 struct BuildReport {
@@ -41,6 +46,8 @@ struct BuildReport {
   std::vector<uint64_t> divided;  // cubes per level that the descent divided, inside the cells
   uint64_t cells = 0;             // visited
   uint64_t runs = 0;              // merged; those of an earlier process included
+  uint64_t cache_hits = 0;        // of the cells
+  std::string cache_complaint;    // why cells were not kept; empty if all were
   bool resumed = false;
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks

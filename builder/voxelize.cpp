@@ -10,13 +10,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kTasksPerWorker = 32;
-constexpr uint64_t kLightCell = 4096;     // triangles: not worth dividing
+constexpr uint64_t kLightCell = 4096;      // triangles: not worth dividing
 constexpr uint64_t kBytesPerPending = 48;  // a key not yet numbered, and its number
 
 // Few enough keys that those which wait to be numbered take an eighth of a table's share.
 size_t batch_of(uint64_t table_bytes) {
-  return size_t(std::clamp<uint64_t>(table_bytes / 8 / kBytesPerPending, 1 << 10,
-                                     NodeTable::kLargestBatch));
+  return size_t(
+      std::clamp<uint64_t>(table_bytes / 8 / kBytesPerPending, 1 << 10, NodeTable::kLargestBatch));
 }
 
 }  // namespace
@@ -31,7 +31,12 @@ class Voxelizer::Worker : public Spiller {
 
   void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent); }
   void end() { cursor_.reset(); }
-  void bake(const Cube& cell) { descent_.run(cell, cursor_->list(cell)); }
+  void bake(const Cube& cell) {
+    const EntryList& list = cursor_->list(cell);
+    if (config_.store == nullptr || !is_new(cell)) return descent_.run(cell, list);
+    const CellKey key = config_.store->key(cell, list);
+    if (!config_.store->take(key, cell)) bake_for_store(cell, list, key);
+  }
   void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(&table_)); }
   void note_empty(uint64_t begin, uint64_t end) { descent_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
@@ -53,8 +58,28 @@ class Voxelizer::Worker : public Spiller {
   }
 
  private:
+  // Whether nothing of the cell is done, or left to others: else its content is not all of it.
+  bool is_new(const Cube& cell) const {
+    return config_.done == nullptr ||
+           config_.done->state(morton_range(cell, table_.levels())) == DoneSet::State::kNone;
+  }
+
+  // A cell in whose middle the table was emptied stands in two runs, and is of no use to others.
+  void bake_for_store(const Cube& cell, const EntryList& list, const CellKey& key) {
+    const size_t roots = descent_.roots().size(), spills = spills_;
+    const uint64_t voxels = descent_.voxels();
+    descent_.run(cell, list);
+    if (spills_ != spills) return;
+    const size_t added = descent_.roots().size() - roots;
+    if (added == 0) return cells_.push_back({key, BakedCell::kNoRoot, 0});
+    if (added == 1 && descent_.roots().back().cube == cell)
+      cells_.push_back({key, roots, descent_.voxels() - voxels});
+  }
+
   BakedRun freeze_table(bool spill) {
     BakedRun baked;
+    baked.cells = std::exchange(cells_, {});
+    ++spills_;
     std::vector<NodeNumber> numbers;
     for (const Descent::Root& root : descent_.roots())
       numbers.push_back({root.cube.level, root.node - 1});
@@ -63,8 +88,8 @@ class Voxelizer::Worker : public Spiller {
       target = {config_.scratch->runs(), config_.scratch->new_streams(uint64_t(table_.levels()))};
     baked.run = freeze(&table_, numbers, target ? &*target : nullptr);
     for (size_t i = 0; i < numbers.size(); ++i)
-      baked.roots.push_back({morton(descent_.roots()[i].cube.coordinate), numbers[i].level, 0,
-                             numbers[i].number});
+      baked.roots.push_back(
+          {morton(descent_.roots()[i].cube.coordinate), numbers[i].level, 0, numbers[i].number});
     baked.voxels = descent_.voxels();
     baked.finished = descent_.finished();
     return baked;
@@ -74,7 +99,9 @@ class Voxelizer::Worker : public Spiller {
   NodeTable table_;
   Descent descent_;
   std::optional<CellCursor> cursor_;
-  Clock::time_point last_;  // when the table was emptied
+  Clock::time_point last_;        // when the table was emptied
+  std::vector<BakedCell> cells_;  // in the table
+  size_t spills_ = 0;
 };
 
 Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,

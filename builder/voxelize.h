@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "builder/cell_store.h"
 #include "builder/cell_tree.h"
 #include "builder/dense_cube.h"
 #include "builder/run.h"
@@ -27,12 +28,22 @@ struct VoxelizeCounts {
   std::vector<uint64_t> divided;  // cubes per level, inside the cells
 };
 
+// A cell that others may want: its key, and its root among those of its run.
+struct BakedCell {
+  static constexpr size_t kNoRoot = SIZE_MAX;  // no voxel of it is set
+
+  CellKey key;
+  size_t root;
+  uint64_t voxels;
+};
+
 // A frozen table: the run, and what of the scene it holds.
 struct BakedRun {
   Run run;
   std::vector<CellRoot> roots;  // `run` is not set in them
   uint64_t voxels = 0;
   std::vector<MortonRange> finished;
+  std::vector<BakedCell> cells;  // those that were baked whole, if there is a store of cells
 };
 
 struct VoxelizeConfig {
@@ -41,6 +52,7 @@ struct VoxelizeConfig {
   double seconds = 1e30;               // after which a table is frozen, however small
   Scratch* scratch = nullptr;          // null: tables are never emptied
   const DoneSet* done = nullptr;       // what is there already; null: nothing
+  CellStore* store = nullptr;          // of cells baked before; null: all are baked
   std::function<void(BakedRun)> save;  // gets what was spilled, from any thread
 };
 

@@ -57,6 +57,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"lanes", config.build.descent.kernels->lanes},
                {"cubes_divided", r.divided},
                {"cells", r.cells},
+               {"cache_hits", r.cache_hits},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
                {"file_bytes", r.file_bytes},
@@ -104,7 +105,10 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
   if (r.split.scene.quantisation > 0)
     std::printf("  the scene's positions are quantised in steps of %.3g voxel (Draco)\n",
                 r.split.scene.quantisation / r.grid.voxel_size);
-  std::printf("  %s cells visited\n", format_count(r.cells).c_str());
+  std::printf("  %s cells visited", format_count(r.cells).c_str());
+  if (!config.cache.folder.empty())
+    std::printf(", %s of them found in the cache", format_count(r.cache_hits).c_str());
+  std::printf("\n");
   std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.asked).c_str(), format_count(r.memo.answered).c_str(),
               format_count(r.memo.computed).c_str());
@@ -114,9 +118,9 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
       s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
   if (r.scratch.written != 0)
     std::printf("  scratch: %s at most (%s estimated), %s written, %s read; %s runs merged%s\n",
-                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(), format_bytes(r.scratch.written).c_str(),
-                format_bytes(r.scratch.read).c_str(), format_count(r.runs).c_str(),
-                r.resumed ? "; resumed" : "");
+                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(),
+                format_bytes(r.scratch.written).c_str(), format_bytes(r.scratch.read).c_str(),
+                format_count(r.runs).c_str(), r.resumed ? "; resumed" : "");
   std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),
               format_bytes(r.peak_resident).c_str());
 }
@@ -138,7 +142,14 @@ int run_build(const BuildCommandConfig& config) {
   refuse_overwriting_inputs(config);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
-  const BuildReport report = build(config.build, &executor, &progress);
+  BuildConfig build_config = config.build;
+  if (!config.cache.folder.empty())
+    build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
+      return std::make_unique<CellCache>(config.cache, grid, rule, budget);
+    };
+  const BuildReport report = build(build_config, &executor, &progress);
+  if (!report.cache_complaint.empty())
+    std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
   if (!config.report.empty()) {
     AtomicFile file(config.report);
     file.append(report_json(config, report));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "builder/build.h"
+#include "builder/farm/cell_cache.h"
 #include "builder/merge_runs.h"
 
 namespace svdag {
@@ -19,8 +20,9 @@ struct OutputConfig {
 
 struct BuildCommandConfig {
   BuildConfig build;
-  size_t threads = 0;  // 0: all processors
-  std::string report;  // --report: where the JSON report goes, "" for nowhere
+  CellCacheConfig cache;  // --cache, --cache-size; no folder: no cache
+  size_t threads = 0;     // 0: all processors
+  std::string report;     // --report: where the JSON report goes, "" for nowhere
   OutputConfig output;
 };
 

@@ -94,6 +94,20 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
       ->type_name("SECONDS");
 }
 
+void add_cache_options(CLI::App* app, CellCacheConfig* config) {
+  CLI::Option* cache =
+      app->add_option(
+             "--cache", config->folder,
+             "Folder of cells baked before, by any bake: the same cells are not baked again")
+          ->type_name("DIR");
+  app->add_option_function<std::string>(
+         "--cache-size",
+         [config](const std::string& s) { config->most_bytes = parse_count(s, "--cache-size"); },
+         "Most that the cache may hold; the least used goes first (default: 16G)")
+      ->needs(cache)
+      ->type_name("SIZE");
+}
+
 double checked_voxel_size(double size) {
   if (size == 0) fail_usage("--voxel-size: 0 is not a size");
   return size;
@@ -137,6 +151,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
   add_resource_options(app, &build->memory, &config->threads, &build->scratch);
   add_resume_options(app, build);
+  add_cache_options(app, &config->cache);
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);

@@ -1,0 +1,47 @@
+// Sub-DAGs of cells that were baked before, found by what is in the cells.
+//
+// The voxelizer asks this interface; builder/farm/cell_cache.h answers from a folder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "builder/cell.h"
+#include "builder/run.h"
+
+namespace svdag {
+
+struct BakedRun;
+
+// Names the content of a cell: cells with the same key have the same voxels.
+struct CellKey {
+  std::array<uint64_t, 4> words{};
+  bool operator==(const CellKey&) const = default;
+};
+
+class CellStore {
+ public:
+  virtual ~CellStore() = default;
+
+  // The key of `cube` with the triangles of `list`, which holds all that touch it.
+  virtual CellKey key(const Cube& cube, const EntryList& list) const = 0;
+  // Whether the sub-DAG of `key` is known. If so it stands in `cube` now, and nobody bakes that.
+  // From any thread.
+  virtual bool take(const CellKey& key, const Cube& cube) = 0;
+  // Hands on what was taken, run by run; spilled where target(bytes), given a bound of the memory
+  // that the run takes, gives a place.
+  virtual void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
+                     const std::function<void(BakedRun)>& use) = 0;
+  // Adds the cells of `baked` to what is known; `runs` holds the run if it was spilled. From any
+  // thread.
+  virtual void keep(const BakedRun& baked, SpillFile* runs) = 0;
+  // Of the cells that were asked for, how many were known.
+  virtual uint64_t hits() const = 0;
+  // Why cells could not be kept; empty if all could.
+  virtual std::string complaint() const = 0;
+};
+
+}  // namespace svdag
