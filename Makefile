@@ -1,7 +1,7 @@
 # svdag: `make demo` and `make test` work on a fresh Debian 12 with nothing but git and make.
 #
 #   deps    install the packages below (as root, through sudo, or print the line)
-#   build   build/release/svdag, svdag-verify, svdag-scene
+#   build   build/release/svdag, svdag-export, svdag-verify, svdag-scene
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
@@ -11,13 +11,15 @@
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
+#   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
-  libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
+  libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev \
+  libcgal-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb libgtest-dev \
   librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
@@ -26,8 +28,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core bench-cache \
-  bench-accuracy bundle deb cuda clean
+.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
+  bench-cache bench-accuracy bench-vdb bundle deb cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -51,7 +53,7 @@ deps:
 
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene
+	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-verify svdag-scene
 
 demo: build
 	@sh tests/demo.sh $(PROGRAMS) demo
@@ -87,6 +89,9 @@ bench-accuracy: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
+
+bench-vdb: build
+	@$(PYTHON) tests/bench/vdb_sandwich.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

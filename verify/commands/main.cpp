@@ -10,6 +10,7 @@
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
 #include "verify/commands/render.h"
+#include "verify/commands/vdb.h"
 
 namespace svdag {
 namespace {
@@ -54,15 +55,16 @@ void add_mesh(CLI::App* app, int* result) {
       ->required();
   command
       ->add_option("--judge", config->judge,
-                   "Who decides: integer (our exact clipping, the default) or cgal (CGAL's exact "
-                   "kernel; slow)")
-      ->check(CLI::IsMember({"integer", "cgal"}))
+                   "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
+                   "kernel; slow) or openvdb (two bounds by its distances)")
+      ->check(CLI::IsMember({"integer", "cgal", "openvdb"}))
       ->type_name("JUDGE");
   command
       ->add_option_function<std::string>(
           "--sample",
           [config](const std::string& text) { config->sample = parse_count(text, "--sample"); },
-          "Compare N drawn bricks instead of all, and bound the error rate")
+          "Compare N drawn bricks instead of all, and bound the error rate (openvdb: N windows "
+          "of 512^3 voxels around such bricks)")
       ->type_name("N");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
   command
@@ -89,6 +91,41 @@ void add_mesh(CLI::App* app, int* result) {
       std::string("Examples: svdag-verify mesh sponza.svdag sponza.glb\n"
                   "          svdag-verify mesh --sample 100000 city.svdag city.ply --json\n") +
       kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_vdb(CLI::App* app, int* result) {
+  auto config = std::make_shared<VdbConfig>();
+  CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("GRID", config->vdb, "The .vdb file")->required();
+  command->add_option("--grid", config->grid, "Which grid of the .vdb (default: the only one)")
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
+          "The values of a float grid that count as set, for example --iso=-inf,0")
+      ->type_name("LOW,HIGH");
+  command
+      ->add_option_function<std::string>(
+          "--bounds", [config](const std::string& text) { config->bounds = parse_bounds(text); },
+          "Compare only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
+      ->type_name("N");
+  command
+      ->add_option("--write-diff", config->write_diff,
+                   "Write two mask grids, missing and extra, in the place of GRID")
+      ->type_name("X.vdb");
+  const auto set_most = [config](const std::string& text) {
+    config->write_most = parse_count(text, "--write-most");
+  };
+  command
+      ->add_option_function<std::string>(
+          "--write-most", set_most, "Refuse to write more extra voxels than this (default 10M)")
+      ->type_name("N");
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify vdb scene.svdag scene.vdb\n") + kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -157,6 +194,7 @@ int run_program(int argc, char** argv) {
   add_check(&app, &result);
   add_mesh(&app, &result);
   add_diff(&app, &result);
+  add_vdb(&app, &result);
   add_render(&app, &result);
   try {
     app.parse(argc, argv);
