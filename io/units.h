@@ -5,12 +5,16 @@
 #include <string>
 #include <string_view>
 
+#include "io/triangle.h"
+
 namespace svdag {
 
 // "512" | "64K" | "4G" -> count; also "4GiB", "4GB". Throws Error (kUsage) naming `option`.
 uint64_t parse_count(std::string_view text, const char* option);
 // A resolution N = 2^L from "8" to "1M" -> L in 3 .. 20. Throws Error (kUsage).
 int parse_resolution(std::string_view text);
+// --bounds: "x0,y0,z0,x1,y1,z1", the minimum first. Throws Error (kUsage).
+Box parse_bounds(const std::string& text);
 // 65536 -> "64K", 1000 -> "1000".
 std::string format_resolution(uint64_t resolution);
 // 1536 -> "1.5 KiB".

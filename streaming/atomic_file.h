@@ -24,6 +24,8 @@ class AtomicFile {
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
   uint64_t size() const { return size_; }
+  // A name under which a library that insists on names may open the file before commit().
+  std::string open_name() const { return "/proc/self/fd/" + std::to_string(file_.descriptor()); }
   void read_at(uint64_t offset, std::span<std::byte> out) const { file_.read_at(offset, out); }
 
   void commit();

@@ -3,37 +3,15 @@
 #include <algorithm>
 #include <bit>
 
+#include "io/dag/dag_level.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
 namespace svdag {
-namespace {
-
-// The child mask of a node of `level`; of a brick its eight octants.
-uint32_t octants(const DagView& dag, uint32_t level, uint32_t index) {
-  if (level < dag.brick_level()) return dag.words[level][index] & 0xffU;
-  const uint64_t brick = dag.bricks[index];
-  uint32_t mask = 0;
-  for (unsigned c = 0; c < 8; ++c) mask |= uint32_t((brick >> (8 * c) & 0xff) != 0) << c;
-  return mask;
-}
-
-}  // namespace
-
-uint64_t dag_brick_at(const DagView& dag, uint32_t level, uint32_t index) {
-  if (level == dag.brick_level()) return dag.bricks[index];
-  uint64_t brick = 0;
-  for (unsigned c = 0; c < 8; ++c) {
-    const uint32_t child = dag_child(dag, level, index, c);
-    if (child != kNoChild) brick |= uint64_t(octants(dag, level + 1, child)) << (8 * c);
-  }
-  return brick;
-}
-
 size_t DagDiff::Memo::home(Pair pair) const {
   const uint64_t key = uint64_t(pair.a) << 32 | pair.b;
-  const unsigned __int128 product = static_cast<unsigned __int128>(key ^ 0x9e3779b97f4a7c15) *
-                                    0xd6e8feb86659fd93;
+  const unsigned __int128 product =
+      static_cast<unsigned __int128>(key ^ 0x9e3779b97f4a7c15) * 0xd6e8feb86659fd93;
   return size_t(uint64_t(product) ^ uint64_t(product >> 64)) & (slots_.size() - 1);
 }
 

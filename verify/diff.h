@@ -2,8 +2,8 @@
 //
 // Two voxel sets are compared by descending both DAGs at once. A pair of nodes (a, b) of one level
 // always has the same difference wherever it stands, so it is computed once and remembered: time
-// follows the number of different pairs, which for DAGs of one scene is about the number of nodes, not
-// of voxels. A node that stands alone is a pair with nothing.
+// follows the number of different pairs, which for DAGs of one scene is about the number of nodes,
+// not of voxels. A node that stands alone is a pair with nothing.
 //
 // DAGs of different resolution are compared at the coarser one: there a voxel of the finer DAG is
 // set if any voxel in it is.
@@ -78,9 +78,5 @@ class DagDiff {
   uint32_t levels_;
   std::vector<Memo> memos_;  // [level], above the bricks
 };
-
-// The brick of the node (or brick) `index` of level `level` <= levels - 2: 4^3 parts of the cube, set
-// where a voxel is.
-uint64_t dag_brick_at(const DagView& dag, uint32_t level, uint32_t index);
 
 }  // namespace svdag

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "builder/commands/commands.h"
+#include "builder/commands/sibling.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -29,18 +30,6 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid) {
   app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
-}
-
-Box parse_bounds(const std::string& text) {
-  double v[6];
-  int used = 0;
-  const int n = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3],
-                            &v[4], &v[5], &used);
-  bool good = n == 6 && used == int(text.size());
-  for (int a = 0; good && a < 3; ++a) good = v[a] <= v[a + 3];
-  if (!good)
-    fail_usage("--bounds: \"" + text + "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 void add_measurement_options(CLI::App* app, DescentConfig* descent) {
@@ -140,6 +129,7 @@ void set_up_info(CLI::App* app, InfoConfig* config) {
 }
 
 int run_program(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
   app.set_version_flag("--version", "svdag " SVDAG_VERSION);
   app.require_subcommand(1);
@@ -148,6 +138,7 @@ int run_program(int argc, char** argv) {
   InfoConfig info;
   CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
   CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag or a scene contains");
+  app.add_subcommand("export", "Write the voxels of a .svdag in another format (vdb, nvdb)");
   set_up_build(build_app, &build);
   set_up_info(info_app, &info);
   try {

@@ -1,0 +1,37 @@
+// svdag export FILE -o X: the voxels of a DAG in the formats of others.
+//
+// A whole file at one of its levels, or a window of it. Runs as a program of its own, svdag-export,
+// which `svdag export` starts: the libraries of foreign formats cost memory (OpenVDB 38 MB) and
+// time that a bake shall not pay.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/triangle.h"
+
+namespace svdag {
+
+struct ExportConfig {
+  std::string file;
+  std::string output;
+  std::string format;         // a name of export_formats(); empty: by the output's ending
+  int level = 0;              // whose nodes become voxels; 0: L, the finest
+  std::optional<Box> bounds;  // only the voxels whose interior meets this box
+  bool as_bool = false;       // VDB grids of type bool, for readers that know no masks
+  uint64_t memory = 0;        // 0: half of what the machine allows
+  bool quiet = false;
+};
+
+// One foreign format: how it is called, and for people.
+struct ExportFormat {
+  const char* name;
+  const char* what;
+};
+
+std::vector<ExportFormat> export_formats();
+
+int run(const ExportConfig& config);
+
+}  // namespace svdag

@@ -1,0 +1,81 @@
+// The program `svdag-export`, which `svdag export` starts.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "export/export.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+void set_up(CLI::App* app, ExportConfig* config) {
+  std::string formats;
+  for (const ExportFormat& format : export_formats())
+    formats += std::string(formats.empty() ? "" : "; ") + format.name + ": " + format.what;
+  app->add_option("FILE", config->file, "The .svdag file")->required();
+  app->add_option("-o,--output", config->output, "The file to write")->required();
+  app->add_option("--format", config->format, formats + " (default: the ending of the output)")
+      ->type_name("NAME");
+  app->add_option("--level", config->level,
+                  "Write the nodes of this level as voxels (default: the voxels themselves)")
+      ->type_name("K");
+  app->add_option_function<std::string>(
+         "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
+         "Write only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  app->add_flag("--bool", config->as_bool,
+                "vdb: grids of type bool instead of mask, for readers that know no masks");
+  app->add_option_function<std::string>(
+         "-m,--memory",
+         [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
+         "Memory budget (default: half of the machine)")
+      ->type_name("SIZE");
+  app->add_flag("-q,--quiet", config->quiet, "Print errors only");
+  app->footer(
+      "Examples:\n"
+      "  svdag export city.svdag -o city.vdb --level 10\n"
+      "  svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5");
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Writes the voxels of a .svdag in another format.", "svdag export");
+  app.set_version_flag("--version", "svdag-export " SVDAG_VERSION);
+  ExportConfig config;
+  set_up(&app, &config);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fail_usage(std::string(error.what()) + "; see svdag export --help");
+  }
+  const int result = run(config);
+  if (std::fflush(stdout) != 0)
+    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
+  return result;
+}
+
+}  // namespace
+}  // namespace svdag
+
+int main(int argc, char** argv) {
+  try {
+    svdag::catch_interrupts();
+    return svdag::run_program(argc, argv);
+  } catch (const svdag::Interrupted& interrupted) {
+    std::fprintf(stderr, "svdag: stopped; nothing was written\n");
+    return 128 + interrupted.signal;
+  } catch (const svdag::Error& error) {
+    std::fprintf(stderr, "svdag: %s\n", error.what());
+    return int(error.code());
+  } catch (const std::exception& error) {
+    if (svdag::is_lack_of_memory(error)) {
+      std::fprintf(stderr, "svdag: %s\n", svdag::kNoMemory);
+      return int(svdag::ExitCode::kMemory);
+    }
+    std::fprintf(stderr, "svdag: internal error: %s; please report this\n", error.what());
+    return int(svdag::ExitCode::kInternal);
+  }
+}

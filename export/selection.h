@@ -1,0 +1,25 @@
+// What of a DAG is exported: a box of one of its levels.
+#pragma once
+
+#include <string>
+
+#include "export/export.h"
+#include "io/dag/cube_walk.h"
+#include "io/dag/dag_file.h"
+#include "streaming/memory_budget.h"
+
+namespace svdag {
+
+struct Selection {
+  Selection(const DagFile& dag_file, const ExportConfig& config);
+
+  const DagFile& file;
+  Grid grid;      // of the level; its selection is what was asked for
+  CubeWalk walk;  // of the level
+};
+
+// One function per format; each writes `path` whole or not at all and returns the voxels written.
+uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
+uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
+
+}  // namespace svdag

@@ -1,0 +1,60 @@
+#include "io/formats/vdb.h"
+#include "export/selection.h"
+#include "io/units.h"
+#include "streaming/checksum.h"
+#include "streaming/error.h"
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+// What a grid says about itself besides its transform.
+VdbMetadata about(const Selection& selection) {
+  const Header& h = selection.file.header();
+  return {{"creator", "svdag"},
+          {"svdag_level", std::to_string(selection.grid.levels)},
+          {"svdag_levels", std::to_string(h.levels)},
+          {"svdag_rule", selection.file.rule() == Rule::kThin ? "thin" : "conservative"},
+          {"svdag_content_hash", to_hex({h.content_hash[0], h.content_hash[1]})}};
+}
+
+// The memory that the grid will take, counted before any of it is taken.
+MemoryBudget::Reservation reserve(Selection* selection, MemoryBudget* budget) {
+  const uint64_t most = budget->limit() / vdb_bytes(1, 0, 0);
+  const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, most);
+  if (counts.blocks > most)
+    throw Error(ExitCode::kMemory,
+                "the grid would have more than " + format_count(most) +
+                    " leaves, too many for --memory: export a coarser --level, or a part with "
+                    "--bounds");
+  return budget->reserve(vdb_bytes(counts.blocks, counts.middle, counts.large), "the grid");
+}
+
+uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& config,
+                   MemoryBudget* budget) {
+  const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
+  const auto reservation = reserve(selection, budget);
+  writer->begin("occupancy", voxel_centres(selection->grid));
+  writer->metadata(about(*selection));
+  uint64_t voxels = 0, cubes = 0;
+  selection->walk.visit(selection->grid.selection, [&](const Cube& cube) {
+    if (++cubes % 4096 == 0) check_interrupt();
+    voxels += cube.count();
+    writer->add(cube);
+    return true;
+  });
+  writer->write(config.output, format);
+  return voxels;
+}
+
+}  // namespace
+
+uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_as(config.as_bool ? VdbFormat::kBool : VdbFormat::kMask, selection, config, budget);
+}
+
+uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_as(VdbFormat::kNano, selection, config, budget);
+}
+
+}  // namespace svdag

@@ -1,0 +1,59 @@
+// The voxels of a box of one level of a DAG, as blocks and larger full cubes.
+//
+// Depth first, in Morton order; empty space is never visited, and neither is the inside of a cube
+// that is wholly set. Time follows the blocks that are handed out, not the volume.
+//
+// Notation: K = the level whose nodes are the voxels, b = K - 3 the level whose nodes are the
+// blocks. Whether a node is full, and how many voxels it holds, is found once per DAG node and
+// remembered.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "io/dag/cube.h"
+#include "io/dag/dag_view.h"
+
+namespace svdag {
+
+// How many blocks of 8^3, and cubes of 128^3 and 4096^3, hold something.
+struct CubeCounts {
+  uint64_t blocks = 0, middle = 0, large = 0;
+};
+
+class CubeWalk {
+ public:
+  // Of the voxels of level `levels`, 3 .. L. `dag` must outlive this.
+  CubeWalk(const DagView& dag, uint32_t levels);
+
+  // Hands on what is set in `box`, until the sink returns false; returns false then.
+  bool visit(const VoxelBox& box, const CubeSink& sink);
+  // What visit() would touch, inside full cubes too; stops counting beyond `most` blocks.
+  CubeCounts count_cubes(const VoxelBox& box, uint64_t most);
+  // The number of voxels set in `box`.
+  uint64_t count_voxels(const VoxelBox& box);
+  // The voxels origin .. origin + 7; the origin is anywhere, also outside the grid.
+  Block block(const LatticePoint& origin) const;
+
+ private:
+  struct At {
+    uint32_t level, node;
+    LatticePoint origin;
+  };
+
+  int64_t side(uint32_t level) const { return int64_t(1) << (levels_ - level); }
+  At child(const At& at, unsigned c) const;
+  Brick brick(const LatticePoint& at) const;
+  bool full(uint32_t level, uint32_t node);
+  uint64_t voxels_below(uint32_t level, uint32_t node);
+  bool visit(const At& at, const VoxelBox& box, const CubeSink& sink);
+  void count(const At& at, const VoxelBox& box, uint64_t most, CubeCounts* counts) const;
+  uint64_t count_voxels(const At& at, const VoxelBox& box);
+
+  DagView dag_;
+  uint32_t levels_;
+  std::vector<std::unordered_map<uint32_t, bool>> full_;        // [level], of nodes with 8 children
+  std::vector<std::unordered_map<uint32_t, uint64_t>> voxels_;  // [level]
+};
+
+}  // namespace svdag

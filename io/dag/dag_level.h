@@ -1,0 +1,20 @@
+// A level of a DAG as a grid of its own.
+//
+// A voxel of level K is a cube of 2^(L-K) voxels a side; it is set iff a voxel in it is, and that
+// is what the nodes of level K say. So every coarser grid stands in the file already: its bricks
+// are read off the nodes of level K-2 and their children. Nothing is built, nothing is stored.
+#pragma once
+
+#include "io/dag/dag_view.h"
+#include "io/grid.h"
+
+namespace svdag {
+
+// The brick of the node (or brick) `index` of level `level` <= levels - 2: 4^3 parts of the cube,
+// set where a voxel is.
+uint64_t dag_brick_at(const DagView& dag, uint32_t level, uint32_t index);
+
+// The grid of the voxels of level `levels` (3 .. L) of `grid`, all of them selected.
+Grid level_grid(const Grid& grid, int levels);
+
+}  // namespace svdag

@@ -1,0 +1,27 @@
+// Stands in for vdb_*.cpp where svdag is built without OpenVDB.
+#ifndef SVDAG_HAS_OPENVDB
+
+#include "io/formats/vdb.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+[[noreturn]] void lacking() {
+  fail_usage("this program was built without OpenVDB; build it with -DSVDAG_OPENVDB=ON");
+}
+
+}  // namespace
+
+std::unique_ptr<VdbWriter> make_vdb_writer() {
+  lacking();
+}
+
+std::unique_ptr<VdbGrid> read_vdb(const std::string&, const std::string&,
+                                  const std::optional<ValueRange>&) {
+  lacking();
+}
+
+}  // namespace svdag
+
+#endif
