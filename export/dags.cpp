@@ -1,0 +1,58 @@
+#include "export/selection.h"
+#include "io/dag/dag_stats.h"
+#include "io/formats/hashdag.h"
+#include "io/formats/octree.h"
+#include "io/formats/symvox.h"
+#include "io/formats/transform_dag.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// The DAG to write; `format`: for an Error.
+LevelDag level_dag(const Selection& selection, const ExportConfig& config, const char* format,
+                   MemoryBudget* budget) {
+  if (config.bounds)
+    fail_usage("--bounds: " + std::string(format) +
+               " holds whole DAGs: bake or import the part that is wanted, or export voxels (npz, "
+               "vdb, ...)");
+  return LevelDag(selection.file, selection.grid.levels, budget);
+}
+
+// Set voxels of the level: its cubes of the SVO.
+uint64_t voxels_of(const Selection& selection) {
+  const DagStats stats = compute_stats(selection.file);
+  const size_t level = size_t(selection.grid.levels);
+  if (level < stats.levels.size()) return stats.levels[level].svo_nodes;
+  return level == stats.levels.size() ? stats.blocks : stats.voxels;
+}
+
+}  // namespace
+
+uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  const LevelDag dag = level_dag(*selection, config, "HashDAG", budget);
+  write_hashdag(dag, selection->grid, config.output);
+  return voxels_of(*selection);
+}
+
+uint64_t export_symvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  const LevelDag dag = level_dag(*selection, config, "SymVox", budget);
+  write_symvox(dag, selection->grid, config.output);
+  return voxels_of(*selection);
+}
+
+uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
+                              MemoryBudget* budget) {
+  write_transform_dag(level_dag(*selection, config, "the transform-DAG .svo", budget),
+                      config.output);
+  return voxels_of(*selection);
+}
+
+uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  if (!config.output.ends_with(".octree"))
+    fail_usage(config.output + ": the name must end in .octree; two more files stand beside it");
+  write_octree(level_dag(*selection, config, "the .octree", budget), config.output);
+  return voxels_of(*selection);
+}
+
+}  // namespace svdag
