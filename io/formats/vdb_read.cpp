@@ -9,15 +9,18 @@ namespace {
 
 // What of a grid is set, by the type of its values.
 struct Active {
+  static constexpr const char* kType = "mask";
   template <class Value>
   bool operator()(const Value&, bool active) const {
     return active;
   }
 };
 struct ActiveAndTrue {
+  static constexpr const char* kType = "bool";
   bool operator()(bool value, bool active) const { return value && active; }
 };
 struct InRange {
+  static constexpr const char* kType = "float";
   ValueRange range;
   bool operator()(float value, bool) const { return value >= range.low && value <= range.high; }
 };
@@ -58,7 +61,7 @@ class ReadGrid final : public VdbGrid {
   }
 
   std::string name() const override { return grid_->getName(); }
-  std::string type() const override { return grid_->valueType(); }
+  std::string type() const override { return IsSet::kType; }
   const IndexToWorld& centres() const override { return centres_; }
   VoxelBox bounds() const override { return bounds_; }
 

@@ -30,4 +30,13 @@ std::string describe_grid(const DagFile& file) {
   return text;
 }
 
+void print_wrong_voxel(const Grid& grid, const LatticePoint& v, bool missing) {
+  const Point corner = grid.corner();
+  const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
+  std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
+              missing ? "missing" : "extra  ", static_cast<long long>(v.x),
+              static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
+              world(2));
+}
+
 }  // namespace svdag

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "io/grid.h"
 #include "streaming/progress.h"
 
 namespace svdag {
@@ -31,5 +32,8 @@ class Stopwatch {
 // "1,024^3 box, voxel size 0.5, corner (0, 0, 0), conservative", for people.
 class DagFile;
 std::string describe_grid(const DagFile& file);
+
+// One line about a voxel that a judge found missing or extra, with the place of its centre.
+void print_wrong_voxel(const Grid& grid, const LatticePoint& voxel, bool missing);
 
 }  // namespace svdag

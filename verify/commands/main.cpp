@@ -9,6 +9,7 @@
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
 #include "verify/commands/render.h"
+#include "verify/commands/vdb.h"
 
 namespace svdag {
 namespace {
@@ -53,15 +54,16 @@ void add_mesh(CLI::App* app, int* result) {
       ->required();
   command
       ->add_option("--judge", config->judge,
-                   "Who decides: integer (our exact clipping, the default) or cgal (CGAL's exact "
-                   "kernel; slow)")
-      ->check(CLI::IsMember({"integer", "cgal"}))
+                   "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
+                   "kernel; slow) or openvdb (two bounds by its distances)")
+      ->check(CLI::IsMember({"integer", "cgal", "openvdb"}))
       ->type_name("JUDGE");
   command
       ->add_option_function<std::string>(
           "--sample",
           [config](const std::string& text) { config->sample = parse_count(text, "--sample"); },
-          "Compare N drawn bricks instead of all, and bound the error rate")
+          "Compare N drawn bricks instead of all, and bound the error rate (openvdb: N windows "
+          "of 512^3 voxels around such bricks)")
       ->type_name("N");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
   command
@@ -93,7 +95,8 @@ void add_mesh(CLI::App* app, int* result) {
 
 void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
-  CLI::App* command = app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
+  CLI::App* command =
+      app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
   command->add_option("A", config->a, "A .svdag file")->required();
   command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
       ->required();
@@ -115,6 +118,42 @@ void add_diff(CLI::App* app, int* result) {
       ->type_name("N");
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_vdb(CLI::App* app, int* result) {
+  auto config = std::make_shared<VdbConfig>();
+  CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("GRID", config->vdb, "The .vdb file")->required();
+  command->add_option("--grid", config->grid, "Which grid of the .vdb (default: the only one)")
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
+          "The values of a float grid that count as set, for example --iso=-inf,0")
+      ->type_name("LOW,HIGH");
+  command
+      ->add_option_function<std::string>(
+          "--bounds", [config](const std::string& text) { config->bounds = parse_bounds(text); },
+          "Compare only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
+      ->type_name("N");
+  command
+      ->add_option("--write-diff", config->write_diff,
+                   "Write two mask grids, missing and extra, in the place of GRID")
+      ->type_name("X.vdb");
+  command
+      ->add_option_function<std::string>(
+          "--write-most",
+          [config](const std::string& text) {
+            config->write_most = parse_count(text, "--write-most");
+          },
+          "Refuse to write more extra voxels than this (default 10M)")
+      ->type_name("N");
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify vdb scene.svdag scene.vdb\n") + kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -155,6 +194,7 @@ int run_program(int argc, char** argv) {
   add_check(&app, &result);
   add_mesh(&app, &result);
   add_diff(&app, &result);
+  add_vdb(&app, &result);
   add_render(&app, &result);
   try {
     app.parse(argc, argv);

@@ -72,16 +72,6 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   return result;
 }
 
-void print_wrong(const Grid& grid, const WrongVoxel& wrong) {
-  const Point corner = grid.corner();
-  const LatticePoint& v = wrong.voxel;
-  const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
-  std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
-              wrong.missing ? "missing" : "extra  ", static_cast<long long>(v.x),
-              static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
-              world(2));
-}
-
 void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
   const Comparison& c = j.comparison;
   std::printf("grid       %s%s\n", describe_grid(file).c_str(),
@@ -98,7 +88,7 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
               format_count(c.judge_voxels).c_str());
   std::printf("missing    %s\nextra      %s\n", format_count(c.missing).c_str(),
               format_count(c.extra).c_str());
-  for (const WrongVoxel& wrong : c.first) print_wrong(file.grid(), wrong);
+  for (const WrongVoxel& w : c.first) print_wrong_voxel(file.grid(), w.voxel, w.missing);
   if (j.sampled)
     std::printf(
         "rate       at most %.3g of all bricks are wrong (95 %% confidence, %s voxels tested)\n",
@@ -139,6 +129,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   const DagFile file = DagFile::open(config.file);
+  if (config.judge == "openvdb") return run_sandwich(config, file);
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};
   make_judge(choice);  // a judge that this build lacks is refused before the scene is read
   const Judgement judgement = judge(config, choice, file);

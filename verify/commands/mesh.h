@@ -10,13 +10,17 @@ struct MeshConfig {
   CommonConfig common;
   std::string file;
   SceneConfig scene;
-  std::string judge = "integer";  // or "cgal"
-  uint64_t sample = 0;  // bricks to draw; 0: compare all
+  std::string judge = "integer";  // or "cgal", "openvdb"
+  uint64_t sample = 0;            // bricks (openvdb: windows) to draw; 0: compare all
   uint64_t seed = 1;
   uint64_t memory = 0;  // 0: half of what the machine allows
 };
 
 // kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene.
 int run(const MeshConfig& config);
+
+// The same by OpenVDB, which gives two bounds and no exact set (verify/sandwich.h).
+class DagFile;
+int run_sandwich(const MeshConfig& config, const DagFile& file);
 
 }  // namespace svdag

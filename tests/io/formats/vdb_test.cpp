@@ -1,0 +1,148 @@
+// Sets of voxels go into a .vdb and come back voxel by voxel, in their place; what is broken is a
+// sentence.
+#include "io/formats/vdb.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+#include "tests/voxel_sets.h"
+
+namespace svdag {
+namespace {
+
+class Vdb : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef SVDAG_HAS_OPENVDB
+    GTEST_SKIP() << "built without OpenVDB";
+#endif
+  }
+
+  std::string path(const std::string& name) {
+    return folder_.file(name);
+  }
+
+  // One grid with these cubes.
+  void write(const std::string& name, const std::vector<Cube>& cubes, VdbFormat format,
+             const IndexToWorld& centres = voxel_centres(test_grid(6))) {
+    const auto writer = make_vdb_writer();
+    writer->begin("occupancy", centres);
+    for (const Cube& cube : cubes) writer->add(cube);
+    writer->write(path(name), format);
+  }
+
+  static std::vector<Cube> blocks_of(const VoxelSet& voxels) {
+    std::map<std::array<int64_t, 3>, Block> blocks;
+    for (const auto& [x, y, z] : voxels)
+      blocks[{x & ~7, y & ~7, z & ~7}].set(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
+    std::vector<Cube> cubes;
+    for (const auto& [at, block] : blocks) cubes.push_back({{at[0], at[1], at[2]}, 8, block});
+    return cubes;
+  }
+
+  static VoxelSet voxels_of(const VdbGrid& grid) {
+    VoxelSet set;
+    grid.visit([&](const Cube& cube) {
+      add_cube(&set, cube);
+      return true;
+    });
+    return set;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(Vdb, VoxelsComeBackFromBothTypes) {
+  for (const auto& [format, type] :
+       {std::pair{VdbFormat::kMask, "mask"}, {VdbFormat::kBool, "bool"}}) {
+    const VoxelSet voxels = bodies(6, 3);
+    write("a.vdb", blocks_of(voxels), format);
+    const auto grid = read_vdb(path("a.vdb"), "", {});
+    EXPECT_EQ(grid->type(), type);
+    EXPECT_EQ(voxels_of(*grid), voxels);
+    for (const auto& [x, y, z] : voxels) {
+      EXPECT_TRUE(grid->get({x, y, z}));
+      EXPECT_EQ(grid->get({x + 1, y, z}), voxels.count({x + 1, y, z}) != 0);
+    }
+  }
+}
+
+TEST_F(Vdb, FullCubesStayTiles) {
+  const std::vector<Cube> cubes{
+      {{0, 0, 0}, 8, Block::full()}, {{128, 0, 256}, 128, {}}, {{4096, 0, 8192}, 4096, {}}};
+  write("tiles.vdb", cubes, VdbFormat::kMask);
+  EXPECT_LT(std::filesystem::file_size(path("tiles.vdb")), 100'000U);
+  std::map<int64_t, LatticePoint> found;
+  read_vdb(path("tiles.vdb"), "", {})->visit([&](const Cube& cube) {
+    found[cube.side] = cube.origin;
+    return true;
+  });
+  ASSERT_EQ(found.size(), 3U);
+  for (const Cube& cube : cubes) EXPECT_EQ(found[cube.side], cube.origin);
+}
+
+TEST_F(Vdb, CubesOfOtherSizesFillTheirVoxels) {
+  VoxelSet voxels;
+  add_box(&voxels, {{16, 0, 32}, {32, 16, 48}});
+  write("a.vdb", {{{16, 0, 32}, 16, {}}}, VdbFormat::kMask);
+  EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {})), voxels);
+}
+
+TEST_F(Vdb, CentresComeBackWithTheirAxes) {
+  IndexToWorld centres;
+  centres.origin = {1e6, -2e5, 0.125};
+  centres.axes = {Point(0, 0.25, 0), Point(0, 0, -0.25), Point(0.25, 0, 0)};
+  write("a.vdb", blocks_of({{1, 2, 3}}), VdbFormat::kMask, centres);
+  const auto grid = read_vdb(path("a.vdb"), "", {});
+  EXPECT_EQ(grid->centres()({1, 2, 3}), Point(1e6 + 0.75, -2e5 + 0.25, 0.125 - 0.5));
+}
+
+TEST_F(Vdb, CentresOfAGridLieHalfAVoxelInside) {
+  const Grid grid = test_grid(6);
+  const IndexToWorld centres = voxel_centres(grid);
+  EXPECT_EQ(centres({0, 0, 0}), grid.corner() + 0.25);
+  EXPECT_EQ(centres({3, 0, 63}), grid.corner() + Point(1.75, 0.25, 31.75));
+}
+
+TEST_F(Vdb, OneOfSeveralGridsIsChosenByName) {
+  const auto writer = make_vdb_writer();
+  writer->begin("a", voxel_centres(test_grid(6)));
+  writer->add_voxel({1, 2, 3});
+  writer->begin("b", voxel_centres(test_grid(6)));
+  writer->write(path("two.vdb"), VdbFormat::kMask);
+  EXPECT_EQ(voxels_of(*read_vdb(path("two.vdb"), "a", {})), (VoxelSet{{1, 2, 3}}));
+  EXPECT_TRUE(voxels_of(*read_vdb(path("two.vdb"), "b", {})).empty());
+  EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "", {}), ExitCode::kUsage,
+                     "choose with --grid one of a, b");
+  EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "c", {}), ExitCode::kUsage, "has no grid c");
+}
+
+TEST_F(Vdb, BrokenFilesAreASentence) {
+  EXPECT_SVDAG_ERROR(read_vdb(path("none.vdb"), "", {}), ExitCode::kBadInput, "none.vdb");
+  std::ofstream(path("text.vdb")) << "this is no grid";
+  EXPECT_SVDAG_ERROR(read_vdb(path("text.vdb"), "", {}), ExitCode::kBadInput,
+                     "OpenVDB cannot read it");
+  write("cut.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);
+  std::filesystem::resize_file(path("cut.vdb"), std::filesystem::file_size(path("cut.vdb")) / 2);
+  EXPECT_SVDAG_ERROR(read_vdb(path("cut.vdb"), "", {}), ExitCode::kBadInput,
+                     "OpenVDB cannot read it");
+}
+
+TEST_F(Vdb, AFolderThatIsNotThereIsASentence) {
+  EXPECT_SVDAG_ERROR(write("no/folder/a.vdb", {}, VdbFormat::kMask), ExitCode::kOutput, "a.vdb");
+}
+
+TEST_F(Vdb, NanoVdbIsWrittenToo) {
+  write("a.nvdb", blocks_of(bodies(6, 2)), VdbFormat::kNano);
+  std::ifstream file(path("a.nvdb"), std::ios::binary);
+  std::string magic(8, ' ');
+  file.read(magic.data(), 8);
+  EXPECT_EQ(magic.substr(0, 7), "NanoVDB");
+}
+
+}  // namespace
+}  // namespace svdag

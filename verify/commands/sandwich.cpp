@@ -1,0 +1,165 @@
+// svdag-verify mesh --judge openvdb: our voxels between two bounds on OpenVDB's distances.
+#include "verify/sandwich.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/brick.h"
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/memory_budget.h"
+#include "verify/commands/mesh.h"
+#include "verify/sample.h"
+#include "verify/snapped_scene.h"
+#include "verify/window_triangles.h"
+
+namespace svdag {
+namespace {
+
+struct Judgement {
+  GridJudgement grid;
+  SceneCounts counts;
+  Sandwich sandwich;
+
+  bool ok() const { return grid.defects.empty() && sandwich.holds(); }
+};
+
+// Windows around bricks drawn from the file and along the triangles, as for a sample of bricks.
+std::vector<VoxelBox> draw_windows(const Scene& scene, const DagFile& file, uint64_t count,
+                                   uint64_t seed) {
+  Random random(seed);
+  std::vector<uint64_t> codes = sample_dag(file.view(), count - count / 2, random);
+  const std::vector<uint64_t> along = sample_scene(scene, file.grid(), count / 2, random);
+  codes.insert(codes.end(), along.begin(), along.end());
+  std::vector<VoxelBox> windows;
+  for (const uint64_t code : codes)
+    windows.push_back(
+        window_around(cell_of_code(code) * int64_t(kBrickSide), file.grid(), kSandwichWindow));
+  return windows;
+}
+
+std::vector<VoxelBox> all_windows(const Grid& grid) {
+  const int64_t side = std::min(kSandwichWindow, grid.resolution());
+  std::vector<VoxelBox> windows;
+  LatticePoint at;
+  for (at.x = 0; at.x < grid.resolution(); at.x += side)
+    for (at.y = 0; at.y < grid.resolution(); at.y += side)
+      for (at.z = 0; at.z < grid.resolution(); at.z += side) windows.push_back({at, at + side});
+  return windows;
+}
+
+// The snapped triangles near any of the windows; all of them where the windows are the grid.
+std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
+                                       const std::vector<VoxelBox>& windows, bool all,
+                                       MemoryBudget::Reservation* held) {
+  std::vector<LatticeTriangle> near;
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+    for (const LatticeTriangle& t : batch) {
+      bool keep = all;
+      for (size_t i = 0; !keep && i < windows.size(); ++i)
+        keep = is_near(t, windows[i], grid.fraction());
+      if (keep && near.size() == near.capacity()) {
+        const size_t more = std::max<size_t>(4096, near.capacity() * 2);
+        held->resize((more + near.capacity()) * sizeof t, "snapped triangles");
+        near.reserve(more);
+      }
+      if (keep) near.push_back(t);
+    }
+  });
+  return near;
+}
+
+Judgement judge(const MeshConfig& config, const DagFile& file) {
+  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
+  const Scene scene(config.scene, &budget);
+  const Grid grid = file.grid();
+  Progress progress(config.common.progress);
+  progress.phase("reading the scene's bounds", 0);
+  Judgement result;
+  const Box bounds = scene.bounds(&result.counts);
+  result.grid = judge_grid(grid, bounds);
+  progress.phase("reading the scene", 0);
+  const std::vector<VoxelBox> windows =
+      config.sample > 0 ? draw_windows(scene, file, config.sample, config.seed) : all_windows(grid);
+  auto held = budget.reserve(0, "snapped triangles");
+  const std::vector<LatticeTriangle> triangles =
+      load_near(scene, grid, windows, config.sample == 0, &held);
+  CubeWalk walk(file.view(), file.header().levels);
+  const size_t threads = config.common.threads ? config.common.threads : available_processors();
+  progress.phase("comparing windows", windows.size());
+  for (const VoxelBox& window : windows) {
+    result.sandwich.append(judge_window(&walk, grid, file.rule(), window, triangles, threads));
+    progress.advance(1);
+  }
+  progress.finish();
+  return result;
+}
+
+void print_text(const DagFile& file, const Judgement& j, bool sampled) {
+  const Sandwich& s = j.sandwich;
+  const bool thin = file.rule() == Rule::kThin;
+  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
+              j.grid.recomputed ? ", as the scene's bounds give it" : "");
+  for (const std::string& defect : j.grid.defects) std::printf("defect     %s\n", defect.c_str());
+  std::printf("judge      openvdb: distances of its mesh-to-volume, %s\n",
+              thin ? "file in {d <= 1/2}" : "{d <= 1/2} in file in {d <= sqrt(3)/2}");
+  std::printf("triangles  %s", format_count(j.counts.triangles).c_str());
+  if (j.counts.invalid > 0)
+    std::printf(", %s invalid ones skipped", format_count(j.counts.invalid).c_str());
+  std::printf("\nwindows    %s %s, %s voxels tested\n", format_count(s.windows).c_str(),
+              sampled ? "sampled" : "(all)", format_count(s.tested).c_str());
+  std::printf("voxels     %s in the file, %s with d <= 1/2\n", format_count(s.file_voxels).c_str(),
+              format_count(s.inner).c_str());
+  std::printf("missing    %s\nextra      %s\n", format_count(s.missing).c_str(),
+              format_count(s.extra).c_str());
+  for (const WrongVoxel& w : s.first) print_wrong_voxel(file.grid(), w.voxel, w.missing);
+  std::printf("exact      %s on a bound within the error of a float, decided in integers\n",
+              format_count(s.exact).c_str());
+  if (s.vdb_errors > 0)
+    std::printf("openvdb    %s distances of its own were too large, proven in integers\n",
+                format_count(s.vdb_errors).c_str());
+  std::printf("%s\n", j.ok() ? "ok: every voxel tested lies between the bounds"
+                             : "not ok: file and scene differ");
+}
+
+void print_json(const DagFile& file, const Judgement& j, bool sampled) {
+  const Sandwich& s = j.sandwich;
+  nlohmann::json wrong = nlohmann::json::array();
+  for (const WrongVoxel& w : s.first)
+    wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
+  const nlohmann::json json = {{"command", "mesh"},
+                               {"file", file.path()},
+                               {"ok", j.ok()},
+                               {"rule", file.rule() == Rule::kThin ? "thin" : "conservative"},
+                               {"judge", "openvdb"},
+                               {"grid_defects", j.grid.defects},
+                               {"grid_recomputed", j.grid.recomputed},
+                               {"triangles", j.counts.triangles},
+                               {"invalid_triangles", j.counts.invalid},
+                               {"sampled", sampled},
+                               {"windows", s.windows},
+                               {"tested", s.tested},
+                               {"file_voxels", s.file_voxels},
+                               {"inner", s.inner},
+                               {"missing", s.missing},
+                               {"extra", s.extra},
+                               {"decided_exactly", s.exact},
+                               {"openvdb_errors", s.vdb_errors},
+                               {"first_wrong", wrong}};
+  std::printf("%s\n", json.dump().c_str());
+}
+
+}  // namespace
+
+int run_sandwich(const MeshConfig& config, const DagFile& file) {
+  const Judgement judgement = judge(config, file);
+  if (config.common.json) {
+    print_json(file, judgement, config.sample > 0);
+  } else if (!config.common.quiet) {
+    print_text(file, judgement, config.sample > 0);
+  }
+  return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag

@@ -1,0 +1,59 @@
+#include "verify/window_triangles.h"
+
+#include <cmath>
+
+namespace svdag {
+namespace {
+
+using Polygon = std::vector<Point>;
+
+// What of `polygon` lies on the side of x_axis = at to which `sign` points.
+Polygon cut(const Polygon& polygon, int axis, double sign, double at) {
+  Polygon kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double hp = sign * (p[axis] - at), hq = sign * (q[axis] - at);
+    if (hp >= 0) kept.push_back(p);
+    if ((hp < 0) == (hq < 0)) continue;
+    Point crossing = p + (q - p) * (hp / (hp - hq));
+    crossing[axis] = at;
+    kept.push_back(crossing);
+  }
+  return kept;
+}
+
+}  // namespace
+
+bool is_near(const LatticeTriangle& t, const VoxelBox& window, int fraction) {
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
+    if (high < (window.min[a] - 1) << fraction || low > (window.max[a] + 1) << fraction)
+      return false;
+  }
+  return true;
+}
+
+void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, int fraction,
+                      std::vector<Triangle>* out, double* reach) {
+  const LatticePoint first_centre =
+      (window.min << int64_t(fraction)) + (int64_t(1) << (fraction - 1));
+  Polygon polygon;
+  bool far = false;
+  for (const LatticePoint& corner : triangle.v) {
+    const Point p = Point(corner - first_centre) * std::ldexp(1.0, -fraction);
+    for (int a = 0; a < 3; ++a) {
+      const double side = double(window.max[a] - window.min[a]);
+      far = far || p[a] < -4 * kCutMargin || p[a] > side + 4 * kCutMargin;
+      *reach = std::max(*reach, std::abs(p[a]));
+    }
+    polygon.push_back(p);
+  }
+  for (int a = 0; far && a < 3; ++a) {
+    polygon = cut(polygon, a, 1, double(-kCutMargin));
+    polygon = cut(polygon, a, -1, double(window.max[a] - window.min[a] + kCutMargin));
+  }
+  for (size_t i = 2; i < polygon.size(); ++i)
+    out->push_back({{polygon[0], polygon[i - 1], polygon[i]}});
+}
+
+}  // namespace svdag

@@ -1,0 +1,27 @@
+// The part of a triangle near a window, in double, for a judge that works in windows.
+//
+// Coordinates become voxels of the window, voxel centres on the integers. A triangle that reaches
+// far out of the window is cut by the six planes some voxels around it (Sutherland and Hodgman
+// 1974), or a wall of a 64K^3 grid would cost its judge billions of voxels. Cutting moves points by
+// rounding only: a point of the result lies within 2^-48 X of the triangle, and the other way round
+// inside the window, X being the largest coordinate of the triangle. What the cut adds, its own
+// border, is kCutMargin voxels away from the window, further than anything that is asked there.
+#pragma once
+
+#include <vector>
+
+#include "io/grid.h"
+
+namespace svdag {
+
+constexpr int64_t kCutMargin = 4;
+
+// Whether the triangle's box meets the window and a voxel around it: else it is nearer than a voxel
+// to no centre in the window.
+bool is_near(const LatticeTriangle& triangle, const VoxelBox& window, int fraction);
+
+// Appends the triangle, whole or cut; *reach grows to the largest coordinate before the cut.
+void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, int fraction,
+                      std::vector<Triangle>* out, double* reach);
+
+}  // namespace svdag
