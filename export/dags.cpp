@@ -1,5 +1,4 @@
 #include "export/selection.h"
-#include "io/dag/dag_stats.h"
 #include "io/formats/hashdag.h"
 #include "io/formats/octree.h"
 #include "io/formats/symvox.h"
@@ -19,40 +18,33 @@ LevelDag level_dag(const Selection& selection, const ExportConfig& config, const
   return LevelDag(selection.file, selection.grid.levels, budget);
 }
 
-// Set voxels of the level: its cubes of the SVO.
-uint64_t voxels_of(const Selection& selection) {
-  const DagStats stats = compute_stats(selection.file);
-  const size_t level = size_t(selection.grid.levels);
-  if (level < stats.levels.size()) return stats.levels[level].svo_nodes;
-  return level == stats.levels.size() ? stats.blocks : stats.voxels;
-}
-
 }  // namespace
 
 uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const LevelDag dag = level_dag(*selection, config, "HashDAG", budget);
   write_hashdag(dag, selection->grid, config.output);
-  return voxels_of(*selection);
+  return dag.voxels();
 }
 
 uint64_t export_symvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const LevelDag dag = level_dag(*selection, config, "SymVox", budget);
   write_symvox(dag, selection->grid, config.output);
-  return voxels_of(*selection);
+  return dag.voxels();
 }
 
 uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
                               MemoryBudget* budget) {
-  write_transform_dag(level_dag(*selection, config, "the transform-DAG .svo", budget),
-                      config.output);
-  return voxels_of(*selection);
+  const LevelDag dag = level_dag(*selection, config, "the transform-DAG .svo", budget);
+  write_transform_dag(dag, config.output);
+  return dag.voxels();
 }
 
 uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   if (!config.output.ends_with(".octree"))
     fail_usage(config.output + ": the name must end in .octree; two more files stand beside it");
-  write_octree(level_dag(*selection, config, "the .octree", budget), config.output);
-  return voxels_of(*selection);
+  const LevelDag dag = level_dag(*selection, config, "the .octree", budget);
+  write_octree(dag, config.output);
+  return dag.voxels();
 }
 
 }  // namespace svdag

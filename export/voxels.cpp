@@ -9,9 +9,16 @@
 namespace svdag {
 namespace {
 
+// Set voxels of the window; of the whole file its header knows them.
+uint64_t count(Selection* selection) {
+  const Grid& grid = selection->grid;
+  const bool all =
+      grid.levels == int(selection->file.header().levels) && grid.selection == grid.whole();
+  return all ? selection->file.header().voxels : selection->walk.count_voxels(grid.selection);
+}
+
 Window window_of(Selection* selection, const ExportConfig& config) {
-  const Window window{selection->grid, &selection->walk,
-                      selection->walk.count_voxels(selection->grid.selection)};
+  const Window window{selection->grid, &selection->walk, count(selection)};
   if (window.voxels > config.max_voxels)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
                format_count(config.max_voxels) +

@@ -6,6 +6,7 @@
 
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
+#include "io/dag/symvox_header.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -19,7 +20,9 @@ bool is_dag(const std::string& path) {
   const File file = File::open_read(path);
   std::array<std::byte, sizeof kMagic> head{};
   file.read_some_at(0, head);
-  return std::memcmp(head.data(), kMagic, sizeof kMagic) == 0;
+  if (std::memcmp(head.data(), kMagic, sizeof kMagic) == 0) return true;
+  if (path.ends_with(".svdag")) refuse_symvox(file);
+  return false;
 }
 
 Json dag_json(const DagFile& file, const DagStats& stats) {

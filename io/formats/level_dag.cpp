@@ -23,6 +23,28 @@ uint64_t LevelDag::nodes(uint32_t level) const {
   return empty() ? (level == 0 ? 1 : 0) : header_.sections[level].nodes;
 }
 
+// The number of cubes that a node stands for is the number of paths from the root to it.
+uint64_t LevelDag::voxels() const {
+  if (!cut()) return header_.voxels;
+  if (empty()) return 0;
+  std::vector<uint64_t> paths{1};  // of the nodes of a level, by word; of bricks by number
+  for (uint32_t k = 0; k < brick_level(); ++k) {
+    const bool to_bricks = k + 1 == brick_level();
+    std::vector<uint64_t> below(to_bricks ? bricks_ : words(k + 1));
+    uint64_t word = 0;
+    for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
+      for (int i = 0; i < popcount8(mask); ++i)
+        below[to_bricks ? brick_number(children[i]) : children[i]] += paths[word];
+      word += 1 + uint64_t(popcount8(mask));
+    });
+    paths = std::move(below);
+  }
+  uint64_t sum = 0;
+  size_t number = 0;
+  for_each_brick([&](Brick brick) { sum += paths[number++] * uint64_t(std::popcount(brick)); });
+  return sum;
+}
+
 RankBitmap LevelDag::node_starts(uint32_t level) const {
   RankBitmap starts(budget_, "numbers of nodes");
   if (!empty()) {

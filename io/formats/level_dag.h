@@ -61,6 +61,8 @@ class LevelDag {
   // The number, 0 .. bricks() - 1, of the brick that a child of level K-3 is.
   uint32_t brick_number(uint32_t child) const { return cut() ? starts_.rank(child) : child; }
 
+  // Set voxels of the grid.
+  uint64_t voxels() const;
   // The words of an inner level at which a node begins.
   RankBitmap node_starts(uint32_t level) const;
   // How many 2^3 blocks with voxels stand in the bricks before each: [number], the total behind.

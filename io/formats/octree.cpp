@@ -13,17 +13,18 @@ constexpr uint64_t kNoData = 0, kVoxelData = 1;
 // A node whose children, by our numbers, are `mask`: from `base` on one behind the other in the
 // format's order, or all the same one.
 void put_node(uint64_t data, uint64_t base, uint32_t mask, bool same, Output* out) {
-  out->put(data);
-  out->put(base);
+  struct {
+    uint64_t data, base;
+    int8_t offset[8];
+  } node{data, base, {}};
+  static_assert(sizeof node == 24);
   int8_t next = 0;
   for (unsigned t = 0; t < 8; ++t) {
-    if ((mask >> mirrored_child(t) & 1) == 0) {
-      out->put(int8_t(-1));
-    } else {
-      out->put(next);
-      if (!same) ++next;
-    }
+    const bool there = (mask >> mirrored_child(t) & 1) != 0;
+    node.offset[t] = there ? next : int8_t(-1);
+    if (there && !same) ++next;
   }
+  out->put(std::as_bytes(std::span(&node, 1)));
 }
 
 // Where the children of each node begin.

@@ -6,8 +6,8 @@ namespace svdag {
 
 void Output::flush() {
   check_interrupt();
-  file_.append(buffer_);
-  buffer_.clear();
+  file_.append(std::span(buffer_).first(used_));
+  used_ = 0;
 }
 
 void Output::commit() {

@@ -19,16 +19,17 @@ static_assert(std::endian::native == std::endian::little);
 
 class Output {
  public:
-  explicit Output(const std::string& path) : file_(path) { buffer_.reserve(kBuffer); }
+  explicit Output(const std::string& path) : file_(path), buffer_(kBuffer) {}
 
   template <class T>
   requires std::is_arithmetic_v<T>
   void put(T value) { put(std::as_bytes(std::span(&value, 1))); }
   void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
   void put(std::span<const std::byte> bytes) {
-    if (buffer_.size() + bytes.size() > kBuffer) flush();
+    if (bytes.size() > kBuffer - used_) flush();
     if (bytes.size() > kBuffer) return file_.append(bytes);
-    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+    std::memcpy(buffer_.data() + used_, bytes.data(), bytes.size());
+    used_ += bytes.size();
   }
   // Replaces what was put at `offset`.
   template <class T>
@@ -42,7 +43,7 @@ class Output {
       file_.write_at(offset, bytes);
     }
   }
-  uint64_t size() const { return file_.size() + buffer_.size(); }
+  uint64_t size() const { return file_.size() + used_; }
 
   // The file gets its name.
   void commit();
@@ -54,6 +55,7 @@ class Output {
 
   AtomicFile file_;
   std::vector<std::byte> buffer_;
+  size_t used_ = 0;
 };
 
 }  // namespace svdag

@@ -91,15 +91,14 @@ void write_transform_dag(const LevelDag& dag, const std::string& path) {
     if (!to_bricks) below = dag.node_starts(k + 1);
     out.put(dag.nodes(k));
     dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
-      for (unsigned t = 0; t < 8; ++t) {
-        const unsigned c = mirrored_child(t);
-        uint32_t number = kNoChild;
-        if (mask >> c & 1) {
-          const uint32_t child = children[popcount8(mask & ((1U << c) - 1))];
-          number = to_bricks ? dag.brick_number(child) : below->rank(child);
-        }
-        out.put(number);
+      std::array<uint32_t, 8> numbers;
+      numbers.fill(kNoChild);
+      for (unsigned c = 0, next = 0; c < 8; ++c) {
+        if ((mask >> c & 1) == 0) continue;
+        const uint32_t child = children[next++];
+        numbers[mirrored_child(c)] = to_bricks ? dag.brick_number(child) : below->rank(child);
       }
+      out.put(std::as_bytes(std::span(numbers)));
     });
   }
   out.put(dag.bricks());
