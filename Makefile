@@ -10,6 +10,7 @@
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
+#   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
@@ -26,7 +27,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-accuracy bundle cuda clean
+  bench-accuracy bench-vdb bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -83,6 +84,9 @@ bench-accuracy: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
+
+bench-vdb: build
+	@$(PYTHON) tests/bench/vdb_sandwich.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

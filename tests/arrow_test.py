@@ -47,7 +47,7 @@ LIBRARIES = {
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge_vdb\.cpp|io/formats/vdb_trees\.h",
-    r"nanovdb/": r"io/formats/nvdb\.cpp",
+    r"nanovdb/": r"io/formats/nvdb\.cpp|tests/io/formats/nvdb_test\.cpp",
     r"embree": r"verify/trace/embree\.cpp",
     r"hwy/": r"builder/kernel[\w-]*\.(h|cpp)",
     r"zstd|xxhash": r"streaming/\w+\.cpp",

@@ -38,7 +38,7 @@ class Bundle(unittest.TestCase):
         return done.stdout
 
     def test_holds_the_programs_and_their_libraries(self):
-        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-scene", "svdag-verify"])
+        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-export", "svdag-scene", "svdag-verify"])
         names = [p.name for p in (self.bundle / "lib").iterdir()]
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
@@ -58,6 +58,17 @@ class Bundle(unittest.TestCase):
         subprocess.run([BUILD / "svdag", "build", "city.ply", "-r", "512", "-q", "-o", "built.svdag"], cwd=self.away, check=True)
         self.assertEqual((self.away / "bundled.svdag").read_bytes(), (self.away / "built.svdag").read_bytes())
         self.run_bundled(programs / "svdag-verify", "check", "bundled.svdag")
+
+    def test_a_bake_does_not_load_what_exports_need(self):
+        self.assertNotIn("openvdb", self.run_bundled("ldd", self.bundle / "bin" / "svdag"))
+        self.assertNotIn("tbb", self.run_bundled("ldd", self.bundle / "bin" / "svdag"))
+
+    def test_exports_find_their_program_beside_them(self):
+        programs = self.bundle / "bin"
+        self.run_bundled(programs / "svdag-scene", "city", "-n", "6K", "-q", "-o", "export.ply")
+        self.run_bundled(programs / "svdag", "build", "export.ply", "-r", "128", "-q", "-o", "export.svdag")
+        self.run_bundled(programs / "svdag", "export", "export.svdag", "-q", "-o", "export.vdb")
+        self.run_bundled(programs / "svdag-verify", "vdb", "export.svdag", "export.vdb")
 
 
 if __name__ == "__main__":

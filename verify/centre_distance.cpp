@@ -5,7 +5,10 @@
 namespace svdag {
 namespace {
 
-using Int = boost::multiprecision::cpp_int;
+// With |q| < 2^62 a height is below 2^194 and its square, four times, below 2^390.
+namespace mp = boost::multiprecision;
+using Int = mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>,
+                       mp::et_off>;
 using Vector = std::array<Int, 3>;
 
 Vector vector(const LatticePoint& from, const LatticePoint& to) {

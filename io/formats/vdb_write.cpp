@@ -24,12 +24,10 @@ bool reads_back(const std::string& path, const openvdb::GridPtrVec& grids) {
   openvdb::io::File file(path);
   file.setCopyMaxBytes(0);
   file.open(/*delayLoad=*/false);
-  const openvdb::GridPtrVecPtr read = file.getGrids();
-  if (read->size() != grids.size()) return false;
-  for (size_t i = 0; i < grids.size(); ++i) {
-    const auto& mine = static_cast<const GridType&>(*grids[i]);
-    const auto back = openvdb::gridPtrCast<GridType>((*read)[i]);
-    if (!back || back->getName() != mine.getName() || back->transform() != mine.transform() ||
+  for (const openvdb::GridBase::Ptr& grid : grids) {
+    const auto& mine = static_cast<const GridType&>(*grid);
+    const auto back = openvdb::gridPtrCast<GridType>(file.readGrid(mine.getName()));
+    if (!back || back->transform() != mine.transform() ||
         !back->constTree().hasSameTopology(mine.constTree()))
       return false;
     for (auto value = back->cbeginValueOn(); value; ++value)

@@ -79,7 +79,7 @@ TEST_F(SandwichTest, ThinFilesLieInTheInnerBall) {
 
 TEST_F(SandwichTest, ExactlyTheVoxelsOutsideTheBoundsAreWrong) {
   const Grid grid = test_grid(4);
-  const auto soup = random_soup(grid, 4, 2, 6);
+  const auto soup = random_soup(grid, 40, 2, 6);
   const VoxelSet inner = near(grid, soup, 1, grid.whole()),
                  outer = near(grid, soup, 3, grid.whole());
   ASSERT_GT(inner.size(), 20U);

@@ -93,6 +93,41 @@ void add_mesh(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
+void add_vdb(CLI::App* app, int* result) {
+  auto config = std::make_shared<VdbConfig>();
+  CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("GRID", config->vdb, "The .vdb file")->required();
+  command->add_option("--grid", config->grid, "Which grid of the .vdb (default: the only one)")
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
+          "The values of a float grid that count as set, for example --iso=-inf,0")
+      ->type_name("LOW,HIGH");
+  command
+      ->add_option_function<std::string>(
+          "--bounds", [config](const std::string& text) { config->bounds = parse_bounds(text); },
+          "Compare only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
+      ->type_name("N");
+  command
+      ->add_option("--write-diff", config->write_diff,
+                   "Write two mask grids, missing and extra, in the place of GRID")
+      ->type_name("X.vdb");
+  const auto set_most = [config](const std::string& text) {
+    config->write_most = parse_count(text, "--write-most");
+  };
+  command
+      ->add_option_function<std::string>(
+          "--write-most", set_most, "Refuse to write more extra voxels than this (default 10M)")
+      ->type_name("N");
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify vdb scene.svdag scene.vdb\n") + kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
 void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
   CLI::App* command =
@@ -118,42 +153,6 @@ void add_diff(CLI::App* app, int* result) {
       ->type_name("N");
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
-  command->callback([config, result] { *result = run(*config); });
-}
-
-void add_vdb(CLI::App* app, int* result) {
-  auto config = std::make_shared<VdbConfig>();
-  CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("GRID", config->vdb, "The .vdb file")->required();
-  command->add_option("--grid", config->grid, "Which grid of the .vdb (default: the only one)")
-      ->type_name("NAME");
-  command
-      ->add_option_function<std::string>(
-          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
-          "The values of a float grid that count as set, for example --iso=-inf,0")
-      ->type_name("LOW,HIGH");
-  command
-      ->add_option_function<std::string>(
-          "--bounds", [config](const std::string& text) { config->bounds = parse_bounds(text); },
-          "Compare only this box, in scene units")
-      ->type_name("x0,y0,z0,x1,y1,z1");
-  command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
-      ->type_name("N");
-  command
-      ->add_option("--write-diff", config->write_diff,
-                   "Write two mask grids, missing and extra, in the place of GRID")
-      ->type_name("X.vdb");
-  command
-      ->add_option_function<std::string>(
-          "--write-most",
-          [config](const std::string& text) {
-            config->write_most = parse_count(text, "--write-most");
-          },
-          "Refuse to write more extra voxels than this (default 10M)")
-      ->type_name("N");
-  add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify vdb scene.svdag scene.vdb\n") + kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 

@@ -110,14 +110,14 @@ TEST_F(Vdb, CentresOfAGridLieHalfAVoxelInside) {
 
 TEST_F(Vdb, OneOfSeveralGridsIsChosenByName) {
   const auto writer = make_vdb_writer();
-  writer->begin("a", voxel_centres(test_grid(6)));
+  writer->begin("second", voxel_centres(test_grid(6)));
   writer->add_voxel({1, 2, 3});
-  writer->begin("b", voxel_centres(test_grid(6)));
+  writer->begin("first", voxel_centres(test_grid(6)));
   writer->write(path("two.vdb"), VdbFormat::kMask);
-  EXPECT_EQ(voxels_of(*read_vdb(path("two.vdb"), "a", {})), (VoxelSet{{1, 2, 3}}));
-  EXPECT_TRUE(voxels_of(*read_vdb(path("two.vdb"), "b", {})).empty());
+  EXPECT_EQ(voxels_of(*read_vdb(path("two.vdb"), "second", {})), (VoxelSet{{1, 2, 3}}));
+  EXPECT_TRUE(voxels_of(*read_vdb(path("two.vdb"), "first", {})).empty());
   EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "", {}), ExitCode::kUsage,
-                     "choose with --grid one of a, b");
+                     "choose with --grid one of first, second");
   EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "c", {}), ExitCode::kUsage, "has no grid c");
 }
 
@@ -133,7 +133,8 @@ TEST_F(Vdb, BrokenFilesAreASentence) {
 }
 
 TEST_F(Vdb, AFolderThatIsNotThereIsASentence) {
-  EXPECT_SVDAG_ERROR(write("no/folder/a.vdb", {}, VdbFormat::kMask), ExitCode::kOutput, "a.vdb");
+  EXPECT_SVDAG_ERROR(write("no/folder/a.vdb", {}, VdbFormat::kMask), ExitCode::kOutput,
+                     "cannot write in this folder");
 }
 
 TEST_F(Vdb, NanoVdbIsWrittenToo) {

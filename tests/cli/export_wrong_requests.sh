@@ -1,0 +1,11 @@
+# Each is one sentence, and exit code 2.
+svdag-scene city -n 3K -q -o a.ply
+svdag build a.ply -r 64 -o a.svdag -q
+svdag export a.svdag -o a.txt || echo "exit $?"
+svdag export a.svdag -o a.vdb --format foo || echo "exit $?"
+svdag export a.svdag -o a.vdb --level 7 || echo "exit $?"
+svdag export a.svdag -o a.vdb --bounds=1,2,3 || echo "exit $?"
+svdag export a.svdag -o a.svdag --format vdb || echo "exit $?"
+svdag export a.svdag || echo "exit $?"
+svdag export none.svdag -o a.vdb || echo "exit $?"
+ls

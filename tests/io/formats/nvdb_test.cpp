@@ -1,0 +1,54 @@
+// A .nvdb as NanoVDB itself reads it: the voxels and their centres in the world.
+#ifdef SVDAG_HAS_OPENVDB
+
+#include <gtest/gtest.h>
+#include <nanovdb/util/IO.h>
+
+#include <fstream>
+
+#include "io/dag/cube_walk.h"
+#include "io/formats/vdb.h"
+#include "tests/temp_folder.h"
+#include "tests/voxel_sets.h"
+
+namespace svdag {
+namespace {
+
+TEST(Nvdb, HoldsTheVoxelsAndTheirCentres) {
+  const TempFolder folder;
+  const Grid grid = test_grid(8);
+  const VoxelSet voxels = bodies(8, 6);
+  const RawFile file(raw_dag(grid, voxels));
+  CubeWalk walk(file.view(), 8);
+  const auto writer = make_vdb_writer();
+  writer->begin("occupancy", voxel_centres(grid));
+  walk.visit(grid.whole(), [&](const Cube& cube) {
+    writer->add(cube);
+    return true;
+  });
+  writer->write(folder.file("a.nvdb"), VdbFormat::kNano);
+
+  std::ifstream in(folder.file("a.nvdb"), std::ios::binary);
+  const nanovdb::GridHandle<> handle = nanovdb::io::readGrid(in);
+  const nanovdb::NanoGrid<nanovdb::ValueMask>* read = handle.grid<nanovdb::ValueMask>();
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(std::string(read->gridName()), "occupancy");
+  EXPECT_EQ(read->activeVoxelCount(), voxels.size());
+  const auto accessor = read->getAccessor();
+  for (const auto& [x, y, z] : voxels) {
+    ASSERT_TRUE(accessor.isActive(nanovdb::Coord(int(x), int(y), int(z))));
+    ASSERT_EQ(accessor.isActive(nanovdb::Coord(int(x), int(y) + 1, int(z))),
+              voxels.count({x, y + 1, z}) != 0);
+  }
+  for (const LatticePoint& v : {LatticePoint(0, 0, 0), LatticePoint(3, 200, 17)}) {
+    const nanovdb::Vec3d world =
+        read->indexToWorld(nanovdb::Vec3d(double(v.x), double(v.y), double(v.z)));
+    const Point expected = grid.corner() + (Point(v) + 0.5) * grid.voxel_size;
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(world[a], expected[a], 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace svdag
+
+#endif
