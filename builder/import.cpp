@@ -59,7 +59,6 @@ class Import {
     Scratch scratch(&folder_, &budget_);
     BrickReduction bricks(grid.levels, {&budget_, &scratch, budget_.limit() / 4});
     const uint64_t voxels = reduce(&*sort, &bricks);
-    scratch_bytes_ += sort->written_bytes();
     sort.reset();  // the merge needs the room
     MergeConfig merging;
     merging.budget = &budget_;
@@ -67,7 +66,6 @@ class Import {
     merging.map_bytes = budget_.limit() / 2;
     merging.sources = std::max<size_t>(2, budget_.limit() * 3 / 8 / (4 * scratch.block_bytes()));
     merge(bricks.runs(), std::move(bricks.roots()), grid.levels, merging, &writer, executor_);
-    scratch_bytes_ += scratch.written_bytes();
     return finish(voxels, grid, &writer);
   }
 
@@ -130,7 +128,6 @@ class Import {
     for (uint32_t k = 0; k < header.section_count; ++k) report.nodes += header.sections[k].nodes;
     report.file_bytes = header.file_bytes;
     report.content_hash = to_hex({header.content_hash[0], header.content_hash[1]});
-    report.scratch_bytes = scratch_bytes_;
     return report;
   }
 
@@ -139,7 +136,6 @@ class Import {
   MemoryBudget budget_;
   ScratchDir folder_;
   int files_ = 0;
-  uint64_t scratch_bytes_ = 0;
 };
 
 }  // namespace

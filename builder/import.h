@@ -26,8 +26,7 @@ struct ImportReport {
   uint64_t voxels = 0;
   uint64_t nodes = 0;  // bricks included
   uint64_t file_bytes = 0;
-  std::string content_hash;    // 32 hex digits
-  uint64_t scratch_bytes = 0;  // written
+  std::string content_hash;  // 32 hex digits
 };
 
 // Hands all voxels to the sink and says where they stand.

@@ -59,11 +59,7 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
-// One model, unless it has no voxel.
-bool put_model(const Window& window, const VoxelBox& box, int64_t side, Output* out) {
-  bool any = false;
-  window.walk->visit(box, [&](const Cube&) { return !(any = true); });
-  if (!any) return false;
+void put_model(const Window& window, const VoxelBox& box, int64_t side, Output* out) {
   Chunk size("SIZE", out);
   for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
   size.end();
@@ -78,23 +74,30 @@ bool put_model(const Window& window, const VoxelBox& box, int64_t side, Output* 
   });
   out->patch(count_at, count);
   chunk.end();
-  return true;
 }
 
-// The tiles that the window meets.
-std::vector<LatticePoint> tiles_of(const VoxelBox& box) {
+// The tiles with a voxel of the window.
+std::vector<LatticePoint> tiles_of(const Window& window) {
   std::vector<LatticePoint> tiles;
-  if (box.empty()) return tiles;
-  const LatticePoint first = box.min / kTile, last = (box.max - int64_t(1)) / kTile;
-  const LatticePoint n = last - first + int64_t(1);
-  if (uint64_t(n.x * n.y * n.z) > kMostVoxModels)
-    fail_usage("vox holds models of 256^3 voxels, and this window would need " +
-               format_count(uint64_t(n.x * n.y * n.z)) + ", more than " +
+  const auto add = [&](const LatticePoint& tile) {
+    // In Morton order a tile is left once and for all.
+    if (tiles.empty() || tiles.back() != tile) tiles.push_back(tile);
+    return tiles.size() <= kMostVoxModels;
+  };
+  const bool all = window.walk->visit(window.box(), [&](const Cube& cube) {
+    const LatticePoint first = cube.origin / kTile;
+    const int64_t n = std::max<int64_t>(cube.side / kTile, 1);
+    for (int64_t x = 0; x < n; ++x)
+      for (int64_t y = 0; y < n; ++y)
+        for (int64_t z = 0; z < n; ++z) {
+          if (!add(first + LatticePoint(x, y, z))) return false;
+        }
+    return true;
+  });
+  if (!all)
+    fail_usage("vox holds models of 256^3 voxels, and this window needs more than " +
                format_count(kMostVoxModels) +
                ": export a coarser --level, or a part with --bounds");
-  for (int64_t x = first.x; x <= last.x; ++x)
-    for (int64_t y = first.y; y <= last.y; ++y)
-      for (int64_t z = first.z; z <= last.z; ++z) tiles.emplace_back(x, y, z);
   return tiles;
 }
 
@@ -105,31 +108,30 @@ void write_vox(const Window& window, const std::string& path) {
     fail_usage("vox holds at most " + format_count(kMostVoxVoxels) +
                " voxels here, this window has " + format_count(window.voxels) +
                ": export a coarser --level, or a part with --bounds");
-  const std::vector<LatticePoint> tiles = tiles_of(window.box());
+  const std::vector<LatticePoint> tiles = tiles_of(window);
   const int64_t side = std::min(kTile, window.grid.resolution());
   Output out(path);
   out.put("VOX ");
   out.put(kVersion);
   Chunk main("MAIN", &out);
-  std::vector<LatticePoint> models;
   for (const LatticePoint& tile : tiles) {
     VoxelBox box{tile * kTile, (tile + int64_t(1)) * kTile};
     for (int a = 0; a < 3; ++a) {
       box.min[a] = std::max(box.min[a], window.box().min[a]);
       box.max[a] = std::min(box.max[a], window.box().max[a]);
     }
-    if (put_model(window, box, side, &out)) models.push_back(tile);
+    put_model(window, box, side, &out);
   }
   // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the place and the shape of model i.
   put_place(0, 1, {}, &out);
   Chunk group("nGRP", &out);
   out.put(uint32_t(1));
   out.put(uint32_t(0));
-  out.put(uint32_t(models.size()));
-  for (uint32_t i = 0; i < models.size(); ++i) out.put(2 + 2 * i);
+  out.put(uint32_t(tiles.size()));
+  for (uint32_t i = 0; i < tiles.size(); ++i) out.put(2 + 2 * i);
   group.end();
-  for (uint32_t i = 0; i < models.size(); ++i) {
-    const LatticePoint middle = models[i] * kTile + side / 2;
+  for (uint32_t i = 0; i < tiles.size(); ++i) {
+    const LatticePoint middle = tiles[i] * kTile + side / 2;
     put_place(
         2 + 2 * i, 3 + 2 * i,
         std::to_string(middle.x) + " " + std::to_string(middle.y) + " " + std::to_string(middle.z),
