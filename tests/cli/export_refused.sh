@@ -9,6 +9,6 @@ svdag export s.svdag -o s.svo --bounds=0,0,0,1,1,1 || echo "exit $?"
 svdag export s.svdag --format octree -o s.oct || echo "exit $?"
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 32K -o r.svdag -q
-svdag export r.svdag -o r.vox --max-voxels 4G || echo "exit $?"
+svdag export r.svdag -o r.vox --level 14 || echo "exit $?"
 svdag export r.svdag -o r.vox || echo "exit $?"
 ls
