@@ -3,6 +3,7 @@
 
 Usage: import_test.py PROGRAMS
 """
+import hashlib
 import random
 import sys
 import unittest
@@ -18,8 +19,8 @@ EXPORTED = {"hashdag": "x.basic_dag.dag.bin", "symvox": "x.svdag", "transform-da
 
 
 def nodes_of(dag):
-    """The bytes of all levels: one answer for one set of voxels."""
-    return [dag.section(k) for k in range(dag.L - 1)]
+    """A hash of each level's bytes: one answer for one set of voxels."""
+    return [hashlib.sha256(dag.section(k)).hexdigest() for k in range(dag.L - 1)]
 
 
 class Import(unittest.TestCase):
@@ -67,7 +68,7 @@ class Import(unittest.TestCase):
             with self.subTest(form=form):
                 BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o", path, "-q", "--level", "5")
                 back = self.imported(path, "-r", "32")
-                self.assertEqual({tuple(v) for v in back.voxels().tolist()}, expected)
+                self.assertTrue({tuple(v) for v in back.voxels().tolist()} == expected)
 
     def test_verify_diff_compares_with_another_program(self):
         BAKERY.run("svdag", "export", "askew.svdag", "--format", "hashdag", "-o", "x.basic_dag.dag.bin", "-q")
