@@ -27,7 +27,8 @@ MemoryBudget::Reservation reserve(Selection* selection, MemoryBudget* budget) {
                 "the grid would have more than " + format_count(most) +
                     " leaves, too many for --memory: export a coarser --level, or a part with "
                     "--bounds");
-  return budget->reserve(vdb_bytes(counts.blocks, counts.middle, counts.large), "leaves of the grid");
+  return budget->reserve(vdb_bytes(counts.blocks, counts.middle, counts.large),
+                         "leaves of the grid");
 }
 
 uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& config,

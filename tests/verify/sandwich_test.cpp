@@ -7,6 +7,7 @@
 
 #include "tests/expect_error.h"
 #include "tests/verify/soup.h"
+#include "tests/voxel_sets.h"
 #include "verify/centre_distance.h"
 #include "verify/judge_vdb.h"
 #include "verify/thin.h"
@@ -105,6 +106,20 @@ TEST_F(SandwichTest, AShiftByHalfAVoxelIsSeen) {
       for (LatticePoint& p : t.v) p[a] += int64_t(1) << (grid.fraction() - 1);
     EXPECT_FALSE(judge(grid, soup_voxels(grid, shifted), soup).holds());
   }
+}
+
+TEST_F(SandwichTest, VoxelsFarFromEveryTriangleAreExtra) {
+  const Grid grid = test_grid(7);
+  const auto corner = [&](int64_t x) { return LatticePoint(x << grid.fraction()); };
+  const std::vector<LatticeTriangle> speck{{{corner(5), corner(6), corner(5)}}};
+  VoxelSet voxels = soup_voxels(grid, speck);
+  const uint64_t right = voxels.size();
+  add_box(&voxels, {{64, 64, 64}, {96, 96, 96}});  // a full cube
+  voxels.emplace(127, 3, 127);
+  const Sandwich result = judge(grid, voxels, speck);
+  EXPECT_EQ(result.extra, 32U * 32 * 32 + 1);
+  EXPECT_EQ(result.file_voxels, right + result.extra);
+  EXPECT_EQ(judge(grid, voxels, {}).extra, voxels.size());
 }
 
 TEST_F(SandwichTest, BoundsAreDecidedExactly) {
