@@ -1,7 +1,7 @@
 # svdag: `make demo` and `make test` work on a fresh Debian 12 with nothing but git and make.
 #
 #   deps    install the packages below (as root, through sudo, or print the line)
-#   build   build/release/svdag, svdag-export, svdag-verify, svdag-scene
+#   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-scene
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
@@ -53,7 +53,7 @@ deps:
 
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-verify svdag-scene
+	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-import svdag-verify svdag-scene
 
 demo: build
 	@sh tests/demo.sh $(PROGRAMS) demo

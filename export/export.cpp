@@ -4,6 +4,7 @@
 
 #include "export/selection.h"
 #include "io/dag/dag_level.h"
+#include "io/formats/hashdag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -13,28 +14,38 @@ namespace {
 struct Row {
   ExportFormat format;
   uint64_t (*write)(Selection*, const ExportConfig&, MemoryBudget*);
+  std::string (*path)(const std::string& output, int levels) = nullptr;  // null: the output itself
 };
 
-// The one table of formats; a name is also the ending of its files.
+// The one table of formats.
 constexpr Row kFormats[] = {
-    {{"vdb", "OpenVDB, a mask grid (or --bool)"}, export_vdb},
-    {{"nvdb", "NanoVDB, a mask grid"}, export_nvdb},
+    {{"vdb", "vdb", "OpenVDB, a mask grid (or --bool)"}, export_vdb},
+    {{"nvdb", "nvdb", "NanoVDB, a mask grid"}, export_nvdb},
+    {{"hashdag", "dag.bin", "HashDAG, -o DIR/NAME"}, export_hashdag, hashdag_path},
+    {{"symvox", "svdag", "SymVox, another .svdag than ours"}, export_symvox},
+    {{"transform-dag", "svo", "transform-DAG tools"}, export_transform_dag},
+    {{"octree", "octree", "ooc_svo_builder, three files"}, export_octree},
+    {{"npz", "npz", "NumPy, coordinates of voxels"}, export_npz},
+    {{"binvox", "binvox", "a dense cube"}, export_binvox},
+    {{"vox", "vox", "MagicaVoxel"}, export_vox},
+    {{"ply", "ply", "centres of voxels as points"}, export_ply},
 };
+
+bool ends_in(const std::string& path, const char* ending) {
+  return path.ends_with("." + std::string(ending));
+}
 
 const Row& choose(const ExportConfig& config) {
-  std::string name = config.format;
-  if (name.empty()) {
-    const size_t dot = config.output.find_last_of("./");
-    if (dot != std::string::npos && config.output[dot] == '.') name = config.output.substr(dot + 1);
-  }
   std::string names;
   for (const Row& row : kFormats) {
-    if (name == row.format.name) return row;
+    const bool chosen = config.format.empty() ? ends_in(config.output, row.format.ending)
+                                              : config.format == row.format.name;
+    if (chosen) return row;
     names += (names.empty() ? "" : ", ") + std::string(row.format.name);
   }
   if (config.format.empty())
     fail_usage(config.output + ": its ending names no format: choose one with --format: " + names);
-  fail_usage("--format: there is no format " + name + ": it must be one of " + names);
+  fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
 }
 
 int checked_level(const DagFile& file, int level) {
@@ -61,12 +72,14 @@ std::vector<ExportFormat> export_formats() {
   return formats;
 }
 
-int run(const ExportConfig& config) {
-  const Row& row = choose(config);
+int run(const ExportConfig& asked) {
+  const Row& row = choose(asked);
+  const DagFile file = DagFile::open(asked.file);
+  Selection selection(file, asked);
+  ExportConfig config = asked;
+  if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
   if (same_file(config.file, config.output))
     fail_usage(config.output + ": is the input; choose another name for the output");
-  const DagFile file = DagFile::open(config.file);
-  Selection selection(file, config);
   MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)

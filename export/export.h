@@ -16,17 +16,19 @@ namespace svdag {
 struct ExportConfig {
   std::string file;
   std::string output;
-  std::string format;         // a name of export_formats(); empty: by the output's ending
-  int level = 0;              // whose nodes become voxels; 0: L, the finest
-  std::optional<Box> bounds;  // only the voxels whose interior meets this box
-  bool as_bool = false;       // VDB grids of type bool, for readers that know no masks
-  uint64_t memory = 0;        // 0: half of what the machine allows
+  std::string format;                   // a name of export_formats(); empty: by the output's ending
+  int level = 0;                        // whose nodes become voxels; 0: L, the finest
+  std::optional<Box> bounds;            // only the voxels whose interior meets this box
+  uint64_t max_voxels = 1'000'000'000;  // of formats that list or fill voxels; more are refused
+  bool as_bool = false;                 // VDB grids of type bool, for readers that know no masks
+  uint64_t memory = 0;                  // 0: half of what the machine allows
   bool quiet = false;
 };
 
-// One foreign format: how it is called, and for people.
+// One foreign format: how it is called, the ending of its files, and for people.
 struct ExportFormat {
   const char* name;
+  const char* ending;
   const char* what;
 };
 

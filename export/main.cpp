@@ -25,6 +25,11 @@ void set_up(CLI::App* app, ExportConfig* config) {
          "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
          "Write only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
+  app->add_option_function<std::string>(
+         "--max-voxels",
+         [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },
+         "npz, binvox, vox, ply: refuse more voxels than this (default: 10^9)")
+      ->type_name("N");
   app->add_flag("--bool", config->as_bool,
                 "vdb: grids of type bool instead of mask, for readers that know no masks");
   app->add_option_function<std::string>(
@@ -36,7 +41,8 @@ void set_up(CLI::App* app, ExportConfig* config) {
   app->footer(
       "Examples:\n"
       "  svdag export city.svdag -o city.vdb --level 10\n"
-      "  svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5");
+      "  svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5\n"
+      "  svdag export city.svdag --format hashdag -o data/city");
 }
 
 int run_program(int argc, char** argv) {

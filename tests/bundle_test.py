@@ -38,7 +38,7 @@ class Bundle(unittest.TestCase):
         return done.stdout
 
     def test_holds_the_programs_and_their_libraries(self):
-        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-export", "svdag-scene", "svdag-verify"])
+        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-export", "svdag-import", "svdag-scene", "svdag-verify"])
         names = [p.name for p in (self.bundle / "lib").iterdir()]
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])

@@ -6,6 +6,7 @@
 
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
+#include "io/dag/symvox_header.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -81,6 +82,8 @@ int run_info(const InfoConfig& config) {
   } else if (one && begins_with(kRunMagic, config.paths.front())) {
     info_run(config);
   } else {
+    const std::string& first = config.paths.front();
+    if (one && first.ends_with(".svdag")) refuse_symvox(File::open_read(first));
     info_scene(config);
   }
   return int(ExitCode::kOk);

@@ -181,6 +181,7 @@ void set_up_info(CLI::App* app, InfoConfig* config) {
 
 int run_program(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
+  if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
   app.set_version_flag("--version", "svdag " SVDAG_VERSION);
   app.require_subcommand(1);
@@ -191,7 +192,8 @@ int run_program(int argc, char** argv) {
   CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
   CLI::App* merge_app = app.add_subcommand("merge", "Join the runs of parts of one bake");
   CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
-  app.add_subcommand("export", "Write the voxels of a .svdag in another format (vdb, nvdb)");
+  app.add_subcommand("export", "Write the voxels of a .svdag in another format");
+  app.add_subcommand("import", "Make a .svdag of the voxels of another program");
   set_up_build(build_app, &build);
   set_up_merge(merge_app, &merge);
   set_up_info(info_app, &info);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "io/dag/symvox_header.h"
 #include "io/grid.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -206,6 +207,7 @@ Header check_dag(const File& file) {
   const size_t got = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
   if (got >= sizeof h.magic && std::memcmp(h.magic, kMagic, sizeof kMagic) == 0 && got < sizeof h)
     fail_input(file.path(), "damaged file: it ends within its header", got);
+  if (got < sizeof h.magic || std::memcmp(h.magic, kMagic, sizeof kMagic) != 0) refuse_symvox(file);
   if (got < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
   check_identity(file, h);
   check_fields(file, h);

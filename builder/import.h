@@ -1,0 +1,40 @@
+// An import: voxels of another program in, one minimal `.svdag` out, the bytes that a bake of these
+// voxels would give.
+//
+// DAGs are reduced as graphs (builder/graph_reduction.h). Lists of voxels are sorted by Morton
+// code, out of core, and reduced brick by brick (builder/brick_reduction.h, builder/merge.h).
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "io/dag/node_graph.h"
+#include "io/voxel_source.h"
+#include "streaming/executor.h"
+
+namespace svdag {
+
+struct ImportConfig {
+  std::string output;
+  int levels = 0;       // -r: L of the grid, where the file leaves it open; 0: as small as possible
+  uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
+  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
+};
+
+struct ImportReport {
+  Grid grid;
+  uint64_t voxels = 0;
+  uint64_t nodes = 0;  // bricks included
+  uint64_t file_bytes = 0;
+  std::string content_hash;  // 32 hex digits
+};
+
+// Hands all voxels to the sink and says where they stand.
+using VoxelSource = std::function<VoxelPlace(const VoxelSink&)>;
+
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
+// Voxels outside of a grid of config.levels are an Error (kUsage).
+ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
+                           Executor* executor);
+
+}  // namespace svdag

@@ -1,0 +1,54 @@
+#include "export/selection.h"
+#include "io/formats/binvox.h"
+#include "io/formats/npz.h"
+#include "io/formats/ply_points.h"
+#include "io/formats/vox.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// Set voxels of the window; of the whole file its header knows them.
+uint64_t count(Selection* selection) {
+  const Grid& grid = selection->grid;
+  const bool all =
+      grid.levels == int(selection->file.header().levels) && grid.selection == grid.whole();
+  return all ? selection->file.header().voxels : selection->walk.count_voxels(grid.selection);
+}
+
+Window window_of(Selection* selection, const ExportConfig& config) {
+  const Window window{selection->grid, &selection->walk, count(selection)};
+  if (window.voxels > config.max_voxels)
+    fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
+               format_count(config.max_voxels) +
+               ": export a coarser --level, a part with --bounds, or raise --max-voxels");
+  return window;
+}
+
+uint64_t export_window(Selection* selection, const ExportConfig& config,
+                       void (*write)(const Window&, const std::string&)) {
+  const Window window = window_of(selection, config);
+  write(window, config.output);
+  return window.voxels;
+}
+
+}  // namespace
+
+uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget*) {
+  return export_window(selection, config, write_npz);
+}
+
+uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget*) {
+  return export_window(selection, config, write_binvox);
+}
+
+uint64_t export_vox(Selection* selection, const ExportConfig& config, MemoryBudget*) {
+  return export_window(selection, config, write_vox);
+}
+
+uint64_t export_ply(Selection* selection, const ExportConfig& config, MemoryBudget*) {
+  return export_window(selection, config, write_ply_points);
+}
+
+}  // namespace svdag

@@ -1,0 +1,121 @@
+#include "import/import_command.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+
+#include "import/vdb.h"
+#include "io/dag/format.h"
+#include "io/dag/symvox_header.h"
+#include "io/formats/binvox.h"
+#include "io/formats/hashdag.h"
+#include "io/formats/npz.h"
+#include "io/formats/symvox.h"
+#include "io/formats/transform_dag.h"
+#include "io/formats/vox.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
+using VoxelReader = VoxelPlace (*)(const File&, const VoxelSink&);
+using Head = std::string_view;  // the first bytes of a file
+
+bool looks_like_symvox(const File& file, Head) {
+  SymvoxHeader header;
+  return read_symvox_header(file, &header);
+}
+bool looks_like_hashdag(const File& file, Head) {
+  return file.path().ends_with(".dag.bin");
+}
+bool looks_like_transform_dag(const File&, Head head) {
+  uint32_t magic = 0;
+  std::memcpy(&magic, head.data(), std::min(head.size(), sizeof magic));
+  return magic == kTransformDagMagic;
+}
+bool looks_like_npz(const File&, Head head) {
+  return head.starts_with("PK\3\4") || head.starts_with("\x93NUMPY");
+}
+bool looks_like_binvox(const File&, Head head) {
+  return head.starts_with("#binvox");
+}
+bool looks_like_vox(const File&, Head head) {
+  return head.starts_with("VOX ");
+}
+bool looks_like_vdb(const File&, Head head) {
+  return head.starts_with(" BDV") || head.starts_with("NanoVDB");
+}
+
+struct Row {
+  const char* name;
+  bool (*matches)(const File&, Head);
+  GraphReader graph;  // one of the two, or neither for OpenVDB
+  VoxelReader voxels;
+};
+
+// The one table of formats; those with a magic number come first.
+constexpr Row kFormats[] = {
+    {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
+    {"npz", looks_like_npz, nullptr, read_npz},
+    {"binvox", looks_like_binvox, nullptr, read_binvox},
+    {"vox", looks_like_vox, nullptr, read_vox},
+    {"vdb", looks_like_vdb, nullptr, nullptr},
+    {"hashdag", looks_like_hashdag, read_hashdag, nullptr},
+    {"symvox", looks_like_symvox, read_symvox, nullptr},
+};
+
+const Row& choose(const ImportCommandConfig& config, const File& file) {
+  std::array<char, 8> start{};
+  const size_t got = file.read_some_at(0, std::as_writable_bytes(std::span(start)));
+  const Head head(start.data(), got);
+  if (got == sizeof kMagic && std::memcmp(start.data(), kMagic, sizeof kMagic) == 0)
+    fail_usage(config.file + ": is a .svdag of this program already");
+  std::string names;
+  for (const Row& row : kFormats) {
+    if (config.format.empty() ? row.matches(file, head) : config.format == row.name) return row;
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  if (!config.format.empty())
+    fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
+  fail_input(config.file, "is no file that svdag import knows: name its --format: " + names);
+}
+
+}  // namespace
+
+std::vector<std::string> import_formats() {
+  std::vector<std::string> names;
+  for (const Row& row : kFormats) names.emplace_back(row.name);
+  return names;
+}
+
+int run(const ImportCommandConfig& config) {
+  if (same_file(config.file, config.import.output))
+    fail_usage(config.import.output + ": is the input; choose another name for the output");
+  const File file = File::open_read(config.file);
+  const Row& row = choose(config, file);
+  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
+  ImportReport report;
+  if (row.graph != nullptr) {
+    const std::unique_ptr<NodeGraph> graph = row.graph(file);
+    report = import_graph(graph.get(), config.import, &executor);
+  } else if (row.voxels != nullptr) {
+    report = import_voxels([&](const VoxelSink& sink) { return row.voxels(file, sink); },
+                           config.import, &executor);
+  } else {
+    report = import_voxels(
+        [&](const VoxelSink& sink) { return read_vdb_voxels(config.file, config.grid, sink); },
+        config.import, &executor);
+  }
+  if (!config.quiet)
+    std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
+                config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),
+                format_resolution(uint64_t(report.grid.resolution())).c_str(),
+                format_count(report.nodes).c_str(), format_bytes(report.file_bytes).c_str(),
+                report.content_hash.c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

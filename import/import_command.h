@@ -1,0 +1,28 @@
+// svdag import X -o OUT.svdag: what other programs made, as a minimal canonical DAG.
+//
+// Runs as a program of its own, svdag-import, which `svdag import` starts: the libraries of foreign
+// formats cost memory that a bake shall not pay. A format is recognised by what is in the file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "builder/import.h"
+
+namespace svdag {
+
+struct ImportCommandConfig {
+  std::string file;
+  std::string format;  // a name of import_formats(); empty: by the file's contents
+  std::string grid;    // vdb: which grid; empty: the only one
+  ImportConfig import;
+  size_t threads = 0;  // 0: all processors
+  bool quiet = false;
+};
+
+// The names of the formats.
+std::vector<std::string> import_formats();
+
+int run(const ImportCommandConfig& config);
+
+}  // namespace svdag

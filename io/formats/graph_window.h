@@ -1,0 +1,82 @@
+// Looking at nodes of a foreign file by offset, through one small window.
+//
+// An import asks for the nodes of a level in ascending order (io/dag/node_graph.h), so the window
+// moves forward; what lies elsewhere is read as well, only slower.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "io/grid.h"
+#include "streaming/byte_stream.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+class GraphWindow {
+ public:
+  // `file` must outlive this.
+  explicit GraphWindow(const File& file) : file_(&file), bytes_(kWindow) {}
+
+  const std::string& path() const { return file_->path(); }
+  uint32_t u32(uint64_t offset) { return at<uint32_t>(offset); }
+  uint64_t u64(uint64_t offset) { return at<uint64_t>(offset); }
+
+ private:
+  static constexpr size_t kWindow = size_t(1) << 16;
+
+  template <class T>
+  T at(uint64_t offset) {
+    if (offset < begin_ || offset + sizeof(T) > begin_ + filled_) fill(offset, sizeof(T));
+    T value;
+    std::memcpy(&value, bytes_.data() + (offset - begin_), sizeof value);
+    return value;
+  }
+  void fill(uint64_t offset, size_t least) {
+    begin_ = offset;
+    filled_ = file_->read_some_at(offset, bytes_);
+    if (filled_ < least) fail_input(path(), "it ends too early", offset + filled_);
+  }
+
+  const File* file_;
+  std::vector<std::byte> bytes_;
+  uint64_t begin_ = 0;
+  size_t filled_ = 0;
+};
+
+// The next number of a header.
+template <class T>
+T head_value(ByteStream* stream) {
+  T value;
+  stream->read(std::as_writable_bytes(std::span(&value, 1)));
+  return value;
+}
+
+// log2 N as a file of another program says it, in a field at `offset`.
+inline int checked_levels(const File& file, uint64_t levels, uint64_t offset) {
+  if (levels < uint64_t(kMinLevels) || levels > uint64_t(kMaxLevels))
+    fail_input(file.path(), "has " + std::to_string(levels) + " levels, 3 to 20 are read", offset);
+  return int(levels);
+}
+
+// The grid whose cube begins at `min`; its side is the longest of the box.
+inline Grid grid_of_box(const File& file, const Point& min, const Point& max, int levels) {
+  Grid grid;
+  grid.levels = levels;
+  grid.origin = min;
+  double side = 0;
+  for (int a = 0; a < 3; ++a) {
+    side = std::max(side, max[a] - min[a]);
+    if (!std::isfinite(min[a]) || !std::isfinite(max[a])) side = NAN;
+  }
+  grid.voxel_size = std::ldexp(side, -levels);
+  if (!std::isnormal(grid.voxel_size) || grid.voxel_size < 0)
+    fail_input(file.path(), "its box has no size", 0);
+  grid.selection = grid.whole();
+  return grid;
+}
+
+}  // namespace svdag

@@ -1,0 +1,233 @@
+#include "io/formats/npz.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "io/formats/zip.h"
+#include "streaming/byte_stream.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr std::string_view kArrayMagic = "\x93NUMPY";
+
+// Begins an entry with an array of the type and shape, as NumPy spells them.
+void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
+                 const std::string& shape) {
+  std::string header =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
+  constexpr size_t kBefore = 10;  // magic, version, length
+  header.resize((kBefore + header.size() + 1 + 63) / 64 * 64 - kBefore - 1, ' ');
+  header += '\n';
+  zip->begin(name + ".npy");
+  zip->put(kArrayMagic);
+  zip->put(uint8_t(1));
+  zip->put(uint8_t(0));
+  zip->put(uint16_t(header.size()));
+  zip->put(header);
+}
+
+// An array of a file: its type and shape, and the place of its elements.
+struct Array {
+  char kind = 0;       // 'b' bool, 'u', 'i', 'f'
+  uint64_t bytes = 0;  // of an element
+  bool fortran_order = false;
+  std::vector<uint64_t> shape;
+  uint64_t offset = 0, end = 0;
+
+  uint64_t elements() const {
+    uint64_t n = 1;
+    for (const uint64_t side : shape) n *= side;
+    return n;
+  }
+};
+
+// The text behind `key` in a header, a Python dictionary as NumPy writes it.
+std::string_view value_of(std::string_view header, std::string_view key, const File& file,
+                          uint64_t offset) {
+  const size_t at = header.find(key);
+  const size_t colon = at == std::string_view::npos ? at : header.find(':', at);
+  if (colon == std::string_view::npos)
+    fail_input(file.path(), "damaged .npy header: no " + std::string(key), offset);
+  header.remove_prefix(colon + 1);
+  header.remove_prefix(std::min(header.find_first_not_of(' '), header.size()));
+  return header;
+}
+
+std::vector<uint64_t> parse_shape(std::string_view text, const File& file, uint64_t offset) {
+  std::vector<uint64_t> shape;
+  const auto bad = [&] { fail_input(file.path(), "damaged .npy header: bad shape", offset); };
+  if (text.empty() || text[0] != '(') bad();
+  unsigned __int128 product = 1;
+  for (text.remove_prefix(1); !text.empty() && text[0] != ')';) {
+    uint64_t side = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+    if (error != std::errc() || shape.size() == 8) bad();
+    shape.push_back(side);
+    product *= side;
+    if (product >> 62 != 0) bad();
+    text.remove_prefix(size_t(end - text.data()));
+    text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
+  }
+  return shape;
+}
+
+Array read_header(const File& file, uint64_t offset, uint64_t end) {
+  ByteStream stream(file, offset, end);
+  std::array<char, 8> start{};
+  if (stream.remaining() < 12) fail_input(file.path(), "is not a .npy array", offset);
+  stream.read(std::as_writable_bytes(std::span(start)));
+  if (std::string_view(start.data(), 6) != kArrayMagic || start[6] < 1 || start[6] > 3)
+    fail_input(file.path(), "is not a .npy array", offset);
+  uint32_t length = 0;
+  stream.read(std::as_writable_bytes(std::span(&length, 1)).first(start[6] == 1 ? 2 : 4));
+  if (length > 65536 || length > stream.remaining())
+    fail_input(file.path(), "damaged .npy header: impossible length", offset);
+  std::string header(length, '\0');
+  stream.read(std::as_writable_bytes(std::span(header)));
+  Array array;
+  const std::string_view type = value_of(header, "'descr'", file, offset);
+  if (type.size() < 5 || (type[1] != '<' && type[1] != '|') || type[3] < '1' || type[3] > '8' ||
+      type[4] != type[0])
+    fail_input(file.path(), "has an array of a type that is not read", offset);
+  array.kind = type[2];
+  array.bytes = uint64_t(type[3] - '0');
+  array.fortran_order = value_of(header, "'fortran_order'", file, offset).starts_with("True");
+  array.shape = parse_shape(value_of(header, "'shape'", file, offset), file, offset);
+  array.offset = stream.offset();
+  array.end = end;
+  if (array.elements() > (end - array.offset) / array.bytes)
+    fail_input(file.path(), "has an array that is larger than the file", offset);
+  return array;
+}
+
+bool is_coordinates(const Array& a) {
+  const bool size = a.bytes == 1 || a.bytes == 2 || a.bytes == 4 || a.bytes == 8;
+  return (a.kind == 'i' || a.kind == 'u') && size && a.shape.size() == 2 && a.shape[1] == 3 &&
+         !a.fortran_order;
+}
+bool is_dense(const Array& a) {
+  return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
+}
+
+void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
+  ByteStream stream(file, array.offset, array.end);
+  VoxelBatch batch(sink);
+  for (uint64_t row = 0; row < array.shape[0]; ++row) {
+    Voxel voxel;
+    for (uint32_t& out : voxel) {
+      uint64_t value = 0;
+      stream.read(std::as_writable_bytes(std::span(&value, 1)).first(array.bytes));
+      if (value >> kMaxLevels != 0)
+        fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
+      out = uint32_t(value);
+    }
+    batch.add(voxel);
+  }
+  batch.flush();
+}
+
+void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
+  if (array.elements() == 0) return;
+  for (const uint64_t side : array.shape) {
+    if (side > uint64_t(1) << kMaxLevels)
+      fail_input(file.path(), "has more than 1M voxels on an axis", array.offset);
+  }
+  ByteStream stream(file, array.offset, array.end);
+  VoxelBatch batch(sink);
+  // Axes from the slowest to the fastest.
+  const std::array<size_t, 3> axes =
+      array.fortran_order ? std::array<size_t, 3>{2, 1, 0} : std::array<size_t, 3>{0, 1, 2};
+  Voxel v{};
+  for (v[axes[0]] = 0; v[axes[0]] < array.shape[axes[0]]; ++v[axes[0]])
+    for (v[axes[1]] = 0; v[axes[1]] < array.shape[axes[1]]; ++v[axes[1]]) {
+      for (uint64_t done = 0, side = array.shape[axes[2]]; done < side;) {
+        const auto bytes = stream.peek();
+        const uint64_t n = std::min<uint64_t>(bytes.size(), side - done);
+        for (uint64_t i = 0; i < n; ++i) {
+          if (bytes[i] == std::byte(0)) continue;
+          v[axes[2]] = uint32_t(done + i);
+          batch.add(v);
+        }
+        stream.skip(n);
+        done += n;
+      }
+    }
+  batch.flush();
+}
+
+// Element i of a small array as a number, if there is such an array of floats or integers.
+std::optional<double> element(const File& file, const Array& array, uint64_t i) {
+  if (i >= array.elements() || array.bytes != 8) return {};
+  uint64_t bits;
+  file.read_at(array.offset + 8 * i, std::as_writable_bytes(std::span(&bits, 1)));
+  if (array.kind == 'f') return std::bit_cast<double>(bits);
+  return double(int64_t(bits));
+}
+
+// The arrays that say where the voxels stand.
+void read_place(const File& file, const std::string& name, const Array& array, VoxelPlace* place) {
+  if (name == "resolution.npy") {
+    const double n = element(file, array, 0).value_or(0);
+    if (n >= 1 && n <= 0x1p20) place->resolution = uint64_t(n);
+  } else if (name == "voxel_size.npy") {
+    place->voxel_size = element(file, array, 0).value_or(1);
+  } else if (name == "corner.npy") {
+    for (int a = 0; a < 3; ++a) place->corner[a] = element(file, array, uint64_t(a)).value_or(0);
+  }
+}
+
+}  // namespace
+
+void write_npz(const Window& window, const std::string& path) {
+  ZipWriter zip(path);
+  begin_array(&zip, "coordinates", "<i4", "(" + std::to_string(window.voxels) + ", 3)");
+  for_each_voxel(window.walk, window.box(),
+                 [&](const Voxel& voxel) { zip.put(std::as_bytes(std::span(voxel))); });
+  zip.end();
+  begin_array(&zip, "resolution", "<i8", "()");
+  zip.put(window.grid.resolution());
+  zip.end();
+  begin_array(&zip, "corner", "<f8", "(3,)");
+  const Point corner = window.grid.corner();
+  for (int a = 0; a < 3; ++a) zip.put(corner[a]);
+  zip.end();
+  begin_array(&zip, "voxel_size", "<f8", "()");
+  zip.put(window.grid.voxel_size);
+  zip.end();
+  zip.commit();
+}
+
+VoxelPlace read_npz(const File& file, const VoxelSink& sink) {
+  std::vector<ZipEntry> entries;
+  std::array<char, 6> start{};
+  file.read_some_at(0, std::as_writable_bytes(std::span(start)));
+  if (std::string_view(start.data(), 6) == kArrayMagic) {
+    entries.push_back({"array.npy", 0, file.size()});
+  } else {
+    entries = read_zip(file);
+  }
+  VoxelPlace place;
+  std::optional<Array> voxels;
+  for (const ZipEntry& entry : entries) {
+    if (!entry.name.ends_with(".npy")) continue;
+    const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
+    read_place(file, entry.name, array, &place);
+    if (!is_coordinates(array) && !is_dense(array)) continue;
+    if (voxels) fail_input(file.path(), "has more than one array that may be the voxels");
+    voxels = array;
+  }
+  if (!voxels)
+    fail_input(file.path(), "has no array of N x 3 integers, and none of three dimensions of bool");
+  if (is_dense(*voxels)) {
+    for (const uint64_t side : voxels->shape) place.resolution = std::max(place.resolution, side);
+    read_dense(file, *voxels, sink);
+  } else {
+    read_coordinates(file, *voxels, sink);
+  }
+  return place;
+}
+
+}  // namespace svdag

@@ -1,0 +1,48 @@
+// Set voxels of another program, one by one.
+//
+// A file that lists voxels (npz, binvox, vox) hands them to a sink in batches, in its own order,
+// repetitions included; where they stand is known when it is through.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "io/grid.h"
+
+namespace svdag {
+
+using Voxel = std::array<uint32_t, 3>;  // x, y, z, below 2^20 each
+using VoxelSink = std::function<void(std::span<const Voxel>)>;
+
+// Where voxel (0, 0, 0) has its corner, how large a voxel is, and how many there are per axis. What
+// a file does not say is 0, 1 and 0.
+struct VoxelPlace {
+  Point corner{0};
+  double voxel_size = 1;
+  uint64_t resolution = 0;  // at least; 0: as many as the voxels need
+};
+
+// Collects voxels into batches.
+class VoxelBatch {
+ public:
+  explicit VoxelBatch(const VoxelSink& sink) : sink_(sink) { voxels_.reserve(kBatch); }
+  void add(const Voxel& voxel) {
+    if (voxels_.size() == kBatch) flush();
+    voxels_.push_back(voxel);
+  }
+  void flush() {
+    if (!voxels_.empty()) sink_(voxels_);
+    voxels_.clear();
+  }
+
+ private:
+  static constexpr size_t kBatch = size_t(1) << 14;
+
+  const VoxelSink& sink_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,240 @@
+#include "builder/import.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <map>
+#include <random>
+
+#include "builder/brick_reduction.h"
+#include "builder/cell.h"
+#include "builder/graph_reduction.h"
+#include "builder/merge.h"
+#include "io/dag/dag_file.h"
+#include "tests/expect_error.h"
+#include "tests/reference_reduction.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+Grid unit_grid(int levels) {
+  Grid grid;
+  grid.levels = levels;
+  grid.selection = grid.whole();
+  return grid;
+}
+
+// Bricks of few kinds in clumps, so that nodes of all levels repeat.
+BrickMap random_bricks(int levels, size_t count, uint32_t seed) {
+  std::mt19937 random(seed);
+  const uint32_t side = 1U << (levels - 2);
+  BrickMap bricks;
+  for (size_t i = 0; i < count; ++i) {
+    const Coordinate at{random() % side, random() % side, random() % 4};
+    bricks[at] = uint64_t(1 + random() % 3) << (random() % 60);
+  }
+  return bricks;
+}
+
+std::vector<std::pair<uint64_t, Brick>> in_morton_order(const BrickMap& bricks) {
+  std::map<uint64_t, Brick> sorted;
+  for (const auto& [at, brick] : bricks) sorted[morton({at[0], at[1], at[2]})] = brick;
+  return {sorted.begin(), sorted.end()};
+}
+
+// A DAG file of bricks, by way of a table that is spilled whenever it has `table_bytes`.
+std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_bytes, size_t* runs) {
+  const TempFolder folder;
+  MemoryBudget budget;
+  ScratchDir scratch_dir(folder.file("scratch"));
+  Scratch scratch(&scratch_dir, &budget);
+  BrickReduction reduction(levels, {&budget, &scratch, table_bytes});
+  uint64_t voxels = 0;
+  for (const auto& [code, brick] : in_morton_order(bricks)) {
+    reduction.add(code, brick);
+    voxels += uint64_t(std::popcount(brick));
+  }
+  reduction.finish();
+  *runs = reduction.runs().size();
+  DagWriter writer(folder.file("a.svdag"), unit_grid(levels), Rule::kConservative);
+  MergeConfig config;
+  config.budget = &budget;
+  config.scratch = reduction.spilled() ? &scratch : nullptr;
+  config.map_bytes = uint64_t(1) << 20;
+  config.sources = 4;
+  SequentialExecutor executor;
+  merge(reduction.runs(), reduction.roots(), levels, config, &writer, &executor);
+  writer.finish(voxels, 0);
+  return folder.read("a.svdag");
+}
+
+std::vector<uint64_t> node_counts(const DagFile& file) {
+  std::vector<uint64_t> counts;
+  for (uint32_t k = 0; k < file.header().section_count; ++k)
+    counts.push_back(file.header().sections[k].nodes);
+  return counts;
+}
+
+TEST(BrickReduction, IsMinimalAndTheSameWhereverTheTableWasSpilled) {
+  const int levels = 10;
+  const BrickMap bricks = random_bricks(levels, 20'000, 1);
+  size_t runs = 0, spilled_runs = 0;
+  const std::string at_once = reduce_bricks(bricks, levels, UINT64_MAX, &runs);
+  EXPECT_EQ(reduce_bricks(bricks, levels, 1, &spilled_runs), at_once);
+  EXPECT_EQ(runs, 1U);
+  EXPECT_GT(spilled_runs, 10U);
+  const TempFolder folder;
+  const DagFile file = DagFile::open(folder.write("a.svdag", at_once));
+  EXPECT_EQ(bricks_of(file.view()), bricks);
+  EXPECT_EQ(node_counts(file), reference_node_counts(bricks, levels));
+}
+
+TEST(BrickReduction, OneBrickAndNone) {
+  for (const int levels : {3, 4, 20}) {
+    size_t runs = 0;
+    const uint32_t last = (1U << (levels - 2)) - 1;
+    const TempFolder folder;
+    const BrickMap one{{{last, 0, last}, 1}};
+    const DagFile file =
+        DagFile::open(folder.write("a.svdag", reduce_bricks(one, levels, 1, &runs)));
+    EXPECT_EQ(bricks_of(file.view()), one);
+    const DagFile none =
+        DagFile::open(folder.write("b.svdag", reduce_bricks({}, levels, 1, &runs)));
+    EXPECT_TRUE(none.view().empty());
+  }
+}
+
+// The tree of some bricks as a graph: a node for every cube, numbered in the order of a map, and
+// nodes without anything below.
+class TreeGraph : public NodeGraph {
+ public:
+  TreeGraph(const BrickMap& bricks, int levels) : grid_(unit_grid(levels)) {
+    nodes_.resize(size_t(levels) - 1);
+    for (const auto& [at, brick] : bricks) put(0, at, brick);
+    if (nodes_[0].empty()) nodes_[0].emplace_back();
+  }
+  Grid grid() const override { return grid_; }
+  std::array<uint32_t, 8> children(int level, uint32_t id) override {
+    return nodes_[size_t(level)][id].children;
+  }
+  Brick brick(uint32_t id) override { return nodes_.back()[id].brick; }
+
+ private:
+  struct Node {
+    std::array<uint32_t, 8> children;
+    Brick brick = 0;
+    Node() { children.fill(kNoChild); }
+  };
+  void put(uint32_t id, const Coordinate& at, Brick brick) {
+    if (nodes_[0].empty()) nodes_[0].emplace_back();
+    const int last = int(nodes_.size()) - 1;
+    for (int level = 0; level < last; ++level) {
+      const int shift = last - 1 - level;
+      const unsigned c = child_index(at[0] >> shift & 1, at[1] >> shift & 1, at[2] >> shift & 1);
+      std::vector<Node>& below = nodes_[size_t(level) + 1];
+      if (nodes_[size_t(level)][id].children[c] == kNoChild) {
+        nodes_[size_t(level)][id].children[c] = uint32_t(below.size());
+        below.emplace_back();
+      }
+      id = nodes_[size_t(level)][id].children[c];
+    }
+    nodes_[size_t(last)][id].brick = brick;
+  }
+
+  Grid grid_;
+  std::vector<std::vector<Node>> nodes_;  // [level]
+};
+
+std::string reduce_graph(const BrickMap& bricks, int levels, uint64_t memory) {
+  const TempFolder folder;
+  TreeGraph graph(bricks, levels);
+  ParallelExecutor executor(2);
+  ImportConfig config;
+  config.output = folder.file("a.svdag");
+  config.memory = memory;
+  import_graph(&graph, config, &executor);
+  return folder.read("a.svdag");
+}
+
+TEST(GraphReduction, GivesTheBytesOfTheVoxelsWithAnyMemory) {
+  const int levels = 10;
+  BrickMap bricks = random_bricks(levels, 60'000, 2);
+  size_t runs = 0;
+  const std::string expected = reduce_bricks(bricks, levels, UINT64_MAX, &runs);
+  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
+  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(12) << 20), expected);
+  // Bricks without voxels, and what leads to nothing else, are not there.
+  for (uint32_t x = 0; x < 200; ++x) bricks.try_emplace({x, 100, 77}, 0);
+  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
+}
+
+TEST(GraphReduction, AGraphOfEmptyNodesIsAnEmptyGrid) {
+  const BrickMap nothing{{{1, 2, 3}, 0}, {{5, 5, 5}, 0}};
+  size_t runs = 0;
+  EXPECT_EQ(reduce_graph(nothing, 6, 0), reduce_bricks({}, 6, UINT64_MAX, &runs));
+  EXPECT_EQ(reduce_graph({}, 6, 0), reduce_bricks({}, 6, UINT64_MAX, &runs));
+}
+
+// Every level has one node, whose children are all the same: 2^57 voxels in 18 nodes.
+class FullGraph : public NodeGraph {
+ public:
+  Grid grid() const override { return unit_grid(20); }
+  std::array<uint32_t, 8> children(int, uint32_t) override {
+    std::array<uint32_t, 8> all;
+    all.fill(7);
+    return all;
+  }
+  uint32_t root() const override { return 7; }
+  Brick brick(uint32_t) override { return 0xff; }
+};
+
+TEST(GraphReduction, TimeFollowsTheNodesAndNotTheVoxels) {
+  const TempFolder folder;
+  FullGraph graph;
+  SequentialExecutor executor;
+  ImportConfig config;
+  config.output = folder.file("a.svdag");
+  const ImportReport report = import_graph(&graph, config, &executor);
+  EXPECT_EQ(report.voxels, uint64_t(1) << 57);
+  EXPECT_EQ(report.nodes, 19U);
+}
+
+ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& output, int levels,
+                         VoxelPlace place = {}) {
+  ImportConfig config;
+  config.output = output;
+  config.levels = levels;
+  SequentialExecutor executor;
+  return import_voxels(
+      [&](const VoxelSink& sink) {
+        sink(voxels);
+        return place;
+      },
+      config, &executor);
+}
+
+TEST(ImportVoxels, TheGridIsAsSmallAsItsVoxelsAndItsFileAllow) {
+  const TempFolder folder;
+  const std::string out = folder.file("a.svdag");
+  EXPECT_EQ(import_list({{0, 0, 0}}, out, 0).grid.levels, 3);
+  EXPECT_EQ(import_list({{7, 0, 0}}, out, 0).grid.levels, 3);
+  EXPECT_EQ(import_list({{0, 8, 0}}, out, 0).grid.levels, 4);
+  EXPECT_EQ(import_list({{0, 0, 8}}, out, 9).grid.levels, 9);
+  EXPECT_EQ(import_list({{0, 0, 8}}, out, 0, {Point(0), 1, 33}).grid.levels, 6);
+  EXPECT_EQ(import_list({}, out, 0).voxels, 0U);
+  EXPECT_EQ(import_list({{5, 5, 5}, {5, 5, 5}}, out, 0).voxels, 1U);
+}
+
+TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
+  const TempFolder folder;
+  const std::string out = folder.write("a.svdag", "old");
+  EXPECT_SVDAG_ERROR(import_list({{0, 16, 0}}, out, 4), ExitCode::kUsage, "17 at least");
+  EXPECT_SVDAG_ERROR(import_list({{0, 0, 0}}, out, 4, {Point(0), 0, 0}), ExitCode::kBadInput,
+                     "impossible place");
+  EXPECT_EQ(folder.read("a.svdag"), "old");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+}  // namespace
+}  // namespace svdag

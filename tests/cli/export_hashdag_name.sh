@@ -1,0 +1,8 @@
+# The name is part of HashDAG's contract: DIR/NAME gets the rest of it.
+svdag-scene speck -q -o s.ply
+svdag build s.ply -r 128K -o s.svdag -q
+mkdir data
+svdag export s.svdag --format hashdag -o data/speck
+svdag export s.svdag --format hashdag -o data/speck --level 10 -q
+ls data
+svdag export s.svdag --format hashdag -o data/speck --level 9

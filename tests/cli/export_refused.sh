@@ -1,0 +1,14 @@
+# What a format cannot hold is refused before a byte is written: exit code 2, and the way out.
+svdag-scene speck -q -o s.ply
+svdag build s.ply -r 256K -o s.svdag -q
+svdag export s.svdag --format hashdag -o s || echo "exit $?"
+svdag export s.svdag -o s.binvox || echo "exit $?"
+svdag export s.svdag -o s.vox -q
+svdag export s.svdag -o s.npz --level 7 --max-voxels 2 || echo "exit $?"
+svdag export s.svdag -o s.svo --bounds=0,0,0,1,1,1 || echo "exit $?"
+svdag export s.svdag --format octree -o s.oct || echo "exit $?"
+svdag-scene rectangle -q -o r.ply
+svdag build r.ply -r 32K -o r.svdag -q
+svdag export r.svdag -o r.vox --level 14 || echo "exit $?"
+svdag export r.svdag -o r.vox || echo "exit $?"
+ls

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""`svdag import` makes the very DAG of whatever holds the same voxels: ours exported, or others' own.
+
+Usage: import_test.py PROGRAMS
+"""
+import hashlib
+import random
+import sys
+import unittest
+
+import numpy
+
+import write_foreign
+from baked import Bakery, askew, coarser, slices
+
+BAKERY = Bakery(sys.argv.pop(1))
+EXPORTED = {"hashdag": "x.basic_dag.dag.bin", "symvox": "x.svdag", "transform-dag": "x.svo", "npz": "x.npz",
+            "binvox": "x.binvox", "vox": "x.vox"}
+
+
+def nodes_of(dag):
+    """A hash of each level's bytes: one answer for one set of voxels."""
+    return [hashlib.sha256(dag.section(k)).hexdigest() for k in range(dag.L - 1)]
+
+
+class Import(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.dag = BAKERY.bake("askew", askew(), "-r", "128")
+        cls.voxels = cls.dag.voxels().astype("<i8")
+        cls.small = BAKERY.bake("small", askew(), "-r", "32")
+        cls.few = cls.small.voxels().astype("<i8")
+        cls.full = BAKERY.bake("full", slices(16), "-r", "16")
+        cls.empty = BAKERY.bake("empty", askew(), "-r", "32", "--bounds=900,900,900,901,901,901")
+
+    def read(self, data, name, *options):
+        """What a file becomes; the Python reader demands the canonical form."""
+        (BAKERY.folder / name).write_bytes(data)
+        return self.imported(name, *options)
+
+    def imported(self, name, *options):
+        BAKERY.run("svdag", "import", name, "-o", "imported.svdag", "-q", *options)
+        BAKERY.run("svdag-verify", "check", "imported.svdag", "-q")
+        return BAKERY.dag("imported.svdag")
+
+    def expect_place(self, dag, corner, voxel_size):
+        self.assertAlmostEqual(dag.voxel_size / voxel_size, 1, delta=1e-6)
+        for got, own in zip(dag.corner, corner):
+            self.assertAlmostEqual(got, own, delta=1e-6 * (abs(own) + 2**dag.L * voxel_size))
+
+    def test_what_was_exported_comes_back_byte_for_byte(self):
+        for name in ("askew", "full", "empty"):
+            dag = BAKERY.dag(f"{name}.svdag")
+            for form, path in EXPORTED.items():
+                with self.subTest(name=name, form=form):
+                    BAKERY.run("svdag", "export", f"{name}.svdag", "--format", form, "-o", path, "-q")
+                    back = self.imported(path, "-r", 2**dag.L)
+                    self.assertEqual(nodes_of(back), nodes_of(dag))
+                    self.assertEqual(back.voxel_count, dag.voxel_count)
+                    if form in ("vox", "transform-dag"):
+                        self.assertEqual((back.corner, back.voxel_size), ([0, 0, 0], 1))
+                    else:
+                        self.expect_place(back, dag.corner, dag.voxel_size)
+
+    def test_a_coarser_level_becomes_minimal(self):
+        expected = {tuple(v) for v in coarser(self.voxels, 2).tolist()}
+        for form, path in EXPORTED.items():
+            with self.subTest(form=form):
+                BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o", path, "-q", "--level", "5")
+                back = self.imported(path, "-r", "32")
+                self.assertTrue({tuple(v) for v in back.voxels().tolist()} == expected)
+
+    def test_verify_diff_compares_with_another_program(self):
+        BAKERY.run("svdag", "export", "askew.svdag", "--format", "hashdag", "-o", "x.basic_dag.dag.bin", "-q")
+        self.imported("x.basic_dag.dag.bin")
+        BAKERY.run("svdag-verify", "diff", "imported.svdag", "askew.svdag")
+        BAKERY.run("svdag-verify", "diff", "imported.svdag", "small.svdag", "--by-index", code=1)
+
+    def test_trees_without_sharing_and_empty_nodes(self):
+        voxels = self.few.tolist()
+        for name, data in {
+                "t.dag.bin": write_foreign.hashdag(voxels, 5), "e.dag.bin": write_foreign.hashdag(voxels, 5, empty_nodes=True),
+                "t.svdag": write_foreign.symvox(voxels, 5), "t.svo": write_foreign.transform_dag(voxels, 5)}.items():
+            with self.subTest(name=name):
+                self.assertEqual(nodes_of(self.read(data, name)), nodes_of(self.small))
+        for name, data in {"n.dag.bin": write_foreign.hashdag([], 5), "n2.dag.bin": write_foreign.hashdag([], 5, empty_nodes=True),
+                           "n.svdag": write_foreign.symvox([], 5)}.items():
+            with self.subTest(name=name):
+                self.assertEqual(self.read(data, name).voxel_count, 0)
+
+    def test_the_box_of_a_dag_is_its_place(self):
+        dag = self.read(write_foreign.hashdag(self.few.tolist(), 5, (-3, 7, 0.5), 8), "b.dag.bin")
+        self.expect_place(dag, (-3, 7, 0.5), 0.25)
+        dag = self.read(write_foreign.symvox(self.few.tolist(), 5, (1, 2, -3), 8), "b.svdag")
+        self.expect_place(dag, (-3, -2, -7), 0.25)
+
+    def test_arrays_of_every_kind(self):
+        chance = random.Random(3)
+        rows = self.few.tolist() + self.few[::3].tolist()  # repetitions
+        chance.shuffle(rows)
+        dense = numpy.zeros((32, 32, 32), bool)
+        dense[tuple(self.few.T)] = True
+        places = {"corner": numpy.array([1.5, -2, 3]), "voxel_size": numpy.float64(0.125)}
+        for name, arrays in {
+                "i4": {"coordinates": numpy.array(rows, "<i4")}, "i8": {"points": numpy.array(rows, "<i8")},
+                "u1": {"x": numpy.array(rows, "u1")}, "u2": {"x": numpy.array(rows, "<u2")},
+                "bool": {"window": dense}, "bytes": {"window": dense.astype("u1") * 7},
+                "fortran": {"window": numpy.asfortranarray(dense)}}.items():
+            for write in (write_foreign.npz, write_foreign.npz_commented):
+                with self.subTest(name=name, write=write.__name__):
+                    dag = self.read(write(**arrays, **places), "a.npz", "-r", "32")
+                    self.assertEqual(nodes_of(dag), nodes_of(self.small))
+                    self.expect_place(dag, (1.5, -2, 3), 0.125)
+        numpy.save(BAKERY.folder / "lone.npy", numpy.array(rows, "<i4"))
+        self.assertEqual(nodes_of(self.imported("lone.npy", "-r", "32")), nodes_of(self.small))
+
+    def test_a_binvox_that_is_no_cube(self):
+        high = self.few.max(0) + 1
+        dense = numpy.zeros(high, bool)
+        dense[tuple(self.few.T)] = True
+        self.assertEqual(len(set(high)), 3)
+        dag = self.read(write_foreign.binvox(dense, (4, 5, 6), max(high) / 2), "b.binvox", "-r", "32")
+        self.assertEqual(nodes_of(dag), nodes_of(self.small))
+        self.expect_place(dag, (4, 5, 6), 0.5)
+
+    def test_vox_models_with_and_without_a_scene_graph(self):
+        lone = write_foreign.vox((self.few, (32, 32, 32)))
+        self.assertEqual(nodes_of(self.read(lone, "lone.vox", "-r", "32")), nodes_of(self.small))
+        left = self.few[self.few[:, 0] < 11]
+        right = self.few[self.few[:, 0] >= 11] - [11, 0, 0]
+        sizes = (11, 32, 31), (21, 32, 32)  # the middle of an odd side is rounded down
+        for shift in (0, -500):  # what lies below 0 moves up
+            places = [[shift + 5, shift + 16, shift + 15], [shift + 11 + 10, shift + 16, shift + 16]]
+            data = write_foreign.vox((left, sizes[0]), (right, sizes[1]), places=places)
+            with self.subTest(shift=shift):
+                self.assertEqual(nodes_of(self.read(data, "two.vox", "-r", "32")), nodes_of(self.small))
+
+    def test_little_memory_gives_the_same_bytes(self):
+        BAKERY.bake("large", askew(), "-r", "1K")
+        for form in ("hashdag", "npz"):
+            BAKERY.run("svdag", "export", "large.svdag", "--format", form, "-o", EXPORTED[form], "-q")
+            BAKERY.run("svdag", "import", EXPORTED[form], "-o", "much.svdag", "-q", "-r", "1K")
+            BAKERY.run("svdag", "import", EXPORTED[form], "-o", "little.svdag", "-q", "-r", "1K", "-m", "16M", "-j", "2")
+            self.assertEqual((BAKERY.folder / "much.svdag").read_bytes(), (BAKERY.folder / "little.svdag").read_bytes())
+            self.assertFalse((BAKERY.folder / "little.svdag.scratch").exists())
+            self.assertEqual(nodes_of(BAKERY.dag("little.svdag")), nodes_of(BAKERY.dag("large.svdag")))
+
+    def test_broken_files_are_one_sentence(self):
+        good = {"t.dag.bin": write_foreign.hashdag(self.few.tolist(), 5), "t.svdag": write_foreign.symvox(self.few.tolist(), 5),
+                "t.svo": write_foreign.transform_dag(self.few.tolist(), 5),
+                "t.npz": write_foreign.npz(x=numpy.array(self.few, "<i4")), "t.npy": b"\x93NUMPY\1\0\xff\xff",
+                "t.binvox": write_foreign.binvox(numpy.ones((8, 8, 8), bool)), "t.vox": write_foreign.vox((self.few, (32, 32, 32)))}
+        for name, data in good.items():
+            for cut in (len(data) // 2, len(data) - 1):
+                with self.subTest(name=name, cut=cut):
+                    (BAKERY.folder / name).write_bytes(data[:cut])
+                    error = BAKERY.run("svdag", "import", name, "-o", "broken.svdag", code=3)
+                    self.assertEqual(error.count("\n"), 1)
+                    self.assertFalse((BAKERY.folder / "broken.svdag").exists())
+
+    def test_compressed_archives_and_mirrored_nodes_are_refused(self):
+        numpy.savez_compressed(BAKERY.folder / "c.npz", x=numpy.array(self.few, "<i4"))
+        self.assertIn("compressed", BAKERY.run("svdag", "import", "c.npz", "-o", "c.svdag", code=3))
+        data = bytearray(write_foreign.symvox(self.few.tolist(), 5))
+        data[45] = 1  # mirrorX of the root
+        (BAKERY.folder / "m.svdag").write_bytes(data)
+        self.assertIn("ussvdag", BAKERY.run("svdag", "import", "m.svdag", "-o", "c.svdag", code=3))
+
+
+if __name__ == "__main__":
+    unittest.main()
