@@ -27,7 +27,13 @@ class RankBitmap {
     if (chunk >= chunks_.size() || !chunks_[chunk]) add_chunk(chunk);
     chunks_[chunk]->bits[i % kChunk / 64] |= uint64_t(1) << (i % 64);
   }
-  // Nothing is set after this; before it nothing may be asked.
+  // Whether `i` is in the set so far.
+  bool has(uint32_t i) const {
+    const size_t chunk = i / kChunk;
+    return chunk < chunks_.size() && chunks_[chunk] &&
+           (chunks_[chunk]->bits[i % kChunk / 64] >> (i % 64) & 1);
+  }
+  // Nothing is set after this; before it nothing else may be asked.
   void seal() {
     count_ = 0;
     for (const auto& chunk : chunks_) {

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "builder/farm/pack_blocks.h"
-#include "builder/farm/rank_bits.h"
 #include "streaming/checksum.h"
+#include "streaming/rank_bitmap.h"
 
 namespace svdag {
 namespace {
@@ -94,7 +94,7 @@ class Extraction {
 
   Extraction(const PackHeader& header, const std::string& path, Read read, MemoryBudget* budget)
       : header_(header), path_(path), read_(std::move(read)), budget_(budget) {
-    for (uint32_t h = 0; h < kHeights; ++h) marks_.emplace_back(header.keys[h], budget);
+    for (uint32_t h = 0; h < kHeights; ++h) marks_.emplace_back(budget, "marks of a pack");
   }
 
   void take(const PackEntry& entry) { marks_[entry.height].set(entry.rank); }
@@ -102,7 +102,10 @@ class Extraction {
   Run run(int levels, const SpillTarget* target) {
     for (uint32_t h = kHeights - 1; h > kBrickHeight; --h) mark_children(h);
     std::vector<uint64_t> counts;
-    for (RankBits& marks : marks_) counts.push_back(marks.count());
+    for (RankBitmap& marks : marks_) {
+      marks.seal();
+      counts.push_back(marks.count());
+    }
     Run run;
     run.nodes.resize(size_t(levels - 2));
     copy(kBrickHeight, counts[kBrickHeight], levels - 2, target, &run.bricks);
@@ -112,11 +115,11 @@ class Extraction {
     }
     return run;
   }
-  uint32_t rank(const PackEntry& entry) const { return marks_[entry.height].before(entry.rank); }
+  uint32_t rank(const PackEntry& entry) const { return marks_[entry.height].rank(entry.rank); }
 
  private:
   void mark_children(uint32_t height) {
-    uint64_t rank = 0;
+    uint32_t rank = 0;
     read_(height, [&](std::span<std::byte> bytes) {
       for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
         if (!marks_[height].has(rank++)) continue;
@@ -133,7 +136,7 @@ class Extraction {
   void copy(uint32_t height, uint64_t count, int level, const SpillTarget* target,
             RunLevel<Key>* out) {
     LevelWriter<Key> writer(out, count, level, budget_, target);
-    uint64_t rank = 0;
+    uint32_t rank = 0;
     if (count > 0) {
       read_(height, [&](std::span<std::byte> bytes) {
         for (const Key& key : keys_in<Key>(bytes)) {
@@ -145,7 +148,7 @@ class Extraction {
   }
   Brick translated(Brick brick, uint32_t) const { return brick; }
   NodeKey translated(NodeKey key, uint32_t height) const {
-    for (uint32_t& child : key) child = child == 0 ? 0 : 1 + marks_[height - 1].before(child - 1);
+    for (uint32_t& child : key) child = child == 0 ? 0 : 1 + marks_[height - 1].rank(child - 1);
     return key;
   }
 
@@ -153,7 +156,7 @@ class Extraction {
   const std::string& path_;
   Read read_;
   MemoryBudget* budget_;
-  std::vector<RankBits> marks_;  // [height]
+  std::vector<RankBitmap> marks_;  // [height]
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "export/export.h"
+#include "builder/commands/export/export.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"

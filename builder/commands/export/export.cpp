@@ -1,8 +1,8 @@
-#include "export/export.h"
+#include "builder/commands/export/export.h"
 
 #include <cstdio>
 
-#include "export/selection.h"
+#include "builder/commands/export/selection.h"
 #include "io/dag/dag_level.h"
 #include "io/formats/hashdag.h"
 #include "io/units.h"

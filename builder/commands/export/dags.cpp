@@ -1,4 +1,4 @@
-#include "export/selection.h"
+#include "builder/commands/export/selection.h"
 #include "io/formats/hashdag.h"
 #include "io/formats/octree.h"
 #include "io/formats/symvox.h"

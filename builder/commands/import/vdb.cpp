@@ -1,4 +1,4 @@
-#include "import/vdb.h"
+#include "builder/commands/import/vdb.h"
 
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "export/selection.h"
+#include "builder/commands/export/selection.h"
 #include "io/formats/binvox.h"
 #include "io/formats/npz.h"
 #include "io/formats/ply_points.h"

@@ -1,11 +1,11 @@
-#include "import/import_command.h"
+#include "builder/commands/import/import_command.h"
 
 #include <array>
 #include <cstdio>
 #include <cstring>
 #include <optional>
 
-#include "import/vdb.h"
+#include "builder/commands/import/vdb.h"
 #include "io/dag/format.h"
 #include "io/dag/symvox_header.h"
 #include "io/formats/binvox.h"

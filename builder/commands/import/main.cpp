@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "import/import_command.h"
+#include "builder/commands/import/import_command.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "export/export.h"
+#include "builder/commands/export/export.h"
 #include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
 #include "streaming/memory_budget.h"

@@ -1,5 +1,5 @@
 #include "io/formats/vdb.h"
-#include "export/selection.h"
+#include "builder/commands/export/selection.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
