@@ -15,7 +15,7 @@
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
-  libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
+  libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libembree-dev libgtest-dev \
   librapidcheck-dev python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
