@@ -1,6 +1,7 @@
 #include "verify/trace/camera.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace svdag {
 namespace {
@@ -35,11 +36,6 @@ void grow(const DagView& dag, uint32_t level, uint32_t node, const Vec3& corner,
 }
 
 }  // namespace
-
-Ray Camera::ray(double x, double y) const {
-  const double h = (2 * x - 1) * slope * aspect, v = (1 - 2 * y) * slope;
-  return {position, normalized(forward + right * h + up * v)};
-}
 
 Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect) {
   Camera camera{position, {}, {}, normalized(target - position), slope_of(fov), aspect};

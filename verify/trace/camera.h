@@ -20,7 +20,10 @@ struct Camera {
 
   // The ray through image position (x, y), both 0 .. 1 from the upper left corner; its direction
   // has length 1.
-  Ray ray(double x, double y) const;
+  SVDAG_HD Ray ray(double x, double y) const {
+    const double h = (2 * x - 1) * slope * aspect, v = (1 - 2 * y) * slope;
+    return {position, normalized(forward + right * h + up * v)};
+  }
 };
 
 // From `position` towards `target`; `up` is an axis (0 .. 2) of the world.

@@ -11,7 +11,7 @@ Image render(const DagView& dag, const Camera& camera, const Shading& shading,
     for (int i = 0; i < n * n; ++i) {
       const double sx = (i % n + 0.5) / n, sy = (i / n + 0.5) / n;
       const Ray ray = camera.ray((x + sx) / config.width, (y + sy) / config.height);
-      sum = sum + shade(shading, dag, ray, trace_closest(dag, ray, 1e300));
+      sum = sum + shade(shading, dag, ray, trace_closest(dag, ray));
     }
     return sum * (1.0 / (n * n));
   };

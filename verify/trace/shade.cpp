@@ -25,7 +25,7 @@ bool in_shadow(const Shading& shading, const DagView& dag, const Ray& ray, const
                const Vec3& normal) {
   constexpr double kOff = 2.0;  // voxels
   const Vec3 start = ray.origin + ray.direction * hit.t + (normal + shading.light) * kOff;
-  return trace_closest(dag, {start, shading.light}, 1e300).found;
+  return trace_closest(dag, {start, shading.light}).found;
 }
 
 // Lambert under one sun and a sky that is bright above and dim below.
@@ -49,7 +49,7 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
     const Vec3 corner{{i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1],
                        i & 4 ? box.max[2] : box.min[2]}};
     const Vec3 d = corner - camera.position;
-    const double distance = std::sqrt(dot(d, d));
+    const double distance = length(d);
     shading.near = std::min(shading.near, distance);
     shading.far = std::max(shading.far, distance);
   }

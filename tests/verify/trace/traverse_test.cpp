@@ -73,7 +73,7 @@ TEST(Traverse, FindsTheSameFirstVoxelAsTryingAll) {
     for (int i = 0; i < 400; ++i) {
       const Ray ray = random_ray(random, double(grid.resolution()), i % 3);
       const auto expected = first_entry(ray, voxels);
-      const Hit hit = trace_closest(file.view(), ray, 1e30);
+      const Hit hit = trace_closest(file.view(), ray);
       if (hit.found) {
         ASSERT_TRUE(voxels.count({hit.voxel[0], hit.voxel[1], hit.voxel[2]}));
       }
@@ -90,7 +90,7 @@ TEST(Traverse, FullGridIsHitAtItsFaceAndFullBricksAreNoHole) {
   VoxelSet voxels;
   for (int64_t i = 0; i < 512; ++i) voxels.emplace(i >> 6, i >> 3 & 7, i & 7);
   const RawFile file(raw_dag(test_grid(3), voxels));
-  const Hit hit = trace_closest(file.view(), {{{-5, 2.5, 3.5}}, {{2, 0, 0}}}, 1e30);
+  const Hit hit = trace_closest(file.view(), {{{-5, 2.5, 3.5}}, {{2, 0, 0}}});
   ASSERT_TRUE(hit.found);
   EXPECT_EQ(hit.t, 2.5);
   EXPECT_EQ(hit.axis, 0);
@@ -102,8 +102,8 @@ TEST(Traverse, FullGridIsHitAtItsFaceAndFullBricksAreNoHole) {
 TEST(Traverse, StopsAtTheEndOfTheRay) {
   const RawFile file(raw_dag(test_grid(5), {{20, 3, 3}}));
   const Ray ray{{{-4, 3.5, 3.5}}, {{1, 0, 0}}};
-  EXPECT_TRUE(trace_closest(file.view(), ray, 24.5).found);
-  EXPECT_FALSE(trace_closest(file.view(), ray, 23.5).found);
+  EXPECT_TRUE(trace_closest(file.view(), ray, {0, 24.5}).found);
+  EXPECT_FALSE(trace_closest(file.view(), ray, {0, 23.5}).found);
 }
 
 TEST(Traverse, DeepGridsStayExact) {
@@ -112,18 +112,18 @@ TEST(Traverse, DeepGridsStayExact) {
   const RawFile file(raw_dag(test_grid(20), {{last, last, last}, {0, 5, 5}}));
   for (const double offset : {1e-6, 0.5, 1 - 1e-6}) {
     const double n = double(last) + offset;
-    const Hit hit = trace_closest(file.view(), {{{-1e6, n, n}}, {{1, 0, 0}}}, 1e30);
+    const Hit hit = trace_closest(file.view(), {{{-1e6, n, n}}, {{1, 0, 0}}});
     ASSERT_TRUE(hit.found);
     EXPECT_EQ(hit.voxel[0], uint32_t(last));
     EXPECT_EQ(hit.t, 1e6 + double(last));
   }
   const double beside = double(last) - 1e-6;
-  EXPECT_FALSE(trace_closest(file.view(), {{{-1e6, beside, beside}}, {{1, 0, 0}}}, 1e30).found);
+  EXPECT_FALSE(trace_closest(file.view(), {{{-1e6, beside, beside}}, {{1, 0, 0}}}).found);
 }
 
 TEST(Traverse, EmptyDagIsNeverHit) {
   const RawFile file(raw_dag(test_grid(4), {}));
-  EXPECT_FALSE(trace_closest(file.view(), {{{-1, 1, 1}}, {{1, 0.1, 0.1}}}, 1e30).found);
+  EXPECT_FALSE(trace_closest(file.view(), {{{-1, 1, 1}}, {{1, 0.1, 0.1}}}).found);
 }
 
 TEST(Surface, NormalOfAPlaneIsThePlanes) {
@@ -137,7 +137,7 @@ TEST(Surface, NormalOfAPlaneIsThePlanes) {
   }
   const RawFile file(raw_dag(test_grid(6), voxels));
   const Ray ray{{{64, 64, 64}}, normalized({{-1, -1, -1}})};
-  const Hit hit = trace_closest(file.view(), ray, 1e30);
+  const Hit hit = trace_closest(file.view(), ray);
   ASSERT_TRUE(hit.found);
   const Vec3 normal = surface_normal(file.view(), hit, ray.direction);
   EXPECT_GT(dot(normal, normalized({{1, 2, 2}})), 0.99);
