@@ -9,6 +9,7 @@
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
 #include "verify/commands/render.h"
+#include "verify/commands/trace.h"
 
 namespace svdag {
 namespace {
@@ -34,6 +35,31 @@ void add_threads(CLI::App* command, CommonConfig* config) {
       ->type_name("N");
 }
 
+void add_scene(CLI::App* command, SceneConfig* scene) {
+  command->add_option("SCENE", scene->paths, "The scene files it was baked from")->required();
+  command
+      ->add_option("--include", scene->names.include,
+                   "Only parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command
+      ->add_option("--exclude", scene->names.exclude,
+                   "No parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command->add_flag("--skip-invalid", scene->skip_invalid,
+                    "Drop triangles with NaN or infinity, as in the bake");
+}
+
+void add_memory(CLI::App* command, uint64_t* memory) {
+  command
+      ->add_option_function<std::string>(
+          "-m,--memory",
+          [memory](const std::string& text) { *memory = parse_count(text, "--memory"); },
+          "Memory budget of the readers and the triangles held (default: half of the machine)")
+      ->type_name("SIZE");
+}
+
 void add_check(CLI::App* app, int* result) {
   auto config = std::make_shared<CheckConfig>();
   CLI::App* command =
@@ -49,8 +75,7 @@ void add_mesh(CLI::App* app, int* result) {
   CLI::App* command = app->add_subcommand(
       "mesh", "Voxelize the scene again, by other means, and compare every voxel");
   command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("SCENE", config->scene.paths, "The scene files it was baked from")
-      ->required();
+  add_scene(command, &config->scene);
   command
       ->add_option("--judge", config->judge,
                    "Who decides: integer (our exact clipping, the default) or cgal (CGAL's exact "
@@ -64,24 +89,7 @@ void add_mesh(CLI::App* app, int* result) {
           "Compare N drawn bricks instead of all, and bound the error rate")
       ->type_name("N");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
-  command
-      ->add_option("--include", config->scene.names.include,
-                   "Only parts with a name that matches this pattern")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command
-      ->add_option("--exclude", config->scene.names.exclude,
-                   "No parts with a name that matches this pattern")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command->add_flag("--skip-invalid", config->scene.skip_invalid,
-                    "Drop triangles with NaN or infinity, as in the bake");
-  command
-      ->add_option_function<std::string>(
-          "-m,--memory",
-          [config](const std::string& text) { config->memory = parse_count(text, "--memory"); },
-          "Memory budget of the readers and the triangles held (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
   command->footer(
@@ -93,7 +101,8 @@ void add_mesh(CLI::App* app, int* result) {
 
 void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
-  CLI::App* command = app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
+  CLI::App* command =
+      app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
   command->add_option("A", config->a, "A .svdag file")->required();
   command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
       ->required();
@@ -115,6 +124,27 @@ void add_diff(CLI::App* app, int* result) {
       ->type_name("N");
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_trace(CLI::App* app, int* result) {
+  auto config = std::make_shared<TraceConfig>();
+  CLI::App* command = app->add_subcommand(
+      "trace", "Send rays through the DAG and through the triangles (by Embree), and compare");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_scene(command, &config->scene);
+  command
+      ->add_option_function<std::string>(
+          "--rays",
+          [config](const std::string& text) { config->rays = parse_count(text, "--rays"); },
+          "How many rays (default 1,000,000)")
+      ->type_name("N");
+  command->add_option("--seed", config->seed, "Seed of the rays (default 1)")->type_name("N");
+  add_memory(command, &config->memory);
+  add_threads(command, &config->common);
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify trace sponza.svdag sponza.glb\n") +
+                  kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -155,6 +185,7 @@ int run_program(int argc, char** argv) {
   add_check(&app, &result);
   add_mesh(&app, &result);
   add_diff(&app, &result);
+  add_trace(&app, &result);
   add_render(&app, &result);
   try {
     app.parse(argc, argv);

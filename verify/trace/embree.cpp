@@ -11,7 +11,8 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle = sizeof(VoxelTriangle) + 9 * sizeof(float) + 3 * sizeof(uint32_t);
+constexpr uint64_t kBytesPerTriangle =
+    sizeof(VoxelTriangle) + 9 * sizeof(float) + 3 * sizeof(uint32_t);
 
 // Books what Embree allocates; what the budget refuses ends the build with an error code.
 class MemoryMonitor {

@@ -1,14 +1,15 @@
 // Rays against the triangles themselves, by Embree: the judge of what the DAG's rays hit.
 //
-// Embree (Wald et al. 2014) finds which triangle a ray meets, and which are near a point, in floats.
-// It gets the coordinates that lose least: voxels relative to a point in their middle, so that a
-// vertex moves by 2^-25 of the extent at most, and rays that floats hold exactly (`float_ray`).
-// Every hit it proposes is asked again in double against the snapped triangle (triangle.h), before
-// it can count or hide another: a filter inside the search, so coincident triangles are not lost.
-// Distances are of the snapped triangles in double; Embree only lists the candidates.
+// Embree (Wald et al. 2014) finds which triangle a ray meets, and which are near a point, in
+// floats. It gets the coordinates that lose least: voxels relative to a point in their middle, so
+// that a vertex moves by 2^-25 of the extent at most, and rays that floats hold exactly
+// (`float_ray`). Every hit it proposes is asked again in double against the snapped triangle
+// (triangle.h), before it can count or hide another: a filter inside the search, so coincident
+// triangles are not lost. Distances are of the snapped triangles in double; Embree only lists the
+// candidates.
 //
-// What Embree's floats miss stays missed: near a silhouette, within float_error() of an edge. A judge
-// that must not miss would be a traversal of our own, which is what is to be judged.
+// What Embree's floats miss stays missed: near a silhouette, within float_error() of an edge. A
+// judge that must not miss would be a traversal of our own, which is what is to be judged.
 //
 // This is the only part of svdag that knows Embree; it needs all triangles in memory.
 #pragma once
@@ -25,8 +26,8 @@ namespace svdag {
 
 struct TriangleHit {
   uint32_t triangle = 0;
-  double t = 0;       // in lengths of the ray's direction
-  double cosine = 0;  // of the angle between ray and normal
+  double t = 0;           // in lengths of the ray's direction
+  double cosine = 0;      // of the angle between ray and normal
   bool doubtful = false;  // within doubt() of an edge, or along the plane: it may pass beside
 };
 

@@ -1,8 +1,8 @@
 // The set voxel nearest to a point.
 //
-// Branch and bound (Roussopoulos et al. 1995): a node is left out when the box of its voxels' centres
-// is further away than the best voxel so far; children are visited from the point's own octant
-// outwards, so the best is good from the start.
+// Branch and bound (Roussopoulos et al. 1995): a node is left out when the box of its voxels'
+// centres is further away than the best voxel so far; children are visited from the point's own
+// octant outwards, so the best is good from the start.
 #pragma once
 
 #include "verify/trace/traverse.h"
@@ -10,7 +10,7 @@
 namespace svdag {
 
 struct NearestVoxel {
-  bool found = false;  // false: no centre is nearer than what was asked for
+  bool found = false;   // false: no centre is nearer than what was asked for
   double distance = 0;  // from the point to the voxel's centre, in voxels
   uint32_t voxel[3] = {};
 };

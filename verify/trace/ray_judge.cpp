@@ -10,10 +10,6 @@ namespace {
 constexpr uint64_t kChunk = 4096;  // rays, voxels or points of one task
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-double voxels_of(const Ray& ray) {
-  return std::sqrt(dot(ray.direction, ray.direction));
-}
-
 // Where all triangles and voxels are: rays are drawn around it.
 VoxelBounds scene_box(const DagView& dag, std::span<const VoxelTriangle> triangles,
                       const VoxelBox& selection) {
@@ -144,7 +140,7 @@ void RayJudge::judge_ray(uint64_t index, RayJudgement* result) const {
   const auto [begin, end] = inside(config_.selection, ray, tracer_.doubt());
   std::optional<TriangleHit> triangle;
   if (begin <= end) triangle = tracer_.closest(ray, begin, end);
-  const Hit voxel = trace_closest(dag_, ray, 1e300);
+  const Hit voxel = trace_closest(dag_, ray);
   compare_hits(index, ray, voxel, triangle, result);
   if (!voxel.found) return;
   Vec3 centre;
@@ -160,7 +156,7 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
     return;
   }
   ++(voxel.found ? result->both : result->triangle_only);
-  const double nearer = voxel.found ? (triangle->t - voxel.t) * voxels_of(ray) : -kInfinite;
+  const double nearer = voxel.found ? (triangle->t - voxel.t) * length(ray.direction) : -kInfinite;
   if (voxel.found) {
     const auto bin = std::upper_bound(kDepthBins.begin(), kDepthBins.end(), nearer);
     ++result->depth[size_t(bin - kDepthBins.begin())];
@@ -170,8 +166,8 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
   if (nearer >= -tracer_.doubt() / triangle->cosine) return;
   ++(triangle->doubtful ? result->doubtful : result->late);
   if (!triangle->doubtful)
-    show(result, {RayOffender::What::kLate, index, ray.origin + ray.direction * triangle->t,
-                  -nearer});
+    show(result,
+         {RayOffender::What::kLate, index, ray.origin + ray.direction * triangle->t, -nearer});
 }
 
 void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const {

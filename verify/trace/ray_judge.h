@@ -2,7 +2,8 @@
 //
 // Two claims follow from the rules of occupancy (docs/accuracy.md) and are judged:
 //
-//   (a) no triangle is hit without a voxel at or before it. Conservative: a point of a triangle lies
+//   (a) no triangle is hit without a voxel at or before it. Conservative: a point of a triangle
+//   lies
 //       in a set voxel's closed cube, whatever the ray. Thin: only for rays along an axis through
 //       centres of voxels, since "every line of centres that meets the projected triangle sets
 //       exactly one voxel of the line", the one where it crosses; other rays may pass between the
@@ -14,7 +15,8 @@
 // between surface and centres of voxels both ways (Hausdorff; the conservative bound is half a
 // diagonal for both).
 //
-// A hit that passes within doubt() of an edge is no proof that the ray does hit: it is counted apart.
+// A hit that passes within doubt() of an edge is no proof that the ray does hit: it is counted
+// apart.
 #pragma once
 
 #include <array>
@@ -39,9 +41,9 @@ struct RayJudgeConfig {
 struct RayOffender {
   enum class What { kLate, kFar };
   What what;
-  uint64_t ray;           // its number; of kFar that are no ray's: the voxel's
-  Vec3 point;             // of the triangle that was hit; of kFar the voxel's centre
-  double by;              // kLate: voxels between the hits (infinite: no voxel); kFar: the distance
+  uint64_t ray;  // its number; of kFar that are no ray's: the voxel's
+  Vec3 point;    // of the triangle that was hit; of kFar the voxel's centre
+  double by;     // kLate: voxels between the hits (infinite: no voxel); kFar: the distance
 };
 
 // Upper ends of the bins of depth errors, in voxels: how much nearer the DAG's hit is.

@@ -1,6 +1,9 @@
 #include "verify/trace/test_rays.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "verify/trace/sampling.h"
 
 namespace svdag {
 namespace {
@@ -16,8 +19,7 @@ Vec3 random_direction(RayRandom& random) {
 
 Vec3 random_point(const VoxelBounds& box, RayRandom& random) {
   Vec3 point;
-  for (int a = 0; a < 3; ++a)
-    point[a] = box.min[a] + random.unit() * (box.max[a] - box.min[a]);
+  for (int a = 0; a < 3; ++a) point[a] = box.min[a] + random.unit() * (box.max[a] - box.min[a]);
   return point;
 }
 
@@ -30,7 +32,7 @@ TriangleSampler::TriangleSampler(std::span<const VoxelTriangle> triangles, Memor
   double sum = 0;
   for (const VoxelTriangle& t : triangles) {
     const Vec3 normal = cross(t.v[1] - t.v[0], t.v[2] - t.v[0]);
-    areas_.push_back(sum += std::sqrt(dot(normal, normal)));
+    areas_.push_back(sum += length(normal));
   }
 }
 
@@ -68,17 +70,25 @@ Ray TestRays::ray(uint64_t index) const {
       ray = camera_.ray(x, y);
       break;
     }
-    case RayKind::kChord: ray = chord(random); break;
-    case RayKind::kInside: ray = inside(random); break;
-    case RayKind::kAxis: ray = along_axis(random); break;
-    case RayKind::kSurface: ray = at_surface(random); break;
+    case RayKind::kChord:
+      ray = chord(random);
+      break;
+    case RayKind::kInside:
+      ray = inside(random);
+      break;
+    case RayKind::kAxis:
+      ray = along_axis(random);
+      break;
+    case RayKind::kSurface:
+      ray = at_surface(random);
+      break;
   }
   return float_ray(ray, tracer_.middle());
 }
 
 Ray TestRays::chord(RayRandom& random) const {
   const Vec3 middle = (box_.min + box_.max) * 0.5, half = (box_.max - box_.min) * 0.5;
-  const double radius = std::sqrt(dot(half, half));
+  const double radius = length(half);
   const Vec3 from = middle + random_direction(random) * radius;
   const Vec3 to = middle + random_direction(random) * radius;
   return {from, to - from};
@@ -95,8 +105,8 @@ Ray TestRays::along_axis(RayRandom& random) const {
   const bool forward = choice >> 32 & 1, from_outside = choice >> 33 & 1;
   Ray ray{random_point(box_, random), {}};
   for (int a = 0; a < 3; ++a) ray.origin[a] = std::floor(ray.origin[a]) + 0.5;
-  if (from_outside) ray.origin[axis] = std::floor(forward ? box_.min[axis] : box_.max[axis]) +
-                                       (forward ? -2 : 2);
+  if (from_outside)
+    ray.origin[axis] = std::floor(forward ? box_.min[axis] : box_.max[axis]) + (forward ? -2 : 2);
   ray.direction[axis] = forward ? 1 : -1;
   return ray;
 }
@@ -104,13 +114,12 @@ Ray TestRays::along_axis(RayRandom& random) const {
 Ray TestRays::at_surface(RayRandom& random) const {
   const TriangleSampler::Sample sample = sampler_.draw(random);
   const uint64_t choice = random.next();
-  // A point of the unit sphere on top of a unit normal: cosine-distributed.
-  Vec3 out = random_direction(random) + sample.normal * (choice & 1 ? 1 : -1);
-  if (dot(out, out) < 1e-12) out = sample.normal;
-  out = normalized(out);
+  const Vec3 side = sample.normal * (choice & 1 ? 1 : -1);
+  const double x = random.unit(), y = random.unit();
+  const Vec3 out = cosine_direction(side, {x, y});
   if (choice >> 1 & 1) return {sample.point + out * 2, out};
   const Vec3 size = box_.max - box_.min;
-  const double furthest = std::max(4.0, std::sqrt(dot(size, size)));
+  const double furthest = std::max(4.0, length(size));
   return {sample.point + out * (2 * std::pow(furthest / 2, random.unit())), out * -1};
 }
 

@@ -4,7 +4,8 @@
 //   chord     between two points on the sphere around the scene: every place, every direction
 //   inside    from anywhere in the scene's box: most begin in empty space, some in a voxel
 //   axis      along an axis through centres of voxels, where every plane is met at once
-//   surface   from a point of a triangle, cosine-distributed on either side: away from it, beginning
+//   surface   from a point of a triangle, cosine-distributed on either side: away from it,
+//   beginning
 //             two voxels off, or towards it, from further away. What is aimed at cannot be missed.
 //
 // Ray i depends on the seed and on i alone, so any number of threads ask the same rays. All are

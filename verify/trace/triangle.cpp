@@ -1,14 +1,11 @@
 #include "verify/trace/triangle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace svdag {
 namespace {
-
-double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
 
 double distance_to_segment(const Vec3& point, const Vec3& from, const Vec3& to) {
   const Vec3 along = to - from, w = point - from;
