@@ -102,8 +102,9 @@ Ray TestRays::inside(RayRandom& random) const {
 Ray TestRays::along_axis(RayRandom& random) const {
   const uint64_t choice = random.next();
   const int axis = int(choice % 3);
-  const bool forward = choice >> 32 & 1, from_outside = choice >> 33 & 1;
-  Ray ray{random_point(box_, random), {}};
+  const bool forward = choice >> 32 & 1, from_outside = choice >> 33 & 1,
+             aimed = choice >> 34 & 1 && !sampler_.empty();
+  Ray ray{aimed ? sampler_.draw(random).point : random_point(box_, random), {}};
   for (int a = 0; a < 3; ++a) ray.origin[a] = std::floor(ray.origin[a]) + 0.5;
   if (from_outside)
     ray.origin[axis] = std::floor(forward ? box_.min[axis] : box_.max[axis]) + (forward ? -2 : 2);

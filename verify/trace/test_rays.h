@@ -3,7 +3,7 @@
 //   camera    through a framed picture: what a user sees first
 //   chord     between two points on the sphere around the scene: every place, every direction
 //   inside    from anywhere in the scene's box: most begin in empty space, some in a voxel
-//   axis      along an axis through centres of voxels, where every plane is met at once
+//   axis      along an axis through centres of voxels, half of them near a point of a triangle
 //   surface   from a point of a triangle, cosine-distributed on either side: away from it,
 //   beginning
 //             two voxels off, or towards it, from further away. What is aimed at cannot be missed.
@@ -48,6 +48,8 @@ class TriangleSampler {
   };
 
   TriangleSampler(std::span<const VoxelTriangle> triangles, MemoryBudget* budget);
+  bool empty() const { return areas_.empty(); }
+  // There must be a triangle.
   Sample draw(RayRandom& random) const;
 
  private:

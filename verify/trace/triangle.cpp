@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/float_rounding.h"
+
 namespace svdag {
 namespace {
 
@@ -54,8 +56,8 @@ Ray float_ray(const Ray& ray, const Vec3& middle) {
   const Vec3 direction = normalized(ray.direction);
   Ray result;
   for (int a = 0; a < 3; ++a) {
-    result.origin[a] = middle[a] + double(float(ray.origin[a] - middle[a]));
-    result.direction[a] = double(float(direction[a]));
+    result.origin[a] = middle[a] + round_to_float(ray.origin[a] - middle[a]);
+    result.direction[a] = round_to_float(direction[a]);
   }
   return result;
 }
