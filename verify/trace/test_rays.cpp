@@ -80,7 +80,7 @@ Ray TestRays::ray(uint64_t index) const {
       ray = along_axis(random);
       break;
     case RayKind::kSurface:
-      ray = at_surface(random);
+      ray = sampler_.empty() ? chord(random) : at_surface(random);
       break;
   }
   return float_ray(ray, tracer_.middle());
