@@ -1,0 +1,187 @@
+// MRays/s of one thread, by the DAG and by Embree on the triangles, in turns:
+//
+//   trace_rows FILE.svdag SCENE LIGHT VIEW...
+//
+// LIGHT is x,y,z,r0,r1,...  VIEW is px,py,pz,tx,ty,tz,fov; both in units of the world. Prints CSV.
+// Each figure is the median of kRounds rounds, in each of which every method traces the same rays
+// once; time is the thread's processor time, so other work on the machine counts little.
+#include "tests/bench/trace_rows.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "streaming/error.h"
+#include "tests/bench/depth_first.h"
+#include "tests/verify/trace/plain_traversal.h"
+#include "verify/snapped_scene.h"
+#include "verify/trace/triangle.h"
+
+namespace svdag::bench {
+namespace {
+
+constexpr int kRounds = 5;
+constexpr double kReaches[] = {1, 0.05};  // of ambient occlusion, of the scene's diagonal
+constexpr double kConeSpread = 0.15740341311655586;  // 2 tan(4.5 degrees): the paper's cone of 9
+
+struct Contestant {
+  const char* name;
+  std::function<RayRun(const RayBatch&)> trace;
+};
+
+// Our rays through `dag`; `trace_one(ray, span)` says whether there is a hit.
+template <class TraceOne>
+RayRun run_rays(const RayBatch& batch, const TraceOne& trace_one) {
+  RayRun run;
+  const double start = thread_seconds();
+  for (size_t i = 0; i < batch.rays.size(); ++i)
+    run.hits += trace_one(batch.rays[i], batch.span(i));
+  run.seconds = thread_seconds() - start;
+  return run;
+}
+
+std::function<RayRun(const RayBatch&)> along_paths(const DagView& dag, const Cut& cut = {}) {
+  return [&dag, cut](const RayBatch& batch) {
+    Tracer tracer(dag);
+    return run_rays(batch, [&](const Ray& ray, const Span& span) {
+      return tracer.closest(ray, span, cut).found;
+    });
+  };
+}
+
+std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
+                             const DepthFirstDag& one) {
+  return {{"svdag", along_paths(dag)},
+          {"svdag, plain",
+           [&](const RayBatch& batch) {
+             return run_rays(batch, [&](const Ray& ray, const Span& span) {
+               return plain_closest(dag, ray, span).found;
+             });
+           }},
+          {"svdag, from the root",
+           [&](const RayBatch& batch) {
+             return run_rays(batch, [&](const Ray& ray, const Span& span) {
+               return trace_closest(dag, ray, span).found;
+             });
+           }},
+          {"svdag, cut", along_paths(dag, {0xffffffffU, kConeSpread})},
+          {"svdag, depth-first", along_paths(levels.view())},
+          {"svdag, depth-first, one section", along_paths(one.view())}};
+}
+
+std::vector<Contestant> embree(const EmbreePeer& peer) {
+  using Way = EmbreePeer::Way;
+  const auto with = [&](Way way, bool coherent) {
+    return [&peer, way, coherent](const RayBatch& batch) {
+      return batch.any ? peer.any(batch.float_rays, way, coherent)
+                       : peer.closest(batch.float_rays, way, coherent);
+    };
+  };
+  return {{"Embree, 1", with(Way::kSingle, false)},
+          {"Embree, 8", with(Way::kPacket8, false)},
+          {"Embree, 8 coherent", with(Way::kPacket8, true)},
+          {"Embree, 16", with(Way::kPacket16, false)},
+          {"Embree, 16 coherent", with(Way::kPacket16, true)},
+          {"Embree, stream coherent", with(Way::kStream, true)}};
+}
+
+void measure(const RayBatch& batch, const std::vector<Contestant>& contestants) {
+  std::vector<std::vector<double>> seconds(contestants.size());
+  std::vector<uint64_t> hits(contestants.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
+      const RayRun run = contestants[i].trace(batch);
+      seconds[i].push_back(run.seconds);
+      hits[i] = run.hits;
+    }
+  }
+  for (size_t i = 0; i < contestants.size(); ++i) {
+    std::sort(seconds[i].begin(), seconds[i].end());
+    std::printf("%s,%zu,\"%s\",%.4f,%llu\n", batch.name.c_str(), batch.rays.size(),
+                contestants[i].name, 1e-6 * double(batch.rays.size()) / seconds[i][kRounds / 2],
+                static_cast<unsigned long long>(hits[i]));
+  }
+  std::fflush(stdout);
+}
+
+std::vector<double> numbers(const char* text) {
+  std::vector<double> values;
+  const char* end = text + std::char_traits<char>::length(text);
+  while (text < end) {
+    double value = 0;
+    const auto [next, error] = std::from_chars(text, end, value);
+    if (error != std::errc()) fail_usage(std::string("not a list of numbers: ") + text);
+    values.push_back(value);
+    text = next + (next < end);
+  }
+  return values;
+}
+
+Vec3 to_voxels(const Grid& grid, const double* world) {
+  const Point corner = grid.corner();
+  Vec3 result;
+  for (int a = 0; a < 3; ++a) result[a] = (world[a] - corner[a]) / grid.voxel_size;
+  return result;
+}
+
+ViewConfig views(const Grid& grid, const VoxelBounds& box, char** light, char** end) {
+  ViewConfig config;
+  const std::vector<double> at = numbers(*light);
+  config.light = to_voxels(grid, at.data());
+  for (size_t i = 3; i < at.size(); ++i) config.light_radii.push_back(at[i] / grid.voxel_size);
+  for (const double share : kReaches) config.reaches.push_back(share * length(box.max - box.min));
+  for (char** view = light + 1; view < end; ++view) {
+    const std::vector<double> v = numbers(*view);
+    if (v.size() != 7) fail_usage("a view has seven numbers: px,py,pz,tx,ty,tz,fov");
+    config.cameras.push_back(look_at(to_voxels(grid, &v[0]), to_voxels(grid, &v[3]), 1, v[6],
+                                     double(config.width) / config.height));
+  }
+  return config;
+}
+
+std::vector<FloatTriangle> load(const char* path, const Grid& grid, const Vec3& middle) {
+  SceneConfig config;
+  config.paths = {path};
+  MemoryBudget budget;
+  std::vector<FloatTriangle> triangles;
+  stream_snapped(Scene(config, &budget), grid, [&](std::span<const LatticeTriangle> batch) {
+    for (const LatticeTriangle& lattice : batch) {
+      const VoxelTriangle t = in_voxels(lattice, grid.fraction());
+      FloatTriangle& to = triangles.emplace_back();
+      for (int i = 0; i < 9; ++i) to.v[i / 3][i % 3] = float(t.v[i / 3][i % 3] - middle[i % 3]);
+    }
+  });
+  return triangles;
+}
+
+int run(int argc, char** argv) {
+  if (argc < 5) fail_usage("usage: trace_rows FILE.svdag SCENE LIGHT VIEW...");
+  const DagFile file = DagFile::open(argv[1]);
+  const DagView& dag = file.view();
+  const double half = dag.resolution() / 2;
+  const Vec3 middle{{half, half, half}};
+  const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
+  const EmbreePeer peer(triangles);
+  const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
+  const DepthFirstDag levels(dag, DepthFirstDag::Sections::kPerLevel);
+  const DepthFirstDag one(dag, DepthFirstDag::Sections::kOne);
+  std::vector<Contestant> contestants = ours(dag, levels, one);
+  for (const Contestant& contestant : embree(peer)) contestants.push_back(contestant);
+  std::printf("workload,rays,method,mrays,hits\n");
+  for (const RayBatch& batch : make_batches(dag, config, middle)) measure(batch, contestants);
+  return 0;
+}
+
+}  // namespace
+}  // namespace svdag::bench
+
+int main(int argc, char** argv) {
+  try {
+    return svdag::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "trace_rows: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,39 @@
+// The rays of `make bench-trace`: the same for the DAG and for the triangles.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/dag/dag_file.h"
+#include "tests/bench/peers/embree.h"
+#include "verify/trace/workload.h"
+
+namespace svdag::bench {
+
+// Of one workload: `any` asks whether something is hit before the end, else the closest hit.
+struct RayBatch {
+  std::string name;
+  bool any = false;
+  std::vector<Ray> rays;             // directions of length 1
+  std::vector<FloatRay> float_rays;  // the same rays, bit by bit, relative to the middle
+
+  // Adds the ray nearest to `ray` that floats hold.
+  void add(const Ray& ray, double end, const Vec3& middle);
+  Span span(size_t i) const { return {0, double(float_rays[i].end)}; }
+};
+
+// All lengths in units of the world.
+struct ViewConfig {
+  std::vector<Camera> cameras;  // in voxels
+  uint32_t width = 320, height = 180;
+  Vec3 light;                       // in voxels
+  std::vector<double> light_radii;  // in voxels
+  std::vector<double> reaches;      // of ambient occlusion, in voxels
+  uint32_t samples = 64;            // soft and ao: rays of one pixel, of every 16th pixel
+};
+
+// Primary rays in tiles of 8 x 8 pixels; from what they show shadow, soft and ao rays.
+std::vector<RayBatch> make_batches(const DagView& dag, const ViewConfig& config,
+                                   const Vec3& middle);
+
+}  // namespace svdag::bench
