@@ -10,6 +10,7 @@
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
+#   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
 #   clean   remove build/ and demo/
@@ -25,7 +26,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-accuracy bundle cuda clean
+  bench-accuracy bench-trace bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -80,8 +81,12 @@ bench-out-of-core: build
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
+	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
+
+bench-trace: build
+	@cmake --build --preset $(PRESET) --target trace_rows
+	@$(PYTHON) tests/bench/bench_trace.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

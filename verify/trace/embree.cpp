@@ -27,7 +27,7 @@ class MemoryMonitor {
   }
 
  private:
-  static constexpr const char* kPurpose = "Embree's tree over the triangles";
+  static constexpr const char* kPurpose = "nodes of Embree's tree";
 
   bool count(ssize_t bytes) {
     const std::lock_guard lock(mutex_);

@@ -184,7 +184,7 @@ TEST(Embree, KeepsToTheBudget) {
   MemoryBudget some(13'000'000);  // the triangles fit, the tree does not
   TriangleTracer tracer({}, soup.size(), 1, &some);
   tracer.add(soup, grid.fraction());
-  EXPECT_SVDAG_ERROR(tracer.build(), ExitCode::kMemory, "tree");
+  EXPECT_SVDAG_ERROR(tracer.build(), ExitCode::kMemory, "nodes of Embree");
 }
 
 #else
