@@ -9,6 +9,7 @@
 
 #include "io/dag/dag_file.h"
 #include "tests/verify/trace/plain_traversal.h"
+#include "verify/trace/rays.h"
 #include "verify/trace/workload.h"
 
 namespace svdag {
@@ -28,15 +29,17 @@ struct Batch {
 };
 
 void measure(const DagView& dag, const Batch& batch) {
-  uint64_t sums[3] = {}, steps[3] = {};
-  double seconds[3] = {1e9, 1e9, 1e9};
+  uint64_t sums[4] = {}, steps[4] = {};
+  double seconds[4] = {1e9, 1e9, 1e9, 1e9};
   for (int round = 0; round < 3; ++round) {
-    for (int how = 0; how < 3; ++how) {
+    for (int how = 0; how < 4; ++how) {
       uint64_t sum = 0, n = 0;
       Tracer tracer(dag);
+      std::vector<Hit> hits(batch.rays.size());
       const double start = now();
+      if (how == 3) trace_closest(dag, batch.rays.data(), batch.rays.size(), batch.span, {}, hits.data());
       for (const Ray& ray : batch.rays) {
-        const Hit hit = how == 0   ? plain_closest(dag, ray, batch.span)
+        const Hit hit = how == 3 ? hits[size_t(&ray - batch.rays.data())] : how == 0   ? plain_closest(dag, ray, batch.span)
                         : how == 1 ? trace_closest(dag, ray, batch.span)
                                    : tracer.closest(ray, batch.span);
         sum = sum * 31 + hit.found + hit.voxel[0] + 3 * hit.voxel[1] + 7 * hit.voxel[2] + uint64_t(hit.axis);
@@ -48,10 +51,10 @@ void measure(const DagView& dag, const Batch& batch) {
     }
   }
   std::printf("%-8s %8zu rays", batch.name, batch.rays.size());
-  for (int how = 0; how < 3; ++how)
+  for (int how = 0; how < 4; ++how)
     std::printf("  %6.2f MRays/s (%5.1f steps)", 1e-6 * double(batch.rays.size()) / seconds[how],
                 double(steps[how]) / double(batch.rays.size()));
-  std::printf("%s\n", sums[0] == sums[1] && sums[1] == sums[2] ? "" : "  DIFFERENT");
+  std::printf("%s\n", sums[0] == sums[1] && sums[1] == sums[2] && sums[3] == sums[1] ? "" : "  DIFFERENT");
 }
 
 int run(int argc, char** argv) {

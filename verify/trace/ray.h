@@ -81,6 +81,7 @@ struct MirroredRay {
   double inverse[3];  // 1 / slope
   unsigned flip = 0;  // child number (4x + 2y + z) of the axes that are flipped
 
+  MirroredRay() = default;
   SVDAG_HD MirroredRay(const Ray& ray, uint32_t resolution) {
     double largest = 0;
     for (int a = 0; a < 3; ++a) {

@@ -5,7 +5,8 @@
 // bit per axis and level chooses the child, no arithmetic on times. On: three far planes, the first
 // one is the exit; the new cell is origin + slope * t, rounded down. Up: the highest bit in which
 // old and new cell differ is the level of their common ancestor, so the walk resumes there at once
-// (no popping), also between rays, whose paths share most of the way when they start close together.
+// (no popping), also between rays, whose paths share most of the way when they start close
+// together.
 //
 // The octant ahead: a ray only moves up along the (mirrored) axes, so of a node only the children
 // at or above its cell on all axes can still be met. If the mask holds none of those, the whole
@@ -137,11 +138,14 @@ class Tracer::Walk {
       const unsigned c = child_at(shift) ^ ray_.flip;
       const uint32_t* word = dag_.words[k] + node;
       const uint32_t mask = word[0];
+      const uint32_t others = mask & ahead_.children(c) & ~(1U << c);
+      const uint32_t leave = others != 0 ? 1U << shift : alone_[k];
       if (!(mask >> c & 1U)) {
         *level = k;
-        side_ = (mask & ahead_.children(c)) != 0 ? 1U << shift : 2U << shift;
+        side_ = leave;
         return kNone;
       }
+      alone_[k + 1] = leave;
       node = word[1 + popcount8(mask & ((1U << c) - 1U))];
       tracer_.path_[k + 1] = node;
       if (kCut && cut_.solid(k + 1, double(1U << shift), t_)) {
@@ -162,7 +166,7 @@ class Tracer::Walk {
     if ((byte & ahead_.children(voxel)) != 0) {
       side_ = 1;
     } else {
-      side_ = (brick & ahead_.voxels(cell_)) != 0 ? 2 : 4;
+      side_ = (brick & ahead_.voxels(cell_)) != 0 ? 2 : alone_[dag_.brick_level()];
     }
     return kNone;
   }
@@ -224,11 +228,15 @@ class Tracer::Walk {
   }
 
   // The deepest node of the last ray's path that this ray's first cell shares.
-  SVDAG_HD uint32_t resume() const {
+  SVDAG_HD uint32_t resume() {
+    alone_[0] = dag_.resolution();
+    if (kCut) return 0;  // the cubes on the way may be solid
     uint32_t differ = 0;
     for (int a = 0; a < 3; ++a) differ |= as_in_file(a) ^ tracer_.cell_[a];
     const uint32_t common = differ == 0 ? kNone : dag_.levels - 1 - highest_bit(differ);
-    return kCut ? 0 : common < tracer_.known_ ? common : tracer_.known_;
+    const uint32_t level = common < tracer_.known_ ? common : tracer_.known_;
+    for (uint32_t k = 0; k < level; ++k) alone_[k + 1] = dag_.resolution() >> (k + 1);
+    return level;
   }
 
   SVDAG_HD void leave(uint32_t level) {
@@ -247,6 +255,8 @@ class Tracer::Walk {
   const Ahead ahead_;
   double margin_, t_ = 0, end_ = 0;
   uint32_t cell_[3], side_ = 0, steps_ = 0;
+  uint32_t alone_[kMaxSections];  // the side of the largest cube around path_[k] with nothing else
+                                  // ahead
 };
 
 SVDAG_HD inline Hit Tracer::closest(const Ray& ray, const Span& span, const Cut& cut) {

@@ -1,5 +1,5 @@
-// The plain traversal, the reference of verify/trace/traverse.h: a frame per level, one cube at a time,
-// children by the planes in their middle, and no position but what the planes say.
+// The plain traversal, the reference of verify/trace/traverse.h: a frame per level, one cube at a
+// time, children by the planes in their middle, and no position but what the planes say.
 #pragma once
 
 #include "verify/trace/ray.h"
@@ -96,7 +96,7 @@ class PlainTraversal {
 
 // The first solid cube that the ray meets within `span`.
 inline Hit plain_closest(const DagView& dag, const Ray& ray, const Span& span = {},
-                                  const Cut& cut = {}) {
+                         const Cut& cut = {}) {
   return PlainTraversal(dag, ray, cut).closest(span);
 }
 
