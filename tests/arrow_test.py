@@ -54,7 +54,7 @@ LIBRARIES = {
     r"CGAL/": r"verify/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge_vdb\.cpp|io/formats/vdb\.cpp",
     r"nanovdb/": r"io/formats/nvdb\.cpp",
-    r"embree": r"verify/trace/embree\.cpp",
+    r"embree": r"verify/trace/embree\.cpp|tests/bench/peers/embree\.cpp",
     r"hwy/": r"builder/kernel[\w-]*\.(h|cpp)",
     r"zstd|xxhash": r"streaming/\w+\.cpp",
     r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/(commands/)?\w+\.cpp|tests/.*",

@@ -17,6 +17,8 @@
 #include "tests/bench/depth_first.h"
 #include "tests/verify/trace/plain_traversal.h"
 #include "verify/snapped_scene.h"
+#include "verify/trace/processor.h"
+#include "verify/trace/rays.h"
 #include "verify/trace/triangle.h"
 
 namespace svdag::bench {
@@ -26,49 +28,67 @@ constexpr int kRounds = 5;
 constexpr double kReaches[] = {1, 0.05};  // of ambient occlusion, of the scene's diagonal
 constexpr double kConeSpread = 0.15740341311655586;  // 2 tan(4.5 degrees): the paper's cone of 9
 
+using Method = std::function<RayRun(const RayBatch&)>;
+
 struct Contestant {
   const char* name;
-  std::function<RayRun(const RayBatch&)> trace;
+  Method trace;
 };
 
-// Our rays through `dag`; `trace_one(ray, span)` says whether there is a hit.
-template <class TraceOne>
-RayRun run_rays(const RayBatch& batch, const TraceOne& trace_one) {
-  RayRun run;
-  const double start = thread_seconds();
-  for (size_t i = 0; i < batch.rays.size(); ++i)
-    run.hits += trace_one(batch.rays[i], batch.span(i));
-  run.seconds = thread_seconds() - start;
-  return run;
+// As the program traces them.
+Method in_batches(const DagView& dag, const Cut& cut = {}) {
+  return [&dag, cut](const RayBatch& batch) {
+    const size_t count = batch.rays.size();
+    std::vector<uint8_t> found(batch.any ? count : 0);
+    std::vector<Hit> hits(batch.any ? 0 : count);
+    RayRun run;
+    const double start = thread_seconds();
+    if (batch.any) {
+      trace_any(dag, batch.rays.data(), count, batch.span, cut, found.data());
+    } else {
+      trace_closest(dag, batch.rays.data(), count, batch.span, cut, hits.data());
+    }
+    run.seconds = thread_seconds() - start;
+    for (const uint8_t one : found) run.hits += one;
+    for (const Hit& hit : hits) run.hits += hit.found;
+    return run;
+  };
 }
 
-std::function<RayRun(const RayBatch&)> along_paths(const DagView& dag, const Cut& cut = {}) {
-  return [&dag, cut](const RayBatch& batch) {
-    Tracer tracer(dag);
-    return run_rays(batch, [&](const Ray& ray, const Span& span) {
-      return tracer.closest(ray, span, cut).found;
-    });
+// One by one; `trace_one(ray, span)` says whether there is a hit.
+template <class TraceOne>
+Method one_by_one(const TraceOne& trace_one, bool fast) {
+  return [trace_one, fast](const RayBatch& batch) {
+    RayRun run;
+    const auto all = [&] {
+      for (const Ray& ray : batch.rays) run.hits += trace_one(ray, batch.span);
+    };
+    const double start = thread_seconds();
+    if (fast) {
+      run_fast(all);
+    } else {
+      all();
+    }
+    run.seconds = thread_seconds() - start;
+    return run;
   };
 }
 
 std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
                              const DepthFirstDag& one) {
-  return {{"svdag", along_paths(dag)},
-          {"svdag, plain",
-           [&](const RayBatch& batch) {
-             return run_rays(batch, [&](const Ray& ray, const Span& span) {
-               return plain_closest(dag, ray, span).found;
-             });
-           }},
-          {"svdag, from the root",
-           [&](const RayBatch& batch) {
-             return run_rays(batch, [&](const Ray& ray, const Span& span) {
-               return trace_closest(dag, ray, span).found;
-             });
-           }},
-          {"svdag, cut", along_paths(dag, {0xffffffffU, kConeSpread})},
-          {"svdag, depth-first", along_paths(levels.view())},
-          {"svdag, depth-first, one section", along_paths(one.view())}};
+  const auto plain = [&dag](const Ray& ray, const Span& span) {
+    return plain_closest(dag, ray, span).found;
+  };
+  const auto from_root = [&dag](const Ray& ray, const Span& span) {
+    return Tracer(dag).closest(ray, span).found;
+  };
+  return {{"svdag", in_batches(dag)},
+          {"svdag, plain", one_by_one(plain, true)},
+          {"svdag, from the root", one_by_one(from_root, true)},
+          {"svdag, from the root, old instructions", one_by_one(from_root, false)},
+          {"svdag, cut", in_batches(dag, {0xffffffffU, kConeSpread})},
+          {"svdag, depth-first", in_batches(levels.view())},
+          {"svdag, depth-first, one section", in_batches(one.view())}};
 }
 
 std::vector<Contestant> embree(const EmbreePeer& peer) {

@@ -14,12 +14,12 @@ namespace svdag::bench {
 struct RayBatch {
   std::string name;
   bool any = false;
-  std::vector<Ray> rays;             // directions of length 1
+  Span span{0, 0x1p100};  // of every ray
+  std::vector<Ray> rays;
   std::vector<FloatRay> float_rays;  // the same rays, bit by bit, relative to the middle
 
   // Adds the ray nearest to `ray` that floats hold.
-  void add(const Ray& ray, double end, const Vec3& middle);
-  Span span(size_t i) const { return {0, double(float_rays[i].end)}; }
+  void add(const Ray& ray, const Vec3& middle);
 };
 
 // All lengths in units of the world.

@@ -51,13 +51,22 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
                     "Drop triangles with NaN or infinity, as in the bake");
 }
 
-void add_memory(CLI::App* command, uint64_t* memory) {
+// A number as people write it: "10M".
+void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
+               const char* type = "N") {
+  const std::string name = option.substr(option.find("--"));
   command
       ->add_option_function<std::string>(
-          "-m,--memory",
-          [memory](const std::string& text) { *memory = parse_count(text, "--memory"); },
-          "Memory budget of the readers and the triangles held (default: half of the machine)")
-      ->type_name("SIZE");
+          option,
+          [name, count](const std::string& value) { *count = parse_count(value, name.c_str()); },
+          text)
+      ->type_name(type);
+}
+
+void add_memory(CLI::App* command, uint64_t* memory) {
+  add_count(command, "-m,--memory", memory,
+            "Memory budget of the readers and the triangles held (default: half of the machine)",
+            "SIZE");
 }
 
 void add_check(CLI::App* app, int* result) {
@@ -82,12 +91,8 @@ void add_mesh(CLI::App* app, int* result) {
                    "kernel; slow)")
       ->check(CLI::IsMember({"integer", "cgal"}))
       ->type_name("JUDGE");
-  command
-      ->add_option_function<std::string>(
-          "--sample",
-          [config](const std::string& text) { config->sample = parse_count(text, "--sample"); },
-          "Compare N drawn bricks instead of all, and bound the error rate")
-      ->type_name("N");
+  add_count(command, "--sample", &config->sample,
+            "Compare N drawn bricks instead of all, and bound the error rate");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
@@ -114,14 +119,8 @@ void add_diff(CLI::App* app, int* result) {
       ->add_option("--write-diff", config->write_diff,
                    "Write the differing voxels as a PLY of points: red only A, blue only B")
       ->type_name("X.ply");
-  command
-      ->add_option_function<std::string>(
-          "--write-most",
-          [config](const std::string& text) {
-            config->write_most = parse_count(text, "--write-most");
-          },
-          "Refuse to write more points than this (default 10M)")
-      ->type_name("N");
+  add_count(command, "--write-most", &config->write_most,
+            "Refuse to write more points than this (default 10M)");
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
   command->callback([config, result] { *result = run(*config); });
@@ -133,12 +132,7 @@ void add_trace(CLI::App* app, int* result) {
       "trace", "Send rays through the DAG and through the triangles (by Embree), and compare");
   command->add_option("FILE", config->file, "The .svdag file")->required();
   add_scene(command, &config->scene);
-  command
-      ->add_option_function<std::string>(
-          "--rays",
-          [config](const std::string& text) { config->rays = parse_count(text, "--rays"); },
-          "How many rays (default 1,000,000)")
-      ->type_name("N");
+  add_count(command, "--rays", &config->rays, "How many rays (default 1,000,000)");
   command->add_option("--seed", config->seed, "Seed of the rays (default 1)")->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
