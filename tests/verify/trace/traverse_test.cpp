@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "tests/verify/soup.h"
-#include "verify/trace/camera.h"
 #include "verify/trace/surface.h"
 
 namespace svdag {
@@ -141,33 +140,6 @@ TEST(Surface, NormalOfAPlaneIsThePlanes) {
   ASSERT_TRUE(hit.found);
   const Vec3 normal = surface_normal(file.view(), hit, ray.direction);
   EXPECT_GT(dot(normal, normalized({{1, 2, 2}})), 0.99);
-}
-
-TEST(Camera, FramesTheWholeBox) {
-  const VoxelBounds box{{{10, 20, 30}}, {{110, 60, 230}}};
-  for (const double aspect : {0.5, 1.0, 2.0}) {
-    for (int up = 0; up < 3; ++up) {
-      const Camera camera = frame_box(box, up, 40, aspect);
-      for (int i = 0; i < 8; ++i) {
-        const Vec3 corner{{i & 1 ? 110. : 10., i & 2 ? 60. : 20., i & 4 ? 230. : 30.}};
-        const Vec3 d = corner - camera.position;
-        const double depth = dot(d, camera.forward);
-        ASSERT_GT(depth, 0);
-        EXPECT_LE(std::abs(dot(d, camera.right)), depth * camera.slope * aspect);
-        EXPECT_LE(std::abs(dot(d, camera.up)), depth * camera.slope);
-      }
-    }
-  }
-}
-
-TEST(Camera, BoundsOfSmallGridsAreThoseOfTheBricks) {
-  const RawFile file(raw_dag(test_grid(6), {{5, 40, 63}, {20, 41, 0}}));
-  const VoxelBounds box = occupied_bounds(file.view());
-  const Vec3 min{{4, 40, 0}}, max{{24, 44, 64}};
-  for (int a = 0; a < 3; ++a) {
-    EXPECT_EQ(box.min[a], min[a]);
-    EXPECT_EQ(box.max[a], max[a]);
-  }
 }
 
 }  // namespace
