@@ -22,7 +22,7 @@ LIGHT = "0,7,0,0.1,0.5,2"  # its position and its radii
 NAMES = {"soft shadow 0": "soft shadow, light of 0.1 m", "soft shadow 1": "soft shadow, light of 0.5 m",
          "soft shadow 2": "soft shadow, light of 2 m", "ao 0": "AO, as far as the scene",
          "ao 1": "AO, 5 % of the scene"}
-OURS = {"svdag": "svdag", "svdag, plain": "plain", "svdag, from the root": "from the root",
+OURS = {"svdag": "svdag", "svdag, without beams": "without beams", "svdag, plain": "plain", "svdag, from the root": "from the root",
         "svdag, from the root, old instructions": "from the root, x86-64 of 2003", "svdag, cut": "cone of 9°",
         "svdag, depth-first": "depth-first", "svdag, depth-first, one section": "depth-first, one section"}
 TARGETS = {"primary": 0.5, "ao 0": 1.0, "ao 1": 1.0}
@@ -68,7 +68,7 @@ def against(rows):
     for case, own in grouped(rows).items():
         mine, peer, single = own["svdag"], best_embree(own), own["Embree, 1"]
         ratio = mine["mrays"] / peer["mrays"]
-        cut = own["svdag, cut"]["mrays"] / peer["mrays"] if case[1] not in ("primary", "hard shadow") else None
+        cut = own["svdag, cut"]["mrays"] / peer["mrays"] if case[1].startswith(("soft", "ao")) else None
         lines.append([name_of(case), f"{mine['rays']:,}", f"{mine['mrays']:.2f}",
                       f"{peer['mrays']:.2f} ({peer['method'].removeprefix('Embree, ')})", f"{ratio:.2f}",
                       f"{mine['mrays'] / single['mrays']:.2f}", f"{cut:.2f}" if cut else "", target(case, ratio),

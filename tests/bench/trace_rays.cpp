@@ -2,19 +2,18 @@
 
 #include "io/float_rounding.h"
 #include "tests/bench/trace_rows.h"
+#include "verify/trace/beam.h"
 
 namespace svdag::bench {
 namespace {
 
-constexpr uint32_t kTileSide = 8;
-
 // Calls visit(x, y) for all pixels, tile by tile: rays that lie together are traced together.
 template <class Visit>
 void for_tiles(uint32_t width, uint32_t height, const Visit& visit) {
-  for (uint32_t ty = 0; ty < height; ty += kTileSide) {
-    for (uint32_t tx = 0; tx < width; tx += kTileSide) {
-      for (uint32_t y = ty; y < std::min(ty + kTileSide, height); ++y) {
-        for (uint32_t x = tx; x < std::min(tx + kTileSide, width); ++x) visit(x, y);
+  for (uint32_t ty = 0; ty < height; ty += kTile) {
+    for (uint32_t tx = 0; tx < width; tx += kTile) {
+      for (uint32_t y = ty; y < std::min(ty + kTile, height); ++y) {
+        for (uint32_t x = tx; x < std::min(tx + kTile, width); ++x) visit(x, y);
       }
     }
   }

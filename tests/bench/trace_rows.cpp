@@ -17,6 +17,7 @@
 #include "tests/bench/depth_first.h"
 #include "tests/verify/trace/plain_traversal.h"
 #include "verify/snapped_scene.h"
+#include "verify/trace/beam.h"
 #include "verify/trace/processor.h"
 #include "verify/trace/rays.h"
 #include "verify/trace/triangle.h"
@@ -24,8 +25,9 @@
 namespace svdag::bench {
 namespace {
 
-constexpr int kRounds = 5;
-constexpr double kReaches[] = {1, 0.05};  // of ambient occlusion, of the scene's diagonal
+constexpr int kRounds = 3;
+constexpr size_t kBundle = kTile * kTile;  // rays of one beam
+constexpr double kReaches[] = {1, 0.05};   // of ambient occlusion, of the scene's diagonal
 constexpr double kConeSpread = 0.15740341311655586;  // 2 tan(4.5 degrees): the paper's cone of 9
 
 using Method = std::function<RayRun(const RayBatch&)>;
@@ -51,6 +53,30 @@ Method in_batches(const DagView& dag, const Cut& cut = {}) {
     run.seconds = thread_seconds() - start;
     for (const uint8_t one : found) run.hits += one;
     for (const Hit& hit : hits) run.hits += hit.found;
+    return run;
+  };
+}
+
+// The same, each bundle of kBundle rays within the span of its beam: a tile of pixels, or the rays
+// from one pixel to a light. The rays of ambient occlusion have no direction in common.
+Method in_beams(const DagView& dag) {
+  const Method without = in_batches(dag);
+  return [&dag, without](const RayBatch& batch) {
+    if (batch.name.starts_with("ao")) return without(batch);
+    RayRun run;
+    const double start = thread_seconds();
+    run_fast([&] {
+      Tracer tracer(dag);
+      for (size_t i = 0; i < batch.rays.size(); i += kBundle) {
+        const size_t end = std::min(i + kBundle, batch.rays.size());
+        Beam beam;
+        for (size_t k = i; k < end; ++k) beam.add(batch.rays[k]);
+        const Span span = beam.reach(dag, batch.span, {}, batch.any);
+        for (size_t k = i; k < end && span.begin < span.end; ++k)
+          run.hits += tracer.closest(batch.rays[k], span).found;
+      }
+    });
+    run.seconds = thread_seconds() - start;
     return run;
   };
 }
@@ -82,7 +108,8 @@ std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
   const auto from_root = [&dag](const Ray& ray, const Span& span) {
     return Tracer(dag).closest(ray, span).found;
   };
-  return {{"svdag", in_batches(dag)},
+  return {{"svdag", in_beams(dag)},
+          {"svdag, without beams", in_batches(dag)},
           {"svdag, plain", one_by_one(plain, true)},
           {"svdag, from the root", one_by_one(from_root, true)},
           {"svdag, from the root, old instructions", one_by_one(from_root, false)},

@@ -25,7 +25,7 @@ struct RayBatch {
 // All lengths in units of the world.
 struct ViewConfig {
   std::vector<Camera> cameras;  // in voxels
-  uint32_t width = 320, height = 180;
+  uint32_t width = 240, height = 136;
   Vec3 light;                       // in voxels
   std::vector<double> light_radii;  // in voxels
   std::vector<double> reaches;      // of ambient occlusion, in voxels

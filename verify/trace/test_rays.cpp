@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kUp = 1;  // of the camera; any axis serves
+constexpr Vec3 kTowards{{-0.6, -0.5, -0.7}};
 
 Vec3 random_direction(RayRandom& random) {
   const double z = 2 * random.unit() - 1, angle = 2 * kPi * random.unit();
@@ -56,7 +57,7 @@ TriangleSampler::Sample TriangleSampler::draw(RayRandom& random) const {
 TestRays::TestRays(const VoxelBounds& box, const TriangleTracer& tracer,
                    const TriangleSampler& sampler, uint64_t seed)
     : box_(box),
-      camera_(frame_box(box, kUp, Camera::kDefaultFov, 1)),
+      camera_(frame_box(box, kTowards, kUp, Camera::kDefaultFov, 1)),
       tracer_(tracer),
       sampler_(sampler),
       seed_(seed) {}
