@@ -6,7 +6,7 @@
 #include <limits>
 #include <mutex>
 
-#include "streaming/counts.h"
+#include "streaming/error.h"
 
 namespace svdag {
 namespace {
@@ -128,7 +128,8 @@ struct TriangleTracer::Scene {
 TriangleTracer::TriangleTracer(const Vec3& middle, uint64_t most, size_t threads,
                                MemoryBudget* budget)
     : middle_(middle) {
-  as_u32(3 * most, "corners of triangles for Embree");
+  if (most > UINT32_MAX / 3)
+    fail_usage("the scene has more than 2^32 / 3 triangles, whose corners Embree cannot number");
   reservation_ = budget->reserve(most * kBytesPerTriangle, "triangles for Embree");
   scene_ = std::make_unique<Scene>(threads, budget);
   triangles_.reserve(most);

@@ -175,6 +175,12 @@ TEST(Embree, TrianglesWithoutAreaAreNear) {
   }
 }
 
+TEST(Embree, RefusesMoreTrianglesThanItCanNumber) {
+  MemoryBudget budget;
+  EXPECT_SVDAG_ERROR(TriangleTracer({}, (uint64_t(1) << 32) / 3 + 1, 1, &budget), ExitCode::kUsage,
+                     "cannot number");
+}
+
 TEST(Embree, KeepsToTheBudget) {
   const Grid grid = test_grid(10);
   const auto soup = random_soup(grid, 100'000, 1, 10);
