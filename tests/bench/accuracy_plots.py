@@ -111,7 +111,7 @@ def rays_plot(rows, name):
     for row in rows:
         series.setdefault((row["scene"], row["rule"]), []).append(row)
     for (scene, rule), own in series.items():
-        panel.plot([2 ** r["log2"] for r in own], [1e6 * (r["triangle_only"] + r["dag_only"]) / r["rays"] for r in own],
+        panel.plot([2 ** r["log2"] for r in own], [1e6 * r["free_hits"] / r["free_rays"] for r in own],
                    "--o" if rule == "thin" else "-o", markersize=4, label=f"{scene}, {rule}")
     x = [512, 16384]
     panel.plot(x, [4e3, 4e3 * 512 / 16384], color="#999", linewidth=0.8)

@@ -84,6 +84,10 @@ double per_million(uint64_t count, uint64_t of) {
   return of == 0 ? 0 : 1e6 * double(count) / double(of);
 }
 
+uint64_t rays_of_kind(uint64_t rays, size_t kind) {
+  return (rays + kRayKinds - 1 - kind) / kRayKinds;
+}
+
 // "< -1", "-1 .. 0", ..., "> 4".
 std::string bin_name(size_t bin) {
   if (bin == 0) return "< " + format_double(kDepthBins.front());
@@ -117,7 +121,12 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
   std::printf("rays       %s: %s hit both, %s neither, %s only triangles, %s only voxels\n",
               count(r.rays).c_str(), count(r.both).c_str(), count(r.neither).c_str(),
               count(r.triangle_only).c_str(), count(r.dag_only).c_str());
-  std::printf("disagree   %.1f per million\n", per_million(r.triangle_only + r.dag_only, r.rays));
+  std::printf("one side   %.1f per million rays:",
+              per_million(r.triangle_only + r.dag_only, r.rays));
+  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
+    std::printf("%s %s %.1f", kind == 0 ? "" : ",", kRayKindNames[kind],
+                per_million(r.one_side[kind], rays_of_kind(r.rays, kind)));
+  std::printf("\n");
   std::printf("late       %s of %s triangle hits have no voxel at or before them",
               count(r.late).c_str(), count(r.judged).c_str());
   std::printf(" (%s more pass within %.2g voxels of an edge)\n", count(r.doubtful).c_str(),
@@ -156,6 +165,10 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
   const RayJudgement& r = t.result;
   nlohmann::json depth = nlohmann::json::object();
   for (size_t bin = 0; bin < r.depth.size(); ++bin) depth[bin_name(bin)] = r.depth[bin];
+  nlohmann::json one_side = nlohmann::json::object();
+  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
+    one_side[kRayKindNames[kind]] = {{"rays", rays_of_kind(r.rays, kind)},
+                                     {"hits", r.one_side[kind]}};
   const nlohmann::json json = {{"command", "trace"},
                                {"file", file.path()},
                                {"ok", r.ok()},
@@ -169,6 +182,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                {"neither", r.neither},
                                {"triangle_only", r.triangle_only},
                                {"dag_only", r.dag_only},
+                               {"one_side", one_side},
                                {"judged", r.judged},
                                {"late", r.late},
                                {"doubtful", r.doubtful},

@@ -73,6 +73,7 @@ void RayJudgement::append(const RayJudgement& later) {
   neither += later.neither;
   triangle_only += later.triangle_only;
   dag_only += later.dag_only;
+  for (size_t i = 0; i < one_side.size(); ++i) one_side[i] += later.one_side[i];
   judged += later.judged;
   late += later.late;
   doubtful += later.doubtful;
@@ -151,6 +152,7 @@ void RayJudge::judge_ray(uint64_t index, RayJudgement* result) const {
 void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
                             const std::optional<TriangleHit>& triangle,
                             RayJudgement* result) const {
+  if (triangle.has_value() != voxel.found) ++result->one_side[size_t(TestRays::kind(index))];
   if (!triangle) {
     ++(voxel.found ? result->dag_only : result->neither);
     return;

@@ -53,12 +53,13 @@ struct RayJudgement {
   static constexpr size_t kShown = 8;
 
   uint64_t rays = 0, both = 0, neither = 0, triangle_only = 0, dag_only = 0;
-  uint64_t judged = 0;    // triangle hits about which (a) says something
-  uint64_t late = 0;      // of these, against (a)
-  uint64_t doubtful = 0;  // would be, but pass within doubt of an edge
-  uint64_t voxels = 0;    // asked for (b)
-  uint64_t far = 0;       // of these, against (b)
-  uint64_t points = 0;    // of the surface
+  std::array<uint64_t, kRayKinds> one_side{};  // of triangle_only and dag_only, by kind of ray
+  uint64_t judged = 0;                         // triangle hits about which (a) says something
+  uint64_t late = 0;                           // of these, against (a)
+  uint64_t doubtful = 0;                       // would be, but pass within doubt of an edge
+  uint64_t voxels = 0;                         // asked for (b)
+  uint64_t far = 0;                            // of these, against (b)
+  uint64_t points = 0;                         // of the surface
   std::array<uint64_t, kDepthBins.size() + 1> depth{};
   double voxels_to_scene = 0;  // the largest distance
   double scene_to_voxels = 0;

@@ -19,6 +19,7 @@ namespace svdag {
 
 enum class RayKind { kCamera, kChord, kInside, kAxis, kSurface };
 constexpr int kRayKinds = 5;
+constexpr const char* kRayKindNames[kRayKinds] = {"camera", "chord", "inside", "axis", "surface"};
 
 // SplitMix64 (Steele et al. 2014): good numbers from any seed, so each ray can have its own.
 class RayRandom {

@@ -61,6 +61,8 @@ TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
         }
         EXPECT_EQ(r.both + r.neither + r.triangle_only + r.dag_only, kRays);
         EXPECT_EQ(std::accumulate(r.depth.begin(), r.depth.end(), uint64_t(0)), r.both);
+        EXPECT_EQ(std::accumulate(r.one_side.begin(), r.one_side.end(), uint64_t(0)),
+                  r.triangle_only + r.dag_only);
         EXPECT_LE(r.voxels_to_scene, rule == Rule::kThin ? 0.5 : std::sqrt(0.75));
         if (rule == Rule::kConservative) {
           EXPECT_EQ(r.triangle_only, 0U);
