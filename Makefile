@@ -12,6 +12,7 @@
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
+#   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    the tracer for NVIDIA GPUs
@@ -19,8 +20,8 @@
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev \
-  libcgal-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb libgtest-dev \
-  librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
+  libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
+  libgtest-dev librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
 
@@ -29,7 +30,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-cache bench-accuracy bench-vdb bundle deb cuda clean
+  bench-cache bench-accuracy bench-vdb bench-trace bundle deb cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -87,11 +88,14 @@ bench-cache: build
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
+	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
 
 bench-vdb: build
 	@$(PYTHON) tests/bench/vdb_sandwich.py --programs $(PROGRAMS)
+bench-trace: build
+	@cmake --build --preset $(PRESET) --target trace_rows
+	@$(PYTHON) tests/bench/bench_trace.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

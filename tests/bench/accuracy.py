@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`make bench-accuracy`: run time against error, and volume error against resolution.
 
-Runs accuracy_bench and accuracy_volume, writes build/bench/accuracy.csv and volume.csv, the plots
+Runs accuracy_bench, accuracy_volume and `svdag-verify trace`, writes build/bench/accuracy.csv, volume.csv and rays.csv, the plots
 docs/images/accuracy_*.svg, and the tables between the markers in docs/accuracy.md. The real scenes
 are measured where SVDAG_SCENES names their folder; without it docs/ is left alone.
 """
@@ -18,6 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from bench import ROOT, fill  # noqa: E402
 from bench_tables import table  # noqa: E402
 import accuracy_plots  # noqa: E402
+import accuracy_rays  # noqa: E402
 
 OUT = ROOT / "build" / "bench"
 PAGE = ROOT / "docs" / "accuracy.md"
@@ -130,13 +131,29 @@ def machine():
     return f"Processor: {cpu}, {os.cpu_count()} cores. Compiler: {compiler}, release build."
 
 
+def rays(programs, tables_only):
+    """Measures, or reads what was measured last; whether anything was wrong."""
+    path = OUT / "rays.csv"
+    if not tables_only:
+        accuracy_rays.write(accuracy_rays.measure(programs, OUT), path)
+    with open(path, newline="") as file:
+        rows = [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    if "SVDAG_SCENES" in os.environ:
+        fill(PAGE, {"rays": accuracy_rays.rays_table(rows)})
+        accuracy_plots.rays_plot(rows, "accuracy_rays")
+    return any(row["late"] + row["far"] for row in rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--tables-only", action="store_true", help="from the CSV files of the last run")
+    parser.add_argument("--rays-only", action="store_true", help="only the table and the plot of rays")
     options = parser.parse_args()
     programs = options.programs.resolve()
     OUT.mkdir(parents=True, exist_ok=True)
+    if options.rays_only:
+        return rays(programs, options.tables_only)
     rows = run_to_csv(programs / "tests" / "bench" / "accuracy_bench", OUT / "accuracy.csv",
                       not options.tables_only)
     volumes = run_to_csv(programs / "tests" / "bench" / "accuracy_volume", OUT / "volume.csv",
@@ -155,7 +172,7 @@ def main():
     accuracy_plots.error_plot(grouped(rows, "scene"), "accuracy_scenes", columns=3)
     accuracy_plots.error_plot(grouped(rows, "family"), "accuracy_families", columns=3)
     accuracy_plots.volume_plot(volumes, "accuracy_volume")
-    return wrong != 0
+    return rays(programs, options.tables_only) or wrong != 0
 
 
 if __name__ == "__main__":

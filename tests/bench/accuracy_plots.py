@@ -102,3 +102,27 @@ def volume_plot(rows, name):
                  ["solid", "half of the surface voxels"], frameon=False, fontsize=7.5, loc="upper right")
     figure.tight_layout()
     save(figure, name)
+
+
+def rays_plot(rows, name):
+    """Rays that hit on one side alone, over resolution."""
+    figure, panel = pyplot.subplots(figsize=(6.4, 3.6))
+    series = {}
+    for row in rows:
+        series.setdefault((row["scene"], row["rule"]), []).append(row)
+    for (scene, rule), own in series.items():
+        panel.plot([2 ** r["log2"] for r in own], [1e6 * r["free_hits"] / r["free_rays"] for r in own],
+                   "--o" if rule == "thin" else "-o", markersize=4, label=f"{scene}, {rule}")
+    x = [512, 16384]
+    panel.plot(x, [4e3, 4e3 * 512 / 16384], color="#999", linewidth=0.8)
+    panel.annotate("∝ voxel", (16384, 4e3 * 512 / 16384), xytext=(4, -3), textcoords="offset points", color="#777")
+    panel.set_xscale("log", base=2)
+    panel.set_yscale("log")
+    panel.set_xticks(x := [512 * 2**i for i in range(6)], [f"{n}" if n < 1024 else f"{n // 1024}K" for n in x])
+    panel.set_xlim(450, 26000)
+    panel.set_xlabel("resolution")
+    panel.set_ylabel("hits of one side alone, per million rays")
+    panel.grid(alpha=0.25)
+    panel.legend(frameon=False, fontsize=7.5)
+    figure.tight_layout()
+    save(figure, name)

@@ -10,6 +10,7 @@
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
 #include "verify/commands/render.h"
+#include "verify/commands/trace.h"
 #include "verify/commands/vdb.h"
 
 namespace svdag {
@@ -36,6 +37,40 @@ void add_threads(CLI::App* command, CommonConfig* config) {
       ->type_name("N");
 }
 
+void add_scene(CLI::App* command, SceneConfig* scene) {
+  command->add_option("SCENE", scene->paths, "The scene files it was baked from")->required();
+  command
+      ->add_option("--include", scene->names.include,
+                   "Only parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command
+      ->add_option("--exclude", scene->names.exclude,
+                   "No parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command->add_flag("--skip-invalid", scene->skip_invalid,
+                    "Drop triangles with NaN or infinity, as in the bake");
+}
+
+// A number as people write it: "10M".
+void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
+               const char* type = "N") {
+  const std::string name = option.substr(option.find("--"));
+  command
+      ->add_option_function<std::string>(
+          option,
+          [name, count](const std::string& value) { *count = parse_count(value, name.c_str()); },
+          text)
+      ->type_name(type);
+}
+
+void add_memory(CLI::App* command, uint64_t* memory) {
+  add_count(command, "-m,--memory", memory,
+            "Memory budget of the readers and the triangles held (default: half of the machine)",
+            "SIZE");
+}
+
 void add_check(CLI::App* app, int* result) {
   auto config = std::make_shared<CheckConfig>();
   CLI::App* command =
@@ -51,40 +86,18 @@ void add_mesh(CLI::App* app, int* result) {
   CLI::App* command = app->add_subcommand(
       "mesh", "Voxelize the scene again, by other means, and compare every voxel");
   command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("SCENE", config->scene.paths, "The scene files it was baked from")
-      ->required();
+  add_scene(command, &config->scene);
   command
       ->add_option("--judge", config->judge,
                    "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
                    "kernel; slow) or openvdb (two bounds by its distances)")
       ->check(CLI::IsMember({"integer", "cgal", "openvdb"}))
       ->type_name("JUDGE");
-  command
-      ->add_option_function<std::string>(
-          "--sample",
-          [config](const std::string& text) { config->sample = parse_count(text, "--sample"); },
-          "Compare N drawn bricks instead of all, and bound the error rate (openvdb: N windows "
-          "of 512^3 voxels around such bricks)")
-      ->type_name("N");
+  add_count(command, "--sample", &config->sample,
+            "Compare N drawn bricks instead of all, and bound the error rate (openvdb: N windows "
+            "of 512^3 voxels around such bricks)");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
-  command
-      ->add_option("--include", config->scene.names.include,
-                   "Only parts with a name that matches this pattern")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command
-      ->add_option("--exclude", config->scene.names.exclude,
-                   "No parts with a name that matches this pattern")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command->add_flag("--skip-invalid", config->scene.skip_invalid,
-                    "Drop triangles with NaN or infinity, as in the bake");
-  command
-      ->add_option_function<std::string>(
-          "-m,--memory",
-          [config](const std::string& text) { config->memory = parse_count(text, "--memory"); },
-          "Memory budget of the readers and the triangles held (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
   command->footer(
@@ -144,16 +157,26 @@ void add_diff(CLI::App* app, int* result) {
       ->add_option("--write-diff", config->write_diff,
                    "Write the differing voxels as a PLY of points: red only A, blue only B")
       ->type_name("X.ply");
-  command
-      ->add_option_function<std::string>(
-          "--write-most",
-          [config](const std::string& text) {
-            config->write_most = parse_count(text, "--write-most");
-          },
-          "Refuse to write more points than this (default 10M)")
-      ->type_name("N");
+  add_count(command, "--write-most", &config->write_most,
+            "Refuse to write more points than this (default 10M)");
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_trace(CLI::App* app, int* result) {
+  auto config = std::make_shared<TraceConfig>();
+  CLI::App* command = app->add_subcommand(
+      "trace", "Send rays through the DAG and through the triangles (by Embree), and compare");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_scene(command, &config->scene);
+  add_count(command, "--rays", &config->rays, "How many rays (default 1,000,000)");
+  command->add_option("--seed", config->seed, "Seed of the rays (default 1)")->type_name("N");
+  add_memory(command, &config->memory);
+  add_threads(command, &config->common);
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify trace sponza.svdag sponza.glb\n") +
+                  kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -165,7 +188,8 @@ void add_render(CLI::App* app, int* result) {
   command->add_option("-o,--output", config->output, "The PNG to write")
       ->required()
       ->type_name("X.png");
-  command->add_option("--mode", config->mode, "primary, shadow, normal or depth (default primary)");
+  command->add_option("--mode", config->mode,
+                      "primary, shadow, soft, ao, normal, depth, level or steps (default primary)");
   command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
   command
       ->add_option("--camera", config->camera,
@@ -173,6 +197,32 @@ void add_render(CLI::App* app, int* result) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("px,py,pz,tx,ty,tz[,fov]");
+  command->add_option("--preset", config->preset,
+                      "iso, front, back, left, right, top or inside, without --camera "
+                      "(default iso)");
+  command
+      ->add_option("--light", config->light,
+                   "Where the light is, and how large (default: over the left shoulder)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("x,y,z[,radius]");
+  command
+      ->add_option("--samples", config->samples,
+                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
+      ->type_name("N");
+  command
+      ->add_option("--reach", config->reach,
+                   "ao: how far they reach (default: a twentieth of the scene)")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--cone", config->cone,
+                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
+                   "soft 0, which is exact)")
+      ->type_name("DEGREES");
+  command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
+      ->type_name("K");
+  command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
+      ->type_name("N");
   command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
   command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
   add_threads(command, &config->common);
@@ -180,6 +230,7 @@ void add_render(CLI::App* app, int* result) {
   command->footer(
       std::string(
           "Examples: svdag-verify render scene.svdag -o scene.png\n"
+          "          svdag-verify render scene.svdag -o ao.png --mode ao --preset inside\n"
           "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
       kExitCodes);
   command->callback([config, result] { *result = run(*config); });
@@ -195,6 +246,7 @@ int run_program(int argc, char** argv) {
   add_mesh(&app, &result);
   add_diff(&app, &result);
   add_vdb(&app, &result);
+  add_trace(&app, &result);
   add_render(&app, &result);
   try {
     app.parse(argc, argv);

@@ -1,43 +1,95 @@
 #include "verify/commands/render.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include "io/dag/dag_file.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {
 
 ShadeMode parse_mode(const std::string& mode) {
-  if (mode == "primary") return ShadeMode::kPrimary;
-  if (mode == "shadow") return ShadeMode::kShadow;
-  if (mode == "normal") return ShadeMode::kNormal;
-  if (mode == "depth") return ShadeMode::kDepth;
-  fail_usage("--mode: \"" + mode + "\" is not primary, shadow, normal or depth");
+  constexpr const char* kNames[] = {"primary", "shadow", "soft",  "ao",
+                                    "normal",  "depth",  "level", "steps"};
+  for (int i = 0; i < int(std::size(kNames)); ++i) {
+    if (mode == kNames[i]) return ShadeMode(i);
+  }
+  fail_usage("--mode: \"" + mode +
+             "\" is not primary, shadow, soft, ao, normal, depth, level or steps");
+}
+
+// The world's point (c[0], c[1], c[2]) in voxels.
+Vec3 in_voxels(const double* c, const Grid& grid) {
+  const Point corner = grid.corner();
+  Vec3 point;
+  for (int a = 0; a < 3; ++a) point[a] = (c[a] - corner[a]) / grid.voxel_size;
+  return point;
 }
 
 // The camera of --camera, given in the world, or one that frames everything.
-Camera make_camera(const RenderCommandConfig& config, const Grid& grid, int up, double aspect,
+Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int up, double aspect,
                    const VoxelBounds& box) {
   const std::vector<double>& c = config.camera;
-  if (c.empty()) return frame_box(box, up, Camera::kDefaultFov, aspect);
+  if (c.empty())
+    return preset_camera(config.preset, file.view(), box, up, Camera::kDefaultFov, aspect);
   if (c.size() != 6 && c.size() != 7)
     fail_usage("--camera: give px,py,pz,tx,ty,tz or px,py,pz,tx,ty,tz,fov");
   const double fov = c.size() == 7 ? c[6] : Camera::kDefaultFov;
   if (!(fov > 0.1 && fov < 179))
     fail_usage("--camera: the angle of view is not 0.1 to 179 degrees");
-  const Point corner = grid.corner();
-  Vec3 position, target;
-  for (int a = 0; a < 3; ++a) {
-    position[a] = (c[size_t(a)] - corner[a]) / grid.voxel_size;
-    target[a] = (c[size_t(a) + 3] - corner[a]) / grid.voxel_size;
-  }
+  const Grid grid = file.grid();
+  const Vec3 position = in_voxels(c.data(), grid), target = in_voxels(c.data() + 3, grid);
   const Vec3 d = target - position;
   if (!(dot(d, d) > 0 && dot(d, d) < 1e300))
     fail_usage("--camera: position and target must be two different, finite points");
   return look_at(position, target, up, fov, aspect);
+}
+
+// What --light, --samples, --reach, --cone and --level say.
+void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& camera,
+           const VoxelBounds& box, int height, Shading* shading) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  shading->levels = uint32_t(grid.levels);
+  if (!config.light.empty()) {
+    if (config.light.size() != 3 && config.light.size() != 4)
+      fail_usage("--light: give x,y,z or x,y,z,radius");
+    shading->light = {in_voxels(config.light.data(), grid),
+                      config.light.size() == 4 ? config.light[3] / grid.voxel_size : 0};
+    const double far = length(shading->light.centre);
+    if (!(far < 1e100) || !(shading->light.radius >= 0 && shading->light.radius < 1e100))
+      fail_usage("--light: the light must be at a finite place, with a radius of 0 or more");
+  }
+  if (config.samples < 1 || config.samples > 4096)
+    fail_usage("--samples: give 1 to 4096 rays to the light for each camera ray");
+  const bool ao = shading->mode == ShadeMode::kAo;
+  const double cone = config.cone != -1 ? config.cone : ao ? 9 : 0;
+  if (!(cone >= 0 && cone < 45)) fail_usage("--cone: give 0 to 45 degrees");
+  if (!(config.reach >= 0)) fail_usage("--reach: give a length of 0 or more");
+  if (config.level > uint64_t(grid.levels))
+    fail_usage("--level: the finest level of this DAG, its voxels, is " +
+               std::to_string(grid.levels));
+  shading->secondary.samples = uint32_t(config.samples);
+  shading->secondary.reach =
+      config.reach > 0 ? config.reach / grid.voxel_size : 0.05 * length(box.max - box.min);
+  if (ao || shading->mode == ShadeMode::kSoft)
+    shading->secondary.cut.spread = 2 * std::tan(cone * kDegree);
+  if (config.level > 0)
+    shading->primary.level = shading->secondary.cut.level = uint32_t(config.level);
+  if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
+}
+
+// "fly.png" and 7 into "fly_0007.png".
+std::string frame_name(const std::string& path, int frame) {
+  const size_t dot = path.rfind(".png");
+  const bool named = dot != std::string::npos && dot + 4 == path.size();
+  char number[16];
+  std::snprintf(number, sizeof number, "_%04d", frame);
+  return (named ? path.substr(0, dot) : path) + number + ".png";
 }
 
 }  // namespace
@@ -60,10 +112,12 @@ int run(const RenderCommandConfig& config) {
   picture.supersample = config.supersample;
   if (picture.supersample < 1 || picture.supersample > 16)
     fail_usage("--supersample: give 1 to 16 rays across a pixel");
+  if (config.fly < 0 || config.fly > 9999) fail_usage("--fly: give 1 to 9999 frames");
   const size_t up = std::string("xyz").find(config.up);
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   const ShadeMode mode = parse_mode(config.mode);
+  picture.beams = mode != ShadeMode::kSteps;  // they would hide the steps
   if (same_file(config.file, config.output))
     fail_usage(config.output + ": is the input; choose another name for the picture");
 
@@ -71,14 +125,22 @@ int run(const RenderCommandConfig& config) {
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to look at");
   const VoxelBounds box = occupied_bounds(file.view());
   const double aspect = double(picture.width) / picture.height;
-  const Camera camera = make_camera(config, file.grid(), int(up), aspect, box);
-  const Shading shading = make_shading(mode, camera, int(up), box);
+  const Camera first = make_camera(config, file, int(up), aspect, box);
+  // It stays where it is while the camera moves.
+  const Light light = make_shading(mode, first, int(up), box).light;
   ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
   Progress progress(config.common.progress);
-  write_png(render(file.view(), camera, shading, picture, executor, progress), config.output);
-  if (!config.common.quiet)
-    std::printf("%s: %dx%d, %s\n", config.output.c_str(), picture.width, picture.height,
-                config.mode.c_str());
+  for (int frame = 0; frame < std::max(config.fly, 1); ++frame) {
+    const Camera camera = config.fly > 0 ? turned(first, box, int(up), frame, config.fly) : first;
+    Shading shading = make_shading(mode, camera, int(up), box);
+    shading.light = light;
+    apply(config, file.grid(), camera, box, picture.height, &shading);
+    const std::string name = config.fly > 0 ? frame_name(config.output, frame + 1) : config.output;
+    write_png(render(file.view(), camera, shading, picture, executor, progress), name);
+    if (!config.common.quiet)
+      std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,
+                  config.mode.c_str());
+  }
   return int(ExitCode::kOk);
 }
 

@@ -12,11 +12,19 @@ struct RenderCommandConfig {
   CommonConfig common;
   std::string file;
   std::string output;
-  std::string mode = "primary";  // primary, shadow, normal, depth
+  std::string mode = "primary";  // a ShadeMode
   std::string size = "1280x720";
   std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in the world; empty: framed
+  std::string preset = "iso";  // of preset_camera
   std::string up = "y";
   int supersample = 2;
+  std::vector<double> light;  // x,y,z[,radius] in the world; empty: over the left shoulder
+  uint64_t samples = 16;      // rays to the light or the sky for each camera ray
+  double reach = 0;           // of ambient occlusion, in world units; 0: a twentieth of the scene
+  double cone = -1;           // half the angle of such a ray's cone, in degrees; 0: exact;
+                              // default: 9 for ao, 0 for soft
+  uint64_t level = 0;         // cubes of this level are solid; 0: voxels
+  int fly = 0;                // frames of a turn; 0: one picture
 };
 
 int run(const RenderCommandConfig& config);

@@ -1,6 +1,7 @@
 #include "verify/trace/camera.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace svdag {
 namespace {
@@ -36,11 +37,6 @@ void grow(const DagView& dag, uint32_t level, uint32_t node, const Vec3& corner,
 
 }  // namespace
 
-Ray Camera::ray(double x, double y) const {
-  const double h = (2 * x - 1) * slope * aspect, v = (1 - 2 * y) * slope;
-  return {position, normalized(forward + right * h + up * v)};
-}
-
 Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect) {
   Camera camera{position, {}, {}, normalized(target - position), slope_of(fov), aspect};
   Vec3 world_up{};
@@ -49,19 +45,15 @@ Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, dou
   // Straight up or down: any horizontal direction is right.
   if (dot(camera.right, camera.right) < 1e-12) {
     camera.right = Vec3{};
-    camera.right[(up + 2) % 3] = 1;
+    camera.right[up == 0 ? 1 : 0] = 1;
   }
   camera.right = normalized(camera.right);
   camera.up = cross(camera.right, camera.forward);
   return camera;
 }
 
-Camera frame_box(const VoxelBounds& box, int up, double fov, double aspect) {
+Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect) {
   const Vec3 center = (box.min + box.max) * 0.5;
-  Vec3 towards{};  // from the centre to the camera
-  towards[up] = 0.55;
-  towards[(up + 1) % 3] = up == 1 ? 1.0 : 0.62;
-  towards[(up + 2) % 3] = up == 1 ? 0.62 : -1.0;
   Camera camera = look_at(center + towards, center, up, fov, aspect);
   // Far enough that every corner of the box projects into the image.
   double distance = 0;

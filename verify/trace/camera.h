@@ -20,14 +20,17 @@ struct Camera {
 
   // The ray through image position (x, y), both 0 .. 1 from the upper left corner; its direction
   // has length 1.
-  Ray ray(double x, double y) const;
+  SVDAG_HD Ray ray(double x, double y) const {
+    const double h = (2 * x - 1) * slope * aspect, v = (1 - 2 * y) * slope;
+    return {position, normalized(forward + right * h + up * v)};
+  }
 };
 
 // From `position` towards `target`; `up` is an axis (0 .. 2) of the world.
 Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect);
 
-// A three-quarter view from above on `box` that just holds it.
-Camera frame_box(const VoxelBounds& box, int up, double fov, double aspect);
+// A view on the middle of `box`, from the direction `towards`, that just holds it.
+Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect);
 
 // The box of what is set, to within 1/256 of the grid: good enough to frame a picture.
 VoxelBounds occupied_bounds(const DagView& dag);

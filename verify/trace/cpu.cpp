@@ -1,30 +1,130 @@
 #include "verify/trace/cpu.h"
 
+#include <algorithm>
+
+#include "verify/trace/beam.h"
+#include "verify/trace/rays.h"
+
 namespace svdag {
+namespace {
+
+// The rays of one tile; the room is used again for the next.
+class Tile {
+ public:
+  Tile(const DagView& dag, const Camera& camera, const Shading& shading, const RenderConfig& config)
+      : dag_(dag), camera_(camera), shading_(shading), config_(config) {}
+
+  void render(int left, int top, Image* image) {
+    left_ = left, top_ = top;
+    width_ = std::min(int(kTile), config_.width - left);
+    height_ = std::min(int(kTile), config_.height - top);
+    aim();
+    look();
+    ask_light();
+    paint(image);
+  }
+
+ private:
+  int per_pixel() const { return config_.supersample * config_.supersample; }
+
+  // Camera rays, pixel by pixel.
+  void aim() {
+    rays_.clear();
+    const int n = config_.supersample;
+    for (int p = 0; p < width_ * height_; ++p) {
+      for (int i = 0; i < n * n; ++i) {
+        const double x = left_ + p % width_ + (i % n + 0.5) / n;
+        const double y = top_ + p / width_ + (i / n + 0.5) / n;
+        rays_.push_back(camera_.ray(x / config_.width, y / config_.height));
+      }
+    }
+  }
+
+  void look() {
+    hits_.resize(rays_.size());
+    const Span span = config_.beams ? reach(rays_, {}, shading_.primary, false) : Span{};
+    trace_closest(dag_, rays_.data(), rays_.size(), span, shading_.primary, hits_.data());
+    surfels_.clear();
+    const bool wanted = shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
+    for (size_t i = 0; i < rays_.size(); ++i)
+      surfels_.push_back(wanted ? make_surfel(dag_, rays_[i], hits_[i]) : Surfel{});
+  }
+
+  Span reach(const std::vector<Ray>& rays, const Span& span, const Cut& cut, bool both) const {
+    Beam beam;
+    for (const Ray& ray : rays) beam.add(ray);
+    return beam.reach(dag_, span, cut, both);
+  }
+
+  // How much of the light, or the sky, each surfel sees.
+  void ask_light() {
+    seen_.assign(rays_.size(), 1);
+    const bool ao = shading_.mode == ShadeMode::kAo;
+    if (!ao && shading_.mode != ShadeMode::kShadow && shading_.mode != ShadeMode::kSoft) return;
+    const uint32_t n = shading_.mode == ShadeMode::kShadow ? 1 : shading_.secondary.samples;
+    secondary_.clear();
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      for (uint32_t k = 0; surfels_[i].found && k < n; ++k) secondary_.push_back(ray(i, k, n));
+    }
+    Span span{0, ao ? shading_.secondary.reach : 1};
+    if (!ao && config_.beams && !secondary_.empty())
+      span = reach(secondary_, span, shading_.secondary.cut, true);
+    blocked_.resize(secondary_.size());
+    trace_any(dag_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
+              blocked_.data());
+    size_t at = 0;
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      if (!surfels_[i].found) continue;
+      const auto first = blocked_.begin() + std::ptrdiff_t(at);
+      const auto blocked = std::count(first, first + n, uint8_t(1));
+      seen_[i] = 1 - double(blocked) / n;
+      at += n;
+    }
+  }
+
+  Ray ray(size_t i, uint32_t k, uint32_t n) const {
+    const int pixel = int(i) / per_pixel();
+    const uint64_t x = uint64_t(left_ + pixel % width_), y = uint64_t(top_ + pixel / width_);
+    const uint64_t number = (y << 32 | x) << 8 | (i % size_t(per_pixel()));
+    if (shading_.mode == ShadeMode::kShadow) return shadow_ray(surfels_[i], shading_.light);
+    return shading_.mode == ShadeMode::kSoft ? soft_ray(surfels_[i], shading_.light, number, k, n)
+                                             : occlusion_ray(surfels_[i], number, k, n);
+  }
+
+  void paint(Image* image) const {
+    const int n = per_pixel();
+    for (int p = 0; p < width_ * height_; ++p) {
+      Vec3 sum{};
+      for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
+        sum = sum + shade(shading_, rays_[i], hits_[i], surfels_[i], seen_[i]);
+      const Vec3 colour = sum * (1.0 / n);
+      const int x = left_ + p % width_, y = top_ + p / width_;
+      shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);
+    }
+  }
+
+  const DagView& dag_;
+  const Camera& camera_;
+  const Shading& shading_;
+  const RenderConfig& config_;
+  int left_ = 0, top_ = 0, width_ = 0, height_ = 0;
+  std::vector<Ray> rays_, secondary_;
+  std::vector<Hit> hits_;
+  std::vector<Surfel> surfels_;
+  std::vector<uint8_t> blocked_;
+  std::vector<double> seen_;
+};
+
+}  // namespace
 
 Image render(const DagView& dag, const Camera& camera, const Shading& shading,
              const RenderConfig& config, Executor& executor, Progress& progress) {
   Image image(config.width, config.height);
-  const int n = config.supersample;
-  const auto pixel = [&](int x, int y) {
-    Vec3 sum{};
-    for (int i = 0; i < n * n; ++i) {
-      const double sx = (i % n + 0.5) / n, sy = (i / n + 0.5) / n;
-      const Ray ray = camera.ray((x + sx) / config.width, (y + sy) / config.height);
-      sum = sum + shade(shading, dag, ray, trace_closest(dag, ray, 1e300));
-    }
-    return sum * (1.0 / (n * n));
-  };
-  progress.phase("rendering", uint64_t(config.height));
-  executor.for_each(size_t(config.height), [&](size_t, size_t y) {
-    for (int x = 0; x < config.width; ++x) {
-      const Vec3 colour = pixel(x, int(y));
-      if (shading.mode == ShadeMode::kPrimary || shading.mode == ShadeMode::kShadow) {
-        image.set(x, int(y), colour);
-      } else {
-        image.set_raw(x, int(y), colour);
-      }
-    }
+  const size_t rows = (size_t(config.height) + kTile - 1) / kTile;
+  progress.phase("rendering", rows);
+  executor.for_each(rows, [&](size_t, size_t row) {
+    Tile tile(dag, camera, shading, config);
+    for (int x = 0; x < config.width; x += int(kTile)) tile.render(x, int(row * kTile), &image);
     progress.advance();
   });
   progress.finish();

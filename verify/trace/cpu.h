@@ -1,4 +1,4 @@
-// Renders a picture on the processor, a band of rows per task.
+// Renders a picture on the processor, a row of tiles per task.
 #pragma once
 
 #include "streaming/executor.h"
@@ -12,6 +12,7 @@ struct RenderConfig {
   int width = 1280;
   int height = 720;
   int supersample = 2;  // n x n rays per pixel
+  bool beams = true;    // false: every ray starts at the camera (same picture)
 };
 
 Image render(const DagView& dag, const Camera& camera, const Shading& shading,

@@ -1,8 +1,7 @@
 #include "verify/trace/shade.h"
 
 #include <algorithm>
-
-#include "verify/trace/surface.h"
+#include <cmath>
 
 namespace svdag {
 namespace {
@@ -14,26 +13,42 @@ const Vec3 kGround{{0.24, 0.21, 0.19}};
 
 // Light paper, a little darker downwards.
 Vec3 background(const Shading& shading, const Vec3& direction) {
-  if (shading.mode == ShadeMode::kDepth) return {};
   const double h = 0.5 + 0.5 * dot(direction, shading.up);
   return Vec3{{0.62, 0.66, 0.71}} * (1 - h) + Vec3{{0.86, 0.89, 0.93}} * h;
 }
 
-// Whether something stands between the hit and the light. The ray starts a little off the surface,
-// by more than the thickness of a voxelized sheet, so that a wall does not shade itself.
-bool in_shadow(const Shading& shading, const DagView& dag, const Ray& ray, const Hit& hit,
-               const Vec3& normal) {
-  constexpr double kOff = 2.0;  // voxels
-  const Vec3 start = ray.origin + ray.direction * hit.t + (normal + shading.light) * kOff;
-  return trace_closest(dag, {start, shading.light}, 1e300).found;
-}
-
-// Lambert under one sun and a sky that is bright above and dim below.
-Vec3 clay(const Shading& shading, const Vec3& normal, bool lit) {
-  const double sun = lit ? std::max(0.0, dot(normal, shading.light)) : 0;
-  const double sky = 0.5 + 0.5 * dot(normal, shading.up);
+// Lambert under one sun, `seen` of it, and a sky that is bright above and dim below.
+Vec3 clay(const Shading& shading, const Surfel& surfel, double seen) {
+  const Vec3 to_light = normalized(shading.light.centre - surfel.point);
+  const double sun = seen * std::max(0.0, dot(surfel.normal, to_light));
+  const double sky = 0.5 + 0.5 * dot(surfel.normal, shading.up);
   const Vec3 light = kSun * sun + kSky * sky + kGround * (1 - sky);
   return {{kClay[0] * light[0], kClay[1] * light[1], kClay[2] * light[2]}};
+}
+
+// A colour of `stops` (evenly spaced) at v = 0 .. 1.
+template <size_t n>
+Vec3 ramp(const Vec3 (&stops)[n], double v) {
+  const double at = std::clamp(v, 0.0, 1.0) * double(n - 1);
+  const size_t i = std::min(size_t(at), n - 2);
+  return stops[i] * (double(i) + 1 - at) + stops[i + 1] * (at - double(i));
+}
+
+// Work as heat: black body colours.
+Vec3 heat(double v) {
+  const Vec3 stops[] = {{{0, 0, 0}},   {{0.35, 0, 0.1}}, {{0.8, 0.1, 0}},
+                        {{1, 0.6, 0}}, {{1, 0.95, 0.4}}, {{1, 1, 1}}};
+  return ramp(stops, v);
+}
+
+// Levels from the coarsest, blue, to voxels, red; darker where the surface turns away.
+Vec3 level_colour(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel) {
+  const Vec3 stops[] = {{{0.19, 0.07, 0.55}}, {{0.13, 0.4, 0.85}},  {{0.1, 0.7, 0.6}},
+                        {{0.55, 0.8, 0.2}},   {{0.98, 0.75, 0.15}}, {{0.85, 0.15, 0.1}}};
+  constexpr double kShown = 10;  // levels above the voxels that the colours tell apart
+  const double facing = std::abs(dot(surfel.normal, ray.direction));
+  const double below = double(shading.levels - hit.level);
+  return ramp(stops, 1 - below / kShown) * (0.55 + 0.45 * facing);
 }
 
 }  // namespace
@@ -42,14 +57,12 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   Shading shading;
   shading.mode = mode;
   shading.up[up] = 1;
-  shading.light = normalized(camera.forward * -0.55 + camera.right * -0.6 + shading.up * 0.75);
   shading.near = 1e300;
   shading.far = 0;
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner{{i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1],
                        i & 4 ? box.max[2] : box.min[2]}};
-    const Vec3 d = corner - camera.position;
-    const double distance = std::sqrt(dot(d, d));
+    const double distance = length(corner - camera.position);
     shading.near = std::min(shading.near, distance);
     shading.far = std::max(shading.far, distance);
   }
@@ -57,20 +70,32 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   for (int a = 0; a < 3; ++a)
     inside = inside && camera.position[a] >= box.min[a] && camera.position[a] <= box.max[a];
   if (inside) shading.near = 0;
+  const Vec3 towards = normalized(camera.forward * -0.55 + camera.right * -0.6 + shading.up * 0.75);
+  const double distance = 2 * length(box.max - box.min);
+  shading.light = {(box.min + box.max) * 0.5 + towards * distance, 0.05 * distance};
   return shading;
 }
 
-Vec3 shade(const Shading& shading, const DagView& dag, const Ray& ray, const Hit& hit) {
-  if (!hit.found) return background(shading, ray.direction);
-  if (shading.mode == ShadeMode::kDepth) {
-    const double far = std::max(shading.far - shading.near, 1e-9);
-    const double grey = 1 - std::clamp((hit.t - shading.near) / far, 0.0, 1.0);
-    return {{grey, grey, grey}};
+Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel,
+           double seen) {
+  if (shading.mode == ShadeMode::kSteps) return heat(double(hit.steps) / shading.most_steps);
+  if (!hit.found)
+    return shading.mode == ShadeMode::kDepth ? Vec3{} : background(shading, ray.direction);
+  switch (shading.mode) {
+    case ShadeMode::kDepth: {
+      const double far = std::max(shading.far - shading.near, 1e-9);
+      const double grey = 1 - std::clamp((hit.t - shading.near) / far, 0.0, 1.0);
+      return {{grey, grey, grey}};
+    }
+    case ShadeMode::kNormal:
+      return surfel.normal * 0.5 + Vec3{{0.5, 0.5, 0.5}};
+    case ShadeMode::kLevel:
+      return level_colour(shading, ray, hit, surfel);
+    case ShadeMode::kAo:
+      return Vec3{{0.85, 0.85, 0.85}} * seen;
+    default:
+      return clay(shading, surfel, seen);
   }
-  const Vec3 normal = surface_normal(dag, hit, ray.direction);
-  if (shading.mode == ShadeMode::kNormal) return normal * 0.5 + Vec3{{0.5, 0.5, 0.5}};
-  const bool lit = shading.mode != ShadeMode::kShadow || !in_shadow(shading, dag, ray, hit, normal);
-  return clay(shading, normal, lit);
 }
 
 }  // namespace svdag

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""`make bench-trace`: rays through the DAG beside the same rays through the triangles by Embree.
+
+trace_rows (tests/bench/trace_rows.cpp) traces them in turns, one thread; this bakes Sponza, writes
+build/bench/trace.csv, and puts the tables between the markers in docs/performance.md.
+"""
+import argparse
+import csv
+import pathlib
+import subprocess
+import sys
+
+from bakes import Bakes, label
+from bench import OUT, PAGE, ROOT, fill, processor, write_csv
+from bench_tables import table
+
+SCENE = "sponza"
+GRIDS = [12, 14, 16]
+# In the scene's units, metres: inside the atrium; position, target, angle of view.
+VIEWS = ["-7,1.2,0,8,2,0,65", "-7.2,4.6,3.4,6,3.5,-1.5,65", "0,0.3,0.5,-6,2.5,-2.5,70"]
+LIGHT = "0,7,0,0.1,0.5,2"  # its position and its radii
+NAMES = {"soft shadow 0": "soft shadow, light of 0.1 m", "soft shadow 1": "soft shadow, light of 0.5 m",
+         "soft shadow 2": "soft shadow, light of 2 m", "ao 0": "AO, as far as the scene",
+         "ao 1": "AO, 5 % of the scene"}
+OURS = {"svdag": "svdag", "svdag, without beams": "without beams", "svdag, plain": "plain", "svdag, from the root": "from the root",
+        "svdag, from the root, old instructions": "from the root, x86-64 of 2003", "svdag, cut": "cone of 9°",
+        "svdag, depth-first": "depth-first", "svdag, depth-first, one section": "depth-first, one section"}
+TARGETS = {"primary": 0.5, "ao 0": 1.0, "ao 1": 1.0}
+TARGET_GRID = "16K"
+
+
+def measure(programs, bakes, log2):
+    bakes.report(SCENE, log2)
+    done = subprocess.run([programs / "tests" / "bench" / "trace_rows", bakes.dag_file(), bakes.scene(SCENE), LIGHT,
+                           *VIEWS], check=True, stdout=subprocess.PIPE, text=True)
+    rows = [{"grid": label(bakes.log2(log2)), **row} for row in csv.DictReader(done.stdout.splitlines())]
+    return [row | {"rays": int(row["rays"]), "mrays": float(row["mrays"]), "hits": int(row["hits"])} for row in rows]
+
+
+def grouped(rows):
+    """{(grid, workload): {method: row}}"""
+    cases = {}
+    for row in rows:
+        cases.setdefault((row["grid"], row["workload"]), {})[row["method"]] = row
+    return cases
+
+
+def name_of(case):
+    return f"{case[0]}³, {NAMES.get(case[1], case[1])}"
+
+
+def best_embree(own):
+    return max((row for method, row in own.items() if method.startswith("Embree")), key=lambda row: row["mrays"])
+
+
+def share(row):
+    return f"{100 * row['hits'] / row['rays']:.1f}"
+
+
+def target(case, ratio):
+    if case[0] != TARGET_GRID or case[1] not in TARGETS:
+        return ""
+    return f"{TARGETS[case[1]]} {'met' if ratio >= TARGETS[case[1]] else '**missed**'}"
+
+
+def against(rows):
+    lines = []
+    for case, own in grouped(rows).items():
+        mine, peer, single = own["svdag"], best_embree(own), own["Embree, 1"]
+        ratio = mine["mrays"] / peer["mrays"]
+        cut = own["svdag, cut"]["mrays"] / peer["mrays"] if case[1].startswith(("soft", "ao")) else None
+        lines.append([name_of(case), f"{mine['rays']:,}", f"{mine['mrays']:.2f}",
+                      f"{peer['mrays']:.2f} ({peer['method'].removeprefix('Embree, ')})", f"{ratio:.2f}",
+                      f"{mine['mrays'] / single['mrays']:.2f}", f"{cut:.2f}" if cut else "", target(case, ratio),
+                      share(mine), share(peer)])
+    return table(["grid, rays", "rays", "svdag", "best of Embree", "ratio", "to its single rays", "with the cone",
+                  "target", "svdag hits, %", "Embree hits, %"], lines)
+
+
+def ours(rows):
+    lines = [[name_of(case), *[f"{own[method]['mrays']:.2f}" for method in OURS], share(own["svdag"]),
+              share(own["svdag, cut"])] for case, own in grouped(rows).items()]
+    return table(["grid, rays", *OURS.values(), "hits, %", "hits with the cone, %"], lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--coarser", type=int, default=0, metavar="N", help="all grids N doublings lower; needs --csv-only")
+    parser.add_argument("--csv-only", action="store_true", help="leave docs/ alone")
+    options = parser.parse_args()
+    if options.coarser and not options.csv_only:
+        parser.error("--coarser needs --csv-only")
+    bakes = Bakes(options.programs.resolve(), OUT, options.coarser)
+    if bakes.scene(SCENE) is None:
+        sys.exit("SVDAG_SCENES does not name a folder with Crytek Sponza: nothing was measured")
+    rows = []
+    for log2 in GRIDS:
+        rows += measure(options.programs.resolve(), bakes, log2)
+        write_csv(OUT / "trace.csv", rows)
+    bakes.dag_file().unlink(missing_ok=True)
+    contents = {"trace against": f"{processor(1)}, MRays/s.\n\n{against(rows)}", "trace ours": ours(rows)}
+    print("\n\n".join(contents.values()))
+    if not options.csv_only:
+        fill(PAGE, contents)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+// Embree as its users would have it: one mesh, high build quality, single rays, packets and
+// streams.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace svdag::bench {
+
+struct FloatTriangle {
+  float v[3][3];
+};
+
+// A ray relative to the same middle as the triangles, from t = 0.
+struct FloatRay {
+  float origin[3];
+  float direction[3];
+  float end;
+};
+
+struct RayRun {
+  double seconds = 0;  // of this thread's processor time
+  uint64_t hits = 0;
+};
+
+class EmbreePeer {
+ public:
+  enum class Way { kSingle, kPacket8, kPacket16, kStream };
+
+  // `triangles` must outlive this.
+  explicit EmbreePeer(std::span<const FloatTriangle> triangles);
+  ~EmbreePeer();
+
+  // Traces all rays, one after the other or `way` many at once; the layout that Embree wants is
+  // made before the time is taken. `coherent` tells it that neighbouring rays are alike.
+  RayRun closest(std::span<const FloatRay> rays, Way way, bool coherent) const;
+  RayRun any(std::span<const FloatRay> rays, Way way, bool coherent) const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+// Of this thread's processor time: the machine may have other work.
+double thread_seconds();
+
+}  // namespace svdag::bench

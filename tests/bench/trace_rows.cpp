@@ -1,0 +1,234 @@
+// MRays/s of one thread, by the DAG and by Embree on the triangles, in turns:
+//
+//   trace_rows FILE.svdag SCENE LIGHT VIEW...
+//
+// LIGHT is x,y,z,r0,r1,...  VIEW is px,py,pz,tx,ty,tz,fov; both in units of the world. Prints CSV.
+// Each figure is the median of kRounds rounds, in each of which every method traces the same rays
+// once; time is the thread's processor time, so other work on the machine counts little.
+#include "tests/bench/trace_rows.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "streaming/error.h"
+#include "tests/bench/depth_first.h"
+#include "tests/verify/trace/plain_traversal.h"
+#include "verify/snapped_scene.h"
+#include "verify/trace/beam.h"
+#include "verify/trace/processor.h"
+#include "verify/trace/rays.h"
+#include "verify/trace/triangle.h"
+
+namespace svdag::bench {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr size_t kBundle = kTile * kTile;  // rays of one beam
+constexpr double kReaches[] = {1, 0.05};   // of ambient occlusion, of the scene's diagonal
+constexpr double kConeSpread = 0.15740341311655586;  // 2 tan(4.5 degrees): the paper's cone of 9
+
+using Method = std::function<RayRun(const RayBatch&)>;
+
+struct Contestant {
+  const char* name;
+  Method trace;
+};
+
+// As the program traces them.
+Method in_batches(const DagView& dag, const Cut& cut = {}) {
+  return [&dag, cut](const RayBatch& batch) {
+    const size_t count = batch.rays.size();
+    std::vector<uint8_t> found(batch.any ? count : 0);
+    std::vector<Hit> hits(batch.any ? 0 : count);
+    RayRun run;
+    const double start = thread_seconds();
+    if (batch.any) {
+      trace_any(dag, batch.rays.data(), count, batch.span, cut, found.data());
+    } else {
+      trace_closest(dag, batch.rays.data(), count, batch.span, cut, hits.data());
+    }
+    run.seconds = thread_seconds() - start;
+    for (const uint8_t one : found) run.hits += one;
+    for (const Hit& hit : hits) run.hits += hit.found;
+    return run;
+  };
+}
+
+// The same, each bundle of kBundle rays within the span of its beam: a tile of pixels, or the rays
+// from one pixel to a light. The rays of ambient occlusion have no direction in common.
+Method in_beams(const DagView& dag) {
+  const Method without = in_batches(dag);
+  return [&dag, without](const RayBatch& batch) {
+    if (batch.name.starts_with("ao")) return without(batch);
+    RayRun run;
+    const double start = thread_seconds();
+    run_fast([&] {
+      Tracer tracer(dag);
+      for (size_t i = 0; i < batch.rays.size(); i += kBundle) {
+        const size_t end = std::min(i + kBundle, batch.rays.size());
+        Beam beam;
+        for (size_t k = i; k < end; ++k) beam.add(batch.rays[k]);
+        const Span span = beam.reach(dag, batch.span, {}, batch.any);
+        for (size_t k = i; k < end && span.begin < span.end; ++k)
+          run.hits += tracer.closest(batch.rays[k], span).found;
+      }
+    });
+    run.seconds = thread_seconds() - start;
+    return run;
+  };
+}
+
+// One by one; `trace_one(ray, span)` says whether there is a hit.
+template <class TraceOne>
+Method one_by_one(const TraceOne& trace_one, bool fast) {
+  return [trace_one, fast](const RayBatch& batch) {
+    RayRun run;
+    const auto all = [&] {
+      for (const Ray& ray : batch.rays) run.hits += trace_one(ray, batch.span);
+    };
+    const double start = thread_seconds();
+    if (fast) {
+      run_fast(all);
+    } else {
+      all();
+    }
+    run.seconds = thread_seconds() - start;
+    return run;
+  };
+}
+
+std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
+                             const DepthFirstDag& one) {
+  const auto plain = [&dag](const Ray& ray, const Span& span) {
+    return plain_closest(dag, ray, span).found;
+  };
+  const auto from_root = [&dag](const Ray& ray, const Span& span) {
+    return Tracer(dag).closest(ray, span).found;
+  };
+  return {{"svdag", in_beams(dag)},
+          {"svdag, without beams", in_batches(dag)},
+          {"svdag, plain", one_by_one(plain, true)},
+          {"svdag, from the root", one_by_one(from_root, true)},
+          {"svdag, from the root, old instructions", one_by_one(from_root, false)},
+          {"svdag, cut", in_batches(dag, {0xffffffffU, kConeSpread})},
+          {"svdag, depth-first", in_batches(levels.view())},
+          {"svdag, depth-first, one section", in_batches(one.view())}};
+}
+
+std::vector<Contestant> embree(const EmbreePeer& peer) {
+  using Way = EmbreePeer::Way;
+  const auto with = [&](Way way, bool coherent) {
+    return [&peer, way, coherent](const RayBatch& batch) {
+      return batch.any ? peer.any(batch.float_rays, way, coherent)
+                       : peer.closest(batch.float_rays, way, coherent);
+    };
+  };
+  return {{"Embree, 1", with(Way::kSingle, false)},
+          {"Embree, 8", with(Way::kPacket8, false)},
+          {"Embree, 8 coherent", with(Way::kPacket8, true)},
+          {"Embree, 16", with(Way::kPacket16, false)},
+          {"Embree, 16 coherent", with(Way::kPacket16, true)},
+          {"Embree, stream coherent", with(Way::kStream, true)}};
+}
+
+void measure(const RayBatch& batch, const std::vector<Contestant>& contestants) {
+  std::vector<std::vector<double>> seconds(contestants.size());
+  std::vector<uint64_t> hits(contestants.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
+      const RayRun run = contestants[i].trace(batch);
+      seconds[i].push_back(run.seconds);
+      hits[i] = run.hits;
+    }
+  }
+  for (size_t i = 0; i < contestants.size(); ++i) {
+    std::sort(seconds[i].begin(), seconds[i].end());
+    std::printf("%s,%zu,\"%s\",%.4f,%llu\n", batch.name.c_str(), batch.rays.size(),
+                contestants[i].name, 1e-6 * double(batch.rays.size()) / seconds[i][kRounds / 2],
+                static_cast<unsigned long long>(hits[i]));
+  }
+  std::fflush(stdout);
+}
+
+std::vector<double> numbers(const char* text) {
+  std::vector<double> values;
+  const char* end = text + std::char_traits<char>::length(text);
+  while (text < end) {
+    double value = 0;
+    const auto [next, error] = std::from_chars(text, end, value);
+    if (error != std::errc()) fail_usage(std::string("not a list of numbers: ") + text);
+    values.push_back(value);
+    text = next + (next < end);
+  }
+  return values;
+}
+
+Vec3 to_voxels(const Grid& grid, const double* world) {
+  const Point corner = grid.corner();
+  Vec3 result;
+  for (int a = 0; a < 3; ++a) result[a] = (world[a] - corner[a]) / grid.voxel_size;
+  return result;
+}
+
+ViewConfig views(const Grid& grid, const VoxelBounds& box, char** light, char** end) {
+  ViewConfig config;
+  const std::vector<double> at = numbers(*light);
+  config.light = to_voxels(grid, at.data());
+  for (size_t i = 3; i < at.size(); ++i) config.light_radii.push_back(at[i] / grid.voxel_size);
+  for (const double share : kReaches) config.reaches.push_back(share * length(box.max - box.min));
+  for (char** view = light + 1; view < end; ++view) {
+    const std::vector<double> v = numbers(*view);
+    if (v.size() != 7) fail_usage("a view has seven numbers: px,py,pz,tx,ty,tz,fov");
+    config.cameras.push_back(look_at(to_voxels(grid, &v[0]), to_voxels(grid, &v[3]), 1, v[6],
+                                     double(config.width) / config.height));
+  }
+  return config;
+}
+
+std::vector<FloatTriangle> load(const char* path, const Grid& grid, const Vec3& middle) {
+  SceneConfig config;
+  config.paths = {path};
+  MemoryBudget budget;
+  std::vector<FloatTriangle> triangles;
+  stream_snapped(Scene(config, &budget), grid, [&](std::span<const LatticeTriangle> batch) {
+    for (const LatticeTriangle& lattice : batch) {
+      const VoxelTriangle t = in_voxels(lattice, grid.fraction());
+      FloatTriangle& to = triangles.emplace_back();
+      for (int i = 0; i < 9; ++i) to.v[i / 3][i % 3] = float(t.v[i / 3][i % 3] - middle[i % 3]);
+    }
+  });
+  return triangles;
+}
+
+int run(int argc, char** argv) {
+  if (argc < 5) fail_usage("usage: trace_rows FILE.svdag SCENE LIGHT VIEW...");
+  const DagFile file = DagFile::open(argv[1]);
+  const DagView& dag = file.view();
+  const double half = dag.resolution() / 2;
+  const Vec3 middle{{half, half, half}};
+  const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
+  const EmbreePeer peer(triangles);
+  const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
+  const DepthFirstDag levels(dag, DepthFirstDag::Sections::kPerLevel);
+  const DepthFirstDag one(dag, DepthFirstDag::Sections::kOne);
+  std::vector<Contestant> contestants = ours(dag, levels, one);
+  for (const Contestant& contestant : embree(peer)) contestants.push_back(contestant);
+  std::printf("workload,rays,method,mrays,hits\n");
+  for (const RayBatch& batch : make_batches(dag, config, middle)) measure(batch, contestants);
+  return 0;
+}
+
+}  // namespace
+}  // namespace svdag::bench
+
+int main(int argc, char** argv) {
+  try {
+    return svdag::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "trace_rows: %s\n", error.what());
+    return 2;
+  }
+}

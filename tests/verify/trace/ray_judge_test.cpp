@@ -1,0 +1,171 @@
+// Rays against triangles pass what is right, and see one voxel missing or one voxel too many.
+#include "verify/trace/ray_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/verify/judged_voxels.h"
+#include "tests/verify/soup.h"
+
+namespace svdag {
+namespace {
+
+#ifdef SVDAG_HAS_EMBREE
+
+constexpr uint64_t kRays = 20'000;
+
+struct Case {
+  Grid grid;
+  Rule rule;
+  std::vector<LatticeTriangle> soup;
+
+  VoxelSet voxels() const {
+    if (rule == Rule::kConservative) return soup_voxels(grid, soup);
+    VoxelSet all;
+    for (const LatticeTriangle& t : soup) all.merge(thin_set(t, grid.fraction(), grid.selection));
+    return all;
+  }
+};
+
+RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays) {
+  const RawFile file(raw_dag(c.grid, voxels));
+  MemoryBudget budget;
+  const double half = double(c.grid.resolution() / 2);
+  TriangleTracer tracer({{half, half, half}}, c.soup.size(), 1, &budget);
+  tracer.add(c.soup, c.grid.fraction());
+  tracer.build();
+  const RayJudge judge(file.view(), tracer, {c.rule, c.grid.selection, rays, 1}, &budget);
+  ParallelExecutor executor(2);
+  Progress progress;
+  RayJudgement result = judge.judge_rays(executor, progress);
+  std::vector<LatticePoint> all;
+  for (const auto& [x, y, z] : voxels) all.emplace_back(x, y, z);
+  result.append(judge.judge_voxels(all, executor, progress));
+  result.append(judge.measure_surface(kRays / 10, executor, progress));
+  return result;
+}
+
+TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    for (const int levels : {3, 5, 7}) {
+      for (const int side : {1, 4, 20}) {
+        const Grid grid = test_grid(levels);
+        const Case c{grid, rule, random_soup(grid, 30, uint64_t(levels), side)};
+        const RayJudgement r = judged(c, c.voxels());
+        EXPECT_EQ(r.late, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.far, 0U) << levels << ", " << side;
+        // Triangles of one lattice step are points to floats: no ray is said to hit them.
+        if (side > 1) {
+          EXPECT_GT(r.judged, kRays / 100) << levels << ", " << side;
+        }
+        EXPECT_EQ(r.both + r.neither + r.triangle_only + r.dag_only, kRays);
+        EXPECT_EQ(std::accumulate(r.depth.begin(), r.depth.end(), uint64_t(0)), r.both);
+        EXPECT_EQ(std::accumulate(r.one_side.begin(), r.one_side.end(), uint64_t(0)),
+                  r.triangle_only + r.dag_only);
+        EXPECT_LE(r.voxels_to_scene, rule == Rule::kThin ? 0.5 : std::sqrt(0.75));
+        if (rule == Rule::kConservative) {
+          EXPECT_EQ(r.triangle_only, 0U);
+          EXPECT_EQ(r.depth[0] + r.depth[1], 0U);
+          EXPECT_LE(r.scene_to_voxels, std::sqrt(0.75));
+        }
+      }
+    }
+  }
+}
+
+TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
+  Grid grid = test_grid(6);
+  grid.bounded = true;
+  grid.selection = {LatticePoint(10, 20, 5), LatticePoint(40, 33, 50)};
+  const Case c{grid, Rule::kConservative, random_soup(grid, 60, 3, 30)};
+  const VoxelSet voxels = c.voxels();
+  ASSERT_GT(voxels.size(), 100U);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_TRUE(r.ok());
+  EXPECT_GT(r.both, 1000U);
+}
+
+TEST(RayJudge, OneVoxelMissingIsSeen) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    // A wall across the grid, seen from both sides.
+    const Grid grid = test_grid(4);
+    const int64_t s = int64_t(1) << grid.fraction(), w = 16 * s, x = 7 * s + s / 3;
+    const Case c{grid,
+                 rule,
+                 {{{LatticePoint(x, 0, 0), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}},
+                  {{LatticePoint(x, w, w), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}}}};
+    VoxelSet voxels = c.voxels();
+    EXPECT_TRUE(judged(c, voxels).ok());
+    ASSERT_EQ(voxels.erase({7, 5, 9}), 1U);
+    const RayJudgement r =
+        judged(c, voxels, 10 * kRays);  // of thin, only rays along an axis are judged
+    EXPECT_GT(r.late, 0U);
+    EXPECT_EQ(r.far, 0U);
+    ASSERT_FALSE(r.first.empty());
+    EXPECT_EQ(r.first[0].what, RayOffender::What::kLate);
+    EXPECT_NEAR(r.first[0].point[0], 7 + 1.0 / 3, 1e-6);
+    EXPECT_GE(r.first[0].point[1], 5);
+    EXPECT_LE(r.first[0].point[1], 6);
+    EXPECT_GE(r.first[0].point[2], 9);
+    EXPECT_LE(r.first[0].point[2], 10);
+  }
+}
+
+TEST(RayJudge, OneVoxelTooManyIsSeen) {
+  const Grid grid = test_grid(6);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 1, 5, 4)};
+  VoxelSet voxels = c.voxels();
+  const auto [x, y, z] = *voxels.begin();
+  const VoxelSet::value_type far{(x + 32) % 64, (y + 32) % 64, (z + 32) % 64};
+  voxels.insert(far);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_GT(r.far, 0U);
+  EXPECT_GT(r.voxels_to_scene, 10);
+  ASSERT_FALSE(r.first.empty());
+  EXPECT_EQ(r.first[0].what, RayOffender::What::kFar);
+  EXPECT_EQ(r.first[0].point[0], double(std::get<0>(far)) + 0.5);
+}
+
+TEST(RayJudge, TheWholeGridAsVoxelsIsFarAndNotLate) {
+  const Grid grid = test_grid(3);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 1, 5, 1)};
+  VoxelSet voxels;
+  for (int64_t i = 0; i < 512; ++i) voxels.emplace(i >> 6, i >> 3 & 7, i & 7);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_EQ(r.late, 0U);
+  EXPECT_GT(r.far, 0U);
+}
+
+TEST(RayJudge, VoxelsWithoutAnyTriangleAreFar) {
+  const Grid grid = test_grid(4);
+  EXPECT_TRUE(judged({grid, Rule::kConservative, {}}, {}).ok());
+  const RayJudgement r = judged({grid, Rule::kConservative, {}}, {{3, 4, 5}});
+  EXPECT_GT(r.far, 1U);
+  EXPECT_EQ(r.far, r.voxels);
+  EXPECT_EQ(r.both, 0U);
+}
+
+TEST(RayJudge, ThreadsDoNotReachTheAnswer) {
+  const Grid grid = test_grid(6);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 30, 9, 10)};
+  const RawFile file(raw_dag(grid, c.voxels()));
+  MemoryBudget budget;
+  TriangleTracer tracer({{32, 32, 32}}, c.soup.size(), 1, &budget);
+  tracer.add(c.soup, grid.fraction());
+  tracer.build();
+  const RayJudge judge(file.view(), tracer, {c.rule, grid.selection, kRays, 1}, &budget);
+  Progress progress;
+  SequentialExecutor one;
+  ParallelExecutor three(3);
+  const RayJudgement a = judge.judge_rays(one, progress), b = judge.judge_rays(three, progress);
+  EXPECT_EQ(a.both, b.both);
+  EXPECT_EQ(a.dag_only, b.dag_only);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.voxels_to_scene, b.voxels_to_scene);
+}
+
+#endif
+
+}  // namespace
+}  // namespace svdag

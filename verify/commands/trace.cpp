@@ -1,0 +1,217 @@
+#include "verify/commands/trace.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/sample.h"
+#include "verify/snapped_scene.h"
+#include "verify/trace/ray_judge.h"
+
+namespace svdag {
+namespace {
+
+// Beside the rays: points of the surface, and voxels drawn from the DAG, that are judged.
+constexpr uint64_t kRaysPerPoint = 10;
+
+struct Traced {
+  SceneCounts counts;
+  uint64_t triangles = 0;  // that meet the grid
+  double float_error = 0, doubt = 0, largest_distance = 0;
+  RayJudgement result;
+};
+
+Vec3 middle_of(const VoxelBox& box) {
+  Vec3 middle;
+  for (int a = 0; a < 3; ++a) middle[a] = double((box.min[a] + box.max[a]) / 2);
+  return middle;
+}
+
+// A set voxel of each of `count` drawn bricks.
+std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, uint64_t seed) {
+  std::vector<LatticePoint> voxels;
+  if (dag.empty()) return voxels;
+  Random random(seed);
+  for (const uint64_t code : sample_dag(dag, count, random)) {
+    const LatticePoint at = cell_of_code(code);
+    Brick brick = dag_brick(dag, uint32_t(at.x), uint32_t(at.y), uint32_t(at.z));
+    for (uint64_t skip = random.below(uint64_t(std::popcount(brick))); skip > 0; --skip)
+      brick &= brick - 1;
+    const auto [x, y, z] = brick_voxel(unsigned(std::countr_zero(brick)));
+    voxels.push_back(at * int64_t(kBrickSide) + LatticePoint(x, y, z));
+  }
+  return voxels;
+}
+
+Traced trace(const TraceConfig& config, const DagFile& file) {
+  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
+  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  Progress progress(config.common.progress);
+  const Grid grid = file.grid();
+  const Scene scene(config.scene, &budget);
+  Traced traced;
+  progress.phase("counting triangles", 0);
+  scene.bounds(&traced.counts);
+  TriangleTracer tracer(middle_of(grid.selection), traced.counts.triangles, executor.workers(),
+                        &budget);
+  progress.phase("reading the scene", 0);
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+    tracer.add(batch, grid.fraction());
+  });
+  progress.phase("building Embree's tree", 0);
+  tracer.build();
+  traced.triangles = tracer.triangles().size();
+
+  const RayJudge judge(file.view(), tracer, {file.rule(), grid.selection, config.rays, config.seed},
+                       &budget);
+  const uint64_t points = config.rays / kRaysPerPoint;
+  const std::vector<LatticePoint> voxels = draw_voxels(file.view(), points, config.seed);
+  traced.result = judge.judge_rays(executor, progress);
+  traced.result.append(judge.judge_voxels(voxels, executor, progress));
+  traced.result.append(judge.measure_surface(points, executor, progress));
+  progress.finish();
+  traced.float_error = tracer.float_error();
+  traced.doubt = tracer.doubt();
+  traced.largest_distance = judge.largest_distance();
+  return traced;
+}
+
+double per_million(uint64_t count, uint64_t of) {
+  return of == 0 ? 0 : 1e6 * double(count) / double(of);
+}
+
+uint64_t rays_of_kind(uint64_t rays, size_t kind) {
+  return (rays + kRayKinds - 1 - kind) / kRayKinds;
+}
+
+// "< -1", "-1 .. 0", ..., "> 4".
+std::string bin_name(size_t bin) {
+  if (bin == 0) return "< " + format_double(kDepthBins.front());
+  if (bin == kDepthBins.size()) return ">= " + format_double(kDepthBins.back());
+  return format_double(kDepthBins[bin - 1]) + " .. " + format_double(kDepthBins[bin]);
+}
+
+void print_offender(const Grid& grid, const RayOffender& offender) {
+  const Point corner = grid.corner();
+  const auto world = [&](int a) { return corner[a] + offender.point[a] * grid.voxel_size; };
+  if (offender.what == RayOffender::What::kFar) {
+    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is %.6g voxels from the scene\n",
+                std::floor(offender.point[0]), std::floor(offender.point[1]),
+                std::floor(offender.point[2]), world(0), world(1), world(2), offender.by);
+    return;
+  }
+  std::printf("  ray %llu hits a triangle at (%.9g, %.9g, %.9g), ",
+              static_cast<unsigned long long>(offender.ray), world(0), world(1), world(2));
+  if (std::isinf(offender.by)) {
+    std::printf("and no voxel\n");
+  } else {
+    std::printf("a voxel %.6g voxels later\n", offender.by);
+  }
+}
+
+void print_text(const DagFile& file, const TraceConfig& config, const Traced& t) {
+  const RayJudgement& r = t.result;
+  const auto count = [](uint64_t n) { return format_count(n); };
+  std::printf("grid       %s\n", describe_grid(file).c_str());
+  std::printf("triangles  %s in the grid\n", count(t.triangles).c_str());
+  std::printf("rays       %s: %s hit both, %s neither, %s only triangles, %s only voxels\n",
+              count(r.rays).c_str(), count(r.both).c_str(), count(r.neither).c_str(),
+              count(r.triangle_only).c_str(), count(r.dag_only).c_str());
+  std::printf("one side   %.1f per million rays:",
+              per_million(r.triangle_only + r.dag_only, r.rays));
+  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
+    std::printf("%s %s %.1f", kind == 0 ? "" : ",", kRayKindNames[kind],
+                per_million(r.one_side[kind], rays_of_kind(r.rays, kind)));
+  std::printf("\n");
+  std::printf("late       %s of %s triangle hits have no voxel at or before them",
+              count(r.late).c_str(), count(r.judged).c_str());
+  std::printf(" (%s more pass within %.2g voxels of an edge)\n", count(r.doubtful).c_str(),
+              t.doubt);
+  std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
+              count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
+  for (const RayOffender& offender : r.first) print_offender(file.grid(), offender);
+  std::printf("nearer     the voxel's hit is nearer than the triangle's by ... voxels:\n");
+  for (size_t bin = 0; bin < r.depth.size(); ++bin)
+    std::printf("  %-9s %s\n", bin_name(bin).c_str(), count(r.depth[bin]).c_str());
+  std::printf(
+      "Hausdorff  %.4f voxels from scene to voxels, %.4f from voxels to scene (to centres;"
+      " %s points, %s voxels)\n",
+      r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
+  if (r.ok()) {
+    std::printf("ok: voxels and triangles agree along every ray judged\n");
+  } else {
+    std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
+                static_cast<unsigned long long>(config.seed));
+  }
+}
+
+nlohmann::json first_json(const RayJudgement& result) {
+  nlohmann::json first = nlohmann::json::array();
+  for (const RayOffender& o : result.first) {
+    const bool far = o.what == RayOffender::What::kFar;
+    first.push_back({{"what", far ? "far" : "late"},
+                     {"ray", o.ray},
+                     {"point", {o.point[0], o.point[1], o.point[2]}},
+                     {"by", std::isinf(o.by) ? nlohmann::json() : nlohmann::json(o.by)}});
+  }
+  return first;
+}
+
+void print_json(const DagFile& file, const TraceConfig& config, const Traced& t) {
+  const RayJudgement& r = t.result;
+  nlohmann::json depth = nlohmann::json::object();
+  for (size_t bin = 0; bin < r.depth.size(); ++bin) depth[bin_name(bin)] = r.depth[bin];
+  nlohmann::json one_side = nlohmann::json::object();
+  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
+    one_side[kRayKindNames[kind]] = {{"rays", rays_of_kind(r.rays, kind)},
+                                     {"hits", r.one_side[kind]}};
+  const nlohmann::json json = {{"command", "trace"},
+                               {"file", file.path()},
+                               {"ok", r.ok()},
+                               {"rule", file.rule() == Rule::kThin ? "thin" : "conservative"},
+                               {"resolution", file.grid().resolution()},
+                               {"voxel_size", file.grid().voxel_size},
+                               {"seed", config.seed},
+                               {"triangles", t.triangles},
+                               {"rays", r.rays},
+                               {"both", r.both},
+                               {"neither", r.neither},
+                               {"triangle_only", r.triangle_only},
+                               {"dag_only", r.dag_only},
+                               {"one_side", one_side},
+                               {"judged", r.judged},
+                               {"late", r.late},
+                               {"doubtful", r.doubtful},
+                               {"doubt", t.doubt},
+                               {"float_error", t.float_error},
+                               {"voxels", r.voxels},
+                               {"far", r.far},
+                               {"largest_distance", t.largest_distance},
+                               {"points", r.points},
+                               {"nearer", depth},
+                               {"scene_to_voxels", r.scene_to_voxels},
+                               {"voxels_to_scene", r.voxels_to_scene},
+                               {"first", first_json(r)}};
+  std::printf("%s\n", json.dump().c_str());
+}
+
+}  // namespace
+
+int run(const TraceConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  if (config.rays == 0) fail_usage("--rays: give at least one");
+  const DagFile file = DagFile::open(config.file);
+  const Traced traced = trace(config, file);
+  if (config.common.json) {
+    print_json(file, config, traced);
+  } else if (!config.common.quiet) {
+    print_text(file, config, traced);
+  }
+  return int(traced.result.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag

@@ -1,0 +1,154 @@
+// What a ray is, when it crosses a plane, and what a hit is: the words that every traversal shares.
+//
+// Coordinates are voxels. A ray is looked at in mirrored coordinates, in which its direction is
+// positive on all axes: axis a is flipped (x -> N - x) where the direction is negative. The planes
+// x = i, y = j, z = k cut it at the times
+//
+//   time(a, i) = (i - origin[a]) * inverse[a]         one subtraction, one multiplication, in
+//   double
+//
+// and nothing else decides where a ray is: at time t it is in the cell of the last planes that have
+// been passed (time <= t). A cube is entered at enter = max(begin, its three near planes), left at
+// exit = min(end, its three far planes), and met if enter < exit. Of the solid cubes that are met
+// the one entered first is the hit. So the hit is a function of ray and voxels, not of how a
+// traversal walks: every one (plain, fast, in vectors, on a GPU) gives the same bits.
+//
+// Exactness: planes are integers, times are never stepped, so errors do not add up: at 1M^3 a ray
+// is where it should be to within 2^-32 voxel. Rounding is monotone, so times ascend with their
+// planes; no cell between is skipped and none comes twice. Rejected: floats in [1, 2) (23 bits are
+// too few beyond 8K^3); sums of increments (they drift); origin * inverse taken out of the
+// parentheses (cancels, and is no faster without fused operations, which differ between machines).
+//
+// Depends on dag_view.h alone, for host and CUDA.
+#pragma once
+
+#include "io/dag/dag_view.h"
+
+namespace svdag {
+
+// Rounded correctly, like + - * /, so host and device compute the same bits.
+SVDAG_HD inline double square_root(double v) {
+#if defined(__CUDA_ARCH__)
+  return __dsqrt_rn(v);
+#else
+  return __builtin_sqrt(v);
+#endif
+}
+
+struct Vec3 {
+  double v[3];
+  SVDAG_HD double operator[](int a) const { return v[a]; }
+  SVDAG_HD double& operator[](int a) { return v[a]; }
+};
+
+struct Ray {
+  Vec3 origin;     // in voxels
+  Vec3 direction;  // of length 1e-100 to 1e100; t is measured in it
+};
+
+// The part of a ray that counts: begin <= t < end.
+struct Span {
+  double begin = 0;  // not negative
+  double end = 1e300;
+};
+
+// When a cube counts as solid before its voxels are reached.
+struct Cut {
+  uint32_t level = 0xffffffffU;  // cubes of this level do; default: only voxels
+  // A cube does that is no larger than spread * t * |direction| where it is entered: the width of a
+  // cone of that many units per unit of length (2 * tangent of half its angle). 0: no cone.
+  double spread = 0;
+};
+
+struct Hit {
+  bool found = false;
+  double t = 0;            // where the ray enters the cube (begin if it starts inside)
+  uint32_t voxel[3] = {};  // the cube's corner; the voxel itself unless the ray was cut
+  uint32_t level = 0;      // of the cube; the DAG's `levels` for a voxel
+  int axis = 0;            // the cube's face that was entered is across this axis
+  uint32_t steps = 0;      // cubes left behind on the way, for pictures of the work; no part of
+                           // the answer: each traversal has its own
+};
+
+// A component of the direction that is (nearly) zero is replaced by this fraction of the largest:
+// over the diagonal of 1M^3 voxels the ray then moves by 2^-40 voxel, and no time is infinite.
+constexpr double kTinySlope = 0x1p-61;
+
+// A ray in mirrored coordinates.
+struct MirroredRay {
+  double origin[3];
+  double slope[3];    // the direction, positive
+  double inverse[3];  // 1 / slope
+  unsigned flip = 0;  // child number (4x + 2y + z) of the axes that are flipped
+
+  MirroredRay() = default;
+  SVDAG_HD MirroredRay(const Ray& ray, uint32_t resolution) {
+    double largest = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double size = ray.direction[a] < 0 ? -ray.direction[a] : ray.direction[a];
+      largest = size > largest ? size : largest;
+    }
+    for (int a = 0; a < 3; ++a) {
+      const bool backward = ray.direction[a] < 0;
+      const double size = backward ? -ray.direction[a] : ray.direction[a];
+      const double tiny = kTinySlope * largest;
+      slope[a] = size < tiny ? tiny : size;
+      inverse[a] = 1 / slope[a];
+      origin[a] = backward ? double(resolution) - ray.origin[a] : ray.origin[a];
+      flip |= unsigned(backward) << (2 - a);
+    }
+  }
+
+  SVDAG_HD double time(int axis, uint32_t plane) const {
+    return (double(plane) - origin[axis]) * inverse[axis];
+  }
+
+  // Cuts `span` to the grid; false if nothing is left.
+  SVDAG_HD bool clip(uint32_t resolution, Span* span) const {
+    for (int a = 0; a < 3; ++a) {
+      const double in = time(a, 0), out = time(a, resolution);
+      span->begin = in > span->begin ? in : span->begin;
+      span->end = out < span->end ? out : span->end;
+    }
+    return span->begin < span->end;
+  }
+
+  // The hit on the cube of side 2^(levels - level) at `corner`, entered at t.
+  SVDAG_HD Hit hit(uint32_t levels, uint32_t level, const uint32_t corner[3], double t) const {
+    Hit hit;
+    hit.found = true;
+    hit.t = t;
+    hit.level = level;
+    double last = 0;
+    for (int a = 0; a < 3; ++a) {
+      const bool flipped = flip >> (2 - a) & 1U;
+      hit.voxel[a] = flipped ? (1U << levels) - (1U << (levels - level)) - corner[a] : corner[a];
+      const double near = time(a, corner[a]);
+      if (a == 0 || near > last) {
+        last = near;
+        hit.axis = a;
+      }
+    }
+    return hit;
+  }
+};
+
+// `cut` for one ray: cube sides and times instead of levels and lengths.
+struct CutOfRay {
+  uint32_t level;  // cubes of this level are solid
+  double widen;    // a cube of side <= widen * (time of entry) is, too
+
+  SVDAG_HD CutOfRay(const Cut& cut, const Ray& ray, uint32_t levels)
+      : level(cut.level < levels ? cut.level : levels), widen(0) {
+    if (!(cut.spread > 0)) return;
+    double square = 0;
+    for (int a = 0; a < 3; ++a) square += ray.direction[a] * ray.direction[a];
+    widen = cut.spread * square_root(square);
+  }
+
+  SVDAG_HD bool solid(uint32_t at_level, double side, double t) const {
+    return at_level >= level || side <= widen * t;
+  }
+};
+
+}  // namespace svdag

@@ -1,0 +1,17 @@
+// Many rays at once on the processor.
+#pragma once
+
+#include <cstddef>
+
+#include "verify/trace/traverse.h"
+
+namespace svdag {
+
+// hits[i] is that of rays[i].
+void trace_closest(const DagView& dag, const Ray* rays, size_t count, const Span& span,
+                   const Cut& cut, Hit* hits);
+// found[i] is 1 if rays[i] meets a solid cube, else 0.
+void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& span, const Cut& cut,
+               uint8_t* found);
+
+}  // namespace svdag
