@@ -34,6 +34,8 @@ class DoneSet {
   explicit DoneSet(std::vector<MortonRange> ranges);
 
   bool empty() const { return ranges_.empty(); }
+  // Ascending, joined where they touch.
+  const std::vector<MortonRange>& ranges() const { return ranges_; }
   // How much of `range` is done.
   State state(const MortonRange& range) const;
 

@@ -34,7 +34,7 @@ SpillBlock::SpillBlock(MemoryBudget* budget, size_t bytes)
     : counted_(budget->reserve(bytes, "spill buffers")),
       data_(static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)))) {}
 
-void seal_block(std::span<std::byte> block, const SpillLabel& label) {
+uint64_t seal_block(std::span<std::byte> block, const SpillLabel& label) {
   SVDAG_ASSERT(label.length <= block.size() - kSpillHeader);
   const Header header = header_of(label);
   std::memcpy(block.data(), &header, sizeof header);
@@ -42,15 +42,21 @@ void seal_block(std::span<std::byte> block, const SpillLabel& label) {
   if (!rest.empty()) std::memset(rest.data(), 0, rest.size());
   const uint64_t checksum = checksum64(block);
   std::memcpy(block.data() + kChecksum, &checksum, sizeof checksum);
+  return checksum;
 }
 
 bool open_block(std::span<std::byte> block, const SpillLabel& label) {
-  uint64_t checksum;
-  std::memcpy(&checksum, block.data() + kChecksum, sizeof checksum);
+  const uint64_t checksum = block_checksum(block);
   std::memset(block.data() + kChecksum, 0, sizeof checksum);
   const Header expected = header_of(label);
   return std::memcmp(block.data(), &expected, sizeof expected) == 0 &&
          checksum64(block) == checksum;
+}
+
+uint64_t block_checksum(std::span<const std::byte> block) {
+  uint64_t checksum;
+  std::memcpy(&checksum, block.data() + kChecksum, sizeof checksum);
+  return checksum;
 }
 
 }  // namespace svdag

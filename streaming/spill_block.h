@@ -40,8 +40,11 @@ struct SpillLabel {
 };
 
 // Writes the header for the payload that stands behind it, and zeros up to the end of the block.
-void seal_block(std::span<std::byte> block, const SpillLabel& label);
+// Returns the checksum.
+uint64_t seal_block(std::span<std::byte> block, const SpillLabel& label);
 // True if the block is whole and the one that `label` describes. Its checksum becomes zero.
 bool open_block(std::span<std::byte> block, const SpillLabel& label);
+// The checksum that a sealed block carries.
+uint64_t block_checksum(std::span<const std::byte> block);
 
 }  // namespace svdag

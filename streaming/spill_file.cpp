@@ -191,11 +191,12 @@ SpillStream SpillWriter::finish() {
 
 class SpillReader::Impl {
  public:
-  Impl(SpillFile* file, const SpillStream& stream, MemoryBudget* budget)
-      : file_(file->impl_.get()), budget_(budget), stream_(stream) {
+  Impl(SpillFile* file, const SpillStream& stream, MemoryBudget* budget, size_t first)
+      : file_(file->impl_.get()), budget_(budget), stream_(stream), index_(first) {
     const size_t payload = file->payload_bytes();
     if (stream_.blocks.size() != stream_.bytes / payload + (stream_.bytes % payload != 0))
       file_->fail_damaged();
+    SVDAG_ASSERT(first <= stream_.blocks.size());
     ask();
   }
 
@@ -225,13 +226,14 @@ class SpillReader::Impl {
   SpillFile::Impl* file_;
   MemoryBudget* budget_;
   const SpillStream stream_;
-  size_t index_ = 0;    // of the block that is asked for
+  size_t index_;        // of the block that is asked for
   SpillBlock current_;  // what next() gave out
   SpillTransfer ahead_;
 };
 
-SpillReader::SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget)
-    : impl_(std::make_unique<Impl>(file, stream, budget)) {}
+SpillReader::SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
+                         size_t first)
+    : impl_(std::make_unique<Impl>(file, stream, budget, first)) {}
 SpillReader::SpillReader(SpillReader&&) noexcept = default;
 SpillReader& SpillReader::operator=(SpillReader&&) noexcept = default;
 SpillReader::~SpillReader() = default;

@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "streaming/block_source.h"
 #include "streaming/file.h"
 #include "streaming/memory_budget.h"
 #include "streaming/spill_block.h"
@@ -85,18 +86,16 @@ class SpillWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads one stream from its beginning, a block ahead. Holds two blocks, one if there is but one.
-class SpillReader {
+// Reads one stream, a block ahead. Holds two blocks, one if there is but one.
+class SpillReader : public BlockSource {
  public:
-  // `stream` is copied.
-  SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget);
+  // `stream` is copied. Begins with block `first` of the stream.
+  SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget, size_t first = 0);
   SpillReader(SpillReader&&) noexcept;
   SpillReader& operator=(SpillReader&&) noexcept;
-  ~SpillReader();
+  ~SpillReader() override;
 
-  // The payload of the next block, which may be changed in place; empty at the end. Valid until the
-  // next call. Aligned to 64 bytes.
-  std::span<std::byte> next();
+  std::span<std::byte> next() override;
 
  private:
   class Impl;

@@ -1,0 +1,96 @@
+// The file format `.run`, version 1: the structures of docs/run-format.md.
+//
+//   header (1024 bytes) | blocks (builder and scratch frame them alike: streaming/spill_block.h) | end
+//
+// The payloads of the blocks, one behind the other, are one stream of sections, each of which
+// begins at a multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <span>
+#include <vector>
+
+#include "streaming/checksum.h"
+#include "streaming/spill_block.h"
+
+namespace svdag {
+
+constexpr unsigned char kRunMagic[8] = {0x89, 'S', 'V', 'R', 'U', 'N', '\r', '\n'};
+constexpr uint32_t kRunVersion = 1;
+constexpr uint32_t kRunLevels = 19;         // levels 0 .. L-2, L <= 20
+constexpr uint32_t kRunBlockBytes = 65536;  // of a block with its frame; the last one is shorter
+constexpr uint64_t kRunPayload = kRunBlockBytes - kSpillHeader;
+constexpr uint64_t kRunAlignment = 64;         // of sections; divides kRunPayload
+constexpr uint64_t kMostRunKeys = 0xfffffffeU;  // of a level
+
+struct RunHeader {
+  unsigned char magic[8];
+  uint32_t version;
+  uint32_t header_bytes;  // 1024
+  uint32_t levels;        // L
+  uint32_t fraction;      // F
+  uint32_t rule;          // Rule
+  uint32_t grid_kind;     // Grid::Kind
+  double origin[3];       // kBox: world position of the grid's corner; else 0
+  double voxel_size;
+  int64_t k0[3];         // kLattice: plane number of the corner; else 0
+  uint32_t bounded;      // 1 if voxels outside the selection were left empty on demand
+  uint32_t block_bytes;  // kRunBlockBytes
+  uint32_t selection_min[3];
+  uint32_t selection_max[3];  // exclusive
+  uint64_t ranges;            // Morton ranges of the part that the run holds
+  uint64_t run;               // low word of XXH3-128 over all before and the ranges, in each block
+  uint64_t voxels;            // set voxels
+  double largest_snap;        // in voxels, the largest move of a coordinate by the snap
+  uint64_t roots;             // tops of the part that are not empty
+  uint64_t keys[kRunLevels];  // of level k; unused ones are zero
+  uint64_t file_bytes;
+  uint64_t content_hash[2];     // XXH3-128 over the blocks' checksums and the header (hash and
+                                // checksum as 0)
+  unsigned char reserved[680];  // zero
+  uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
+};
+
+struct StoredRoot {
+  uint64_t code;  // of the top, at its level
+  uint32_t level;
+  uint32_t rank;
+};
+
+struct StoredRange {
+  uint64_t begin, end;
+};
+
+static_assert(offsetof(RunHeader, origin) == 32);
+static_assert(offsetof(RunHeader, run) == 128);
+static_assert(offsetof(RunHeader, keys) == 160);
+static_assert(offsetof(RunHeader, content_hash) == 320);
+static_assert(offsetof(RunHeader, header_checksum) == 1016);
+static_assert(sizeof(RunHeader) == 1024 && sizeof(StoredRoot) == 16 && sizeof(StoredRange) == 16);
+static_assert(kRunPayload % kRunAlignment == 0);
+
+// Bytes of the payload.
+struct RunSection {
+  uint64_t begin = 0, end = 0;
+  uint64_t bytes() const { return end - begin; }
+};
+
+// Where things stand, by the counts of a header whose levels are 3 .. 20 and whose counts were
+// checked to be of a real file (below 2^48).
+struct RunLayout {
+  explicit RunLayout(const RunHeader& header);
+
+  RunSection levels[kRunLevels];  // [k] is level k
+  RunSection roots, ranges;
+  uint64_t payload = 0, blocks = 0, file_bytes = 0;
+};
+
+// The number of a run: of its grid, rule and part.
+uint64_t run_number(const RunHeader& header, std::span<const StoredRange> ranges);
+// The hash of the content, given what the checksums of the blocks hashed to so far.
+Hash128 content_hash_of(RunHeader header, Hasher128* blocks);
+uint64_t checksum_of(const RunHeader& header);
+
+}  // namespace svdag
