@@ -78,6 +78,10 @@ void SpillFile::sync() {
   impl_->queue.sync();
 }
 
+void SpillFile::link_as(const std::string& path) {
+  impl_->queue.link_as(path);
+}
+
 void SpillFile::free(const SpillStream& stream) {
   impl_->free(stream.blocks);
 }

@@ -48,6 +48,8 @@ class SpillFile {
   size_t payload_bytes() const { return block_bytes() - kHeader; }
   // Waits for all writes and brings them to disk; a write that failed before is thrown here, too.
   void sync();
+  // Syncs, and gives an anonymous file the name `path` (File::link_as).
+  void link_as(const std::string& path);
   // The blocks of `stream` may be used for others. No reader of it may be alive.
   void free(const SpillStream& stream);
   // Largest size of the file so far, and all that was written to it and read from it.
