@@ -27,8 +27,13 @@ BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConf
 
 void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
   if (done_ != nullptr && done_->state(bin.range) == DoneSet::State::kAll) return;
+  const MortonRange own = morton_range(bin.cube, grid_.levels);
+  const DoneSet::State done = done_ != nullptr ? done_->state(own) : DoneSet::State::kNone;
+  if (done == DoneSet::State::kAll) return voxelizer_->note_empty(bin.range);
   if (const auto tree = load(file, bin)) return voxelizer_->bake(*tree, bin.range, progress_);
-  if (grid_.levels - bin.cube.level <= DenseCube::kLargestLog2) return bake_dense(file, bin);
+  // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
+  if (done == DoneSet::State::kNone && grid_.levels - bin.cube.level <= DenseCube::kLargestLog2)
+    return bake_dense(file, bin);
   bake_parts(file, bin);
 }
 

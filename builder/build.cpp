@@ -8,12 +8,12 @@
 #include <memory>
 
 #include "builder/bake_bins.h"
+#include "builder/bake_output.h"
 #include "builder/checkpoint.h"
 #include "builder/description.h"
 #include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/voxelize.h"
-#include "streaming/checksum.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -49,11 +49,10 @@ int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memo
   return std::clamp(grid.levels - 6, 0, memory < uint64_t(512) << 20 ? 5 : 6);
 }
 
-void describe_output(const Header& header, BuildReport* report) {
-  for (uint32_t k = 0; k < header.section_count; ++k)
-    report->nodes.push_back(header.sections[k].nodes);
-  report->file_bytes = header.file_bytes;
-  report->content_hash = to_hex({header.content_hash[0], header.content_hash[1]});
+void describe_output(const BakeOutput& output, BuildReport* report) {
+  report->nodes = output.keys();
+  report->file_bytes = output.file_bytes();
+  report->content_hash = output.content_hash();
 }
 
 // How the memory is shared out. Phases follow each other, so the sum of all is more than the whole.
@@ -98,7 +97,7 @@ class Bake {
   void choose_grid();
   void split();
   void voxelize();
-  void merge(DagWriter* writer);
+  std::vector<CellRoot> merge(BakeOutput* output);
   void describe_work(const Voxelizer& voxelizer);
   void save(BakedRun baked);
   void add(BakedRun baked);
@@ -116,6 +115,7 @@ class Bake {
   DiskNeed disk_need_{&scratch_};
   std::optional<SavedBake> saved_;  // by an earlier process
   BuildReport report_;
+  std::optional<Part> part_;  // of the grid, that is baked
   SplitConfig split_config_;
   SplitScene split_;
   std::mutex runs_mutex_;
@@ -164,13 +164,15 @@ void Bake::choose_grid() {
     report_.grid = svdag::choose_grid(config_, box);
     disk_need_.expect_triangles(counts.triangles, shares_.triangles);
   }
+  const int levels = report_.grid.levels;
+  part_ = config_.part ? Part::of_cells(*config_.part, levels) : Part::whole(levels);
   report_.seconds.bounds = phase_.lap();
 }
 
 void Bake::split() {
   progress_->phase("split", 0);
   split_config_ = {choose_cell_level(config_, report_.grid, budget_.limit()), executor_->workers(),
-                   shares_.triangles, &scratch_};
+                   shares_.triangles, &scratch_, config_.part ? &*part_ : nullptr};
   if (saved_ && saved_->split) {
     split_ = std::move(*saved_->split);
   } else {
@@ -188,7 +190,7 @@ void Bake::split() {
 }
 
 void Bake::voxelize() {
-  std::vector<MortonRange> finished;
+  std::vector<MortonRange> finished = part_->rest().ranges();  // what is not wanted
   if (saved_) {
     for (BakedRun& baked : saved_->runs) {
       finished.insert(finished.end(), baked.finished.begin(), baked.finished.end());
@@ -257,15 +259,17 @@ void Bake::add(BakedRun baked) {
   runs_.push_back(std::move(baked.run));
 }
 
-void Bake::merge(DagWriter* writer) {
+std::vector<CellRoot> Bake::merge(BakeOutput* output) {
   progress_->phase("merge", 0);
   MergeConfig config;
   config.budget = &budget_;
   config.scratch = spilled_ ? &scratch_ : nullptr;
   config.map_bytes = shares_.maps;
+  config.window_bytes = shares_.maps / executor_->workers();
   config.sources = std::max<size_t>(2, shares_.sources / (4 * scratch_.block_bytes()));
-  svdag::merge(runs_, std::move(roots_), report_.grid.levels, config, writer, executor_);
+  auto tops = svdag::merge(runs_, std::move(roots_), *part_, config, output, executor_);
   report_.seconds.merge = phase_.lap();
+  return tops;
 }
 
 std::string Bake::kept() const {
@@ -292,23 +296,25 @@ BuildReport Bake::run_or_tell() {
 BuildReport Bake::run() {
   Stopwatch total;
   report_.rule = config_.descent.rule;
+  if (config_.part && !names_run(config_.output))
+    fail_usage(config_.output + ": a part of a grid is a run: choose an output that ends in .run");
   find_unfinished();
   report_.resumed = saved_.has_value();
   choose_grid();
   // The output is opened before the work begins: an unwritable folder is known at once.
-  DagWriter writer(config_.output, report_.grid, report_.rule);
+  const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
   split();
   voxelize();
-  merge(&writer);
+  const std::vector<CellRoot> tops = merge(output.get());
   progress_->phase("write", 0);
-  writer.finish(report_.voxels, report_.split.largest_snap);
+  output->finish(tops, report_.voxels, report_.split.largest_snap);
   saves_ = false;
   folder_.keep(false);
   checkpoint_.discard();
   report_.seconds.write = phase_.lap();
   progress_->finish();
 
-  describe_output(writer.header(), &report_);
+  describe_output(*output, &report_);
   report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),
                      scratch_.read_bytes()};
   report_.threads = executor_->workers();

@@ -1,4 +1,4 @@
-// A bake: scene files in, one `.svdag` out.
+// A bake: scene files in, one `.svdag` out, or a `.run` of all or a part of the grid.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "builder/overlap.h"
+#include "builder/part.h"
 #include "builder/split.h"
 #include "io/dag/format.h"
 #include "streaming/executor.h"
@@ -18,7 +19,8 @@ enum class Unfinished { kRefuse, kResume, kRestart };
 
 struct BuildConfig {
   SceneConfig scene;
-  std::string output;
+  std::string output;                 // a `.run` if it is named so, else a `.svdag`
+  std::optional<CellRange> part;      // bake these cells only; the output is a `.run`
   int levels = 0;             // -r: L of the grid; 0 if the voxel size is given instead
   double voxel_size = 0;      // --voxel-size, in world units; 0 if the resolution is given
   DescentConfig descent;      // --rule

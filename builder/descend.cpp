@@ -65,7 +65,9 @@ void Descent::adopt(const Cube& cube, const SubDag& dag) {
 
 void Descent::begin(const Cube& cube) {
   first_level_ = cube.level;
-  finished_to_ = morton_range(cube, grid_.levels).begin;
+  const MortonRange range = morton_range(cube, grid_.levels);
+  finished_to_ = range.begin;
+  ask_done_ = done_ != nullptr && done_->state(range) != DoneSet::State::kNone;
 }
 
 void Descent::end(const Cube& cube, const SubDag& dag) {
@@ -129,7 +131,7 @@ void Descent::make_roots(Step* step) {
 SubDag Descent::node(const Cube& cube, const EntryList& list) {
   if (list.empty() || (grid_.bounded && outside_selection(cube))) return {};
   bool leave_open = false;
-  if (done_ != nullptr) {
+  if (ask_done_) {
     const DoneSet::State state = done_->state(morton_range(cube, grid_.levels));
     if (state == DoneSet::State::kAll) return {};
     leave_open = state == DoneSet::State::kPart;

@@ -123,6 +123,7 @@ class Descent {
   double cell_side_ = 0;               // of the cell being baked, in voxels
 
   const DoneSet* done_;  // null: nothing
+  bool ask_done_ = false;  // something in the cell being baked is done
   Spiller* spiller_;     // null: the table holds everything
   std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
   std::vector<uint64_t> divided_;

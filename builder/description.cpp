@@ -48,6 +48,9 @@ std::string describe(const BuildConfig& config, const Scene& scene) {
     }
     out << '\n';
   }
+  if (config.part)
+    out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
+        << config.part->level << '\n';
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';

@@ -1,13 +1,14 @@
 // The keys of one level of a run in ascending order, one at a time: from memory, or block by block
-// from a scratch file. Children are rewritten on the way where a map says so.
+// from a file. Children are rewritten on the way where a map says so.
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 
 #include "builder/rank_maps.h"
 #include "builder/run.h"
+#include "streaming/block_source.h"
 
 namespace svdag {
 
@@ -15,6 +16,16 @@ namespace svdag {
 inline void rewrite(std::span<NodeKey> nodes, const RankMap& map) noexcept {
   for (NodeKey& key : nodes) {
     for (uint32_t& child : key) child = child == 0 ? 0 : 1 + map[child - 1];
+  }
+}
+
+// As rewrite(), of those children that the window `map` of a map holds. Windows that follow hold
+// lower ranks.
+inline void rewrite_window(std::span<NodeKey> nodes, const RankMap& map) noexcept {
+  for (NodeKey& key : nodes) {
+    for (uint32_t& child : key) {
+      if (child != 0 && map.holds(child - 1)) child = 1 + map[child - 1];
+    }
   }
 }
 
@@ -26,16 +37,15 @@ class LevelSource {
     see();
   }
   // `map`, if given, rewrites the children; it must outlive the source.
-  LevelSource(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
-              const RankMap* map = nullptr)
-      : map_(map), reader_(std::in_place, file, stream, budget) {
+  explicit LevelSource(std::unique_ptr<BlockSource> blocks, const RankMap* map = nullptr)
+      : map_(map), blocks_(std::move(blocks)) {
     refill();
   }
 
   bool ended() const { return at_ == end_; }
   const Key& head() const { return *at_; }
   void advance() {
-    if (++at_ == end_ && reader_) return refill();
+    if (++at_ == end_ && blocks_) return refill();
     see();
   }
   // The first 64 bits of the head decide most comparisons; UINT64_MAX at the end.
@@ -53,7 +63,7 @@ class LevelSource {
   void see() { prefix_ = ended() ? UINT64_MAX : prefix_of(*at_); }
 
   void refill() {
-    const std::span<std::byte> block = reader_->next();
+    const std::span<std::byte> block = blocks_->next();
     const std::span<Key> keys(reinterpret_cast<Key*>(block.data()), block.size() / sizeof(Key));
     if constexpr (std::is_same_v<Key, NodeKey>) {
       if (map_ != nullptr) rewrite(keys, *map_);
@@ -67,7 +77,7 @@ class LevelSource {
   const Key* end_ = nullptr;
   uint64_t prefix_ = 0;
   const RankMap* map_ = nullptr;
-  std::optional<SpillReader> reader_;
+  std::unique_ptr<BlockSource> blocks_;
 };
 
 }  // namespace svdag

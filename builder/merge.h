@@ -6,36 +6,40 @@
 // in the maps. The nodes above the cells (the top tree) enter as one more sorted source per level.
 // "Global index" is already the word index that the file stores; it ascends like the rank.
 //
-// Nothing but the maps of one level must fit in memory, and not even those: where they do not, a
-// map is spilled, and each run's next level is rewritten by itself, with one map loaded, before it
-// is merged (builder/rank_maps.h). A run is as small as the node table that it was, so its map
-// always fits. More sources than may be open at once are merged in groups first; the maps into and
-// out of a group are both increasing, so composing them is sequential as well.
+// No level must fit in memory, nor its maps: where those do not, they are spilled, and each run's
+// next level is rewritten by itself before it is merged, with one map loaded (builder/rank_maps.h),
+// a window at a time where even that is too large. Windows go from the last to the first: an
+// ascending map lowers no number, so what a window rewrote is beyond all windows that follow, and
+// one stream holds both old and new numbers. More sources than may be open at once are merged in
+// groups first; the maps into and out of a group are both increasing, so composing them is
+// sequential as well.
 //
-// The result is the minimal DAG, byte for byte what reducing the whole octree at once would give.
+// The result is the minimal DAG, byte for byte what reducing the whole octree at once would give;
+// or, of a part of the grid, a sub-DAG per top of the part (builder/part.h), in one closed run.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "builder/bake_output.h"
 #include "builder/run.h"
 #include "builder/scratch.h"
 #include "builder/top_tree.h"
-#include "io/dag/dag_writer.h"
 #include "streaming/executor.h"
 
 namespace svdag {
 
 struct MergeConfig {
-  MemoryBudget* budget = nullptr;  // required
-  Scratch* scratch = nullptr;      // null: all runs are in memory, and all maps shall be
-  uint64_t map_bytes = 0;          // maps of two levels that need more are spilled
-  size_t sources = 2;              // that may be open at once, if they are spilled; at least 2
+  MemoryBudget* budget = nullptr;      // required
+  Scratch* scratch = nullptr;          // null: all runs are in memory, and all maps shall be
+  uint64_t map_bytes = 0;              // maps of two levels that need more are spilled
+  uint64_t window_bytes = UINT64_MAX;  // of a spilled map, loaded at a time by each worker
+  size_t sources = 2;                  // that may be open at once, if they are spilled; at least 2
 };
 
-// Writes all levels to `writer` (which the caller finishes) and uses the runs up. The cells must be
-// disjoint.
-void merge(std::span<Run> runs, std::vector<CellRoot> roots, int levels, const MergeConfig& config,
-           DagWriter* writer, Executor* executor);
+// Writes all levels to `output`, which the caller finishes with the roots that this returns: those
+// of the tops of `part`. Uses the runs up. The cells must be disjoint and lie in the part.
+std::vector<CellRoot> merge(std::span<Run> runs, std::vector<CellRoot> roots, const Part& part,
+                            const MergeConfig& config, BakeOutput* output, Executor* executor);
 
 }  // namespace svdag

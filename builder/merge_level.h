@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,17 +20,25 @@ namespace svdag {
 // Where the keys of a source stand.
 template <class Key>
 struct LevelInput {
-  std::span<const Key> keys;  // in memory, if `file` is null
-  SpillFile* file = nullptr;
-  const SpillStream* stream = nullptr;
-  const RankMap* map = nullptr;  // rewrites the children of what is read from `file`
+  std::span<const Key> keys;  // in memory, if there are no blocks
+  std::function<std::unique_ptr<BlockSource>()> blocks;
+  uint64_t bytes = 0;            // of the blocks
+  const RankMap* map = nullptr;  // rewrites the children of what is read from them
 
-  uint64_t count() const { return file == nullptr ? keys.size() : stream->bytes / sizeof(Key); }
-  LevelSource<Key> open(MemoryBudget* budget) const {
-    if (file == nullptr) return LevelSource<Key>(keys);
-    return LevelSource<Key>(file, *stream, budget, map);
+  uint64_t count() const { return blocks ? bytes / sizeof(Key) : keys.size(); }
+  LevelSource<Key> open() const {
+    return blocks ? LevelSource<Key>(blocks(), map) : LevelSource<Key>(keys);
   }
 };
+
+// A stream in `file`; both must outlive the input.
+template <class Key>
+LevelInput<Key> spilled_input(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
+                              const RankMap* map = nullptr) {
+  const SpillStream* from = &stream;
+  const auto open = [=] { return std::make_unique<SpillReader>(file, *from, budget); };
+  return {{}, open, stream.bytes, map};
+}
 
 // add(key) appends to the output and returns the index there. The maps are spilled if `scratch` is
 // given.
@@ -40,7 +50,7 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
   std::vector<LevelSource<Key>> sources;
   for (const LevelInput<Key>& input : inputs) {
     counts.push_back(input.count());
-    sources.push_back(input.open(budget));
+    sources.push_back(input.open());
   }
   RankMaps maps(counts, scratch, budget);
   const auto prefix = [&](size_t s) { return sources[s].prefix(); };
@@ -83,7 +93,7 @@ RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add
   }
   std::vector<LevelInput<Key>> groups;
   for (const SpillStream& stream : merged)
-    groups.push_back({{}, scratch->passing(), &stream, nullptr});
+    groups.push_back(spilled_input<Key>(scratch->passing(), stream, budget));
   RankMaps out_of = merge_in_groups<Key>(groups, add, most, scratch, budget);
   for (const SpillStream& stream : merged) scratch->passing()->free(stream);
   RankMaps maps = RankMaps::none(scratch, budget);

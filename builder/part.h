@@ -27,8 +27,8 @@ class Part {
   static Part whole(int levels) { return Part({{0, uint64_t(1) << 3 * levels}}, levels); }
   // Cells of level levels - 2 at most; those finer, or outside the grid, are an Error (kUsage).
   static Part of_cells(const CellRange& cells, int levels);
-  // Part `number` (1 .. count) of `count` parts of as many cells, up to one; Error (kUsage) if there
-  // is no such part.
+  // Part `number` (1 .. count) of `count` parts of as many cells, up to one; Error (kUsage) if
+  // there is no such part.
   static CellRange share(uint64_t number, uint64_t count);
 
   // `ranges` in any order, of whole bricks in a grid of `levels` levels.

@@ -1,6 +1,6 @@
 #include "builder/rank_maps.h"
 
-#include <cstring>
+#include <algorithm>
 
 namespace svdag {
 namespace {
@@ -58,16 +58,22 @@ uint64_t RankMaps::resident_bytes() const {
   return bytes;
 }
 
-RankMap RankMaps::load(size_t source) const {
+RankMap RankMaps::load(size_t source, uint64_t begin, uint64_t end) const {
   const SpillStream& stream = streams_[source];
+  const uint64_t per_block = scratch_->passing()->payload_bytes() / sizeof(uint32_t);
   RankMap map;
-  map.reservation = budget_->reserve(stream.bytes, kPurpose);
-  map.indices.resize(stream.bytes / sizeof(uint32_t));
-  SpillReader reader(scratch_->passing(), stream, budget_);
-  std::byte* to = reinterpret_cast<std::byte*>(map.indices.data());
-  for (auto block = reader.next(); !block.empty(); block = reader.next()) {
-    std::memcpy(to, block.data(), block.size());
-    to += block.size();
+  map.first = begin;
+  const uint64_t wanted = std::min(end, count(source)) - begin;
+  map.reservation = budget_->reserve(wanted * sizeof(uint32_t), kPurpose);
+  map.indices.resize(wanted);
+  if (wanted == 0) return map;
+  SpillReader reader(scratch_->passing(), stream, budget_, begin / per_block);
+  uint64_t skip = begin % per_block;
+  for (uint64_t got = 0; got < wanted; skip = 0) {
+    const std::span<const uint32_t> block = next_indices(&reader).subspan(skip);
+    const uint64_t n = std::min<uint64_t>(block.size(), wanted - got);
+    std::copy_n(block.data(), n, map.indices.data() + got);
+    got += n;
   }
   return map;
 }

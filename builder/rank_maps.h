@@ -13,12 +13,14 @@
 
 namespace svdag {
 
-// A map in memory, counted.
+// A map in memory, or a window of one, counted.
 struct RankMap {
   HugeVector<uint32_t> indices;
   MemoryBudget::Reservation reservation;
+  uint64_t first = 0;  // rank of indices[0]
 
-  uint32_t operator[](uint64_t rank) const { return indices[rank]; }
+  bool holds(uint64_t rank) const { return rank - first < indices.size(); }
+  uint32_t operator[](uint64_t rank) const { return indices[rank - first]; }
 };
 
 class RankMaps {
@@ -48,8 +50,10 @@ class RankMaps {
   bool spilled() const { return scratch_ != nullptr; }
   size_t size() const { return spilled() ? streams_.size() : maps_.size(); }
   const RankMap& resident(size_t source) const { return maps_[source]; }
-  // A spilled map into memory.
-  RankMap load(size_t source) const;
+  // Of a spilled map, the indices of ranks `begin` to `end` at most, into memory.
+  RankMap load(size_t source, uint64_t begin = 0, uint64_t end = UINT64_MAX) const;
+  // Ranks of a spilled map.
+  uint64_t count(size_t source) const { return streams_[source].bytes / sizeof(uint32_t); }
   uint64_t resident_bytes() const;
   // Frees a spilled map.
   void free(size_t source) const { scratch_->passing()->free(streams_[source]); }

@@ -3,7 +3,8 @@
 // Invariant (closed and canonical): children are 1 + ranks in the run's own next level; each level
 // is strictly ascending by NodeKey (bricks as numbers). Runs of different workers, processes and
 // machines therefore agree on the order of the nodes they share, which is all that the merge needs.
-// A level stands in memory or, if the run was spilled, in a scratch file.
+// A level stands in memory, in a scratch file if the run was spilled, or in a run file that was
+// made elsewhere (builder/run_file.h).
 #pragma once
 
 #include <optional>
@@ -16,11 +17,14 @@
 
 namespace svdag {
 
+class RunFile;
+
 template <class Key>
 struct RunLevel {
   HugeVector<Key> keys;                   // empty if spilled
   MemoryBudget::Reservation reservation;  // of these
   std::optional<SpillStream> spilled;     // the keys as bytes
+  const RunFile* file = nullptr;          // holds the keys
 };
 
 struct Run {
@@ -40,8 +44,8 @@ struct SpillTarget {
   uint64_t first_stream;
 };
 
-// Empties `table` and sorts what `roots` reach, level by level from the bricks up. The rest goes: the
-// plane memo (builder/plane_memo.h) adds nodes to answers that it then takes back. Turns the
+// Empties `table` and sorts what `roots` reach, level by level from the bricks up. The rest goes:
+// the plane memo (builder/plane_memo.h) adds nodes to answers that it then takes back. Turns the
 // numbers of `roots` into ranks. Spills the run if there is a target.
 Run freeze(NodeTable* table, std::span<NodeNumber> roots, const SpillTarget* target = nullptr);
 

@@ -1,7 +1,7 @@
 #include "builder/run_check.h"
 
 #include <algorithm>
-#include <optional>
+#include <type_traits>
 
 #include "io/brick.h"
 #include "streaming/interrupt.h"
@@ -44,23 +44,50 @@ uint64_t offset_of(uint64_t position) {
          position % kRunPayload;
 }
 
+// Which keys of a level are reached, of those with a rank in a window.
+class Marks {
+ public:
+  static constexpr const char* kPurpose = "the check of a run";
+
+  Marks(uint64_t bytes, MemoryBudget* budget)
+      : most_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
+
+  uint64_t end() const { return first_ + marked_.size(); }
+  // A window that begins with rank `first` of `count`; nothing in it is marked.
+  void begin(uint64_t first, uint64_t count) {
+    first_ = first;
+    marked_ = {};
+    const uint64_t size = std::min(most_, count - first);
+    counted_.resize((size + 7) / 8, kPurpose);
+    marked_.resize(size);
+  }
+  void mark(uint64_t rank) {
+    if (rank - first_ < marked_.size()) marked_[rank - first_] = true;
+  }
+  bool all() const { return std::find(marked_.begin(), marked_.end(), false) == marked_.end(); }
+
+ private:
+  uint64_t most_;  // ranks in a window
+  uint64_t first_ = 0;
+  MemoryBudget::Reservation counted_;
+  std::vector<bool> marked_;
+};
+
 class Check {
  public:
-  Check(const RunFile& run, MemoryBudget* budget)
-      : run_(run),
-        payload_(run, budget),
-        marked_(budget->reserve(0, kPurpose)) {}
+  Check(const RunFile& run, uint64_t bitmap_bytes, MemoryBudget* budget)
+      : run_(run), budget_(budget), payload_(run, budget), marks_(bitmap_bytes, budget) {}
 
   void run() {
     const int brick_level = int(run_.header().levels) - 2;
     scan<Brick>(brick_level);
     for (int level = brick_level - 1; level >= 0; --level) {
-      mark_roots(level + 1);
+      begin_marks(level + 1, 0);
       scan<NodeKey>(level);
-      require_all_marked(level + 1);
+      require_reached(level + 1);
     }
-    mark_roots(0);
-    require_all_marked(0);
+    begin_marks(0, 0);
+    require(marks_.all() && run_.keys(0) <= 1, kNotReached, offset_of(payload_.position()));
     skip_to(run_.layout().roots.begin);
     pass(run_.layout().roots.end);
     skip_to(run_.layout().ranges.begin);
@@ -72,77 +99,89 @@ class Check {
   }
 
  private:
-  static constexpr const char* kPurpose = "the check of a run";
+  static constexpr const char* kNotReached = "a node is not reached from any root";
 
   void require(bool condition, const char* sentence, uint64_t offset) const {
     svdag::require(condition, run_.file(), sentence, offset);
   }
+  // Of the piece that was taken last.
   void require_here(bool condition, const char* sentence) const {
-    require(condition, sentence, offset_of(payload_.position()));
+    require(condition, sentence, offset_of(piece_));
+  }
+  std::span<const std::byte> take_to(uint64_t position) {
+    piece_ = payload_.position();
+    return payload_.take(position - piece_);
   }
 
   // Zeros up to `position`.
   void skip_to(uint64_t position) {
     while (payload_.position() < position) {
-      for (const std::byte byte : payload_.take(position - payload_.position()))
+      for (const std::byte byte : take_to(position))
         require_here(byte == std::byte(0), "the gap between two sections is not zero");
     }
   }
   // Bytes that open() has looked at.
   void pass(uint64_t position) {
-    while (payload_.position() < position) payload_.take(position - payload_.position());
+    while (payload_.position() < position) take_to(position);
   }
 
   template <class Key>
   void scan(int level) {
     const RunSection& section = run_.layout().levels[level];
     skip_to(section.begin);
-    std::optional<Key> last;
+    Key last{};  // below all keys, since no key is empty
     while (payload_.position() < section.end) {
-      const auto piece = payload_.take(section.end - payload_.position());
-      const std::span keys(reinterpret_cast<const Key*>(piece.data()), piece.size() / sizeof(Key));
-      for (const Key& key : keys) {
-        // No key is as small as Key{}: that would be an empty one.
-        require_here(last.value_or(Key{}) < key, "nodes are empty or do not ascend");
+      const auto piece = take_to(section.end);
+      for (const Key& key :
+           std::span(reinterpret_cast<const Key*>(piece.data()), piece.size() / sizeof(Key))) {
+        require_here(last < key, "nodes are empty or do not ascend");
         last = key;
-        mark(level, key);
+        if constexpr (std::is_same_v<Key, NodeKey>) check_children(level, key);
       }
     }
   }
 
-  void mark(int, Brick) {}
-  void mark(int, const NodeKey& key) {
+  void check_children(int level, const NodeKey& key) {
     for (const uint32_t child : key) {
-      require_here(child <= marks_.size(), "a child is outside of the run");
-      if (child != 0) marks_[child - 1] = true;
+      require_here(child <= run_.keys(level + 1), "a child is outside of the run");
+      if (child != 0) marks_.mark(child - 1);
     }
   }
 
-  // Begins the marks of `level`.
-  void mark_roots(int level) {
-    marks_ = {};
-    marked_.resize(run_.keys(level) / 8, kPurpose);
-    marks_.resize(run_.keys(level));
+  void begin_marks(int level, uint64_t first) {
+    marks_.begin(first, run_.keys(level));
     for (const CellRoot& root : run_.roots()) {
-      if (root.level == level) marks_[root.rank] = true;
+      if (root.level == level) marks_.mark(root.rank);
     }
   }
-  void require_all_marked(int level) {
-    require(std::find(marks_.begin(), marks_.end(), false) == marks_.end(),
-            "a node is not reached from any root",
-            offset_of(run_.layout().levels[level].begin));
+
+  // The first window of `level` is marked, by the level above; that is read again for the others.
+  void require_reached(int level) {
+    for (;;) {
+      require(marks_.all(), kNotReached, offset_of(run_.layout().levels[level].begin));
+      if (marks_.end() == run_.keys(level)) return;
+      begin_marks(level, marks_.end());
+      const std::unique_ptr<BlockSource> above = run_.read(level - 1, budget_);
+      for (auto block = above->next(); !block.empty(); block = above->next()) {
+        check_interrupt();
+        for (const NodeKey& key : std::span(reinterpret_cast<const NodeKey*>(block.data()),
+                                            block.size() / sizeof(NodeKey)))
+          check_children(level - 1, key);
+      }
+    }
   }
 
   const RunFile& run_;
+  MemoryBudget* budget_;
   Payload payload_;
-  std::vector<bool> marks_;  // [rank], of the level below the one that is scanned
-  MemoryBudget::Reservation marked_;
+  uint64_t piece_ = 0;  // where the piece of the payload begins that was taken last
+  Marks marks_;         // of the level below the one that is scanned
 };
 
 }  // namespace
 
-void check_run(const RunFile& run, MemoryBudget* budget) {
-  Check(run, budget).run();
+void check_run(const RunFile& run, uint64_t bitmap_bytes, MemoryBudget* budget) {
+  Check(run, bitmap_bytes, budget).run();
 }
 
 }  // namespace svdag

@@ -50,7 +50,8 @@ void check_counts(const File& file, const RunHeader& h) {
   require(std::isfinite(h.largest_snap) && h.largest_snap >= 0, file, "impossible snap move", 144);
   for (uint32_t k = 0; k < kRunLevels; ++k) {
     const uint64_t count = h.keys[k];
-    require(count <= kMostRunKeys && count <= size / 8, file, "impossible number of nodes", 160 + 8 * k);
+    require(count <= kMostRunKeys && count <= size / 8, file, "impossible number of nodes",
+            160 + 8 * k);
     require(count == 0 || k + 1 < h.levels, file, "unused level", 160 + 8 * k);
   }
   require(h.ranges <= size / sizeof(StoredRange), file, "impossible number of ranges", 120);
@@ -102,9 +103,9 @@ RunFile::RunFile(File file, const RunHeader& header, MemoryBudget* budget)
     : file_(std::move(file)),
       header_(header),
       layout_(header),
-      counted_(budget->reserve(2 * layout_.ranges.bytes() + layout_.roots.bytes() +
-                                   header.roots * sizeof(CellRoot),
-                               "parts and roots of runs")),
+      counted_(budget->reserve(
+          2 * layout_.ranges.bytes() + layout_.roots.bytes() + header.roots * sizeof(CellRoot),
+          "parts and roots of runs")),
       part_({}, int(header.levels)) {
   read_part(budget);
   read_roots(budget);
@@ -128,8 +129,7 @@ void RunFile::read_part(MemoryBudget* budget) {
 
 void RunFile::read_roots(MemoryBudget* budget) {
   uint64_t end = 0;  // of the last one, in voxels
-  for (const StoredRoot& root :
-       read_items<StoredRoot>(file_, header_, layout_.roots, budget)) {
+  for (const StoredRoot& root : read_items<StoredRoot>(file_, header_, layout_.roots, budget)) {
     require(root.level + 2 <= header_.levels && root.code >> 3 * root.level == 0 &&
                 root.rank < header_.keys[root.level],
             file_, "impossible root", 152);

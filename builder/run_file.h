@@ -1,9 +1,10 @@
 // A `.run` opened for reading: its header, part and roots, and its levels as streams.
 //
 // open() proves that the header is sound, that the counts in it are those of a file of this size,
-// and that part and roots belong together. The levels are proven by check_run() (builder/run_check.h),
-// in one pass; who streams them before that finds damage (every block is checked again), but must
-// not follow a rank. All that is wrong is an Error (kBadInput) that names the file and the place.
+// and that part and roots belong together. The levels are proven by check_run()
+// (builder/run_check.h), in one pass; who streams them before that finds damage (every block is
+// checked again), but must not follow a rank. All that is wrong is an Error (kBadInput) that names
+// the file and the place.
 #pragma once
 
 #include <memory>

@@ -35,7 +35,8 @@ Hash128 content_hash_of(RunHeader header, Hasher128* blocks) {
 }
 
 uint64_t checksum_of(const RunHeader& header) {
-  return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(RunHeader, header_checksum)));
+  return checksum64(
+      std::as_bytes(std::span(&header, 1)).first(offsetof(RunHeader, header_checksum)));
 }
 
 }  // namespace svdag

@@ -1,6 +1,7 @@
 // The file format `.run`, version 1: the structures of docs/run-format.md.
 //
-//   header (1024 bytes) | blocks (builder and scratch frame them alike: streaming/spill_block.h) | end
+//   header (1024 bytes) | blocks (builder and scratch frame them alike: streaming/spill_block.h) |
+//   end
 //
 // The payloads of the blocks, one behind the other, are one stream of sections, each of which
 // begins at a multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
@@ -22,7 +23,7 @@ constexpr uint32_t kRunVersion = 1;
 constexpr uint32_t kRunLevels = 19;         // levels 0 .. L-2, L <= 20
 constexpr uint32_t kRunBlockBytes = 65536;  // of a block with its frame; the last one is shorter
 constexpr uint64_t kRunPayload = kRunBlockBytes - kSpillHeader;
-constexpr uint64_t kRunAlignment = 64;         // of sections; divides kRunPayload
+constexpr uint64_t kRunAlignment = 64;          // of sections; divides kRunPayload
 constexpr uint64_t kMostRunKeys = 0xfffffffeU;  // of a level
 
 struct RunHeader {

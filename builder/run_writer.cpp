@@ -84,9 +84,8 @@ void RunWriter::append_roots(std::span<const CellRoot> roots) {
   const auto position = [this](const CellRoot& root) {
     return root.morton << 3 * (part_.levels() - root.level);
   };
-  std::sort(sorted.begin(), sorted.end(), [&](const CellRoot& a, const CellRoot& b) {
-    return position(a) < position(b);
-  });
+  std::sort(sorted.begin(), sorted.end(),
+            [&](const CellRoot& a, const CellRoot& b) { return position(a) < position(b); });
   for (const CellRoot& root : sorted) {
     SVDAG_ASSERT(part_.is_top(root.level, root.morton));
     const StoredRoot out = {root.morton, uint32_t(root.level), root.rank};

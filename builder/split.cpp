@@ -11,18 +11,20 @@ namespace {
 
 enum class Place { kInside, kClipped, kOutside };
 
-// Where the triangle's box lies in relation to the closed box of the voxels that may be set.
-Place place_of(const LatticeTriangle& t, const Grid& grid) {
+// Where the triangle's box lies in relation to the closed box of the voxels that may be set;
+// outside, too, if it misses the closed part.
+Place place_of(const LatticeTriangle& t, const Grid& grid, const Part* part) {
   Place place = Place::kInside;
+  LatticePoint low, high;
   for (int a = 0; a < 3; ++a) {
     const int64_t begin = grid.selection.min[a] << grid.fraction();
     const int64_t end = grid.selection.max[a] << grid.fraction();
-    const int64_t low = std::min({t.v[0][a], t.v[1][a], t.v[2][a]});
-    const int64_t high = std::max({t.v[0][a], t.v[1][a], t.v[2][a]});
-    if (high < begin || low > end) return Place::kOutside;
-    if (low < begin || high > end) place = Place::kClipped;
+    low[a] = std::min({t.v[0][a], t.v[1][a], t.v[2][a]});
+    high[a] = std::max({t.v[0][a], t.v[1][a], t.v[2][a]});
+    if (high[a] < begin || low[a] > end) return Place::kOutside;
+    if (low[a] < begin || high[a] > end) place = Place::kClipped;
   }
-  return place;
+  return part == nullptr || part->meets(low, high) ? place : Place::kOutside;
 }
 
 bool zero_area(const LatticeTriangle& t) {
@@ -91,7 +93,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       LatticeTriangle snapped;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
-      const Place place = place_of(snapped, grid);
+      const Place place = place_of(snapped, grid, config.part);
       counts.outside += place == Place::kOutside;
       counts.clipped += place == Place::kClipped;
       if (place == Place::kOutside) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builder/cell_tree.h"
+#include "builder/part.h"
 #include "builder/triangle_bins.h"
 #include "io/scene/scene.h"
 #include "streaming/progress.h"
@@ -19,12 +20,13 @@ struct SplitConfig {
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
   Scratch* scratch = nullptr;            // null: they never are
+  const Part* part = nullptr;            // triangles that miss it are dropped; null: the whole grid
 };
 
 struct SplitCounts {
   SceneCounts scene;
   uint64_t clipped = 0;     // kept, but reaching outside the grid or the selection
-  uint64_t outside = 0;     // triangles whose box misses the grid: dropped
+  uint64_t outside = 0;     // triangles whose box misses the grid, or the part: dropped
   uint64_t degenerate = 0;  // of the others: zero area after the snap
   double largest_snap = 0;  // in voxels, over the triangles that were kept
 };

@@ -13,7 +13,8 @@ std::pair<int32_t, uint32_t> place_of(const CellRoot& root) {
 
 }  // namespace
 
-TopTree::TopTree(std::vector<CellRoot> roots) : roots_(std::move(roots)) {
+TopTree::TopTree(std::vector<CellRoot> roots, const Part& part)
+    : roots_(std::move(roots)), part_(part) {
   std::sort(roots_.begin(), roots_.end(), [](const CellRoot& a, const CellRoot& b) {
     return place_of(a) != place_of(b) ? place_of(a) < place_of(b) : a.morton < b.morton;
   });
@@ -51,9 +52,14 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
   return nodes_;
 }
 
-void TopTree::end_level() {
+void TopTree::end_level(int level) {
   std::sort(places_.begin(), places_.end(),
             [](const Place& a, const Place& b) { return a.morton < b.morton; });
+  std::erase_if(places_, [&](const Place& place) {
+    const bool top = part_.is_top(level, place.morton);
+    if (top) tops_.push_back({place.morton, level, 0, place.index});
+    return top;
+  });
 }
 
 }  // namespace svdag

@@ -1,10 +1,12 @@
-// The octree above the cells, built upwards while the merge goes from level to level.
+// The octree above the cells, built upwards while the merge goes from level to level, up to the
+// tops of the part that is merged: the root of the grid if that is all.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "builder/cell.h"
+#include "builder/part.h"
 #include "io/dag/dag_writer.h"
 
 namespace svdag {
@@ -20,11 +22,12 @@ struct CellRoot {
 
 class TopTree {
  public:
-  explicit TopTree(std::vector<CellRoot> roots);
+  // The roots lie in `part`, which must outlive the tree.
+  TopTree(std::vector<CellRoot> roots, const Part& part);
 
-  // After level `level` was merged, in this order: the top tree's own nodes, by the indices of those
-  // that sorted_nodes() returned; then the roots of each run, by its map from rank to index; then
-  // the end.
+  // After level `level` was merged, in this order: the top tree's own nodes, by the indices of
+  // those that sorted_nodes() returned; then the roots of each run, by its map from rank to index,
+  // or by windows of that which hold each rank once; then the end.
   template <class Map>
   void resolve_own(const Map& indices) {
     for (Place& place : places_) place.index = indices[place.index];
@@ -32,12 +35,15 @@ class TopTree {
   template <class Map>
   void resolve_run(int level, uint32_t run, const Map& map) {
     for (auto [root, end] = roots_of(level, run); root != end; ++root)
-      places_.push_back({root->morton, map[root->rank]});
+      if (map.holds(root->rank)) places_.push_back({root->morton, map[root->rank]});
   }
-  void end_level();
+  void end_level(int level);
 
   // The parents of the cubes resolved last, as nodes, ascending without repeats.
   const std::vector<NodeKey>& sorted_nodes();
+
+  // After the end of level 0: the tops of the part that are not empty, with `rank` the index.
+  std::vector<CellRoot> take_tops() { return std::move(tops_); }
 
  private:
   struct Place {
@@ -49,8 +55,10 @@ class TopTree {
   std::pair<Roots, Roots> roots_of(int level, uint32_t run) const;
 
   std::vector<CellRoot> roots_;  // by level and run
-  std::vector<Place> places_;    // occupied cubes of the current level, ascending
-  std::vector<NodeKey> nodes_;   // of the level being merged, ascending without repeats
+  const Part& part_;
+  std::vector<CellRoot> tops_;
+  std::vector<Place> places_;   // occupied cubes of the current level, ascending
+  std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats
 };
 
 }  // namespace svdag

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "builder/build.h"
+#include "builder/merge_runs.h"
 
 namespace svdag {
 
@@ -23,6 +24,12 @@ struct BuildCommandConfig {
   OutputConfig output;
 };
 
+struct MergeCommandConfig {
+  MergeRunsConfig merge;
+  size_t threads = 0;  // 0: all processors
+  OutputConfig output;
+};
+
 struct InfoConfig {
   std::vector<std::string> paths;  // one .svdag, or the files of one scene
   bool json = false;
@@ -34,6 +41,7 @@ struct InfoConfig {
 
 // Each returns the exit code and throws Error for everything that went wrong.
 int run_build(const BuildCommandConfig& config);
+int run_merge(const MergeCommandConfig& config);
 int run_info(const InfoConfig& config);
 
 // The part of run_info that looks at scenes.

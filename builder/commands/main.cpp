@@ -43,6 +43,15 @@ Box parse_bounds(const std::string& text) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
+CellRange parse_part(const std::string& text) {
+  unsigned long long number = 0, count = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%llu/%llu%n", &number, &count, &used) != 2 ||
+      used != int(text.size()))
+    fail_usage("--part: \"" + text + "\" is not I/N, for example 3/8");
+  return Part::share(number, count);
+}
+
 void add_measurement_options(CLI::App* app, DescentConfig* descent) {
   constexpr const char* kGroup = "Measurements (the result is the same)";
   app->add_flag_callback(
@@ -58,18 +67,20 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
 }
 
 // Memory, threads and disk; the result is the same with any of them.
-void add_resource_options(CLI::App* app, BuildCommandConfig* config) {
-  BuildConfig* build = &config->build;
+void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
   app->add_option_function<std::string>(
          "-m,--memory",
-         [build](const std::string& s) { build->memory = parse_count(s, "--memory"); },
+         [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
          "Memory budget, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
-  app->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
+  app->add_option("-j,--threads", *threads, "Threads (default: all processors)")
       ->check(CLI::Range(size_t(1), size_t(1024)));
-  app->add_option("--scratch", build->scratch,
-                  "Folder for what does not fit in memory (default: OUT.svdag.scratch)")
+  app->add_option("--scratch", *scratch,
+                  "Folder for what does not fit in memory (default: OUT.scratch)")
       ->type_name("DIR");
+}
+
+void add_resume_options(CLI::App* app, BuildConfig* build) {
   CLI::Option* resume = app->add_flag_callback(
       "--resume", [build] { build->unfinished = Unfinished::kResume; },
       "Continue an unfinished bake of this output, if there is one");
@@ -87,7 +98,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
   app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
       ->required();
-  app->add_option("-o,--output", build->output, "The .svdag to write")->required();
+  app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")->required();
   CLI::Option_group* grid = app->add_option_group("grid");
   grid->add_option_function<std::string>(
           "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
@@ -106,6 +117,10 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
+  app->add_option_function<std::string>(
+         "--part", [build](const std::string& s) { build->part = parse_part(s); },
+         "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
+      ->type_name("I/N");
   static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
                                                      {"thin", Rule::kThin}};
   app->add_option(
@@ -115,7 +130,8 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
-  add_resource_options(app, config);
+  add_resource_options(app, &build->memory, &config->threads, &build->scratch);
+  add_resume_options(app, build);
   app->add_option("--report", config->report, "Write a report of the bake as JSON")
       ->type_name("FILE");
   add_output_options(app, &config->output);
@@ -124,6 +140,20 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       "Examples:\n"
       "  svdag build city.glb -o city.svdag -r 64K\n"
       "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+}
+
+void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
+  app->add_option("RUN", config->merge.runs, "Runs of parts of one bake")->required();
+  app->add_option("-o,--output", config->merge.output,
+                  "The .svdag to write, if the runs hold the whole grid, or a larger .run")
+      ->required();
+  add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
+  add_output_options(app, &config->output);
+  app->footer(
+      "Examples:\n"
+      "  svdag build city.glb -r 64K --part 1/2 -o a.run\n"
+      "  svdag build city.glb -r 64K --part 2/2 -o b.run\n"
+      "  svdag merge a.run b.run -o city.svdag");
 }
 
 void set_up_info(CLI::App* app, InfoConfig* config) {
@@ -145,10 +175,13 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("svdag COMMAND --help explains a command.");
   BuildCommandConfig build;
+  MergeCommandConfig merge;
   InfoConfig info;
   CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
+  CLI::App* merge_app = app.add_subcommand("merge", "Join the runs of parts of one bake");
   CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag or a scene contains");
   set_up_build(build_app, &build);
+  set_up_merge(merge_app, &merge);
   set_up_info(info_app, &info);
   try {
     app.parse(argc, argv);
@@ -161,7 +194,9 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail_usage(std::string(error.what()) + "; see svdag --help");
   }
-  const int result = build_app->parsed() ? run_build(build) : run_info(info);
+  const int result = build_app->parsed()   ? run_build(build)
+                     : merge_app->parsed() ? run_merge(merge)
+                                           : run_info(info);
   if (std::fflush(stdout) != 0)
     throw Error(ExitCode::kOutput, "the result could not be written to standard output");
   return result;

@@ -93,6 +93,7 @@ struct MergeWay {
   bool spilled;
   uint64_t map_bytes;
   size_t sources;
+  uint64_t window_bytes = UINT64_MAX;
 };
 
 class Merge : public ::testing::TestWithParam<MergeWay> {
@@ -156,12 +157,12 @@ TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     grid.levels = levels;
     grid.selection = grid.whole();
     const std::string path = directory_.file("out.svdag");
-    DagWriter writer(path, grid, Rule::kConservative);
+    DagOutput output(path, grid, Rule::kConservative);
     SequentialExecutor executor;
     MergeConfig config{&budget_, GetParam().spilled ? &scratch_ : nullptr, GetParam().map_bytes,
-                       GetParam().sources};
-    merge(runs, roots, levels, config, &writer, &executor);
-    writer.finish(0, 0);
+                       GetParam().window_bytes, GetParam().sources};
+    merge(runs, roots, Part::whole(levels), config, &output, &executor);
+    output.finish({}, 0, 0);
     const DagFile file = DagFile::open(path);
     EXPECT_EQ(bricks_of(file.view()), cells.bricks) << seed;
     std::vector<uint64_t> nodes;
@@ -176,6 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, Merge,
                                            MergeWay{"spilled", true, 1 << 30, 99},
                                            MergeWay{"maps_spilled", true, 0, 99},
                                            MergeWay{"some_maps_spilled", true, 2000, 99},
+                                           MergeWay{"maps_in_windows", true, 0, 99, 28},
                                            MergeWay{"two_at_a_time", true, 1 << 30, 2},
                                            MergeWay{"three_at_a_time_maps_spilled", true, 0, 3}),
                          [](const auto& way) { return way.param.name; });

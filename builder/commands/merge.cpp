@@ -1,0 +1,48 @@
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+void refuse_overwriting_inputs(const MergeRunsConfig& config) {
+  for (size_t i = 0; i < config.runs.size(); ++i) {
+    if (same_file(config.runs[i], config.output))
+      fail_usage(config.output +
+                 " is also an input, which is never overwritten: choose another output");
+    for (size_t j = 0; j < i; ++j) {
+      if (same_file(config.runs[i], config.runs[j])) fail_usage(config.runs[i] + " is given twice");
+    }
+  }
+}
+
+void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
+  uint64_t nodes = 0;
+  for (const uint64_t n : r.nodes) nodes += n;
+  std::printf("%s: %s^3, %zu runs (%s), %s voxels, %s nodes, %s, content %s\n",
+              config.merge.output.c_str(), format_resolution(uint64_t(r.grid.resolution())).c_str(),
+              config.merge.runs.size(), format_bytes(r.runs_bytes).c_str(),
+              format_count(r.voxels).c_str(), format_count(nodes).c_str(),
+              format_bytes(r.file_bytes).c_str(), r.content_hash.c_str());
+  if (!config.output.verbose) return;
+  std::printf("  seconds: check %.2f, merge %.2f, write %.2f\n", r.seconds.check, r.seconds.merge,
+              r.seconds.write);
+  std::printf("  scratch: %s written; memory: %s counted, %s resident\n",
+              format_bytes(r.scratch_written).c_str(), format_bytes(r.peak_counted).c_str(),
+              format_bytes(peak_resident_bytes()).c_str());
+}
+
+}  // namespace
+
+int run_merge(const MergeCommandConfig& config) {
+  refuse_overwriting_inputs(config.merge);
+  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
+  Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
+  const MergeRunsReport report = merge_runs(config.merge, &executor, &progress);
+  if (!config.output.quiet) print_summary(config, report);
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

@@ -1,0 +1,171 @@
+#include "builder/merge_runs.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "builder/bake_output.h"
+#include "builder/checkpoint.h"
+#include "builder/merge.h"
+#include "builder/run_check.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// What differs first between the bakes of two runs, or nothing.
+const char* difference(const RunFile& a, const RunFile& b) {
+  const Grid g = a.grid(), h = b.grid();
+  if (a.rule() != b.rule()) return "the rule differs";
+  if (g.kind != h.kind) return "one grid divides its scene, the other is a lattice";
+  const bool divides = g.kind == Grid::Kind::kBox;  // then the voxel size follows
+  if (divides && g.levels != h.levels) return "the resolution differs";
+  if (g.voxel_size != h.voxel_size) return "the voxel size differs";
+  if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
+    return "the grid holds another box";
+  if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
+  return nullptr;
+}
+
+std::string voxel_text(uint64_t code) {
+  const LatticePoint p = unmorton(code);
+  return "voxel (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
+         ")";
+}
+
+// How the memory is shared out.
+MergeConfig merge_config(Scratch* scratch, MemoryBudget* budget, size_t workers) {
+  const uint64_t memory = budget->limit();
+  MergeConfig config;
+  config.budget = budget;
+  config.scratch = scratch;
+  config.map_bytes = memory / 2;
+  config.window_bytes = memory / 2 / workers;
+  // A source holds its block and, where maps are spilled, the writer of one.
+  config.sources =
+      std::max<uint64_t>(2, memory * 3 / 8 / (kRunBlockBytes + 4 * scratch->block_bytes()));
+  return config;
+}
+
+class Seconds {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Run run_of(const RunFile& file) {
+  Run run;
+  run.bricks.file = &file;
+  run.nodes.resize(size_t(file.header().levels - 2));
+  for (auto& level : run.nodes) level.file = &file;
+  return run;
+}
+
+}  // namespace
+
+Part joined_part(const std::vector<RunFile>& runs) {
+  struct Owned {
+    MortonRange range;
+    const RunFile* run;
+  };
+  std::vector<Owned> owned;
+  for (const RunFile& run : runs) {
+    if (const char* const what = difference(runs.front(), run))
+      fail_usage(runs.front().path() + " and " + run.path() + " are of different bakes: " + what);
+    for (const MortonRange& range : run.part().ranges()) owned.push_back({range, &run});
+  }
+  std::sort(owned.begin(), owned.end(),
+            [](const Owned& a, const Owned& b) { return a.range.begin < b.range.begin; });
+  std::vector<MortonRange> ranges;
+  for (size_t i = 0; i < owned.size(); ++i) {
+    if (i > 0 && owned[i].range.begin < owned[i - 1].range.end)
+      fail_usage(owned[i - 1].run->path() + " and " + owned[i].run->path() +
+                 " overlap: both hold " + voxel_text(owned[i].range.begin));
+    append_range(&ranges, owned[i].range);
+  }
+  return Part(std::move(ranges), runs.front().grid().levels);
+}
+
+void require_whole(const Part& part, const Grid& grid, const std::string& output) {
+  for (const Cube& cube : part.rest().tops()) {
+    const int shift = grid.levels - cube.level;
+    bool wanted = true;
+    for (int a = 0; a < 3; ++a) {
+      const int64_t low = cube.coordinate[a] << shift, high = low + (int64_t(1) << shift);
+      wanted = wanted && low < grid.selection.max[a] && high > grid.selection.min[a];
+    }
+    if (!wanted) continue;
+    const LatticePoint low = cube.coordinate << int64_t(shift);
+    fail_usage(output + ": a part of the grid is in none of the runs, first the " +
+               format_resolution(uint64_t(1) << shift) + "^3 voxels from (" +
+               std::to_string(low.x) + ", " + std::to_string(low.y) + ", " + std::to_string(low.z) +
+               ") on: add the missing run, or merge to an output that ends in .run");
+  }
+}
+
+MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress) {
+  Seconds seconds;
+  MergeRunsReport report;
+  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
+  std::vector<RunFile> files;
+  for (const std::string& path : config.runs) files.push_back(RunFile::open(path, &budget));
+  Part part = joined_part(files);
+  report.grid = files.front().grid();
+  if (!names_run(config.output)) {
+    require_whole(part, report.grid, config.output);
+    part = Part::whole(report.grid.levels);  // what is not there holds nothing that was asked for
+  }
+
+  ScratchDir folder(ScratchDir::path_for(config.output, config.scratch));
+  if (Checkpoint::exists(folder)) {
+    folder.keep();
+    fail_usage(config.output + ": an unfinished bake of it is in " + folder.path() +
+               ": finish it, or choose another output");
+  }
+  folder.clear();
+  Scratch scratch(&folder, &budget);
+  const auto output = open_output(config.output, report.grid, files.front().rule(), part);
+  progress->phase("check", files.size());
+  const uint64_t bitmap_bytes = budget.limit() / 4 / executor->workers();
+  executor->for_each(files.size(), [&](size_t, size_t i) {
+    check_run(files[i], bitmap_bytes, &budget);
+    progress->advance();
+  });
+  report.seconds.check = seconds.lap();
+
+  progress->phase("merge", 0);
+  std::vector<Run> runs;
+  std::vector<CellRoot> roots;
+  double largest_snap = 0;
+  for (const RunFile& file : files) {
+    for (CellRoot root : file.roots()) {
+      root.run = uint32_t(runs.size());
+      roots.push_back(root);
+    }
+    runs.push_back(run_of(file));
+    report.voxels += file.header().voxels;
+    report.runs_bytes += file.header().file_bytes;
+    largest_snap = std::max(largest_snap, file.header().largest_snap);
+  }
+  const auto tops =
+      merge(runs, std::move(roots), part, merge_config(&scratch, &budget, executor->workers()),
+            output.get(), executor);
+  report.seconds.merge = seconds.lap();
+  progress->phase("write", 0);
+  output->finish(tops, report.voxels, largest_snap);
+  progress->finish();
+  report.seconds.write = seconds.lap();
+  report.nodes = output->keys();
+  report.file_bytes = output->file_bytes();
+  report.content_hash = output->content_hash();
+  report.scratch_written = scratch.written_bytes();
+  report.peak_counted = budget.peak();
+  return report;
+}
+
+}  // namespace svdag
