@@ -158,6 +158,8 @@ void Bake::choose_grid() {
   progress_->phase("read bounds", 0);
   if (saved_) {
     report_.grid = saved_->grid;
+  } else if (config_.ready != nullptr) {
+    report_.grid = config_.ready->grid;
   } else {
     SceneCounts counts;
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
@@ -175,6 +177,8 @@ void Bake::split() {
                    shares_.triangles, &scratch_, config_.part ? &*part_ : nullptr};
   if (saved_ && saved_->split) {
     split_ = std::move(*saved_->split);
+  } else if (config_.ready != nullptr) {
+    split_ = {config_.ready->counts, nullptr, config_.ready->bins};
   } else {
     split_ = svdag::split(scene_, report_.grid, split_config_, &budget_);
     if (split_.counts.scene.triangles == 0)
@@ -208,12 +212,13 @@ void Bake::voxelize() {
   } else {
     BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
                    executor_, progress_);
+    SpillFile* const file = config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
     uint64_t triangles = 0, done_triangles = 0;
     for (const TriangleBin& bin : split_.bins) triangles += bin.triangles;
     for (const TriangleBin& bin : split_.bins) {
       bins_done_ = double(done_triangles) / double(triangles);
       bin_share_ = double(bin.triangles) / double(triangles);
-      baker.bake(scratch_.triangles(), bin);
+      baker.bake(file, bin);
       done_triangles += bin.triangles;
     }
   }

@@ -17,8 +17,18 @@ namespace svdag {
 // What to do with an unfinished bake of the same output.
 enum class Unfinished { kRefuse, kResume, kRestart };
 
+// A split that was made before, by a plan (builder/farm/plan.h).
+struct ReadySplit {
+  std::string description;  // of the bake
+  Grid grid;
+  SplitCounts counts;
+  std::vector<TriangleBin> bins;   // all that the part needs
+  SpillFile* triangles = nullptr;  // which holds them
+};
+
 struct BuildConfig {
   SceneConfig scene;
+  const ReadySplit* ready = nullptr;  // if given: instead of the scene and what its grid is chosen by
   std::string output;                 // a `.run` if it is named so, else a `.svdag`
   std::optional<CellRange> part;      // bake these cells only; the output is a `.run`
   int levels = 0;             // -r: L of the grid; 0 if the voxel size is given instead

@@ -39,8 +39,9 @@ class SpillFile {
   static constexpr size_t kHeader = kSpillHeader;
 
   // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
-  // use already (a file that is resumed).
-  SpillFile(File file, size_t block_bytes, uint32_t first_free = 0);
+  // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block.
+  SpillFile(File file, size_t block_bytes, uint32_t first_free = 0,
+            ExitCode damaged = ExitCode::kOutput);
   ~SpillFile();
 
   size_t block_bytes() const;
