@@ -212,7 +212,8 @@ void Bake::voxelize() {
   } else {
     BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
                    executor_, progress_);
-    SpillFile* const file = config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
+    SpillFile* const file =
+        config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
     uint64_t triangles = 0, done_triangles = 0;
     for (const TriangleBin& bin : split_.bins) triangles += bin.triangles;
     for (const TriangleBin& bin : split_.bins) {

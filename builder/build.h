@@ -28,18 +28,18 @@ struct ReadySplit {
 
 struct BuildConfig {
   SceneConfig scene;
-  const ReadySplit* ready = nullptr;  // if given: instead of the scene and what its grid is chosen by
+  const ReadySplit* ready = nullptr;  // instead of the scene and of what its grid is chosen by
   std::string output;                 // a `.run` if it is named so, else a `.svdag`
   std::optional<CellRange> part;      // bake these cells only; the output is a `.run`
-  int levels = 0;             // -r: L of the grid; 0 if the voxel size is given instead
-  double voxel_size = 0;      // --voxel-size, in world units; 0 if the resolution is given
-  DescentConfig descent;      // --rule
-  std::optional<Box> bounds;  // --bounds, in world units
-  uint64_t memory = 0;        // --memory in bytes; 0: half of the machine
-  int cell_level = -1;        // octree level of the cells; -1: chosen by the grid
-  std::string scratch;        // --scratch: the folder for scratch folders; empty: the output's
+  int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
+  double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
+  DescentConfig descent;              // --rule
+  std::optional<Box> bounds;          // --bounds, in world units
+  uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
+  int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
+  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
-  double checkpoint = 30;     // --checkpoint: seconds of work that a killed bake may lose
+  double checkpoint = 30;  // --checkpoint: seconds of work that a killed bake may lose
 };
 
 struct BuildReport {
@@ -49,8 +49,8 @@ struct BuildReport {
   DecisionCounts decisions;
   PlaneMemoCounts memo;
   std::vector<uint64_t> divided;  // cubes per level that the descent divided, inside the cells
-  uint64_t cells = 0;  // visited
-  uint64_t runs = 0;   // merged; those of an earlier process included
+  uint64_t cells = 0;             // visited
+  uint64_t runs = 0;              // merged; those of an earlier process included
   bool resumed = false;
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks

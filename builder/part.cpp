@@ -20,7 +20,8 @@ Part Part::of_cells(const CellRange& cells, int levels) {
 CellRange Part::share(uint64_t number, uint64_t count) {
   constexpr uint64_t kMost = 1'000'000;
   if (count == 0 || count > kMost || number == 0 || number > count)
-    fail_usage("there is no part " + std::to_string(number) + " of " + std::to_string(count));
+    fail_usage("--part: there is no part " + std::to_string(number) + " of " +
+               std::to_string(count));
   // At least eight cells each, so that the largest part is an eighth larger than the mean at most.
   CellRange cells;
   while (uint64_t(1) << 3 * cells.level < 8 * count) ++cells.level;

@@ -114,9 +114,9 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
       s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
   if (r.scratch.written != 0)
     std::printf("  scratch: %s at most (%s estimated), %s written, %s read; %s runs merged%s\n",
-                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(), format_bytes(r.scratch.written).c_str(),
-                format_bytes(r.scratch.read).c_str(), format_count(r.runs).c_str(),
-                r.resumed ? "; resumed" : "");
+                format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(),
+                format_bytes(r.scratch.written).c_str(), format_bytes(r.scratch.read).c_str(),
+                format_count(r.runs).c_str(), r.resumed ? "; resumed" : "");
   std::printf("  memory: %s counted, %s resident\n", format_bytes(r.peak_counted).c_str(),
               format_bytes(r.peak_resident).c_str());
 }
@@ -135,6 +135,8 @@ void refuse_overwriting_inputs(const BuildCommandConfig& config) {
 }  // namespace
 
 int run_build(const BuildCommandConfig& config) {
+  if (config.shard != 0) return run_shard(config);
+  if (config.dry_run) return run_dry(config);
   refuse_overwriting_inputs(config);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);

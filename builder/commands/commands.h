@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "builder/build.h"
+#include "builder/farm/make_plan.h"
 #include "builder/merge_runs.h"
 
 namespace svdag {
@@ -21,17 +22,44 @@ struct BuildCommandConfig {
   BuildConfig build;
   size_t threads = 0;  // 0: all processors
   std::string report;  // --report: where the JSON report goes, "" for nowhere
+  size_t shard = 0;    // --shard: the scene is a plan, of which this shard is baked; 0: it is none
+  bool dry_run = false;  // --dry-run: tells what the bake would take
   OutputConfig output;
 };
 
 struct MergeCommandConfig {
   MergeRunsConfig merge;
   size_t threads = 0;  // 0: all processors
+  std::string step;    // --step: the only run is a plan, of which this merge is done
+  OutputConfig output;
+};
+
+struct PlanCommandConfig {
+  PlanConfig plan;
+  size_t threads = 0;  // of planning; 0: all processors
+  OutputConfig output;
+};
+
+struct RunCommandConfig {
+  std::string plan;
+  size_t processes = 0;  // 0: one per processor
+  std::string scratch;
+  OutputConfig output;
+};
+
+struct SubmitConfig {
+  std::string plan;
+  std::string engine;         // slurm | openjd
+  std::string program;        // --program: svdag on the other machines; "": this one
+  std::string template_path;  // -o: of openjd; "": PLAN/openjd.json
+  std::string scratch;
+  bool wait = false;
+  std::vector<std::string> options;  // behind --, for the engine
   OutputConfig output;
 };
 
 struct InfoConfig {
-  std::vector<std::string> paths;  // one .svdag, or the files of one scene
+  std::vector<std::string> paths;  // one .svdag or .run, or the files of one scene
   bool json = false;
   bool levels = false;  // a table of levels
   NameFilter names;     // for scenes
@@ -42,9 +70,19 @@ struct InfoConfig {
 // Each returns the exit code and throws Error for everything that went wrong.
 int run_build(const BuildCommandConfig& config);
 int run_merge(const MergeCommandConfig& config);
+int run_plan(const PlanCommandConfig& config);
+int run_run(const RunCommandConfig& config);
+int run_submit(const SubmitConfig& config);
 int run_info(const InfoConfig& config);
 
-// The part of run_info that looks at scenes.
+// The parts of run_build and run_merge that do steps of a plan, and that of the first that only
+// tells what it would take.
+int run_shard(const BuildCommandConfig& config);
+int run_merge_step(const MergeCommandConfig& config);
+int run_dry(const BuildCommandConfig& config);
+// The parts of run_info that look at plans, runs and scenes.
+void info_plan(const InfoConfig& config);
+void info_run(const InfoConfig& config);
 void info_scene(const InfoConfig& config);
 
 }  // namespace svdag

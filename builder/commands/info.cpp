@@ -15,11 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_dag(const std::string& path) {
+bool begins_with(const unsigned char (&magic)[8], const std::string& path) {
   const File file = File::open_read(path);
-  std::array<std::byte, sizeof kMagic> head{};
+  std::array<std::byte, sizeof magic> head{};
   file.read_some_at(0, head);
-  return std::memcmp(head.data(), kMagic, sizeof kMagic) == 0;
+  return std::memcmp(head.data(), magic, sizeof magic) == 0;
 }
 
 Json dag_json(const DagFile& file, const DagStats& stats) {
@@ -75,8 +75,13 @@ void info_dag(const InfoConfig& config) {
 }  // namespace
 
 int run_info(const InfoConfig& config) {
-  if (config.paths.size() == 1 && is_dag(config.paths.front())) {
+  const bool one = config.paths.size() == 1;
+  if (one && is_plan(config.paths.front())) {
+    info_plan(config);
+  } else if (one && begins_with(kMagic, config.paths.front())) {
     info_dag(config);
+  } else if (one && begins_with(kRunMagic, config.paths.front())) {
+    info_run(config);
   } else {
     info_scene(config);
   }

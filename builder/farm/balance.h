@@ -14,9 +14,9 @@ struct CellCost {
   double cost = 0;
 };
 
-// `count` ranges that hold all cells of `level` together, in order. `cells` ascend. Each boundary is
-// the one nearest to its share, so a range is off by less than its two outermost cells. A range may
-// be empty where one cell is dearer than a whole share.
+// `count` ranges that hold all cells of `level` together, in order. `cells` ascend. Each boundary
+// is the one nearest to its share, so a range is off by less than its two outermost cells. A range
+// may be empty where one cell is dearer than a whole share.
 std::vector<CellRange> cut_evenly(const std::vector<CellCost>& cells, int level, size_t count);
 
 }  // namespace svdag

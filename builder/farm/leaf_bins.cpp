@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kBatch = 4096;     // triangles read at once
+constexpr size_t kBatch = 4096;      // triangles read at once
 constexpr uint64_t kMostCopies = 3;  // of a triangle, on average, by one dealing
 
 class Dealer {
@@ -39,9 +39,8 @@ class Dealer {
 
   // A surface in 4^depth parts: no deeper than makes them light.
   TriangleBins bins_below(const Cube& cube, uint64_t triangles) const {
-    const int most =
-        std::min(TriangleBins::depth_for(config_.open_bytes, *scratch_, grid_, cube),
-                 std::max(1, config_.deepest - cube.level));
+    const int most = std::min(TriangleBins::depth_for(config_.open_bytes, *scratch_, grid_, cube),
+                              std::max(1, config_.deepest - cube.level));
     int depth = 1;
     while (depth < most && config_.light << (2 * depth) < triangles) ++depth;
     return TriangleBins(grid_, cube, depth, scratch_->passing(), scratch_);

@@ -16,10 +16,10 @@
 namespace svdag {
 namespace {
 
-constexpr int kDeepestBins = 6;              // as the cells
-constexpr uint64_t kBinsPerShard = 8;        // a shard reads an eighth too much at each end
-constexpr uint64_t kLightBin = 4096;         // triangles: finer bins are not worth their blocks
-constexpr uint64_t kBytesPerTriangle = 40;   // in a bin
+constexpr int kDeepestBins = 6;             // as the cells
+constexpr uint64_t kBinsPerShard = 8;       // a shard reads an eighth too much at each end
+constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not worth their blocks
+constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
 constexpr size_t kSmallestBlock = 1 << 14;
 
 void make_folder(const std::string& path) {
@@ -102,10 +102,10 @@ void Planner::read_scene() {
   leaf.open_bytes = budget_.limit() / 8;
   plan_.block_bytes = std::clamp(std::bit_floor(size_t(leaf.light * kBytesPerTriangle / 4)),
                                  kSmallestBlock, scratch_.block_bytes());
-  triangles_ = std::make_unique<SpillFile>(
-      config_.folder.empty() ? folder_.create(kPlanTriangles)
-                             : File::create_anonymous(config_.folder),
-      plan_.block_bytes);
+  triangles_ =
+      std::make_unique<SpillFile>(config_.folder.empty() ? folder_.create(kPlanTriangles)
+                                                         : File::create_anonymous(config_.folder),
+                                  plan_.block_bytes);
   plan_.bins = make_leaf_bins(&scene, plan_.grid, leaf, &scratch_, triangles_.get());
 }
 
@@ -116,8 +116,8 @@ void Planner::describe_inputs() {
   scene_.visit_files([&](const File& file) {
     while (std::getline(lines, line) && !line.starts_with("content of ")) {
     }
-    plan_.inputs.push_back({absolute_path(file.path()), file.size(),
-                            line.substr(line.find_last_of(' ') + 1)});
+    plan_.inputs.push_back(
+        {absolute_path(file.path()), file.size(), line.substr(line.find_last_of(' ') + 1)});
   });
 }
 
@@ -134,8 +134,8 @@ void Planner::survey() {
 
 void Planner::make_steps() {
   progress_->phase("survey shards", 0);
-  const std::vector<ShardWork> works = survey_shards(
-      plan_.grid, plan_.bins, triangles_.get(), pilot_config_, pilot_, shards_, &budget_);
+  const std::vector<ShardWork> works = survey_shards(plan_.grid, plan_.bins, triangles_.get(),
+                                                     pilot_config_, pilot_, shards_, &budget_);
   add_shards(works);
   add_merges(works);
 }
@@ -182,7 +182,8 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
       count += leaves[i];
     }
     const double way = std::log(double(count)) / most;
-    found.push_back({sum.nodes * std::pow(node_share, way), sum.bricks * std::pow(brick_share, way)});
+    found.push_back(
+        {sum.nodes * std::pow(node_share, way), sum.bricks * std::pow(brick_share, way)});
     summed.push_back(sum);
     leaves.push_back(count);
     const bool last = m + 1 == tree.size();

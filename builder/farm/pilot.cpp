@@ -10,12 +10,12 @@ namespace svdag {
 namespace {
 
 constexpr int kLevelsCoarser = 4;
-constexpr int kFinestPilot = 14;     // beyond, the sample alone tells
-constexpr int kCellLevel = 6;        // as builder/build.cpp
+constexpr int kFinestPilot = 14;  // beyond, the sample alone tells
+constexpr int kCellLevel = 6;     // as builder/build.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
 constexpr size_t kMostSamples = 64, kFewestSamples = 6;
-constexpr double kUnsurveyed = 2e-6;   // seconds per triangle of a bin that is too heavy to survey
+constexpr double kUnsurveyed = 2e-6;  // seconds per triangle of a bin that is too heavy to survey
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,
@@ -53,8 +53,8 @@ Coarse survey_coarsely(const Grid& grid, const std::vector<TriangleBin>& bins, S
 std::map<uint64_t, int> draw(const Coarse& coarse) {
   double all = 0;
   for (const auto& [cell, work] : coarse.cells) all += cpu_of(work);
-  const size_t count = std::clamp(size_t(kSampleShare * double(coarse.cells.size())),
-                                  kFewestSamples, kMostSamples);
+  const size_t count =
+      std::clamp(size_t(kSampleShare * double(coarse.cells.size())), kFewestSamples, kMostSamples);
   std::map<uint64_t, int> drawn;
   double before = 0, next = 0.5;
   for (const auto& [cell, work] : coarse.cells) {
@@ -105,19 +105,20 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
                            std::min(finest_cells + 3, grid.levels), grid.levels);
   Coarse coarse;
   for (;; ++pilot.cell_level) {
-    coarse = survey_coarsely(grid, bins, file,
-                             survey_config(config, pilot.level, pilot.cell_level), budget);
+    coarse = survey_coarsely(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level),
+                             budget);
     double dearest = 0;
     for (const auto& [cell, work] : coarse.cells) dearest = std::max(dearest, cpu_of(work));
     const double share = cpu_of(coarse.work) / double(config.shards);
     if (dearest < share / 4 || pilot.cell_level == finest_cells) break;
   }
   const std::map<uint64_t, int> drawn = draw(coarse);
-  const Sample fine = survey_sample(
-      grid, bins, file, survey_config(config, grid.levels, pilot.cell_level), coarse, drawn, budget);
-  const Sample same = survey_sample(grid, bins, file,
-                                    survey_config(config, pilot.level, pilot.cell_level), coarse,
-                                    drawn, budget);
+  const Sample fine =
+      survey_sample(grid, bins, file, survey_config(config, grid.levels, pilot.cell_level), coarse,
+                    drawn, budget);
+  const Sample same =
+      survey_sample(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level), coarse,
+                    drawn, budget);
   // Drawn in proportion to cost: the mean of the ratios is that of the whole.
   double sum = 0, times = 0;
   for (const auto& [cell, work] : fine.cells) {
@@ -129,7 +130,8 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   pilot.growth = {ratio(fine.found.nodes, same.found.nodes),
                   ratio(fine.found.bricks, same.found.bricks)};
   pilot.work = coarse.work * growth;
-  pilot.found = {coarse.found.nodes * pilot.growth.nodes, coarse.found.bricks * pilot.growth.bricks};
+  pilot.found = {coarse.found.nodes * pilot.growth.nodes,
+                 coarse.found.bricks * pilot.growth.bricks};
   for (const auto& [cell, work] : coarse.cells)
     pilot.cells.push_back({cell, cpu_of(work) * growth});
   for (const size_t b : coarse.heavy) {
@@ -153,8 +155,7 @@ std::vector<ShardWork> survey_shards(const Grid& grid, const std::vector<Triangl
       shard.triangles += bin.triangles;
       shard.heaviest_bin = std::max(shard.heaviest_bin, bin.triangles);
       survey.count(
-          file, bin,
-          [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
+          file, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
           [&](uint64_t, const Work& work) { coarse += work; });
     }
     shard.found = {double(survey.nodes()) * pilot.growth.nodes,

@@ -2,9 +2,9 @@
 //
 // The whole scene is surveyed a few levels coarser, which takes a few per cent of the bake: this
 // tells how work is spread. Then a few cells, drawn with probability in proportion to their coarse
-// cost, are surveyed as finely as they will be baked: this tells how much it grows. Growth cannot be
-// extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its triangles
-// are smaller than voxels, and more than 3 times when they are not.
+// cost, are surveyed as finely as they will be baked: this tells how much it grows. Growth cannot
+// be extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its
+// triangles are smaller than voxels, and more than 3 times when they are not.
 #pragma once
 
 #include "builder/farm/balance.h"
@@ -15,7 +15,7 @@ namespace svdag {
 struct PilotConfig {
   DescentConfig descent;
   size_t shards = 1;
-  uint64_t table_bytes = UINT64_MAX;     // as in SurveyConfig
+  uint64_t table_bytes = UINT64_MAX;  // as in SurveyConfig
   uint64_t triangle_bytes = UINT64_MAX;
 };
 
@@ -25,8 +25,8 @@ struct Pilot {
   Work work;                    // of the whole scene, at the grid's own level
   NodeCounts found;             // unique, of the whole scene
   // For shards, see count_found().
-  int level = 0;                // of the coarse survey
-  double work_growth = 1;       // from the coarse survey to the grid's level
+  int level = 0;           // of the coarse survey
+  double work_growth = 1;  // from the coarse survey to the grid's level
   NodeCounts growth;
 };
 

@@ -82,12 +82,9 @@ double rounded(double seconds) {
 }
 
 Json prediction_json(const Prediction& p) {
-  return {{"cpu_seconds", rounded(p.cpu)},
-          {"seconds", rounded(p.seconds)},
-          {"budget_bytes", p.budget},
-          {"memory_bytes", p.memory},
-          {"output_bytes", p.output},
-          {"scratch_bytes", p.scratch}};
+  return {{"cpu_seconds", rounded(p.cpu)}, {"seconds", rounded(p.seconds)},
+          {"budget_bytes", p.budget},      {"memory_bytes", p.memory},
+          {"output_bytes", p.output},      {"scratch_bytes", p.scratch}};
 }
 
 Prediction get_prediction(const Json& json) {

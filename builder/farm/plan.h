@@ -22,7 +22,7 @@ namespace svdag {
 
 // What a step will take.
 struct Prediction {
-  double cpu = 0;        // seconds of all threads
+  double cpu = 0;  // seconds of all threads
   double seconds = 0;
   uint64_t budget = 0;   // its --memory
   uint64_t memory = 0;   // peak: the budget and what is beside it

@@ -43,8 +43,8 @@ double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles
 }
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
-  // A table is half of the budget, a bin's triangles a quarter (builder/build.cpp); what is known of
-  // nodes is an estimate.
+  // A table is half of the budget, a bin's triangles a quarter (builder/build.cpp); what is known
+  // of nodes is an estimate.
   constexpr double kMargin = 1.5, kPerNode = 84, kPerBrick = 48, kPerTriangle = 400;
   const double tables = 2 * (kPerNode * shard.found.nodes + kPerBrick * shard.found.bricks);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);

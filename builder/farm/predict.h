@@ -29,9 +29,9 @@ struct StepLimits {
 
 struct ShardWork {
   Work work;
-  NodeCounts found;            // in the shard alone
-  uint64_t triangles = 0;      // in the bins that it reads
-  uint64_t heaviest_bin = 0;   // of them
+  NodeCounts found;           // in the shard alone
+  uint64_t triangles = 0;     // in the bins that it reads
+  uint64_t heaviest_bin = 0;  // of them
 };
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits);

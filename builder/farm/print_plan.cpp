@@ -24,10 +24,11 @@ struct Sums {
 };
 
 void print_sums(const char* what, const Sums& sums) {
-  std::printf("  %3zu %s: %.1f CPU seconds, the longest takes %.1f s; memory at most %s; they write %s%s\n",
-              sums.steps, what, sums.cpu, sums.longest, format_bytes(sums.memory).c_str(),
-              format_bytes(sums.output).c_str(),
-              sums.scratch != 0 ? (", scratch at most " + format_bytes(sums.scratch)).c_str() : "");
+  std::printf(
+      "  %3zu %s: %.1f CPU seconds, the longest takes %.1f s; memory at most %s; they write %s%s\n",
+      sums.steps, what, sums.cpu, sums.longest, format_bytes(sums.memory).c_str(),
+      format_bytes(sums.output).c_str(),
+      sums.scratch != 0 ? (", scratch at most " + format_bytes(sums.scratch)).c_str() : "");
 }
 
 // Seconds from the first step to the last if there is a machine for every step.
@@ -42,8 +43,8 @@ double critical_path(const Plan& plan) {
 }
 
 void print_steps(const Plan& plan) {
-  std::printf("\n  %-12s %8s %8s %10s %10s %10s  %s\n", "step", "CPU s", "seconds", "memory", "output",
-              "scratch", "command");
+  std::printf("\n  %-12s %8s %8s %10s %10s %10s  %s\n", "step", "CPU s", "seconds", "memory",
+              "output", "scratch", "command");
   for (const PlanStep& step : plan.steps) {
     const Prediction& p = step.predicted;
     std::string command = "svdag";

@@ -1,10 +1,11 @@
 // What says that a step of a plan was done: its receipt, PLAN/runs/STEP.json.
 //
 // A receipt names the plan by its hash and the output by the hash of its content, which the output
-// itself bears in its header. It is written after the output, each at once or not at all, so whoever
-// finds a receipt and a file of that content has what the step makes, wherever the file came from; a
-// run of another plan, of an older one in the same folder, or of another step has another hash.
-// Rejected: the plan's hash in the run (equal parts of equal scenes would have unequal runs).
+// itself bears in its header. It is written after the output, each at once or not at all, so
+// whoever finds a receipt and a file of that content has what the step makes, wherever the file
+// came from; a run of another plan, of an older one in the same folder, or of another step has
+// another hash. Rejected: the plan's hash in the run (equal parts of equal scenes would have
+// unequal runs).
 #pragma once
 
 #include <optional>
@@ -34,6 +35,7 @@ void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receip
 std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step);
 
 // Looks at the file `path` as the output of `step`: at its header alone, or at every byte.
-OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path, bool thorough);
+OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
+                     bool thorough);
 
 }  // namespace svdag

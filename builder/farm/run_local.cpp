@@ -35,7 +35,10 @@ std::string last_line(const std::string& path) {
 class Runner {
  public:
   Runner(const Plan& plan, const RunLocalConfig& config)
-      : plan_(plan), config_(config), rows_(plan.steps.size()), table_(plan, config.table, config.quiet) {}
+      : plan_(plan),
+        config_(config),
+        rows_(plan.steps.size()),
+        table_(plan, config.table, config.quiet) {}
 
   void run() {
     try {

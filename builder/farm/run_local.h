@@ -10,10 +10,10 @@
 namespace svdag {
 
 struct RunLocalConfig {
-  std::string program;      // svdag; empty: this program
-  size_t processes = 1;     // at once
-  std::string scratch;      // passed on to the steps
-  bool table = false;       // draws a live table on stderr; else a line per step on stdout
+  std::string program;   // svdag; empty: this program
+  size_t processes = 1;  // at once
+  std::string scratch;   // passed on to the steps
+  bool table = false;    // draws a live table on stderr; else a line per step on stdout
   bool quiet = false;
 };
 

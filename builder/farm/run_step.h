@@ -1,8 +1,8 @@
 // Does one step of a plan: bakes a shard, or merges what other steps made.
 //
-// A step may be asked for any number of times, anywhere, also twice at once: a valid output is kept,
-// any other replaced, and outputs appear whole. What a killed shard had saved is taken up again
-// where its scratch is still to be found.
+// A step may be asked for any number of times, anywhere, also twice at once: a valid output is
+// kept, any other replaced, and outputs appear whole. What a killed shard had saved is taken up
+// again where its scratch is still to be found.
 #pragma once
 
 #include "builder/farm/receipt.h"
@@ -23,8 +23,8 @@ struct StepReport {
   Receipt receipt;
 };
 
-// `plan` must have its bins if the step is a shard. An input that is missing, damaged or not of this
-// plan is an Error (kBadInput).
+// `plan` must have its bins if the step is a shard. An input that is missing, damaged or not of
+// this plan is an Error (kBadInput).
 StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& config,
                     Executor* executor, Progress* progress);
 

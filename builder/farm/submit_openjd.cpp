@@ -43,9 +43,9 @@ Json requirements(const Plan& plan, const Stage& stage) {
     memory = std::max(memory, plan.steps[i].predicted.memory);
     threads = std::max<uint64_t>(threads, plan.steps[i].threads);
   }
-  return {{"amounts", Json::array({{{"name", "amount.worker.memory"},
-                                    {"min", (memory + (1 << 20) - 1) >> 20}},
-                                   {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
+  return {{"amounts",
+           Json::array({{{"name", "amount.worker.memory"}, {"min", (memory + (1 << 20) - 1) >> 20}},
+                        {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
 }
 
 // "merge-12" -> "12".
@@ -55,8 +55,8 @@ std::string number_of(const PlanStep& step) {
 
 Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage) {
   const bool shards = plan.steps[stage.steps.front()].is_shard();
-  const std::string tasks = number_of(plan.steps[stage.steps.front()]) + "-" +
-                            number_of(plan.steps[stage.steps.back()]);
+  const std::string tasks =
+      number_of(plan.steps[stage.steps.front()]) + "-" + number_of(plan.steps[stage.steps.back()]);
   double seconds = 0;
   for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
   Json arguments = {shards ? "build" : "merge", "{{Param.Plan}}"};
@@ -84,17 +84,17 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
   Json json = {{"specificationVersion", "jobtemplate-2023-09"},
                {"name", "svdag " + plan.steps.back().output}};
-  json["parameterDefinitions"] = Json::array({
-      {{"name", "Plan"},
-       {"type", "PATH"},
-       {"objectType", "DIRECTORY"},
-       {"dataFlow", "INOUT"},
-       {"description", "The folder that svdag plan wrote"},
-       {"default", plan.folder}},
-      {{"name", "Svdag"},
-       {"type", "STRING"},
-       {"description", "The program svdag on the hosts"},
-       {"default", config.program.empty() ? own_program() : config.program}}});
+  json["parameterDefinitions"] =
+      Json::array({{{"name", "Plan"},
+                    {"type", "PATH"},
+                    {"objectType", "DIRECTORY"},
+                    {"dataFlow", "INOUT"},
+                    {"description", "The folder that svdag plan wrote"},
+                    {"default", plan.folder}},
+                   {{"name", "Svdag"},
+                    {"type", "STRING"},
+                    {"description", "The program svdag on the hosts"},
+                    {"default", config.program.empty() ? own_program() : config.program}}});
   std::string before;
   for (const Stage& stage : stages_of(plan)) {
     Json step = step_json(plan, config, stage);

@@ -1,8 +1,9 @@
-// A plan as an Open Job Description template (specification 2023-09), for render farms that speak it.
+// A plan as an Open Job Description template (specification 2023-09), for render farms that speak
+// it.
 //
-// One step of the template for all shards, whose tasks are their numbers; one per level of the merge
-// tree, whose tasks are the merges. Memory and threads are asked for by host requirements; retrying
-// is the farm's business (docs/farm.md lists the exit codes).
+// One step of the template for all shards, whose tasks are their numbers; one per level of the
+// merge tree, whose tasks are the merges. Memory and threads are asked for by host requirements;
+// retrying is the farm's business (docs/farm.md lists the exit codes).
 #pragma once
 
 #include <string>

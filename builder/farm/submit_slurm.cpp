@@ -16,8 +16,8 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kArray = 1000;      // tasks; Slurm's own limit is 1001 unless configured
-constexpr double kTimeFactor = 4;    // of the predicted seconds, which are those of another machine
+constexpr size_t kArray = 1000;    // tasks; Slurm's own limit is 1001 unless configured
+constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
 constexpr uint64_t kLeastMinutes = 10;
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 constexpr auto kPoll = std::chrono::milliseconds(500);
@@ -124,16 +124,21 @@ void Submission::submit(Job* job) {
   file.append(script_of(*job));
   file.commit();
   const bool array = plan_.steps[job->steps.front()].is_shard();
-  const uint64_t minutes =
-      std::max(kLeastMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
+  const uint64_t minutes = std::max(kLeastMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
   std::vector<std::string> command = {
-      "sbatch", "--parsable", "--requeue", "--open-mode=append", "--job-name=" + job->name,
+      "sbatch",
+      "--parsable",
+      "--requeue",
+      "--open-mode=append",
+      "--job-name=" + job->name,
       "--output=" + plan_.path("logs/") + (array ? "shard-%a.slurm.log" : job->name + ".slurm.log"),
       "--mem=" + std::to_string((job->memory + kMiB - 1) / kMiB) + "M",
-      "--cpus-per-task=" + std::to_string(job->threads), "--time=" + std::to_string(minutes)};
+      "--cpus-per-task=" + std::to_string(job->threads),
+      "--time=" + std::to_string(minutes)};
   if (array) {
     std::string tasks;
-    for (const size_t i : job->steps) tasks += (tasks.empty() ? "" : ",") + std::to_string(i % kArray + 1);
+    for (const size_t i : job->steps)
+      tasks += (tasks.empty() ? "" : ",") + std::to_string(i % kArray + 1);
     command.push_back("--array=" + tasks);
   }
   const std::string after = dependencies_of(*job);
@@ -145,7 +150,8 @@ void Submission::submit(Job* job) {
   command.push_back(job->script);
   const Answer answer = ask_process(command);
   if (answer.code != 0) fail_usage("sbatch refused " + job->name + ": " + one_line(answer.output));
-  const std::string line = last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
+  const std::string line =
+      last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
   job->id = line.substr(0, line.find(';'));
   for (const size_t i : job->steps)
     ids_[i] = array ? job->id + "_" + std::to_string(i % kArray + 1) : job->id;
@@ -157,7 +163,8 @@ void Submission::submit(Job* job) {
 
 // Whether one of the jobs is still queued or runs.
 bool Submission::any_queued(const std::string& ids) const {
-  const Answer answer = ask_process({"squeue", "--noheader", "--array", "--jobs=" + ids, "--format=%T"});
+  const Answer answer =
+      ask_process({"squeue", "--noheader", "--array", "--jobs=" + ids, "--format=%T"});
   // squeue knows nothing of jobs that ended a while ago, and calls them invalid.
   if (answer.code != 0 && answer.output.find("Invalid job id") == std::string::npos)
     throw Error(ExitCode::kOutput, "squeue failed: " + one_line(answer.output));

@@ -56,7 +56,9 @@ Grid coarser_grid(const Grid& grid, int level) {
 class Survey::Baker : public Spiller {
  public:
   Baker(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
-      : config_(config), table_(grid.levels, budget), descent_(grid, config.descent, &table_, nullptr, this) {}
+      : config_(config),
+        table_(grid.levels, budget),
+        descent_(grid, config.descent, &table_, nullptr, this) {}
 
   void run(const Cube& cell, const EntryList& list) {
     triangles_ += double(list.size());

@@ -1,9 +1,9 @@
 // A bake that is only counted: what the cells of a scene cost at one level of detail.
 //
-// The plan surveys the whole scene coarsely and a few cells as finely as they will be baked. Both go
-// through the descent that bakes, so what saves it work (empty space, the plane memo, repeated
-// parts) saves it in the survey, too. Rejected: counting triangles per cell (a wall of two triangles
-// is dear, a million of them in one voxel cheap).
+// The plan surveys the whole scene coarsely and a few cells as finely as they will be baked. Both
+// go through the descent that bakes, so what saves it work (empty space, the plane memo, repeated
+// parts) saves it in the survey, too. Rejected: counting triangles per cell (a wall of two
+// triangles is dear, a million of them in one voxel cheap).
 #pragma once
 
 #include <functional>

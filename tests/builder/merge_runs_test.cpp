@@ -151,13 +151,21 @@ TEST_F(MergeRuns, ARunOfAPartDoesNotTellHowItWasMade) {
 TEST_F(MergeRuns, ManyTrianglesInADenseCubeThatAPartCuts) {
   std::vector<Triangle> mesh = random_soup(60'000, 1e-3, 7);
   for (Triangle& t : mesh) {
-    for (Point& p : t.v) p = Point(0.49) + 0.02 * p;  // about the middle, where all parts meet
+    for (Point& p : t.v) p = Point(0.45) + 0.02 * p;  // about voxel (470, 470, 470)
   }
   mesh.push_back({{Point(0), Point(0.01, 0, 0), Point(0, 0.01, 0)}});
   mesh.push_back({{Point(1), Point(0.99, 1, 1), Point(1, 0.99, 1)}});
-  const BuildConfig config = prepare({"dense", mesh, [](BuildConfig* c) { c->levels = 10; }});
+  BuildConfig config = prepare({"dense", mesh, [](BuildConfig* c) { c->levels = 10; }});
+  const int level = 8;  // bricks
+  const uint64_t all = uint64_t(1) << 3 * level, cut = morton(LatticePoint(470 / 4));
+  config.memory = 4 * kMiB;
   std::vector<std::string> runs;
-  for (uint64_t i = 1; i <= 7; i++) runs.push_back(bake_part(config, i, 7));
+  for (const CellRange& cells : {CellRange{level, 0, cut}, CellRange{level, cut, all}}) {
+    config.part = cells;
+    config.output = path(std::to_string(runs.size()) + ".run");
+    EXPECT_GT(bake(config).voxels, 1000U);
+    runs.push_back(config.output);
+  }
   merge_to(path("merged.run"), runs);
   EXPECT_TRUE(read_bytes(path("merged.run")) == read_bytes(path("whole.run")));
 }

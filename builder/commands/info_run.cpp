@@ -1,0 +1,70 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "builder/commands/commands.h"
+#include "builder/run_check.h"
+#include "io/units.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hash_of(const RunFile& run) {
+  return to_hex({run.header().content_hash[0], run.header().content_hash[1]});
+}
+
+// Of all voxels of the grid, how many lie in the part.
+double share_of(const RunFile& run) {
+  double share = 0;
+  for (const Cube& top : run.part().tops()) share += 1 / double(uint64_t(1) << 3 * top.level);
+  return share;
+}
+
+void print_json(const RunFile& run) {
+  const RunHeader& h = run.header();
+  Json json = {{"format", "run"},
+               {"version", h.version},
+               {"levels", h.levels},
+               {"resolution", run.grid().resolution()},
+               {"rule", run.rule() == Rule::kThin ? "thin" : "conservative"},
+               {"voxels", h.voxels},
+               {"largest_snap", h.largest_snap},
+               {"ranges", Json::array()},
+               {"nodes", Json::array()},
+               {"roots", h.roots},
+               {"file_bytes", h.file_bytes},
+               {"content_hash", hash_of(run)}};
+  for (const MortonRange& range : run.part().ranges())
+    json["ranges"].push_back({range.begin, range.end});
+  for (uint32_t k = 0; k + 1 < h.levels; ++k) json["nodes"].push_back(h.keys[k]);
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
+void print_text(const RunFile& run) {
+  const RunHeader& h = run.header();
+  const Point corner = run.grid().corner();
+  uint64_t nodes = 0;
+  for (const uint64_t count : h.keys) nodes += count;
+  std::printf("%s: a run of %.4g %% of %s^3 voxels, rule %s\n", run.path().c_str(),
+              100 * share_of(run), format_resolution(uint64_t(run.grid().resolution())).c_str(),
+              run.rule() == Rule::kThin ? "thin" : "conservative");
+  std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
+              format_double(corner.x).c_str(), format_double(corner.y).c_str(),
+              format_double(corner.z).c_str(), h.bounded ? ", restricted by --bounds" : "");
+  std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
+              format_count(nodes).c_str(), format_count(h.roots).c_str(),
+              format_bytes(h.file_bytes).c_str());
+  std::printf("  content hash %s\n", hash_of(run).c_str());
+}
+
+}  // namespace
+
+void info_run(const InfoConfig& config) {
+  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
+  const RunFile run = RunFile::open(config.paths.front(), &budget);
+  check_run(run, budget.limit() / 4, &budget);
+  config.json ? print_json(run) : print_text(run);
+}
+
+}  // namespace svdag
