@@ -38,7 +38,7 @@ int run_submit(const SubmitConfig& config) {
   const std::string path =
       config.template_path.empty() ? plan.path("openjd.json") : config.template_path;
   AtomicFile file(path);
-  file.append(openjd_template(plan, {config.program, config.scratch}));
+  file.append(openjd_template(plan, {config.program, config.scratch, path}));
   file.commit();
   if (!config.output.quiet) std::printf("%s\n", path.c_str());
   return int(ExitCode::kOk);

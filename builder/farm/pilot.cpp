@@ -1,6 +1,7 @@
 #include "builder/farm/pilot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -10,11 +11,13 @@ namespace svdag {
 namespace {
 
 constexpr int kLevelsCoarser = 4;
+constexpr int kCoarsestPilot = 10;  // below, bricks are too few to tell
 constexpr int kFinestPilot = 14;  // beyond, the sample alone tells
 constexpr int kCellLevel = 6;     // as builder/build.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
 constexpr size_t kMostSamples = 64, kFewestSamples = 6;
+constexpr double kRepeats = 0.93;  // of logarithms: a sample repeats itself less than the whole
 constexpr double kUnsurveyed = 2e-6;  // seconds per triangle of a bin that is too heavy to survey
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
@@ -101,8 +104,9 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   Pilot pilot;
   const int finest_cells = std::max(0, std::min(kDeepestCells, grid.levels - 6));
   pilot.cell_level = std::min(finest_cells, config.shards > 256 ? kCellLevel + 1 : kCellLevel);
-  pilot.level = std::clamp(std::min(grid.levels - kLevelsCoarser, kFinestPilot),
-                           std::min(finest_cells + 3, grid.levels), grid.levels);
+  pilot.level = std::min(
+      grid.levels, std::clamp(grid.levels - kLevelsCoarser,
+                              std::max(kCoarsestPilot, finest_cells + 3), kFinestPilot));
   Coarse coarse;
   for (;; ++pilot.cell_level) {
     coarse = survey_coarsely(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level),
@@ -127,8 +131,8 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   }
   const double growth = times > 0 ? sum / times : 1;
   pilot.work_growth = growth;
-  pilot.growth = {ratio(fine.found.nodes, same.found.nodes),
-                  ratio(fine.found.bricks, same.found.bricks)};
+  pilot.growth = {std::pow(ratio(fine.found.nodes, same.found.nodes), kRepeats),
+                  std::pow(ratio(fine.found.bricks, same.found.bricks), kRepeats)};
   pilot.work = coarse.work * growth;
   pilot.found = {coarse.found.nodes * pilot.growth.nodes,
                  coarse.found.bricks * pilot.growth.bricks};

@@ -12,9 +12,9 @@ constexpr double kPrepared = 60e-9;        // for a cell
 constexpr double kDecision = 0.41e-9;
 constexpr double kDivided = 281e-9;
 constexpr double kFound = 524e-9;  // found to be new, numbered, sorted, written
-constexpr double kMergeRead = 120e-9;
-constexpr double kMergeMade = 80e-9;
-constexpr double kStart = 0.02;  // of a process
+constexpr double kMergeRead = 80e-9;
+constexpr double kMergeMade = 50e-9;
+constexpr double kStart = 0.01;  // of a process
 
 constexpr double kNodeInFile = 22.5;  // bytes of a node in a .svdag
 constexpr uint64_t kMiB = uint64_t(1) << 20;

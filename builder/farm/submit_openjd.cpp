@@ -1,10 +1,12 @@
 #include "builder/farm/submit_openjd.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "builder/farm/process.h"
+#include "streaming/file.h"
 
 namespace svdag {
 namespace {
@@ -13,6 +15,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
 constexpr int kLeastSeconds = 600;
+
+// Open Job Description wants relative defaults of paths.
+std::string relative_to(const std::string& folder, const std::string& path) {
+  std::error_code error;
+  const auto relative = std::filesystem::relative(path, folder, error);
+  return error ? path : relative.string();
+}
 
 // Steps that may run at the same time, as one step of the template with a task each.
 struct Stage {
@@ -90,7 +99,7 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
                     {"objectType", "DIRECTORY"},
                     {"dataFlow", "INOUT"},
                     {"description", "The folder that svdag plan wrote"},
-                    {"default", plan.folder}},
+                    {"default", relative_to(folder_of(config.path), plan.folder)}},
                    {{"name", "Svdag"},
                     {"type", "STRING"},
                     {"description", "The program svdag on the hosts"},

@@ -16,6 +16,7 @@ namespace svdag {
 struct OpenJdConfig {
   std::string program;  // svdag on the hosts; empty: this program
   std::string scratch;  // passed on to the steps
+  std::string path;     // of the template: its default for the plan is relative to its folder
 };
 
 // The template as JSON text.
