@@ -4,11 +4,14 @@
 #   build   build/release/svdag, svdag-verify, svdag-scene
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
+#   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
+#              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
+#   bench-plan       what plans predict against what is measured: the tables of docs/farm.md
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   cuda    the tracer for NVIDIA GPUs
@@ -17,6 +20,7 @@
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libhwy-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev libcgal-dev libgtest-dev \
   librapidcheck-dev python3 python3-numpy python3-xxhash valgrind
+FARM_PACKAGES = slurm-wlm munge python3-venv
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
 
@@ -24,8 +28,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-accuracy bundle cuda clean
+.PHONY: all deps build demo test test-farm stress bench bench-giants bench-sort bench-out-of-core \
+  bench-accuracy bench-plan bundle cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -57,6 +61,14 @@ demo: build
 test: deps
 	@$(PYTHON) tests/run_tests.py
 
+test-farm: build
+	$(call install,$(FARM_PACKAGES))
+	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
+
+test-farm: build
+	$(call install,$(FARM_PACKAGES))
+	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
+
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
 	@sh tests/stress/stress.sh
@@ -82,6 +94,12 @@ bench-accuracy: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
+
+bench-plan: build
+	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
+
+bench-plan: build
+	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

@@ -24,7 +24,6 @@ from slurm import Cluster
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT / "build" / "farm"
 SHARDS = 16
-RESOLUTION = {"atrium": "16K", "sponza": "8K"}
 TIMEOUT = 170
 
 
@@ -66,18 +65,18 @@ class Farm:
             subprocess.run([self.programs / "svdag-scene", name, "-q", "-o", path], check=True)
         return path
 
-    def one_bake(self, name):
-        if name not in self.baked:
+    def one_bake(self, name, resolution):
+        if (name, resolution) not in self.baked:
             output = FOLDER / f"{name}.svdag"
-            self.call("build", self.scene(name), "-o", output, "-r", RESOLUTION[name], "-q")
-            self.baked[name] = hash_of(output)
+            self.call("build", self.scene(name), "-o", output, "-r", resolution, "-q")
+            self.baked[name, resolution] = hash_of(output)
             output.unlink()
-        return self.baked[name]
+        return self.baked[name, resolution]
 
-    def plan(self, name, engine):
-        folder = FOLDER / f"{name}-{engine}.plan"
+    def plan(self, name, resolution):
+        folder = FOLDER / f"{name}.plan"
         shutil.rmtree(folder, ignore_errors=True)
-        self.call("plan", self.scene(name), "-r", RESOLUTION[name], "--shards", SHARDS, "-o", folder, "-q")
+        self.call("plan", self.scene(name), "-r", resolution, "--shards", SHARDS, "-o", folder, "-q")
         return folder
 
     def steps(self, plan):
@@ -86,10 +85,10 @@ class Farm:
     def done(self, plan):
         return [name for name in self.steps(plan) if (plan / "runs" / f"{name}.json").exists()]
 
-    def judge(self, name, plan):
+    def judge(self, name, resolution, plan):
         """The file is the one bake's, and no step took more memory than was planned."""
         output = plan / json.loads((plan / "plan.json").read_text())["steps"][-1]["output"]
-        require(hash_of(output) == self.one_bake(name), f"{output} is not what one bake gives")
+        require(hash_of(output) == self.one_bake(name, resolution), f"{output} is not what one bake gives")
         for step in json.loads((plan / "plan.json").read_text())["steps"]:
             receipt = json.loads((plan / "runs" / f"{step['name']}.json").read_text())
             require(receipt["memory_bytes"] <= step["predicted"]["memory_bytes"],
@@ -97,8 +96,8 @@ class Farm:
         shutil.rmtree(plan)
 
 
-def by_slurm(farm, name, with_accident):
-    plan = farm.plan(name, "slurm")
+def by_slurm(farm, name, resolution, with_accident):
+    plan = farm.plan(name, resolution)
     cluster = Cluster(FOLDER / "slurm")
     killed = None
     try:
@@ -131,11 +130,11 @@ def by_slurm(farm, name, with_accident):
         require("every step of the plan is done" in again, "a plan that is done was submitted again:\n" + again)
     finally:
         cluster.stop()
-    farm.judge(name, plan)
+    farm.judge(name, resolution, plan)
 
 
-def by_run(farm, name):
-    plan = farm.plan(name, "run")
+def by_run(farm, name, resolution):
+    plan = farm.plan(name, resolution)
     run = subprocess.Popen([farm.svdag, "run", plan, "-j", "2", "-q"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
     while len(farm.done(plan)) < 3 and run.poll() is None:
         time.sleep(0.02)
@@ -147,7 +146,7 @@ def by_run(farm, name):
     (plan / "runs" / "shard-1.run").write_bytes(b"not a run")
     farm.call("run", plan, "-j", "2")
     say(f"  ended after {done} steps, one of them damaged, and asked again")
-    farm.judge(name, plan)
+    farm.judge(name, resolution, plan)
 
 
 def openjd():
@@ -167,17 +166,17 @@ def openjd():
     return program
 
 
-def by_openjd(farm, name):
+def by_openjd(farm, name, resolution):
     program = openjd()
     if program is None:
         say("  skipped: PyPI cannot be reached, so openjd-cli could not be installed")
         return
-    plan = farm.plan(name, "openjd")
+    plan = farm.plan(name, resolution)
     template = farm.call("submit", plan, "--engine", "openjd").strip()
     for command in (["check", template], ["run", template]):
         done = subprocess.run([program, *command], capture_output=True, text=True, timeout=TIMEOUT)
         require(done.returncode == 0, f"openjd {command[0]}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    farm.judge(name, plan)
+    farm.judge(name, resolution, plan)
 
 
 def main():
@@ -187,11 +186,11 @@ def main():
     options = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
     farm = Farm(options.programs.resolve())
-    tests = {"slurm": ("Slurm, a node dies", lambda: by_slurm(farm, "atrium", True)),
-             "run": ("svdag run, ended and asked again", lambda: by_run(farm, "atrium")),
-             "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium"))}
+    tests = {"slurm": ("Slurm, a node dies", lambda: by_slurm(farm, "atrium", "16K", True)),
+             "run": ("svdag run, ended and asked again", lambda: by_run(farm, "atrium", "4K")),
+             "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium", "4K"))}
     if os.environ.get("SVDAG_SCENES") and farm.scene("sponza").exists():
-        tests["sponza"] = ("Slurm, Crytek Sponza", lambda: by_slurm(farm, "sponza", False))
+        tests["sponza"] = ("Slurm, Crytek Sponza", lambda: by_slurm(farm, "sponza", "4K", False))
     elif options.only == "sponza":
         sys.exit("SVDAG_SCENES does not lead to Crytek Sponza")
     if os.geteuid() != 0 and options.only in (None, "slurm", "sponza"):
