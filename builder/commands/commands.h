@@ -36,7 +36,6 @@ struct MergeCommandConfig {
 
 struct PlanCommandConfig {
   PlanConfig plan;
-  size_t threads = 0;  // of planning; 0: all processors
   OutputConfig output;
 };
 

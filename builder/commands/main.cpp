@@ -192,13 +192,11 @@ void set_up_plan(CLI::App* app, PlanCommandConfig* config) {
       ->check(CLI::Range(size_t(1), size_t(100000)));
   app->add_option("--fan-in", plan->fan_in, "Runs that one merge reads, at most (default: 16)")
       ->check(CLI::Range(size_t(2), size_t(1000)));
-  app->add_option("--step-threads", plan->step_threads, "Threads of a shard (default: 1)")
-      ->check(CLI::Range(size_t(1), size_t(1024)));
   add_grid_options(app, &plan->build);
-  add_resource_options(app, &plan->build.memory, &config->threads, &plan->build.scratch);
+  add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch);
   add_output_options(app, &config->output);
   app->footer(
-      "-m bounds the planning and each step. Example:\n"
+      "-m bounds the planning and each step; -j are the threads of a shard (default: 1). Example:\n"
       "  svdag plan city.glb -r 64K --shards 16 -o city.plan\n"
       "  svdag run city.plan -j 4");
 }

@@ -15,11 +15,10 @@ std::string output_name(const std::string& scene) {
   return name.substr(0, name.find_last_of('.')) + ".svdag";
 }
 
-int plan(PlanConfig config, size_t threads, const OutputConfig& output) {
-  ParallelExecutor executor(threads != 0 ? threads : available_processors());
+int plan(PlanConfig config, const OutputConfig& output) {
   Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
   config.output = output_name(config.build.scene.paths.front());
-  const Plan plan = make_plan(config, &executor, &progress);
+  const Plan plan = make_plan(config, &progress);
   if (!output.quiet) print_plan(plan, output.verbose);
   return int(ExitCode::kOk);
 }
@@ -27,7 +26,7 @@ int plan(PlanConfig config, size_t threads, const OutputConfig& output) {
 }  // namespace
 
 int run_plan(const PlanCommandConfig& config) {
-  return plan(config.plan, config.threads, config.output);
+  return plan(config.plan, config.output);
 }
 
 // A bake is one shard with the threads and the memory of the bake; its merge is within it.
@@ -35,7 +34,7 @@ int run_dry(const BuildCommandConfig& config) {
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();
-  return plan(dry, config.threads, config.output);
+  return plan(dry, config.output);
 }
 
 void info_plan(const InfoConfig& config) {

@@ -30,7 +30,7 @@ void make_folder(const std::string& path) {
 // From a scene to a plan; one function per phase.
 class Planner {
  public:
-  Planner(const PlanConfig& config, Executor* executor, Progress* progress)
+  Planner(const PlanConfig& config, Progress* progress)
       : config_(config),
         progress_(progress),
         budget_(config.build.memory != 0 ? config.build.memory : default_memory_limit()),
@@ -41,7 +41,6 @@ class Planner {
         vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
                   [this] { return scratch_.new_streams(); }},
         scene_(config.build.scene, &budget_, &vertices_) {
-    (void)executor;
     folder_.clear();
   }
 
@@ -205,7 +204,7 @@ void Planner::save() {
 
 }  // namespace
 
-Plan make_plan(const PlanConfig& config, Executor* executor, Progress* progress) {
+Plan make_plan(const PlanConfig& config, Progress* progress) {
   PlanConfig own = config;
   if (!own.folder.empty()) {
     while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
@@ -214,7 +213,7 @@ Plan make_plan(const PlanConfig& config, Executor* executor, Progress* progress)
       fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
     make_folder(own.folder);
   }
-  return Planner(own, executor, progress).run();
+  return Planner(own, progress).run();
 }
 
 }  // namespace svdag

@@ -18,6 +18,6 @@ struct PlanConfig {
 };
 
 // Error (kUsage) if the folder holds a plan already.
-Plan make_plan(const PlanConfig& config, Executor* executor, Progress* progress);
+Plan make_plan(const PlanConfig& config, Progress* progress);
 
 }  // namespace svdag

@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kLevelsCoarser = 4;
 constexpr int kCoarsestPilot = 10;  // below, bricks are too few to tell
-constexpr int kFinestPilot = 14;  // beyond, the sample alone tells
-constexpr int kCellLevel = 6;     // as builder/build.cpp
+constexpr int kFinestPilot = 14;    // beyond, the sample alone tells
+constexpr int kCellLevel = 6;       // as builder/build.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
 constexpr size_t kMostSamples = 64, kFewestSamples = 6;
-constexpr double kRepeats = 0.93;  // of logarithms: a sample repeats itself less than the whole
+constexpr double kRepeats = 0.93;     // of logarithms: a sample repeats itself less than the whole
 constexpr double kUnsurveyed = 2e-6;  // seconds per triangle of a bin that is too heavy to survey
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
@@ -104,9 +104,9 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   Pilot pilot;
   const int finest_cells = std::max(0, std::min(kDeepestCells, grid.levels - 6));
   pilot.cell_level = std::min(finest_cells, config.shards > 256 ? kCellLevel + 1 : kCellLevel);
-  pilot.level = std::min(
-      grid.levels, std::clamp(grid.levels - kLevelsCoarser,
-                              std::max(kCoarsestPilot, finest_cells + 3), kFinestPilot));
+  pilot.level =
+      std::min(grid.levels, std::clamp(grid.levels - kLevelsCoarser,
+                                       std::max(kCoarsestPilot, finest_cells + 3), kFinestPilot));
   Coarse coarse;
   for (;; ++pilot.cell_level) {
     coarse = survey_coarsely(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level),
