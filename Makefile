@@ -4,12 +4,15 @@
 #   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-scene
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
+#   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
+#              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, fuzzers
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
+#   bench-plan       what plans predict against what is measured: the tables of docs/farm.md
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
@@ -22,6 +25,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev \
   libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
   libgtest-dev librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
+FARM_PACKAGES = slurm-wlm munge python3-venv
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev
 
@@ -29,8 +33,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test stress bench bench-giants bench-sort bench-out-of-core \
-  bench-cache bench-accuracy bench-vdb bench-trace bundle deb cuda clean
+.PHONY: all deps build demo test test-farm stress bench bench-giants bench-sort bench-out-of-core \
+  bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -61,6 +65,10 @@ demo: build
 
 test: deps
 	@$(PYTHON) tests/run_tests.py
+
+test-farm: build
+	$(call install,$(FARM_PACKAGES))
+	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
 
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
@@ -93,9 +101,12 @@ bench-accuracy: deps
 
 bench-vdb: build
 	@$(PYTHON) tests/bench/vdb_sandwich.py --programs $(PROGRAMS)
+
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows
 	@$(PYTHON) tests/bench/bench_trace.py --programs $(PROGRAMS)
+bench-plan: build
+	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
 
 bundle: build
 	@name=svdag-$$($(PROGRAMS)/svdag --version | cut -d' ' -f2)-linux-$$(uname -m) && \

@@ -10,6 +10,7 @@
 #include "builder/bake_bins.h"
 #include "builder/bake_output.h"
 #include "builder/checkpoint.h"
+#include "builder/choose_grid.h"
 #include "builder/description.h"
 #include "builder/disk_need.h"
 #include "builder/merge.h"
@@ -41,13 +42,6 @@ double cpu_seconds() {
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-// 64 cells along the grid, of at least 64 voxels: enough cells to share out, few enough to be
-// cheap. Where memory is so little that their list would matter, 32.
-int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory) {
-  if (config.cell_level >= 0) return std::min(config.cell_level, grid.levels - 2);
-  return std::clamp(grid.levels - 6, 0, memory < uint64_t(512) << 20 ? 5 : 6);
 }
 
 void describe_output(const BakeOutput& output, BuildReport* report) {
@@ -146,6 +140,8 @@ void Bake::choose_grid() {
   progress_->phase("read bounds", 0);
   if (saved_) {
     report_.grid = saved_->grid;
+  } else if (config_.ready != nullptr) {
+    report_.grid = config_.ready->grid;
   } else {
     SceneCounts counts;
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
@@ -163,6 +159,8 @@ void Bake::split() {
                    shares_.triangles, &scratch_, config_.part ? &*part_ : nullptr};
   if (saved_ && saved_->split) {
     split_ = std::move(*saved_->split);
+  } else if (config_.ready != nullptr) {
+    split_ = {config_.ready->counts, nullptr, config_.ready->bins};
   } else {
     split_ = svdag::split(scene_, report_.grid, split_config_, &budget_);
     if (split_.counts.scene.triangles == 0)
@@ -196,12 +194,14 @@ void Bake::voxelize() {
   } else {
     BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
                    executor_, progress_);
+    SpillFile* const file =
+        config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
     uint64_t triangles = 0, done_triangles = 0;
     for (const TriangleBin& bin : split_.bins) triangles += bin.triangles;
     for (const TriangleBin& bin : split_.bins) {
       bins_done_ = double(done_triangles) / double(triangles);
       bin_share_ = double(bin.triangles) / double(triangles);
-      baker.bake(scratch_.triangles(), bin);
+      baker.bake(file, bin);
       done_triangles += bin.triangles;
     }
   }
@@ -338,13 +338,6 @@ BuildReport Bake::run() {
 }
 
 }  // namespace
-
-Grid choose_grid(const BuildConfig& config, const Box& box) {
-  const Box& target = config.bounds ? *config.bounds : box;
-  const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size)
-                                           : divide_box(target, config.levels);
-  return config.bounds ? select_bounds(grid, *config.bounds) : grid;
-}
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   return Bake(config, executor, progress).run_or_tell();

@@ -20,17 +20,27 @@ namespace svdag {
 // What to do with an unfinished bake of the same output.
 enum class Unfinished { kRefuse, kResume, kRestart };
 
+// A split that was made before, by a plan (builder/farm/plan.h).
+struct ReadySplit {
+  std::string description;  // of the bake
+  Grid grid;
+  SplitCounts counts;
+  std::vector<TriangleBin> bins;   // all that the part needs
+  SpillFile* triangles = nullptr;  // which holds them
+};
+
 struct BuildConfig {
   SceneConfig scene;
-  std::string output;             // a `.run` if it is named so, else a `.svdag`
-  std::optional<CellRange> part;  // bake these cells only; the output is a `.run`
-  int levels = 0;                 // -r: L of the grid; 0 if the voxel size is given instead
-  double voxel_size = 0;          // --voxel-size, in world units; 0 if the resolution is given
-  DescentConfig descent;          // --rule
-  std::optional<Box> bounds;      // --bounds, in world units
-  uint64_t memory = 0;            // --memory in bytes; 0: half of the machine
-  int cell_level = -1;            // octree level of the cells; -1: chosen by the grid
-  std::string scratch;            // --scratch: the folder for scratch folders; empty: the output's
+  const ReadySplit* ready = nullptr;  // instead of the scene and of what its grid is chosen by
+  std::string output;                 // a `.run` if it is named so, else a `.svdag`
+  std::optional<CellRange> part;      // bake these cells only; the output is a `.run`
+  int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
+  double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
+  DescentConfig descent;              // --rule
+  std::optional<Box> bounds;          // --bounds, in world units
+  uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
+  int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
+  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   double checkpoint = 30;  // --checkpoint: seconds of work that a killed bake may lose
   // --cache: opens the store of cells baked before; empty: there is none.
@@ -67,8 +77,5 @@ struct BuildReport {
 
 // Throws Error; the output then holds what it held before.
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress);
-
-// The grid of `config` for a scene with bounding box `box`.
-Grid choose_grid(const BuildConfig& config, const Box& box);
 
 }  // namespace svdag

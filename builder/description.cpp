@@ -34,6 +34,10 @@ std::string list(const std::vector<std::string>& items) {
 std::string describe(const BuildConfig& config, const Scene& scene) {
   std::ostringstream out;
   out.exceptions(std::ios::badbit);  // a lack of memory must not shorten the text
+  if (config.part)
+    out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
+        << config.part->level << '\n';
+  if (config.ready != nullptr) return out.str() + config.ready->description;
   out << "algorithm: " << kAlgorithm << '\n';
   out << "rule: " << (config.descent.rule == Rule::kThin ? "thin" : "conservative") << '\n';
   if (config.voxel_size != 0) {
@@ -48,9 +52,6 @@ std::string describe(const BuildConfig& config, const Scene& scene) {
     }
     out << '\n';
   }
-  if (config.part)
-    out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
-        << config.part->level << '\n';
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';

@@ -13,8 +13,8 @@ namespace svdag {
 // The queue, and which blocks are free.
 class SpillFile::Impl {
  public:
-  Impl(File file, size_t bytes, uint32_t first_free)
-      : block_bytes(bytes), queue(std::move(file), bytes), end_(first_free) {
+  Impl(File file, size_t bytes, uint32_t first_free, ExitCode damaged)
+      : block_bytes(bytes), queue(std::move(file), bytes), end_(first_free), damaged_(damaged) {
     SVDAG_ASSERT(bytes > 0 && bytes % SpillBlock::kAlignment == 0);
   }
 
@@ -54,7 +54,9 @@ class SpillFile::Impl {
     return block.bytes().subspan(kHeader, length);
   }
   [[noreturn]] void fail_damaged() const {
-    throw Error(ExitCode::kOutput, "scratch file is damaged", queue.path());
+    const bool given = damaged_ == ExitCode::kBadInput;
+    throw Error(damaged_, given ? "is damaged: make it again" : "scratch file is damaged",
+                queue.path());
   }
 
   const size_t block_bytes;
@@ -64,10 +66,11 @@ class SpillFile::Impl {
   mutable std::mutex mutex_;
   std::vector<uint32_t> free_;
   uint32_t end_;  // blocks from here on were never used
+  ExitCode damaged_;
 };
 
-SpillFile::SpillFile(File file, size_t block_bytes, uint32_t first_free)
-    : impl_(std::make_unique<Impl>(std::move(file), block_bytes, first_free)) {}
+SpillFile::SpillFile(File file, size_t block_bytes, uint32_t first_free, ExitCode damaged)
+    : impl_(std::make_unique<Impl>(std::move(file), block_bytes, first_free, damaged)) {}
 SpillFile::~SpillFile() = default;
 
 size_t SpillFile::block_bytes() const {
@@ -76,6 +79,10 @@ size_t SpillFile::block_bytes() const {
 
 void SpillFile::sync() {
   impl_->queue.sync();
+}
+
+void SpillFile::link_as(const std::string& path) {
+  impl_->queue.link_as(path);
 }
 
 void SpillFile::free(const SpillStream& stream) {

@@ -39,8 +39,9 @@ class SpillFile {
   static constexpr size_t kHeader = kSpillHeader;
 
   // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
-  // use already (a file that is resumed).
-  SpillFile(File file, size_t block_bytes, uint32_t first_free = 0);
+  // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block.
+  SpillFile(File file, size_t block_bytes, uint32_t first_free = 0,
+            ExitCode damaged = ExitCode::kOutput);
   ~SpillFile();
 
   size_t block_bytes() const;
@@ -48,6 +49,8 @@ class SpillFile {
   size_t payload_bytes() const { return block_bytes() - kHeader; }
   // Waits for all writes and brings them to disk; a write that failed before is thrown here, too.
   void sync();
+  // Syncs, and gives an anonymous file the name `path` (File::link_as).
+  void link_as(const std::string& path);
   // The blocks of `stream` may be used for others. No reader of it may be alive.
   void free(const SpillStream& stream);
   // Largest size of the file so far, and all that was written to it and read from it.

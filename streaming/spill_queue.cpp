@@ -106,6 +106,11 @@ void SpillQueue::sync() {
   }
 }
 
+void SpillQueue::link_as(const std::string& path) {
+  sync();
+  file_.link_as(path);
+}
+
 void SpillQueue::enter_writer() {
   const std::lock_guard lock(mutex_);
   ++writers_;

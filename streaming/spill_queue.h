@@ -44,6 +44,9 @@ class SpillQueue {
   // Waits for everything that was asked for, and brings it to disk.
   void sync();
 
+  // The same, then File::link_as().
+  void link_as(const std::string& path);
+
   // Spares are blocks to go on with while one's own is being written: at most kSpares, and at most
   // as many as there are writers.
   void enter_writer();

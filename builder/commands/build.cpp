@@ -139,6 +139,8 @@ void refuse_overwriting_inputs(const BuildCommandConfig& config) {
 }  // namespace
 
 int run_build(const BuildCommandConfig& config) {
+  if (config.shard != 0) return run_shard(config);
+  if (config.dry_run) return run_dry(config);
   refuse_overwriting_inputs(config);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);

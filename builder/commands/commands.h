@@ -7,6 +7,7 @@
 
 #include "builder/build.h"
 #include "builder/farm/cell_cache.h"
+#include "builder/farm/make_plan.h"
 #include "builder/merge_runs.h"
 
 namespace svdag {
@@ -23,12 +24,38 @@ struct BuildCommandConfig {
   CellCacheConfig cache;  // --cache, --cache-size; no folder: no cache
   size_t threads = 0;     // 0: all processors
   std::string report;     // --report: where the JSON report goes, "" for nowhere
+  size_t shard = 0;       // --shard: the scene is a plan, of which this is baked; 0: it is none
+  bool dry_run = false;   // --dry-run: tells what the bake would take
   OutputConfig output;
 };
 
 struct MergeCommandConfig {
   MergeRunsConfig merge;
   size_t threads = 0;  // 0: all processors
+  std::string step;    // --step: the only run is a plan, of which this merge is done
+  OutputConfig output;
+};
+
+struct PlanCommandConfig {
+  PlanConfig plan;
+  OutputConfig output;
+};
+
+struct RunCommandConfig {
+  std::string plan;
+  size_t processes = 0;  // 0: one per processor
+  std::string scratch;
+  OutputConfig output;
+};
+
+struct SubmitConfig {
+  std::string plan;
+  std::string engine;         // slurm | openjd
+  std::string program;        // --program: svdag on the other machines; "": this one
+  std::string template_path;  // -o: of openjd; "": PLAN/openjd.json
+  std::string scratch;
+  bool wait = false;
+  std::vector<std::string> options;  // behind --, for the engine
   OutputConfig output;
 };
 
@@ -44,9 +71,18 @@ struct InfoConfig {
 // Each returns the exit code and throws Error for everything that went wrong.
 int run_build(const BuildCommandConfig& config);
 int run_merge(const MergeCommandConfig& config);
+int run_plan(const PlanCommandConfig& config);
+int run_run(const RunCommandConfig& config);
+int run_submit(const SubmitConfig& config);
 int run_info(const InfoConfig& config);
 
-// The parts of run_info that look at runs and at scenes.
+// The parts of run_build and run_merge that do steps of a plan, and that of the first that only
+// tells what it would take.
+int run_shard(const BuildCommandConfig& config);
+int run_merge_step(const MergeCommandConfig& config);
+int run_dry(const BuildCommandConfig& config);
+// The parts of run_info that look at plans, runs and scenes.
+void info_plan(const InfoConfig& config);
 void info_run(const InfoConfig& config);
 void info_scene(const InfoConfig& config);
 

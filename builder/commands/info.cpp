@@ -77,7 +77,9 @@ void info_dag(const InfoConfig& config) {
 
 int run_info(const InfoConfig& config) {
   const bool one = config.paths.size() == 1;
-  if (one && begins_with(kMagic, config.paths.front())) {
+  if (one && is_plan(config.paths.front())) {
+    info_plan(config);
+  } else if (one && begins_with(kMagic, config.paths.front())) {
     info_dag(config);
   } else if (one && begins_with(kRunMagic, config.paths.front())) {
     info_run(config);

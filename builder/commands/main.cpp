@@ -102,7 +102,7 @@ double checked_voxel_size(double size) {
   return size;
 }
 
-void add_grid_options(CLI::App* app, BuildConfig* build) {
+CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   CLI::Option_group* grid = app->add_option_group("grid");
   grid->add_option_function<std::string>(
           "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
@@ -117,18 +117,6 @@ void add_grid_options(CLI::App* app, BuildConfig* build) {
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
-  app->add_option_function<std::string>(
-         "--part", [build](const std::string& s) { build->part = parse_part(s); },
-         "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
-      ->type_name("I/N");
-}
-
-void set_up_build(CLI::App* app, BuildCommandConfig* config) {
-  BuildConfig* build = &config->build;
-  app->add_option("SCENE", build->scene.paths, "Scene files; several files are one scene")
-      ->required();
-  app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")->required();
-  add_grid_options(app, build);
   static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
                                                      {"thin", Rule::kThin}};
   app->add_option(
@@ -138,6 +126,32 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
+  return grid;
+}
+
+void set_up_build(CLI::App* app, BuildCommandConfig* config) {
+  BuildConfig* build = &config->build;
+  app->add_option("SCENE", build->scene.paths, "Scene files (several are one scene), or a plan")
+      ->required();
+  CLI::Option* output =
+      app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")
+          ->required();
+  CLI::Option_group* grid = add_grid_options(app, build);
+  app->add_option_function<size_t>(
+         "--shard",
+         [=](size_t shard) {  // the plan has a grid, and a place for the run
+           config->shard = shard;
+           output->required(false);
+           grid->require_option(0);
+         },
+         "Bake shard I of a plan; one that is there already is kept")
+      ->check(CLI::PositiveNumber)
+      ->type_name("I");
+  app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
+  app->add_option_function<std::string>(
+         "--part", [build](const std::string& s) { build->part = parse_part(s); },
+         "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
+      ->type_name("I/N");
   add_resource_options(app, &build->memory, &config->threads, &build->scratch);
   add_resume_options(app, build);
   add_cache_options(app, &config->cache);
@@ -152,10 +166,19 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
 }
 
 void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
-  app->add_option("RUN", config->merge.runs, "Runs of parts of one bake")->required();
-  app->add_option("-o,--output", config->merge.output,
-                  "The .svdag to write, if the runs hold the whole grid, or a larger .run")
-      ->required();
+  app->add_option("RUN", config->merge.runs, "Runs of parts of one bake, or a plan")->required();
+  CLI::Option* output =
+      app->add_option("-o,--output", config->merge.output,
+                      "The .svdag to write, if the runs hold the whole grid, or a larger .run")
+          ->required();
+  app->add_option_function<std::string>(
+         "--step",
+         [=](const std::string& step) {
+           config->step = step;
+           output->required(false);
+         },
+         "Do this merge of a plan; one that is done already is kept")
+      ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_output_options(app, &config->output);
   app->footer(
@@ -163,6 +186,51 @@ void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
       "  svdag build city.glb -r 64K --part 1/2 -o a.run\n"
       "  svdag build city.glb -r 64K --part 2/2 -o b.run\n"
       "  svdag merge a.run b.run -o city.svdag");
+}
+
+void set_up_plan(CLI::App* app, PlanCommandConfig* config) {
+  PlanConfig* plan = &config->plan;
+  app->add_option("SCENE", plan->build.scene.paths, "Scene files; several files are one scene")
+      ->required();
+  app->add_option("-o,--output", plan->folder, "The folder of the plan, to be made")->required();
+  app->add_option("--shards", plan->shards, "Into how many jobs the bake is cut")
+      ->required()
+      ->check(CLI::Range(size_t(1), size_t(100000)));
+  app->add_option("--fan-in", plan->fan_in, "Runs that one merge reads, at most (default: 16)")
+      ->check(CLI::Range(size_t(2), size_t(1000)));
+  add_grid_options(app, &plan->build);
+  add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch);
+  add_output_options(app, &config->output);
+  app->footer(
+      "-m bounds the planning and each step; -j are the threads of a shard (default: 1). Example:\n"
+      "  svdag plan city.glb -r 64K --shards 16 -o city.plan\n"
+      "  svdag run city.plan -j 4");
+}
+
+void set_up_run(CLI::App* app, RunCommandConfig* config) {
+  app->add_option("PLAN", config->plan, "The folder of a plan")->required();
+  app->add_option("-j,--jobs", config->processes,
+                  "Steps at once (default: as many as there are processors)")
+      ->check(CLI::Range(size_t(1), size_t(1024)));
+  app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory")
+      ->type_name("DIR");
+  add_output_options(app, &config->output);
+}
+
+void set_up_submit(CLI::App* app, SubmitConfig* config) {
+  app->add_option("PLAN", config->plan, "The folder of a plan")->required();
+  app->add_option("--engine", config->engine, "slurm (submits jobs) or openjd (writes a template)")
+      ->required()
+      ->check(CLI::IsMember({"slurm", "openjd"}));
+  app->add_flag("--wait", config->wait, "Wait until the plan is done");
+  app->add_option("--program", config->program, "svdag on the other machines (default: this file)");
+  app->add_option("-o,--output", config->template_path,
+                  "Of openjd: the template (default: PLAN/openjd.json)");
+  app->add_option("--scratch", config->scratch, "Folder on the machines for what is spilled")
+      ->type_name("DIR");
+  app->add_option("OPTION", config->options, "Behind --: options for the engine");
+  add_output_options(app, &config->output);
+  app->footer("Example: svdag submit city.plan --engine slurm --wait -- --partition=bake");
 }
 
 void set_up_info(CLI::App* app, InfoConfig* config) {
@@ -188,14 +256,23 @@ int run_program(int argc, char** argv) {
   app.footer("svdag COMMAND --help explains a command.");
   BuildCommandConfig build;
   MergeCommandConfig merge;
+  PlanCommandConfig plan;
+  RunCommandConfig run;
+  SubmitConfig submit;
   InfoConfig info;
   CLI::App* build_app = app.add_subcommand("build", "Bake scene files as one .svdag");
   CLI::App* merge_app = app.add_subcommand("merge", "Join the runs of parts of one bake");
+  CLI::App* plan_app = app.add_subcommand("plan", "Cut a bake into jobs for a farm");
+  CLI::App* run_app = app.add_subcommand("run", "Run a plan on this machine");
+  CLI::App* submit_app = app.add_subcommand("submit", "Hand a plan to a farm");
   CLI::App* info_app = app.add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
   app.add_subcommand("export", "Write the voxels of a .svdag in another format");
   app.add_subcommand("import", "Make a .svdag of the voxels of another program");
   set_up_build(build_app, &build);
   set_up_merge(merge_app, &merge);
+  set_up_plan(plan_app, &plan);
+  set_up_run(run_app, &run);
+  set_up_submit(submit_app, &submit);
   set_up_info(info_app, &info);
   try {
     app.parse(argc, argv);
@@ -208,9 +285,12 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, argc, argv, error));
   }
-  const int result = build_app->parsed()   ? run_build(build)
-                     : merge_app->parsed() ? run_merge(merge)
-                                           : run_info(info);
+  const int result = build_app->parsed()    ? run_build(build)
+                     : merge_app->parsed()  ? run_merge(merge)
+                     : plan_app->parsed()   ? run_plan(plan)
+                     : run_app->parsed()    ? run_run(run)
+                     : submit_app->parsed() ? run_submit(submit)
+                                            : run_info(info);
   if (std::fflush(stdout) != 0)
     throw Error(ExitCode::kOutput, "the result could not be written to standard output");
   return result;

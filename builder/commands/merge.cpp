@@ -37,6 +37,7 @@ void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
 }  // namespace
 
 int run_merge(const MergeCommandConfig& config) {
+  if (!config.step.empty()) return run_merge_step(config);
   refuse_overwriting_inputs(config.merge);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);

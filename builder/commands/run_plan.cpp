@@ -1,0 +1,47 @@
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/farm/run_local.h"
+#include "builder/farm/submit_openjd.h"
+#include "builder/farm/submit_slurm.h"
+#include "streaming/atomic_file.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+int run_run(const RunCommandConfig& config) {
+  const Plan plan = load_plan(config.plan, false);
+  RunLocalConfig local;
+  local.processes = config.processes != 0 ? config.processes : available_processors();
+  local.scratch = config.scratch;
+  local.quiet = config.output.quiet;
+  local.table = config.output.progress == Progress::Mode::kOn ||
+                (config.output.progress == Progress::Mode::kAuto && ::isatty(STDERR_FILENO) == 1);
+  run_local(plan, local);
+  if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());
+  return int(ExitCode::kOk);
+}
+
+int run_submit(const SubmitConfig& config) {
+  const Plan plan = load_plan(config.plan, false);
+  if (config.engine == "slurm") {
+    submit_slurm(
+        plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
+    return int(ExitCode::kOk);
+  }
+  if (config.wait || !config.options.empty())
+    fail_usage(
+        "--engine openjd writes a template and starts nothing: leave --wait and engine "
+        "options out");
+  const std::string path =
+      config.template_path.empty() ? plan.path("openjd.json") : config.template_path;
+  AtomicFile file(path);
+  file.append(openjd_template(plan, {config.program, config.scratch, path}));
+  file.commit();
+  if (!config.output.quiet) std::printf("%s\n", path.c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

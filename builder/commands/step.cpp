@@ -1,0 +1,60 @@
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/farm/run_step.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
+        const OutputConfig& output) {
+  ParallelExecutor executor(threads != 0 ? threads : step.threads);
+  Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
+  const StepReport report = run_step(plan, step, config, &executor, &progress);
+  progress.finish();
+  if (output.quiet) return int(ExitCode::kOk);
+  std::printf("%s: %s, %s, content %s\n", report.output.c_str(),
+              report.kept ? "valid already, kept" : (step.name + " is done").c_str(),
+              format_bytes(report.receipt.bytes).c_str(), report.receipt.content_hash.c_str());
+  if (output.verbose)
+    std::printf("  seconds %.2f (planned %.2f), CPU %.2f (%.2f), memory %s (%s)\n",
+                report.receipt.seconds, step.predicted.seconds, report.receipt.cpu,
+                step.predicted.cpu, format_bytes(report.receipt.memory).c_str(),
+                format_bytes(step.predicted.memory).c_str());
+  return int(ExitCode::kOk);
+}
+
+void require_one_plan(const std::vector<std::string>& paths, const char* option) {
+  if (paths.size() != 1 || !is_plan(paths.front()))
+    fail_usage(std::string(option) + " is for a plan, and " + paths.front() +
+               " is none: svdag plan makes one");
+}
+
+}  // namespace
+
+int run_shard(const BuildCommandConfig& config) {
+  const BuildConfig& build = config.build;
+  require_one_plan(build.scene.paths, "--shard");
+  if (build.levels != 0 || build.voxel_size != 0 || build.bounds || build.part ||
+      !config.report.empty() || config.dry_run)
+    fail_usage("--shard: grid, bounds and report are those of the plan: leave them out");
+  const Plan plan = load_plan(build.scene.paths.front(), true);
+  if (config.shard > plan.shards())
+    fail_usage("--shard: the plan has shards 1 to " + std::to_string(plan.shards()));
+  const PlanStep& step = find_step(plan, "shard-" + std::to_string(config.shard));
+  return run(plan, step, {build.output, build.memory, build.scratch}, config.threads,
+             config.output);
+}
+
+int run_merge_step(const MergeCommandConfig& config) {
+  require_one_plan(config.merge.runs, "--step");
+  const Plan plan = load_plan(config.merge.runs.front(), false);
+  const PlanStep& step = find_step(plan, config.step);
+  if (step.is_shard()) fail_usage("--step: " + step.name + " is no merge: svdag build bakes it");
+  return run(plan, step, {config.merge.output, config.merge.memory, config.merge.scratch},
+             config.threads, config.output);
+}
+
+}  // namespace svdag

@@ -1,0 +1,219 @@
+#include "builder/farm/make_plan.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "builder/description.h"
+#include "builder/farm/leaf_bins.h"
+#include "builder/farm/merge_tree.h"
+#include "builder/farm/pilot.h"
+#include "streaming/error.h"
+#include "streaming/file_folder.h"
+
+namespace svdag {
+namespace {
+
+constexpr int kDeepestBins = 6;             // as the cells
+constexpr uint64_t kBinsPerShard = 8;       // a shard reads an eighth too much at each end
+constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not worth their blocks
+constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
+constexpr size_t kSmallestBlock = 1 << 14;
+
+void make_folder(const std::string& path) {
+  if (::mkdir(path.c_str(), 0777) == 0 || errno == EEXIST) return;
+  throw Error(ExitCode::kOutput, "this folder cannot be made", path);
+}
+
+// From a scene to a plan; one function per phase.
+class Planner {
+ public:
+  Planner(const PlanConfig& config, Progress* progress)
+      : config_(config),
+        progress_(progress),
+        budget_(config.build.memory != 0 ? config.build.memory : default_memory_limit()),
+        folder_(ScratchDir::path_for(
+            config.folder.empty() ? config.build.output : config.folder + "/plan",
+            config.build.scratch)),
+        scratch_(&folder_, &budget_),
+        vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
+                  [this] { return scratch_.new_streams(); }},
+        scene_(config.build.scene, &budget_, &vertices_) {
+    folder_.clear();
+  }
+
+  Plan run() {
+    read_scene();
+    survey();
+    make_steps();
+    if (!config_.folder.empty()) save();
+    progress_->finish();
+    return std::move(plan_);
+  }
+
+ private:
+  void read_scene();
+  void describe_inputs();
+  void survey();
+  void make_steps();
+  void add_shards(const std::vector<ShardWork>& works);
+  void add_merges(const std::vector<ShardWork>& works);
+  void save();
+  StepLimits limits() const { return {config_.step_threads, config_.build.memory}; }
+
+  const PlanConfig& config_;
+  Progress* progress_;
+  MemoryBudget budget_;
+  ScratchDir folder_;
+  Scratch scratch_;
+  SpillSpace vertices_;
+  Scene scene_;
+  std::unique_ptr<SpillFile> triangles_;
+  PilotConfig pilot_config_;
+  Pilot pilot_;
+  std::vector<CellRange> shards_;
+  Plan plan_;
+};
+
+void Planner::read_scene() {
+  progress_->phase("read bounds", 0);
+  const Box box = config_.build.bounds ? Box() : scene_.bounds();
+  plan_.folder = config_.folder;
+  plan_.grid = choose_grid(config_.build, box);
+  plan_.rule = config_.build.descent.rule;
+  progress_->phase("hash", 0);
+  describe_inputs();
+  progress_->phase("split", 0);
+  SplitConfig split_config;
+  split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kDeepestBins);
+  split_config.triangle_bytes = budget_.limit() / 4;
+  split_config.scratch = &scratch_;
+  SplitScene scene = split(scene_, plan_.grid, split_config, &budget_);
+  plan_.counts = scene.counts;
+  if (scene.counts.scene.triangles == 0)
+    fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");
+  progress_->phase("deal triangles", 0);
+  LeafConfig leaf;
+  leaf.light = std::max(kLightBin, scene.counts.scene.triangles / (kBinsPerShard * config_.shards));
+  leaf.deepest = std::min(kDeepestBins, plan_.grid.levels - 2);
+  leaf.open_bytes = budget_.limit() / 8;
+  plan_.block_bytes = std::clamp(std::bit_floor(size_t(leaf.light * kBytesPerTriangle / 4)),
+                                 kSmallestBlock, scratch_.block_bytes());
+  triangles_ =
+      std::make_unique<SpillFile>(config_.folder.empty() ? folder_.create(kPlanTriangles)
+                                                         : File::create_anonymous(config_.folder),
+                                  plan_.block_bytes);
+  plan_.bins = make_leaf_bins(&scene, plan_.grid, leaf, &scratch_, triangles_.get());
+}
+
+void Planner::describe_inputs() {
+  plan_.description = describe(config_.build, scene_);
+  std::istringstream lines(plan_.description);
+  std::string line;
+  scene_.visit_files([&](const File& file) {
+    while (std::getline(lines, line) && !line.starts_with("content of ")) {
+    }
+    plan_.inputs.push_back(
+        {absolute_path(file.path()), file.size(), line.substr(line.find_last_of(' ') + 1)});
+  });
+}
+
+void Planner::survey() {
+  progress_->phase("survey", 0);
+  pilot_config_.descent = config_.build.descent;
+  pilot_config_.shards = config_.shards;
+  pilot_config_.table_bytes = budget_.limit() / 4;
+  pilot_config_.triangle_bytes = budget_.limit() / 4;
+  pilot_ = run_pilot(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, &budget_);
+  plan_.pilot_cpu = cpu_of_bake(pilot_.work, pilot_.found, plan_.counts.scene.triangles);
+  shards_ = cut_evenly(pilot_.cells, pilot_.cell_level, config_.shards);
+}
+
+void Planner::make_steps() {
+  progress_->phase("survey shards", 0);
+  const std::vector<ShardWork> works = survey_shards(plan_.grid, plan_.bins, triangles_.get(),
+                                                     pilot_config_, pilot_, shards_, &budget_);
+  add_shards(works);
+  add_merges(works);
+}
+
+void Planner::add_shards(const std::vector<ShardWork>& works) {
+  for (size_t i = 0; i < shards_.size(); ++i) {
+    PlanStep step;
+    step.name = "shard-" + std::to_string(i + 1);
+    step.cells = shards_[i];
+    step.output = "runs/" + step.name + ".run";
+    step.threads = config_.step_threads;
+    step.predicted = predict_shard(works[i], limits());
+    plan_.steps.push_back(step);
+  }
+}
+
+// What shards have in common is known for one of them (nothing) and for all; in between it is
+// reckoned by the number of shards.
+void Planner::add_merges(const std::vector<ShardWork>& works) {
+  const size_t shards = works.size();
+  std::vector<NodeCounts> found;   // by step
+  std::vector<NodeCounts> summed;  // of its shards
+  std::vector<size_t> leaves(shards, 1);
+  NodeCounts all;
+  for (const ShardWork& work : works) {
+    found.push_back(work.found);
+    summed.push_back(work.found);
+    all.nodes += work.found.nodes;
+    all.bricks += work.found.bricks;
+  }
+  const double most = std::log(double(std::max<size_t>(2, shards)));
+  const double node_share = std::min(1.0, pilot_.found.nodes / std::max(1.0, all.nodes));
+  const double brick_share = std::min(1.0, pilot_.found.bricks / std::max(1.0, all.bricks));
+  const MergeTree tree = merge_tree(shards, config_.fan_in);
+  for (size_t m = 0; m < tree.size(); ++m) {
+    PlanStep step;
+    step.name = "merge-" + std::to_string(m + 1);
+    step.inputs = tree[m];
+    NodeCounts read, sum;
+    size_t count = 0;
+    for (const size_t i : step.inputs) {
+      read = {read.nodes + found[i].nodes, read.bricks + found[i].bricks};
+      sum = {sum.nodes + summed[i].nodes, sum.bricks + summed[i].bricks};
+      count += leaves[i];
+    }
+    const double way = std::log(double(count)) / most;
+    found.push_back(
+        {sum.nodes * std::pow(node_share, way), sum.bricks * std::pow(brick_share, way)});
+    summed.push_back(sum);
+    leaves.push_back(count);
+    const bool last = m + 1 == tree.size();
+    step.output = last ? config_.output : "runs/" + step.name + ".run";
+    step.threads = 1;
+    step.predicted = predict_merge(read, found.back(), last, {1, config_.build.memory});
+    plan_.steps.push_back(step);
+  }
+}
+
+// The triangles get their name, then the index, then what says that the plan is whole.
+void Planner::save() {
+  progress_->phase("save", 0);
+  make_folder(plan_.path("runs"));
+  make_folder(plan_.path("logs"));
+  triangles_->link_as(plan_.path(kPlanTriangles));
+  save_plan(&plan_);
+}
+
+}  // namespace
+
+Plan make_plan(const PlanConfig& config, Progress* progress) {
+  PlanConfig own = config;
+  if (!own.folder.empty()) {
+    while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
+    own.folder = absolute_path(own.folder);
+    if (is_plan(own.folder))
+      fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
+    make_folder(own.folder);
+  }
+  return Planner(own, progress).run();
+}
+
+}  // namespace svdag

@@ -1,0 +1,23 @@
+// Makes a plan: reads the scene, tells what its bake will take, and cuts it into steps.
+#pragma once
+
+#include <string>
+
+#include "builder/build.h"
+#include "builder/farm/plan.h"
+
+namespace svdag {
+
+struct PlanConfig {
+  BuildConfig build;   // without its output; `memory` is the most that planning and a step may have
+  std::string folder;  // of the plan, where nothing is yet; empty: the plan is made but not saved
+  size_t shards = 1;
+  size_t fan_in = 16;  // runs that one merge reads
+  size_t step_threads = 1;
+  std::string output;  // name of the finished file in the plan's folder
+};
+
+// Error (kUsage) if the folder holds a plan already.
+Plan make_plan(const PlanConfig& config, Progress* progress);
+
+}  // namespace svdag

@@ -1,0 +1,232 @@
+#include "builder/farm/plan.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "builder/farm/plan_index.h"
+#include "streaming/atomic_file.h"
+#include "streaming/checksum.h"
+#include "streaming/error.h"
+#include "streaming/file_folder.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPlanJson = "plan.json";
+constexpr int kFormat = 1;
+
+template <class Vector>
+Json three(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+template <class Vector>
+Vector get_three(const Json& json) {
+  Vector v;
+  for (int a = 0; a < 3; ++a) v[a] = json.at(size_t(a)).get<typename Vector::value_type>();
+  return v;
+}
+
+Json grid_json(const Grid& grid) {
+  return {{"kind", grid.kind == Grid::Kind::kBox ? "box" : "lattice"},
+          {"levels", grid.levels},
+          {"voxel_size", grid.voxel_size},
+          {"origin", three(grid.origin)},
+          {"k0", three(grid.k0)},
+          {"bounded", grid.bounded},
+          {"selection_min", three(grid.selection.min)},
+          {"selection_max", three(grid.selection.max)}};
+}
+
+Grid get_grid(const Json& json) {
+  Grid grid;
+  grid.kind = json.at("kind") == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
+  grid.levels = json.at("levels");
+  grid.voxel_size = json.at("voxel_size");
+  grid.origin = get_three<Point>(json.at("origin"));
+  grid.k0 = get_three<LatticePoint>(json.at("k0"));
+  grid.bounded = json.at("bounded");
+  grid.selection = {get_three<LatticePoint>(json.at("selection_min")),
+                    get_three<LatticePoint>(json.at("selection_max"))};
+  return grid;
+}
+
+Json counts_json(const SplitCounts& counts) {
+  return {{"triangles", counts.scene.triangles},
+          {"invalid", counts.scene.invalid},
+          {"quantisation", counts.scene.quantisation},
+          {"outside", counts.outside},
+          {"clipped", counts.clipped},
+          {"degenerate", counts.degenerate},
+          {"largest_snap_voxels", counts.largest_snap}};
+}
+
+SplitCounts get_counts(const Json& json) {
+  SplitCounts counts;
+  counts.scene.triangles = json.at("triangles");
+  counts.scene.invalid = json.at("invalid");
+  counts.scene.quantisation = json.at("quantisation");
+  counts.outside = json.at("outside");
+  counts.clipped = json.at("clipped");
+  counts.degenerate = json.at("degenerate");
+  counts.largest_snap = json.at("largest_snap_voxels");
+  return counts;
+}
+
+double rounded(double seconds) {
+  return std::round(1000 * seconds) / 1000;
+}
+
+Json prediction_json(const Prediction& p) {
+  return {{"cpu_seconds", rounded(p.cpu)}, {"seconds", rounded(p.seconds)},
+          {"budget_bytes", p.budget},      {"memory_bytes", p.memory},
+          {"output_bytes", p.output},      {"scratch_bytes", p.scratch}};
+}
+
+Prediction get_prediction(const Json& json) {
+  return {json.at("cpu_seconds"),  json.at("seconds"),      json.at("budget_bytes"),
+          json.at("memory_bytes"), json.at("output_bytes"), json.at("scratch_bytes")};
+}
+
+Json step_json(const Plan& plan, const PlanStep& step) {
+  Json json = {{"name", step.name}};
+  if (step.is_shard()) {
+    json["cells"] = {
+        {"level", step.cells.level}, {"begin", step.cells.begin}, {"end", step.cells.end}};
+  } else {
+    for (const size_t i : step.inputs) json["inputs"].push_back(plan.steps[i].name);
+  }
+  json["output"] = step.output;
+  json["threads"] = step.threads;
+  json["command"] = {"svdag"};
+  for (const std::string& word : plan.command(step)) json["command"].push_back(word);
+  json["predicted"] = prediction_json(step.predicted);
+  return json;
+}
+
+PlanStep get_step(const Json& json, const Plan& plan) {
+  PlanStep step;
+  step.name = json.at("name");
+  step.output = json.at("output");
+  step.threads = json.at("threads");
+  step.predicted = get_prediction(json.at("predicted"));
+  if (json.contains("cells")) {
+    const Json& cells = json.at("cells");
+    step.cells = {cells.at("level"), cells.at("begin"), cells.at("end")};
+    const int level = step.cells.level;
+    if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
+        step.cells.end > uint64_t(1) << 3 * level)
+      throw Error(ExitCode::kBadInput, "the cells of step " + step.name + " are not in the grid");
+    return step;
+  }
+  for (const Json& name : json.at("inputs"))
+    step.inputs.push_back(size_t(&find_step(plan, name.get<std::string>()) - plan.steps.data()));
+  return step;
+}
+
+void parse(const std::string& text, Plan* plan, std::string* index_hash) {
+  const Json json = Json::parse(text);
+  if (json.at("format") != kFormat)
+    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
+  for (const Json& input : json.at("inputs"))
+    plan->inputs.push_back({input.at("path"), input.at("bytes"), input.at("hash")});
+  plan->description = json.at("description");
+  plan->grid = get_grid(json.at("grid"));
+  if (plan->grid.levels < kMinLevels || plan->grid.levels > kMaxLevels)
+    throw Error(ExitCode::kBadInput, "has a grid of no size");
+  plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
+  plan->counts = get_counts(json.at("scene"));
+  plan->pilot_cpu = json.at("one_bake").at("cpu_seconds");
+  *index_hash = json.at("index_hash");
+  for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
+  if (plan->steps.empty()) throw Error(ExitCode::kBadInput, "has no steps");
+}
+
+std::string without_slashes(std::string path) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+std::string read_all(const std::string& path) {
+  const File file = File::open_read(path);
+  std::string text(file.size(), ' ');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+}  // namespace
+
+size_t Plan::shards() const {
+  return size_t(std::count_if(steps.begin(), steps.end(),
+                              [](const PlanStep& step) { return step.is_shard(); }));
+}
+
+std::vector<std::string> Plan::command(const PlanStep& step) const {
+  if (step.is_shard()) return {"build", folder, "--shard", step.name.substr(sizeof "shard-" - 1)};
+  return {"merge", folder, "--step", step.name};
+}
+
+bool is_plan(const std::string& path) {
+  struct stat status;
+  return ::stat((path + "/" + kPlanJson).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
+std::string plan_json(const Plan& plan, const std::string& index_hash) {
+  Json json = {{"svdag", "plan"}, {"format", kFormat}};
+  for (const PlanInput& input : plan.inputs)
+    json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"hash", input.hash}});
+  json["description"] = plan.description;
+  json["grid"] = grid_json(plan.grid);
+  json["rule"] = plan.rule == Rule::kThin ? "thin" : "conservative";
+  json["scene"] = counts_json(plan.counts);
+  json["one_bake"] = {{"cpu_seconds", rounded(plan.pilot_cpu)}};
+  json["bins"] = plan.bins.size();
+  json["index_hash"] = index_hash;
+  for (const PlanStep& step : plan.steps) json["steps"].push_back(step_json(plan, step));
+  return json.dump(1) + "\n";
+}
+
+void save_plan(Plan* plan) {
+  const std::string text = plan_json(*plan, save_index(*plan));
+  AtomicFile file(plan->path(kPlanJson));
+  file.append(text);
+  file.commit();
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(text)));
+  plan->hash = to_hex(hasher.digest());
+}
+
+Plan load_plan(const std::string& folder, bool with_bins) {
+  Plan plan;
+  plan.folder = absolute_path(without_slashes(folder));
+  const std::string path = plan.path(kPlanJson);
+  if (!is_plan(folder))
+    fail_input(folder, "is no plan: there is no plan.json in it (svdag plan makes one)");
+  const std::string text = read_all(path);
+  std::string index_hash;
+  try {
+    parse(text, &plan, &index_hash);
+  } catch (const Json::exception& error) {
+    fail_input(path, std::string("is damaged: ") + error.what());
+  } catch (const Error& error) {
+    fail_input(path, error.what());
+  }
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(text)));
+  plan.hash = to_hex(hasher.digest());
+  if (with_bins) load_index(index_hash, &plan);
+  return plan;
+}
+
+const PlanStep& find_step(const Plan& plan, const std::string& name) {
+  for (const PlanStep& step : plan.steps) {
+    if (step.name == name) return step;
+  }
+  fail_usage("the plan has no step " + name);
+}
+
+}  // namespace svdag

@@ -1,0 +1,11 @@
+// A plan for people, on stdout.
+#pragma once
+
+#include "builder/farm/plan.h"
+
+namespace svdag {
+
+// The sums; with `steps`, also what each step will take and its command.
+void print_plan(const Plan& plan, bool steps);
+
+}  // namespace svdag

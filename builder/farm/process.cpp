@@ -1,0 +1,122 @@
+#include "builder/farm/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "streaming/error.h"
+
+extern char** environ;
+
+namespace svdag {
+namespace {
+
+class FileActions {
+ public:
+  FileActions() { posix_spawn_file_actions_init(&actions_); }
+  FileActions(const FileActions&) = delete;
+  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
+
+  void open(int fd, const char* path, int flags) {
+    posix_spawn_file_actions_addopen(&actions_, fd, path, flags, 0666);
+  }
+  void duplicate(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+};
+
+pid_t spawn(const std::vector<std::string>& command, const FileActions& actions) {
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  pid_t process = 0;
+  const int error =
+      posix_spawnp(&process, words[0], actions.get(), &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0)
+    throw Error(ExitCode::kOutput, "cannot be started: " + std::string(std::strerror(error)),
+                command[0]);
+  return process;
+}
+
+int code_of(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return code_of(status);
+}
+
+}  // namespace
+
+pid_t start_process(const std::vector<std::string>& command, const std::string& log) {
+  FileActions actions;
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  actions.open(STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
+  actions.duplicate(STDOUT_FILENO, STDERR_FILENO);
+  return spawn(command, actions);
+}
+
+bool has_ended(pid_t process, int* code) {
+  int status = 0;
+  if (::waitpid(process, &status, WNOHANG) != process) return false;
+  *code = code_of(status);
+  return true;
+}
+
+void stop_processes(const std::vector<pid_t>& processes) {
+  for (const pid_t process : processes) ::kill(-process, SIGTERM);
+  for (const pid_t process : processes) wait_for(process);
+}
+
+Answer ask_process(const std::vector<std::string>& command) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw Error(ExitCode::kOutput, "cannot be started: no pipe", command[0]);
+  FileActions actions;
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  actions.duplicate(ends[1], STDOUT_FILENO);
+  actions.duplicate(ends[1], STDERR_FILENO);
+  pid_t process = 0;
+  try {
+    process = spawn(command, actions);
+  } catch (...) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw;
+  }
+  ::close(ends[1]);
+  Answer answer;
+  char buffer[4096];
+  for (;;) {
+    const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    answer.output.append(buffer, size_t(n));
+  }
+  ::close(ends[0]);
+  answer.code = wait_for(process);
+  return answer;
+}
+
+std::string own_program() {
+  std::error_code error;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? "svdag" : path.string();
+}
+
+}  // namespace svdag

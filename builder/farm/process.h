@@ -1,0 +1,33 @@
+// Other programs: started, watched, ended.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace svdag {
+
+// Starts `command` (a path or a name on PATH, and arguments) in a process group of its own, so that
+// Ctrl-C reaches it only through us, with empty input; what it says is appended to the file `log`.
+// Error (kOutput) if it cannot be started.
+pid_t start_process(const std::vector<std::string>& command, const std::string& log);
+
+// True once the process has ended; *code is then its exit code, or 128 + n if signal n ended it.
+bool has_ended(pid_t process, int* code);
+
+// Asks all of them to stop (SIGTERM), and waits until they have.
+void stop_processes(const std::vector<pid_t>& processes);
+
+struct Answer {
+  int code = 0;
+  std::string output;  // stdout and stderr
+};
+
+// Runs `command` to its end. Error (kOutput) if it cannot be started.
+Answer ask_process(const std::vector<std::string>& command);
+
+// This program's own file.
+std::string own_program();
+
+}  // namespace svdag

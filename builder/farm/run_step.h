@@ -1,0 +1,31 @@
+// Does one step of a plan: bakes a shard, or merges what other steps made.
+//
+// A step may be asked for any number of times, anywhere, also twice at once: a valid output is
+// kept, any other replaced, and outputs appear whole. What a killed shard had saved is taken up
+// again where its scratch is still to be found.
+#pragma once
+
+#include "builder/farm/receipt.h"
+#include "streaming/executor.h"
+#include "streaming/progress.h"
+
+namespace svdag {
+
+struct StepConfig {
+  std::string output;   // empty: the place in the plan
+  uint64_t memory = 0;  // 0: as planned
+  std::string scratch;  // the folder for scratch folders; empty: the output's
+};
+
+struct StepReport {
+  std::string output;
+  bool kept = false;  // it was there
+  Receipt receipt;
+};
+
+// `plan` must have its bins if the step is a shard. An input that is missing, damaged or not of
+// this plan is an Error (kBadInput).
+StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                    Executor* executor, Progress* progress);
+
+}  // namespace svdag

@@ -1,0 +1,34 @@
+#include "builder/farm/shell.h"
+
+#include <sstream>
+
+namespace svdag {
+
+std::string shell_word(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) c == '\'' ? quoted += "'\\''" : quoted += c;
+  return quoted + "'";
+}
+
+std::string one_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::string joined, line;
+  while (std::getline(lines, line)) {
+    if (!line.empty()) joined += (joined.empty() ? "" : "; ") + line;
+  }
+  return joined;
+}
+
+std::string last_line_of(const std::string& text) {
+  std::istringstream lines(text);
+  std::string last, line;
+  while (std::getline(lines, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+}  // namespace svdag

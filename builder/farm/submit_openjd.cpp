@@ -1,0 +1,117 @@
+#include "builder/farm/submit_openjd.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "builder/farm/process.h"
+#include "streaming/file.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
+constexpr int kLeastSeconds = 600;
+
+// Open Job Description wants relative defaults of paths.
+std::string relative_to(const std::string& folder, const std::string& path) {
+  std::error_code error;
+  const auto relative = std::filesystem::relative(path, folder, error);
+  return error ? path : relative.string();
+}
+
+// Steps that may run at the same time, as one step of the template with a task each.
+struct Stage {
+  std::string name;
+  std::vector<size_t> steps;
+};
+
+// The shards, then the merges by their height over them.
+std::vector<Stage> stages_of(const Plan& plan) {
+  std::vector<size_t> height;
+  std::map<size_t, Stage> stages;
+  for (size_t i = 0; i < plan.steps.size(); ++i) {
+    size_t own = 0;
+    for (const size_t input : plan.steps[i].inputs) own = std::max(own, height[input] + 1);
+    height.push_back(own);
+    Stage& stage = stages[own];
+    stage.name = own == 0 ? "Shards" : "Merges" + std::to_string(own);
+    stage.steps.push_back(i);
+  }
+  std::vector<Stage> list;
+  for (auto& [own, stage] : stages) list.push_back(std::move(stage));
+  return list;
+}
+
+Json requirements(const Plan& plan, const Stage& stage) {
+  uint64_t memory = 0, threads = 1;
+  for (const size_t i : stage.steps) {
+    memory = std::max(memory, plan.steps[i].predicted.memory);
+    threads = std::max<uint64_t>(threads, plan.steps[i].threads);
+  }
+  return {{"amounts",
+           Json::array({{{"name", "amount.worker.memory"}, {"min", (memory + (1 << 20) - 1) >> 20}},
+                        {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
+}
+
+// "merge-12" -> "12".
+std::string number_of(const PlanStep& step) {
+  return step.name.substr(step.name.find('-') + 1);
+}
+
+Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage) {
+  const bool shards = plan.steps[stage.steps.front()].is_shard();
+  const std::string tasks =
+      number_of(plan.steps[stage.steps.front()]) + "-" + number_of(plan.steps[stage.steps.back()]);
+  double seconds = 0;
+  for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
+  Json arguments = {shards ? "build" : "merge", "{{Param.Plan}}"};
+  arguments.push_back(shards ? "--shard" : "--step");
+  arguments.push_back(shards ? "{{Task.Param.Number}}" : "merge-{{Task.Param.Number}}");
+  if (!config.scratch.empty()) {
+    arguments.push_back("--scratch");
+    arguments.push_back(config.scratch);
+  }
+  return {{"name", stage.name},
+          {"parameterSpace",
+           {{"taskParameterDefinitions",
+             Json::array({{{"name", "Number"}, {"type", "INT"}, {"range", tasks}}})}}},
+          {"hostRequirements", requirements(plan, stage)},
+          {"script",
+           {{"actions",
+             {{"onRun",
+               {{"command", "{{Param.Svdag}}"},
+                {"args", arguments},
+                {"timeout", std::max(kLeastSeconds, int(kTimeFactor * seconds))}}}}}}}};
+}
+
+}  // namespace
+
+std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
+  Json json = {{"specificationVersion", "jobtemplate-2023-09"},
+               {"name", "svdag " + plan.steps.back().output}};
+  json["parameterDefinitions"] =
+      Json::array({{{"name", "Plan"},
+                    {"type", "PATH"},
+                    {"objectType", "DIRECTORY"},
+                    {"dataFlow", "INOUT"},
+                    {"description", "The folder that svdag plan wrote"},
+                    {"default", relative_to(folder_of(config.path), plan.folder)}},
+                   {{"name", "Svdag"},
+                    {"type", "STRING"},
+                    {"description", "The program svdag on the hosts"},
+                    {"default", config.program.empty() ? own_program() : config.program}}});
+  std::string before;
+  for (const Stage& stage : stages_of(plan)) {
+    Json step = step_json(plan, config, stage);
+    if (!before.empty()) step["dependencies"] = Json::array({{{"dependsOn", before}}});
+    json["steps"].push_back(step);
+    before = stage.name;
+  }
+  return json.dump(1) + "\n";
+}
+
+}  // namespace svdag

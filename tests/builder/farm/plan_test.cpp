@@ -1,0 +1,133 @@
+// A plan is one thing: what is saved is loaded, and what was changed since is found.
+#include "builder/farm/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "builder/farm/leaf_bins.h"
+#include "tests/builder/farm/plans.h"
+
+namespace svdag {
+namespace {
+
+class Plans : public ::testing::Test {
+ protected:
+  Plans() { write_stl(scene_, random_soup(20'000, 0.05, 1)); }
+  PlanConfig config(size_t shards = 5) const {
+    return plan_config(scene_, 9, folder_.file("plan"), shards);
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = folder_.file("scene.stl");
+};
+
+TEST_F(Plans, LoadAsTheyWereSaved) {
+  PlanConfig c = config();
+  c.fan_in = 2;
+  c.build.bounds = Box{{0.1, 0.1, 0.1}, {0.8, 0.9, 0.7}};
+  const Plan saved = plan_of(c), loaded = load_plan(c.folder, true);
+  EXPECT_EQ(loaded.hash, saved.hash);
+  EXPECT_EQ(loaded.folder, saved.folder);
+  EXPECT_EQ(loaded.description, saved.description);
+  EXPECT_EQ(loaded.grid, saved.grid);
+  EXPECT_EQ(loaded.counts.largest_snap, saved.counts.largest_snap);
+  ASSERT_EQ(loaded.steps.size(), saved.steps.size());
+  for (size_t i = 0; i < saved.steps.size(); ++i) {
+    EXPECT_EQ(loaded.steps[i].name, saved.steps[i].name);
+    EXPECT_EQ(loaded.steps[i].inputs, saved.steps[i].inputs);
+    EXPECT_EQ(loaded.steps[i].cells.begin, saved.steps[i].cells.begin);
+    EXPECT_EQ(loaded.steps[i].cells.end, saved.steps[i].cells.end);
+    EXPECT_EQ(loaded.steps[i].predicted.budget, saved.steps[i].predicted.budget);
+  }
+  ASSERT_EQ(loaded.bins.size(), saved.bins.size());
+  for (size_t i = 0; i < saved.bins.size(); ++i) {
+    EXPECT_EQ(loaded.bins[i].range, saved.bins[i].range);
+    EXPECT_EQ(loaded.bins[i].stream.blocks, saved.bins[i].stream.blocks);
+  }
+}
+
+TEST_F(Plans, BinsAscendAndEachStandsInOnePiece) {
+  const Plan plan = plan_of(config(50));
+  ASSERT_GT(plan.bins.size(), 8u);
+  uint32_t next = 0;
+  uint64_t at = 0;
+  for (const TriangleBin& bin : plan.bins) {
+    EXPECT_GE(bin.range.begin, at);
+    at = bin.range.end;
+    for (const uint32_t block : bin.stream.blocks) EXPECT_EQ(block, next++);
+  }
+}
+
+TEST_F(Plans, ShardsReadFewTrianglesThatOthersRead) {
+  const Plan plan = plan_of(config(4));
+  uint64_t read = 0;
+  for (const PlanStep& step : plan.steps) {
+    if (!step.is_shard()) continue;
+    for (const TriangleBin& bin : bins_of(plan.bins, step.cells, plan.grid.levels))
+      read += bin.triangles;
+  }
+  EXPECT_LT(read, 2 * plan.counts.scene.triangles);
+}
+
+TEST_F(Plans, DoNotChange) {
+  plan_of(config());
+  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
+}
+
+TEST_F(Plans, NameTheirInputsByContent) {
+  const Plan plan = plan_of(config());
+  ASSERT_EQ(plan.inputs.size(), 1u);
+  EXPECT_EQ(plan.inputs[0].path, absolute_path(scene_));
+  EXPECT_EQ(plan.inputs[0].bytes, std::filesystem::file_size(scene_));
+  EXPECT_NE(plan.description.find(plan.inputs[0].hash), std::string::npos);
+}
+
+TEST_F(Plans, ThatAreDamagedSaySo) {
+  plan_of(config());
+  const std::string json = folder_.file("plan/plan.json"), index = folder_.file("plan/index");
+  const std::string text = read_bytes(json), bytes = read_bytes(index);
+  const auto write = [](const std::string& path, const std::string& content) {
+    std::ofstream(path, std::ios::binary) << content;
+  };
+  for (const size_t kept : {size_t(0), text.size() / 2, text.size() - 3}) {
+    write(json, text.substr(0, kept));
+    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "plan.json");
+  }
+  std::string moved = text;
+  const size_t end = moved.find("\"end\": ");
+  moved.replace(end, 8, "\"end\": 99999999999");
+  write(json, moved);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "not in the grid");
+  write(json, text);
+  std::string flipped = bytes;
+  flipped[flipped.size() / 2] ^= 1;
+  write(index, flipped);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "index");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.path(), true), ExitCode::kBadInput, "is no plan");
+}
+
+TEST_F(Plans, PromiseWhatAStepMayHave) {
+  PlanConfig c = config(3);
+  c.step_threads = 2;
+  c.build.memory = uint64_t(100) << 20;
+  for (const PlanStep& step : plan_of(c).steps) {
+    EXPECT_EQ(step.threads, step.is_shard() ? 2u : 1u);
+    EXPECT_GE(step.predicted.budget, uint64_t(64) << 20);
+    EXPECT_LE(step.predicted.budget, uint64_t(100) << 20);
+    EXPECT_EQ(step.predicted.memory, step.predicted.budget + kBesideBudget);
+    EXPECT_GT(step.predicted.cpu, 0);
+  }
+}
+
+TEST_F(Plans, DryOnesLeaveNothing) {
+  PlanConfig c = config(1);
+  c.folder.clear();
+  c.build.output = folder_.file("out.svdag");
+  const Plan plan = plan_of(c);
+  EXPECT_EQ(plan.steps.size(), 2u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace svdag
