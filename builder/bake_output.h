@@ -39,6 +39,7 @@ class DagOutput final : public BakeOutput {
   void finish(std::span<const CellRoot>, uint64_t voxels, double largest_snap) override {
     writer_.finish(voxels, largest_snap);
   }
+  uint64_t voxels() const { return writer_.header().voxels; }
   std::vector<uint64_t> keys() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }
   std::string content_hash() const override;

@@ -46,8 +46,8 @@ struct ReducedLevel {
 
 class GraphReduction {
  public:
-  GraphReduction(NodeGraph* graph, const ReductionRoom& room, DagWriter* writer)
-      : graph_(graph), room_(room), writer_(writer), brick_level_(graph->grid().levels - 2) {}
+  GraphReduction(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output)
+      : graph_(graph), room_(room), output_(output), brick_level_(graph->grid().levels - 2) {}
 
   uint64_t run() {
     mark();
@@ -92,8 +92,8 @@ class GraphReduction {
       level.voxels[rank] = uint64_t(std::popcount(brick));
       if (brick != 0) sort.push({brick, rank, 0});
     });
-    writer_->begin_level(brick_level_);
-    write(&sort, &level, [this](Brick brick) { return writer_->add_brick(brick); });
+    output_->begin_level(brick_level_);
+    write(&sort, &level, [this](Brick brick) { return output_->add_brick(brick); });
     return level;
   }
 
@@ -115,8 +115,8 @@ class GraphReduction {
       }
       if (level.voxels[rank] != 0) sort.push(record);
     });
-    writer_->begin_level(number);
-    write(&sort, &level, [this](const NodeKey& key) { return writer_->add_node(key); });
+    output_->begin_level(number);
+    write(&sort, &level, [this](const NodeKey& key) { return output_->add_node(key); });
     return level;
   }
 
@@ -151,15 +151,15 @@ class GraphReduction {
 
   NodeGraph* graph_;
   const ReductionRoom& room_;
-  DagWriter* writer_;
+  BakeOutput* output_;
   int brick_level_;
   std::vector<RankBitmap> marks_;  // [level]: ids that the root reaches
 };
 
 }  // namespace
 
-uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, DagWriter* writer) {
-  return GraphReduction(graph, room, writer).run();
+uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output) {
+  return GraphReduction(graph, room, output).run();
 }
 
 }  // namespace svdag

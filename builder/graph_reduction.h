@@ -14,7 +14,7 @@
 
 #include <functional>
 
-#include "io/dag/dag_writer.h"
+#include "builder/bake_output.h"
 #include "io/dag/node_graph.h"
 #include "streaming/executor.h"
 #include "streaming/memory_budget.h"
@@ -27,7 +27,7 @@ struct ReductionRoom {
   std::function<File()> new_file;  // for what does not fit in memory
 };
 
-// Writes all levels to `writer` (which the caller finishes); returns the number of set voxels.
-uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, DagWriter* writer);
+// Writes all levels to `output` (which the caller finishes); returns the number of set voxels.
+uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output);
 
 }  // namespace svdag

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "builder/bake_output.h"
 #include "builder/brick_reduction.h"
 #include "builder/cell.h"
 #include "builder/graph_reduction.h"
@@ -38,9 +39,10 @@ class Import {
     if (config_.levels != 0 && config_.levels != grid.levels)
       fail_usage("-r: the resolution of this file is " +
                  format_resolution(uint64_t(grid.resolution())));
-    DagWriter writer(config_.output, grid, Rule::kConservative);
+    DagOutput output(config_.output, grid, Rule::kConservative);
     const ReductionRoom room{&budget_, executor_, [this] { return new_file(); }};
-    return finish(reduce_graph(graph, room, &writer), grid, &writer);
+    output.finish({}, reduce_graph(graph, room, &output), 0);
+    return describe(grid, output);
   }
 
   ImportReport run(const VoxelSource& source) {
@@ -55,7 +57,7 @@ class Import {
       }
     });
     const Grid grid = choose_grid(place, highest);
-    DagWriter writer(config_.output, grid, Rule::kConservative);
+    DagOutput output(config_.output, grid, Rule::kConservative);
     Scratch scratch(&folder_, &budget_);
     BrickReduction bricks(grid.levels, {&budget_, &scratch, budget_.limit() / 4});
     const uint64_t voxels = reduce(&*sort, &bricks);
@@ -65,8 +67,10 @@ class Import {
     merging.scratch = bricks.spilled() ? &scratch : nullptr;
     merging.map_bytes = budget_.limit() / 2;
     merging.sources = std::max<size_t>(2, budget_.limit() * 3 / 8 / (4 * scratch.block_bytes()));
-    merge(bricks.runs(), std::move(bricks.roots()), grid.levels, merging, &writer, executor_);
-    return finish(voxels, grid, &writer);
+    const auto roots = merge(bricks.runs(), std::move(bricks.roots()), Part::whole(grid.levels),
+                             merging, &output, executor_);
+    output.finish(roots, voxels, 0);
+    return describe(grid, output);
   }
 
  private:
@@ -119,15 +123,13 @@ class Import {
     return grid;
   }
 
-  ImportReport finish(uint64_t voxels, const Grid& grid, DagWriter* writer) {
-    writer->finish(voxels, 0);
-    const Header& header = writer->header();
+  static ImportReport describe(const Grid& grid, const DagOutput& output) {
     ImportReport report;
     report.grid = grid;
-    report.voxels = voxels;
-    for (uint32_t k = 0; k < header.section_count; ++k) report.nodes += header.sections[k].nodes;
-    report.file_bytes = header.file_bytes;
-    report.content_hash = to_hex({header.content_hash[0], header.content_hash[1]});
+    report.voxels = output.voxels();
+    for (const uint64_t nodes : output.keys()) report.nodes += nodes;
+    report.file_bytes = output.file_bytes();
+    report.content_hash = output.content_hash();
     return report;
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "builder/choose_grid.h"
 #include "builder/description.h"
 #include "builder/farm/leaf_bins.h"
 #include "builder/farm/merge_tree.h"

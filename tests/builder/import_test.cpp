@@ -57,15 +57,16 @@ std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_byt
   }
   reduction.finish();
   *runs = reduction.runs().size();
-  DagWriter writer(folder.file("a.svdag"), unit_grid(levels), Rule::kConservative);
+  DagOutput output(folder.file("a.svdag"), unit_grid(levels), Rule::kConservative);
   MergeConfig config;
   config.budget = &budget;
   config.scratch = reduction.spilled() ? &scratch : nullptr;
   config.map_bytes = uint64_t(1) << 20;
   config.sources = 4;
   SequentialExecutor executor;
-  merge(reduction.runs(), reduction.roots(), levels, config, &writer, &executor);
-  writer.finish(voxels, 0);
+  output.finish(
+      merge(reduction.runs(), reduction.roots(), Part::whole(levels), config, &output, &executor),
+      voxels, 0);
   return folder.read("a.svdag");
 }
 
