@@ -8,6 +8,7 @@
 #include "builder/bake_output.h"
 #include "builder/brick_reduction.h"
 #include "builder/cell.h"
+#include "builder/checkpoint.h"
 #include "builder/graph_reduction.h"
 #include "builder/merge.h"
 #include "io/units.h"
@@ -31,6 +32,11 @@ class Import {
         executor_(executor),
         budget_(config.memory != 0 ? config.memory : default_memory_limit()),
         folder_(ScratchDir::path_for(config.output, config.scratch)) {
+    if (Checkpoint::exists(folder_)) {
+      folder_.keep();
+      fail_usage(config.output + ": an unfinished bake of it is in " + folder_.path() +
+                 ": finish or discard it first with svdag build, or choose another output");
+    }
     folder_.clear();  // of what a killed import left
   }
 

@@ -237,5 +237,17 @@ TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
+TEST(ImportVoxels, AnUnfinishedBakeOfThatNameIsNotDiscarded) {
+  const TempFolder folder;
+  const std::string out = folder.file("a.svdag");
+  {
+    ScratchDir bake(out + ".scratch");
+    bake.create("journal");
+    bake.keep();
+  }
+  EXPECT_SVDAG_ERROR(import_list({{0, 0, 0}}, out, 4), ExitCode::kUsage, "unfinished bake");
+  EXPECT_TRUE(ScratchDir(out + ".scratch").has("journal"));
+}
+
 }  // namespace
 }  // namespace svdag
