@@ -1,7 +1,8 @@
 # svdag: `make demo` and `make test` work on a fresh Debian 12 with nothing but git and make.
 #
 #   deps    install the packages below (as root, through sudo, or print the line)
-#   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-scene
+#   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-trace,
+#           svdag-scene
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
@@ -18,7 +19,8 @@
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
-#   cuda    the tracer for NVIDIA GPUs
+#   cuda    build/cuda/svdag-trace: the tracer for NVIDIA GPUs
+#   pictures  the rendered pictures of docs/images/
 #   clean   remove build/ and demo/
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
@@ -34,7 +36,8 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-farm stress bench bench-giants bench-sort bench-out-of-core \
-  bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda clean
+  bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda \
+  cuda-packages pictures clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
@@ -58,7 +61,8 @@ deps:
 
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-import svdag-verify svdag-scene
+	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-import svdag-verify \
+	  svdag-trace svdag-scene
 
 demo: build
 	@sh tests/demo.sh $(PROGRAMS) demo
@@ -118,12 +122,20 @@ bundle: build
 deb: build
 	@cd $(PROGRAMS) && cpack -G DEB -B ../deb >/dev/null && cd ../deb && ls $$PWD/*.deb
 
-cuda:
-	@if [ -f verify/trace/cuda.cu ] && command -v nvcc >/dev/null; then \
-	  cmake --preset cuda && cmake --build --preset cuda --target svdag-trace; \
-	elif [ -f verify/trace/cuda.cu ]; then \
-	  echo "There is no nvcc on PATH: svdag-trace was not built."; \
-	else echo "The CUDA tracer is not written yet: nothing was built."; fi
+# nvcc from PATH, or from pinned wheels (300 MB, into build/cuda-venv).
+cuda: deps
+	@command -v nvcc >/dev/null || $(MAKE) -s cuda-packages
+	@nvcc=$$(command -v nvcc || sh verify/trace/install_nvcc.sh build/cuda-venv) && \
+	CUDACXX=$$nvcc cmake --preset cuda --log-level=WARNING >/dev/null && \
+	cmake --build --preset cuda --target svdag-trace && \
+	echo "build/cuda/svdag-trace"
+
+cuda-packages:
+	$(call install,python3-venv)
+
+# The pictures of docs/images/, all of generated scenes.
+pictures: build
+	@sh tests/pictures.sh $(PROGRAMS) docs/images
 
 clean:
 	rm -rf build demo

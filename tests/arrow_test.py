@@ -43,8 +43,20 @@ EXACT = {
     "verify/trace/surface.h": ["verify/trace/vector.h"],
     "verify/trace/sampling.h": ["verify/trace/vector.h"],
     "verify/trace/beam.h": ["verify/trace/camera.h"],
-    "verify/trace/workload.h": ["verify/trace/camera.h", "verify/trace/sampling.h",
+    "verify/trace/workload.h": ["verify/trace/beam.h", "verify/trace/sampling.h",
                                 "verify/trace/surface.h"],
+    "verify/trace/processor.h": [],
+    "verify/trace/plain_file.h": ["io/dag/dag_view.h"],
+    "verify/trace/plain_file.cpp": ["verify/trace/plain_file.h", "streaming/error.h"],
+    "verify/trace/device.h": ["verify/trace/plain_file.h", "verify/trace/workload.h"],
+    "verify/trace/device.cpp": ["verify/trace/device.h", "verify/trace/processor.h"],
+    "verify/trace/cuda.cu": ["verify/trace/device.h", "streaming/error.h"],
+    "verify/trace/without_cuda.cpp": ["verify/trace/device.h", "streaming/error.h"],
+    "verify/trace/svdag_trace.cpp": ["verify/trace/device.h", "verify/trace/presets.h",
+                                     "verify/trace/trace_options.h", "streaming/error.h"],
+    "verify/trace/trace_options.h": ["verify/trace/device.h"],
+    "verify/trace/trace_options.cpp": ["verify/trace/trace_options.h", "verify/trace/presets.h",
+                                       "streaming/error.h"],
 }
 
 LIBRARIES = {

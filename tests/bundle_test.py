@@ -38,7 +38,7 @@ class Bundle(unittest.TestCase):
         return done.stdout
 
     def test_holds_the_programs_and_their_libraries(self):
-        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-export", "svdag-import", "svdag-scene", "svdag-verify"])
+        self.assertEqual(sorted(p.name for p in (self.bundle / "bin").iterdir()), ["svdag", "svdag-export", "svdag-import", "svdag-scene", "svdag-trace", "svdag-verify"])
         names = [p.name for p in (self.bundle / "lib").iterdir()]
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
@@ -58,6 +58,7 @@ class Bundle(unittest.TestCase):
         subprocess.run([BUILD / "svdag", "build", "city.ply", "-r", "512", "-q", "-o", "built.svdag"], cwd=self.away, check=True)
         self.assertEqual((self.away / "bundled.svdag").read_bytes(), (self.away / "built.svdag").read_bytes())
         self.run_bundled(programs / "svdag-verify", "check", "bundled.svdag")
+        self.run_bundled(programs / "svdag-trace", "bundled.svdag", "--size", "32x32", "--samples", "4")
 
     def test_a_bake_does_not_load_what_exports_need(self):
         self.assertNotIn("openvdb", self.run_bundled("ldd", self.bundle / "bin" / "svdag"))

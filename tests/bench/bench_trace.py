@@ -33,8 +33,28 @@ def measure(programs, bakes, log2):
     bakes.report(SCENE, log2)
     done = subprocess.run([programs / "tests" / "bench" / "trace_rows", bakes.dag_file(), bakes.scene(SCENE), LIGHT,
                            *VIEWS], check=True, stdout=subprocess.PIPE, text=True)
-    rows = [{"grid": label(bakes.log2(log2)), **row} for row in csv.DictReader(done.stdout.splitlines())]
-    return [row | {"rays": int(row["rays"]), "mrays": float(row["mrays"]), "hits": int(row["hits"])} for row in rows]
+    return [typed({"grid": label(bakes.log2(log2)), **row}) for row in csv.DictReader(done.stdout.splitlines())]
+
+
+def measure_all(programs, coarser):
+    bakes = Bakes(programs, OUT, coarser)
+    if bakes.scene(SCENE) is None:
+        sys.exit("SVDAG_SCENES does not name a folder with Crytek Sponza: nothing was measured")
+    rows = []
+    for log2 in GRIDS:
+        rows += measure(programs, bakes, log2)
+        write_csv(OUT / "trace.csv", rows)
+    bakes.dag_file().unlink(missing_ok=True)
+    return rows
+
+
+def read():
+    with open(OUT / "trace.csv", newline="") as file:
+        return [typed(row) for row in csv.DictReader(file)]
+
+
+def typed(row):
+    return row | {"rays": int(row["rays"]), "mrays": float(row["mrays"]), "hits": int(row["hits"])}
 
 
 def grouped(rows):
@@ -63,12 +83,17 @@ def target(case, ratio):
     return f"{TARGETS[case[1]]} {'met' if ratio >= TARGETS[case[1]] else '**missed**'}"
 
 
+def has_cone(case):
+    """Rays that together fill a solid angle: one of many may stop at a cube of their size."""
+    return case[1].startswith(("soft", "ao"))
+
+
 def against(rows):
     lines = []
     for case, own in grouped(rows).items():
         mine, peer, single = own["svdag"], best_embree(own), own["Embree, 1"]
         ratio = mine["mrays"] / peer["mrays"]
-        cut = own["svdag, cut"]["mrays"] / peer["mrays"] if case[1].startswith(("soft", "ao")) else None
+        cut = own["svdag, cut"]["mrays"] / peer["mrays"] if has_cone(case) else None
         lines.append([name_of(case), f"{mine['rays']:,}", f"{mine['mrays']:.2f}",
                       f"{peer['mrays']:.2f} ({peer['method'].removeprefix('Embree, ')})", f"{ratio:.2f}",
                       f"{mine['mrays'] / single['mrays']:.2f}", f"{cut:.2f}" if cut else "", target(case, ratio),
@@ -78,8 +103,11 @@ def against(rows):
 
 
 def ours(rows):
-    lines = [[name_of(case), *[f"{own[method]['mrays']:.2f}" for method in OURS], share(own["svdag"]),
-              share(own["svdag, cut"])] for case, own in grouped(rows).items()]
+    lines = []
+    for case, own in grouped(rows).items():
+        cell = lambda method: "" if method == "svdag, cut" and not has_cone(case) else f"{own[method]['mrays']:.2f}"
+        lines.append([name_of(case), *map(cell, OURS), share(own["svdag"]),
+                      share(own["svdag, cut"]) if has_cone(case) else ""])
     return table(["grid, rays", *OURS.values(), "hits, %", "hits with the cone, %"], lines)
 
 
@@ -88,17 +116,11 @@ def main():
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--coarser", type=int, default=0, metavar="N", help="all grids N doublings lower; needs --csv-only")
     parser.add_argument("--csv-only", action="store_true", help="leave docs/ alone")
+    parser.add_argument("--tables-only", action="store_true", help="from the CSV file of the last run")
     options = parser.parse_args()
     if options.coarser and not options.csv_only:
         parser.error("--coarser needs --csv-only")
-    bakes = Bakes(options.programs.resolve(), OUT, options.coarser)
-    if bakes.scene(SCENE) is None:
-        sys.exit("SVDAG_SCENES does not name a folder with Crytek Sponza: nothing was measured")
-    rows = []
-    for log2 in GRIDS:
-        rows += measure(options.programs.resolve(), bakes, log2)
-        write_csv(OUT / "trace.csv", rows)
-    bakes.dag_file().unlink(missing_ok=True)
+    rows = read() if options.tables_only else measure_all(options.programs.resolve(), options.coarser)
     contents = {"trace against": f"{processor(1)}, MRays/s.\n\n{against(rows)}", "trace ours": ours(rows)}
     print("\n\n".join(contents.values()))
     if not options.csv_only:

@@ -37,6 +37,7 @@ struct Moments {
 class BrickPath {
  public:
   SVDAG_HD explicit BrickPath(const DagView& dag) : dag_(dag) {}
+  explicit BrickPath(DagView&&) = delete;
 
   // As dag_brick.
   SVDAG_HD uint64_t brick(uint32_t x, uint32_t y, uint32_t z) {

@@ -69,6 +69,7 @@ SVDAG_HD inline uint32_t highest_bit(uint32_t v) {
 class Tracer {
  public:
   SVDAG_HD explicit Tracer(const DagView& dag) : dag_(dag) { path_[0] = 0; }
+  explicit Tracer(DagView&&) = delete;  // would be gone before the first ray
 
   // The first solid cube that the ray meets within `span`.
   SVDAG_HD Hit closest(const Ray& ray, const Span& span = {}, const Cut& cut = {});
@@ -161,12 +162,15 @@ class Tracer::Walk {
   SVDAG_HD uint32_t in_brick(uint64_t brick) {
     const unsigned block = child_at(1) ^ ray_.flip, voxel = child_at(0) ^ ray_.flip;
     const unsigned byte = unsigned(brick >> (8 * block)) & 0xffU;
-    if (kCut && byte != 0 && cut_.solid(dag_.levels - 1, 2, t_)) return dag_.levels - 1;
+    // A block is asked where it is entered, not again at each of its voxels.
+    if (kCut && byte != 0 && up_ > 0 && cut_.solid(dag_.levels - 1, 2, t_)) return dag_.levels - 1;
     if (byte >> voxel & 1U) return dag_.levels;
     if ((byte & ahead_.children(voxel)) != 0) {
       side_ = 1;
+    } else if (kCut || (brick & ahead_.voxels(cell_)) != 0) {
+      side_ = 2;  // with a cut, blocks may be solid of which no voxel is ahead
     } else {
-      side_ = (brick & ahead_.voxels(cell_)) != 0 ? 2 : alone_[dag_.brick_level()];
+      side_ = alone_[dag_.brick_level()];
     }
     return kNone;
   }
@@ -189,8 +193,8 @@ class Tracer::Walk {
     ++steps_;
     const uint32_t x = cell_[0], y = cell_[1], z = cell_[2];
     locate(far, times);
-    const uint32_t up = highest_bit((x ^ cell_[0]) | (y ^ cell_[1]) | (z ^ cell_[2]));
-    const uint32_t common = dag_.levels - 1 - up;
+    up_ = highest_bit((x ^ cell_[0]) | (y ^ cell_[1]) | (z ^ cell_[2]));
+    const uint32_t common = dag_.levels - 1 - up_;
     *level = common < dag_.brick_level() ? common : dag_.brick_level();
     return true;
   }
@@ -255,6 +259,7 @@ class Tracer::Walk {
   const Ahead ahead_;
   double margin_, t_ = 0, end_ = 0;
   uint32_t cell_[3], side_ = 0, steps_ = 0;
+  uint32_t up_ = 31;              // the highest bit of the cell that the last step changed
   uint32_t alone_[kMaxSections];  // the side of the largest cube around path_[k] with nothing else
                                   // ahead
 };

@@ -10,7 +10,7 @@
 // and must not shade itself.
 #pragma once
 
-#include "verify/trace/camera.h"
+#include "verify/trace/beam.h"
 #include "verify/trace/sampling.h"
 #include "verify/trace/surface.h"
 
@@ -45,6 +45,15 @@ struct Picture {
   }
 };
 
+// The span of the rays through the tile whose upper left pixel is (left, top).
+SVDAG_HD inline Span tile_span(const DagView& dag, const Picture& picture, uint32_t left,
+                               uint32_t top) {
+  Beam beam;
+  for (uint32_t i = 0; i < kTile * kTile; ++i)
+    beam.add(picture.ray(left + i % kTile, top + i / kTile));
+  return beam.reach(dag, {}, {}, false);
+}
+
 SVDAG_HD inline Surfel make_surfel(const DagView& dag, const Ray& ray, const Hit& hit) {
   Surfel surfel;
   surfel.found = hit.found;
@@ -70,32 +79,6 @@ SVDAG_HD inline Ray soft_ray(const Surfel& surfel, const Light& light, uint64_t 
 // The i-th of n directions, of length 1.
 SVDAG_HD inline Ray occlusion_ray(const Surfel& surfel, uint64_t pixel, uint32_t i, uint32_t n) {
   return {surfel.point, cosine_direction(surfel.normal, square_point(pixel, i, n))};
-}
-
-SVDAG_HD inline bool shadowed(const DagView& dag, const Surfel& surfel, const Light& light,
-                              const Cut& cut = {}) {
-  return trace_any(dag, shadow_ray(surfel, light), {0, 1}, cut);
-}
-
-// How many of the samples are blocked, of either workload.
-SVDAG_HD inline uint32_t soft_blocked(const DagView& dag, const Surfel& surfel, const Light& light,
-                                      uint64_t pixel, const Secondary& with) {
-  uint32_t blocked = 0;
-  for (uint32_t i = 0; i < with.samples; ++i) {
-    const Ray ray = soft_ray(surfel, light, pixel, i, with.samples);
-    blocked += trace_any(dag, ray, {0, 1}, with.cut);
-  }
-  return blocked;
-}
-
-SVDAG_HD inline uint32_t occlusion_blocked(const DagView& dag, const Surfel& surfel, uint64_t pixel,
-                                           const Secondary& with) {
-  uint32_t blocked = 0;
-  for (uint32_t i = 0; i < with.samples; ++i) {
-    const Ray ray = occlusion_ray(surfel, pixel, i, with.samples);
-    blocked += trace_any(dag, ray, {0, with.reach}, with.cut);
-  }
-  return blocked;
 }
 
 }  // namespace svdag

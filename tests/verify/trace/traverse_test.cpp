@@ -125,22 +125,5 @@ TEST(Traverse, EmptyDagIsNeverHit) {
   EXPECT_FALSE(trace_closest(file.view(), {{{-1, 1, 1}}, {{1, 0.1, 0.1}}}).found);
 }
 
-TEST(Surface, NormalOfAPlaneIsThePlanes) {
-  VoxelSet voxels;  // x + 2y + 2z = 96, one voxel thick and more
-  for (int64_t x = 0; x < 64; ++x) {
-    for (int64_t y = 0; y < 64; ++y) {
-      for (int64_t z = 0; z < 64; ++z) {
-        if (std::abs(x + 2 * y + 2 * z - 96) <= 2) voxels.emplace(x, y, z);
-      }
-    }
-  }
-  const RawFile file(raw_dag(test_grid(6), voxels));
-  const Ray ray{{{64, 64, 64}}, normalized({{-1, -1, -1}})};
-  const Hit hit = trace_closest(file.view(), ray);
-  ASSERT_TRUE(hit.found);
-  const Vec3 normal = surface_normal(file.view(), hit, ray.direction);
-  EXPECT_GT(dot(normal, normalized({{1, 2, 2}})), 0.99);
-}
-
 }  // namespace
 }  // namespace svdag

@@ -1,0 +1,55 @@
+// The four measured workloads, on the processor or on a GPU: same rays, same answers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verify/trace/plain_file.h"
+#include "verify/trace/workload.h"
+
+namespace svdag {
+
+struct Workload {
+  Picture picture;
+  Light light;
+  Secondary secondary;
+  bool beams = true;     // primary rays start where their tile's beam ends
+  uint32_t rounds = 3;   // each is traced so often; the least time counts
+  unsigned threads = 0;  // of the processor; 0: all
+};
+
+enum WorkloadKind { kPrimaryRays, kShadowRays, kSoftRays, kOcclusionRays, kWorkloads };
+
+constexpr const char* kWorkloadNames[kWorkloads] = {"primary", "shadow", "soft", "ao"};
+
+// Pixel by pixel, row after row.
+struct Answers {
+  std::string device;     // in words
+  std::vector<Hit> hits;  // of the primary rays
+  std::vector<Surfel> surfels;
+  std::vector<uint32_t> blocked[kWorkloads];  // secondary rays that meet something
+  double seconds[kWorkloads] = {};
+  uint64_t rays[kWorkloads] = {};
+};
+
+Answers trace_on_cpu(const PlainFile& file, const Workload& work);
+
+// No device, a program without CUDA, or too little memory there is an Error.
+Answers trace_on_cuda(const PlainFile& file, const Workload& work);
+
+// Secondary ray i of n of `kind` from a surfel, and its span.
+SVDAG_HD inline bool blocked_ray(Tracer* tracer, const Workload& work, int kind,
+                                 const Surfel& surfel, uint64_t pixel, uint32_t i) {
+  const uint32_t n = work.secondary.samples;
+  if (kind == kShadowRays) return tracer->closest(shadow_ray(surfel, work.light), {0, 1}).found;
+  if (kind == kSoftRays)
+    return tracer->closest(soft_ray(surfel, work.light, pixel, i, n), {0, 1}).found;
+  const Ray ray = occlusion_ray(surfel, pixel, i, n);
+  return tracer->closest(ray, {0, work.secondary.reach}, work.secondary.cut).found;
+}
+
+SVDAG_HD inline uint32_t rays_per_pixel(const Workload& work, int kind) {
+  return kind == kSoftRays || kind == kOcclusionRays ? work.secondary.samples : 1;
+}
+
+}  // namespace svdag

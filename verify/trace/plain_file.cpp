@@ -1,0 +1,94 @@
+#include "verify/trace/plain_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+void require(bool condition, const std::string& path, const char* sentence) {
+  if (!condition) fail_input(path, std::string("damaged file: ") + sentence);
+}
+
+std::vector<uint64_t> read_whole(const std::string& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in) fail_input(path, std::string("cannot be opened (") + std::strerror(errno) + ")");
+  const auto size = in.tellg();
+  if (size < std::streamoff(sizeof(Header)))
+    fail_input(path, "is not a svdag file (shorter than a header)");
+  std::vector<uint64_t> words((size_t(size) + 7) / 8);
+  in.seekg(0);
+  if (!in.read(reinterpret_cast<char*>(words.data()), size))
+    fail_input(path, "cannot be read to its end");
+  require(reinterpret_cast<const Header*>(words.data())->file_bytes == uint64_t(size), path,
+          "its size is not the one in its header");
+  return words;
+}
+
+void check_header(const Header& h, const std::string& path) {
+  if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
+    fail_input(path, "is not a svdag file (its first bytes are not \\x89SVDAG)");
+  if (h.version != kFormatVersion)
+    fail_input(path, "has format version " + std::to_string(h.version) +
+                         ", this program reads version " + std::to_string(kFormatVersion));
+  require(h.header_bytes == sizeof(Header), path, "wrong header size");
+  require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
+          "the number of levels is not 3 to 20");
+  require(h.section_count == h.levels - 1, path, "wrong number of sections");
+  require(h.voxel_size > 0 && h.voxel_size < 1e300, path, "impossible voxel size");
+  for (const double corner : h.corner)
+    require(corner > -1e300 && corner < 1e300, path, "impossible grid corner");
+  for (uint32_t level = 0; level < h.section_count; ++level) {
+    const Section& s = h.sections[level];
+    require(s.offset % kSectionAlignment == 0 && s.offset >= sizeof(Header) &&
+                s.offset <= h.file_bytes && s.bytes <= h.file_bytes - s.offset,
+            path, "a section is not inside the file");
+    const bool bricks = level + 1 == h.section_count;
+    require(s.bytes % (bricks ? 8 : 4) == 0 && s.bytes / (bricks ? 8 : 4) <= kMaxWords, path,
+            "impossible section size");
+    require(!bricks || s.nodes == s.bytes / 8, path, "impossible number of bricks");
+    require((s.bytes == 0) == (h.sections[h.section_count - 1].bytes == 0), path, "an empty level");
+  }
+}
+
+// From the deepest inner level up: each node's children must be the first words of nodes of the
+// level below, found in the step before.
+void check_pointers(const DagView& view, const std::string& path) {
+  std::vector<bool> below;
+  for (uint32_t level = view.brick_level(); level-- > 0;) {
+    const uint32_t* words = view.words[level];
+    const uint64_t count = view.word_count[level];
+    const bool above_bricks = level + 1 == view.brick_level();
+    std::vector<bool> starts(count);
+    uint64_t nodes = 0;
+    for (uint64_t at = 0; at < count; ++nodes) {
+      const uint32_t mask = words[at];
+      require(mask > 0 && mask < 256, path, "a node has an impossible child mask");
+      starts[at++] = true;
+      for (int child = popcount8(mask); child > 0; --child, ++at) {
+        require(at < count, path, "the last node of a level is cut off");
+        const bool good = above_bricks ? words[at] < view.brick_count
+                                       : words[at] < below.size() && below[words[at]];
+        require(good, path, "a pointer leads nowhere");
+      }
+    }
+    require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "it has not one root");
+    below.swap(starts);
+  }
+}
+
+}  // namespace
+
+PlainFile read_plain_file(const std::string& path) {
+  PlainFile file;
+  file.words = read_whole(path);
+  check_header(file.header(), path);
+  file.view = dag_view(file.words.data());
+  check_pointers(file.view, path);
+  return file;
+}
+
+}  // namespace svdag

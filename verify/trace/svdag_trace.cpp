@@ -1,0 +1,159 @@
+// svdag-trace: the tracer alone, on the processor or a GPU; needs no third-party library.
+#include <cstdio>
+#include <fstream>
+#include <new>
+
+#include "streaming/error.h"
+#include "verify/trace/device.h"
+#include "verify/trace/trace_options.h"
+
+namespace svdag {
+namespace {
+
+// What a pixel is answered, as --dump writes it. Steps are no part of an answer.
+struct Record {
+  uint32_t found, voxel[3], level, axis;
+  double t;
+  uint32_t blocked[3], zero[3];
+};
+static_assert(sizeof(Record) == 56);
+
+Record record_of(const Answers& answers, size_t pixel) {
+  const Hit& hit = answers.hits[pixel];
+  Record record{hit.found, {hit.voxel[0], hit.voxel[1], hit.voxel[2]},
+                hit.level, uint32_t(hit.axis),
+                hit.t,     {},
+                {}};
+  for (int i = 0; i < 3; ++i) record.blocked[i] = answers.blocked[kShadowRays + i][pixel];
+  return record;
+}
+
+// Equal as bits: a time of -0 differs from 0.
+bool same(const Record& a, const Record& b) {
+  const auto* x = reinterpret_cast<const unsigned char*>(&a);
+  const auto* y = reinterpret_cast<const unsigned char*>(&b);
+  for (size_t i = 0; i < sizeof(Record); ++i) {
+    if (x[i] != y[i]) return false;
+  }
+  return true;
+}
+
+uint64_t hash_of(const Answers& answers) {
+  uint64_t hash = 0;
+  for (size_t pixel = 0; pixel < answers.hits.size(); ++pixel) {
+    const Record record = record_of(answers, pixel);
+    const auto* words = reinterpret_cast<const uint32_t*>(&record);
+    for (size_t i = 0; i < sizeof(Record) / 4; ++i) hash = mix(hash * 31 + words[i]);
+  }
+  return hash;
+}
+
+void print(const Answers& answers) {
+  std::printf("%s\n%-8s %12s %12s %9s %9s\n", answers.device.c_str(), "workload", "rays", "hit",
+              "seconds", "MRays/s");
+  for (int kind = 0; kind < kWorkloads; ++kind) {
+    uint64_t hit = 0;
+    for (size_t pixel = 0; pixel < answers.hits.size(); ++pixel)
+      hit += kind == kPrimaryRays ? answers.hits[pixel].found : answers.blocked[kind][pixel];
+    const double seconds = answers.seconds[kind];
+    std::printf("%-8s %12llu %12llu %9.4f %9.2f\n", kWorkloadNames[kind],
+                static_cast<unsigned long long>(answers.rays[kind]),
+                static_cast<unsigned long long>(hit), seconds,
+                seconds > 0 ? 1e-6 * double(answers.rays[kind]) / seconds : 0.0);
+  }
+  std::printf("answers  %016llx\n", static_cast<unsigned long long>(hash_of(answers)));
+}
+
+void write_file(const std::string& path, const std::string& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(bytes.data(), std::streamsize(bytes.size()));
+  out.close();
+  if (!out) throw Error(ExitCode::kOutput, "cannot be written", path);
+}
+
+void write_dump(const Answers& answers, const std::string& path) {
+  std::string bytes;
+  for (size_t pixel = 0; pixel < answers.hits.size(); ++pixel) {
+    const Record record = record_of(answers, pixel);
+    bytes.append(reinterpret_cast<const char*>(&record), sizeof record);
+  }
+  write_file(path, bytes);
+}
+
+// Soft light by Lambert, times ambient occlusion, over grey.
+void write_picture(const Answers& answers, const Workload& work, const std::string& path) {
+  std::string bytes = "P6\n" + std::to_string(work.picture.width) + " " +
+                      std::to_string(work.picture.height) + "\n255\n";
+  const double n = work.secondary.samples;
+  for (size_t pixel = 0; pixel < answers.hits.size(); ++pixel) {
+    const Surfel& surfel = answers.surfels[pixel];
+    double grey = 0.75;
+    if (surfel.found) {
+      const double facing = dot(surfel.normal, normalized(work.light.centre - surfel.point));
+      const double sun = (1 - answers.blocked[kSoftRays][pixel] / n) * (facing > 0 ? facing : 0);
+      const double sky = 1 - answers.blocked[kOcclusionRays][pixel] / n;
+      grey = square_root(0.45 * sun + 0.5 * sky);
+    }
+    bytes.append(3, char(uint8_t(255 * (grey < 1 ? grey : 1))));
+  }
+  write_file(path, bytes);
+}
+
+int compare(const Answers& cpu, const Answers& gpu) {
+  size_t different = 0;
+  for (size_t pixel = 0; pixel < cpu.hits.size(); ++pixel) {
+    if (same(record_of(cpu, pixel), record_of(gpu, pixel))) continue;
+    if (different++ > 0) continue;
+    std::printf("first differing pixel: number %zu, t %.17g and %.17g\n", pixel, cpu.hits[pixel].t,
+                gpu.hits[pixel].t);
+  }
+  std::printf("%zu of %zu pixels differ\n", different, cpu.hits.size());
+  return int(different == 0 ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+int run(const TraceOptions& options) {
+  if (options.help || options.version) {
+    std::fputs(options.help ? kTraceHelp : "svdag-trace " SVDAG_VERSION "\n", stdout);
+    return 0;
+  }
+  if (options.dump == options.file || options.picture == options.file)
+    fail_usage(options.file + ": is the input; choose another name for the output");
+  const PlainFile file = read_plain_file(options.file);
+  const Workload work = make_workload(options, file);
+  int result = 0;
+  Answers answers;
+  if (options.compare) {
+    const Answers gpu = trace_on_cuda(file, work);
+    answers = trace_on_cpu(file, work);
+    print(answers);
+    print(gpu);
+    result = compare(answers, gpu);
+  } else {
+    answers = options.device == "cuda" ? trace_on_cuda(file, work) : trace_on_cpu(file, work);
+    print(answers);
+  }
+  if (!options.dump.empty()) write_dump(answers, options.dump);
+  if (!options.picture.empty()) write_picture(answers, work, options.picture);
+  if (std::fflush(stdout) != 0)
+    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
+  return result;
+}
+
+}  // namespace
+}  // namespace svdag
+
+int main(int argc, char** argv) {
+  try {
+    return svdag::run(svdag::parse_trace_options(argc, argv));
+  } catch (const svdag::Error& error) {
+    std::fprintf(stderr, "svdag-trace: %s\n", error.what());
+    return int(error.code());
+  } catch (const std::exception& error) {
+    const bool memory = svdag::is_lack_of_memory(error);
+    std::fprintf(stderr,
+                 memory ? "svdag-trace: this machine has too little memory for that\n"
+                        : "svdag-trace: internal error: %s; please report this\n",
+                 error.what());
+    return int(memory ? svdag::ExitCode::kMemory : svdag::ExitCode::kInternal);
+  }
+}
