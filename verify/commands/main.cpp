@@ -119,6 +119,28 @@ void add_diff(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
+void add_light(CLI::App* command, RenderCommandConfig* config) {
+  command
+      ->add_option("--light", config->light,
+                   "Where the light is, and how large (default: over the left shoulder)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("x,y,z[,radius]");
+  command
+      ->add_option("--samples", config->samples,
+                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
+      ->type_name("N");
+  command
+      ->add_option("--reach", config->reach,
+                   "ao: how far they reach (default: a twentieth of the scene)")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--cone", config->cone,
+                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
+                   "soft 0, which is exact)")
+      ->type_name("DEGREES");
+}
+
 void add_render(CLI::App* app, int* result) {
   auto config = std::make_shared<RenderCommandConfig>();
   CLI::App* command =
@@ -139,25 +161,7 @@ void add_render(CLI::App* app, int* result) {
   command->add_option("--preset", config->preset,
                       "iso, front, back, left, right, top or inside, without --camera "
                       "(default iso)");
-  command
-      ->add_option("--light", config->light,
-                   "Where the light is, and how large (default: over the left shoulder)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("x,y,z[,radius]");
-  command
-      ->add_option("--samples", config->samples,
-                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
-      ->type_name("N");
-  command
-      ->add_option("--reach", config->reach,
-                   "ao: how far they reach (default: a twentieth of the scene)")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
-                   "soft 0, which is exact)")
-      ->type_name("DEGREES");
+  add_light(command, config.get());
   command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
       ->type_name("K");
   command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
