@@ -91,34 +91,6 @@ void add_mesh(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
-void add_diff(CLI::App* app, int* result) {
-  auto config = std::make_shared<DiffConfig>();
-  CLI::App* command =
-      app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
-  command->add_option("A", config->a, "A .svdag file")->required();
-  command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
-      ->required();
-  command->add_option("--show", config->show, "How many differing voxels to list (default 10)")
-      ->type_name("N");
-  command->add_flag("--by-index", config->by_index,
-                    "Compare voxel by voxel although the grids lie in different places");
-  command
-      ->add_option("--write-diff", config->write_diff,
-                   "Write the differing voxels as a PLY of points: red only A, blue only B")
-      ->type_name("X.ply");
-  command
-      ->add_option_function<std::string>(
-          "--write-most",
-          [config](const std::string& text) {
-            config->write_most = parse_count(text, "--write-most");
-          },
-          "Refuse to write more points than this (default 10M)")
-      ->type_name("N");
-  add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
-  command->callback([config, result] { *result = run(*config); });
-}
-
 void add_light(CLI::App* command, RenderCommandConfig* config) {
   command
       ->add_option("--light", config->light,
@@ -176,6 +148,34 @@ void add_render(CLI::App* app, int* result) {
           "          svdag-verify render scene.svdag -o ao.png --mode ao --preset inside\n"
           "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
       kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
+void add_diff(CLI::App* app, int* result) {
+  auto config = std::make_shared<DiffConfig>();
+  CLI::App* command =
+      app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
+  command->add_option("A", config->a, "A .svdag file")->required();
+  command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
+      ->required();
+  command->add_option("--show", config->show, "How many differing voxels to list (default 10)")
+      ->type_name("N");
+  command->add_flag("--by-index", config->by_index,
+                    "Compare voxel by voxel although the grids lie in different places");
+  command
+      ->add_option("--write-diff", config->write_diff,
+                   "Write the differing voxels as a PLY of points: red only A, blue only B")
+      ->type_name("X.ply");
+  command
+      ->add_option_function<std::string>(
+          "--write-most",
+          [config](const std::string& text) {
+            config->write_most = parse_count(text, "--write-most");
+          },
+          "Refuse to write more points than this (default 10M)")
+      ->type_name("N");
+  add_common(command, &config->common, true);
+  command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 
