@@ -15,30 +15,32 @@ std::string output_name(const std::string& scene) {
   return name.substr(0, name.find_last_of('.')) + ".svdag";
 }
 
-int plan(PlanConfig config, const OutputConfig& output) {
+Plan plan(PlanConfig config, const OutputConfig& output) {
   Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
   config.output = output_name(config.build.scene.paths.front());
-  const Plan plan = make_plan(config, &progress);
-  if (!output.quiet) print_plan(plan, output.verbose);
-  return int(ExitCode::kOk);
+  return make_plan(config, &progress);
 }
 
 }  // namespace
 
 int run_plan(const PlanCommandConfig& config) {
-  return plan(config.plan, config.output);
+  const Plan made = plan(config.plan, config.output);
+  if (!config.output.quiet) print_plan(made, config.output.verbose);
+  return int(ExitCode::kOk);
 }
 
-// A bake is one shard with the threads and the memory of the bake; its merge is within it.
+// A bake is one shard with the threads and the memory of the bake, merged at once.
 int run_dry(const BuildCommandConfig& config) {
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();
-  return plan(dry, config.output);
+  const Plan made = plan(dry, config.output);
+  if (!config.output.quiet) print_bake(made, config.build.output);
+  return int(ExitCode::kOk);
 }
 
 void info_plan(const InfoConfig& config) {
-  const Plan plan = load_plan(config.paths.front(), false);
+  const Plan plan = load_plan(config.paths.front(), true);
   if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
   print_plan(plan, config.levels);
   size_t done = 0;

@@ -8,6 +8,7 @@
 #include "builder/farm/submit_slurm.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 
@@ -19,7 +20,12 @@ int run_run(const RunCommandConfig& config) {
   local.quiet = config.output.quiet;
   local.table = config.output.progress == Progress::Mode::kOn ||
                 (config.output.progress == Progress::Mode::kAuto && ::isatty(STDERR_FILENO) == 1);
-  run_local(plan, local);
+  try {
+    run_local(plan, local);
+  } catch (const Interrupted& interrupted) {
+    std::fprintf(stderr, "svdag: stopped; the same command goes on with what is left\n");
+    return 128 + interrupted.signal;
+  }
   if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());
   return int(ExitCode::kOk);
 }

@@ -128,7 +128,8 @@ void Planner::survey() {
   pilot_config_.table_bytes = budget_.limit() / 4;
   pilot_config_.triangle_bytes = budget_.limit() / 4;
   pilot_ = run_pilot(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, &budget_);
-  plan_.pilot_cpu = cpu_of_bake(pilot_.work, pilot_.found, plan_.counts.scene.triangles);
+  plan_.cells = pilot_.cells.size();
+  plan_.one_bake_cpu = cpu_of_bake(pilot_.work, pilot_.found, plan_.counts.scene.triangles);
   shards_ = cut_evenly(pilot_.cells, pilot_.cell_level, config_.shards);
 }
 

@@ -140,7 +140,8 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
     throw Error(ExitCode::kBadInput, "has a grid of no size");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   plan->counts = get_counts(json.at("scene"));
-  plan->pilot_cpu = json.at("one_bake").at("cpu_seconds");
+  plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
+  plan->cells = json.at("one_bake").at("cells");
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
   if (plan->steps.empty()) throw Error(ExitCode::kBadInput, "has no steps");
@@ -183,7 +184,7 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
   json["grid"] = grid_json(plan.grid);
   json["rule"] = plan.rule == Rule::kThin ? "thin" : "conservative";
   json["scene"] = counts_json(plan.counts);
-  json["one_bake"] = {{"cpu_seconds", rounded(plan.pilot_cpu)}};
+  json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
   json["bins"] = plan.bins.size();
   json["index_hash"] = index_hash;
   for (const PlanStep& step : plan.steps) json["steps"].push_back(step_json(plan, step));

@@ -55,7 +55,8 @@ struct Plan {
   Grid grid;
   Rule rule = Rule::kConservative;
   SplitCounts counts;
-  double pilot_cpu = 0;         // seconds of a bake in one piece, predicted
+  double one_bake_cpu = 0;      // seconds, predicted
+  size_t cells = 0;             // that are not empty
   std::vector<PlanStep> steps;  // inputs before whoever reads them; shards first, in order
   // The index.
   size_t block_bytes = 0;

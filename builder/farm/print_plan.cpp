@@ -25,7 +25,7 @@ struct Sums {
 
 void print_sums(const char* what, const Sums& sums) {
   std::printf(
-      "  %3zu %s: %.1f CPU seconds, the longest takes %.1f s; memory at most %s; they write %s%s\n",
+      "  %3zu %s: %.2f CPU seconds, the longest takes %.2f s; memory at most %s; they write %s%s\n",
       sums.steps, what, sums.cpu, sums.longest, format_bytes(sums.memory).c_str(),
       format_bytes(sums.output).c_str(),
       sums.scratch != 0 ? (", scratch at most " + format_bytes(sums.scratch)).c_str() : "");
@@ -60,14 +60,30 @@ void print_steps(const Plan& plan) {
 void print_plan(const Plan& plan, bool steps) {
   Sums shards, merges;
   for (const PlanStep& step : plan.steps) (step.is_shard() ? shards : merges).add(step.predicted);
-  std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.1f CPU seconds\n",
+  std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
-              format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(), plan.pilot_cpu);
+              format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(),
+              plan.one_bake_cpu);
   print_sums(shards.steps == 1 ? "shard" : "shards", shards);
   print_sums(merges.steps == 1 ? "merge" : "merges", merges);
-  std::printf("  with a machine per step: %.1f s\n", critical_path(plan));
+  std::printf("  with a machine per step: %.2f s\n", critical_path(plan));
   if (steps) print_steps(plan);
+}
+
+void print_bake(const Plan& plan, const std::string& output) {
+  const Prediction& p = plan.steps.front().predicted;
+  const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);
+  std::printf("%s: %s^3, %s triangles in %s cells\n", output.c_str(),
+              format_resolution(uint64_t(plan.grid.resolution())).c_str(),
+              format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
+  std::printf("  about %.2f CPU seconds, %.2f s on %zu threads\n", plan.one_bake_cpu, seconds,
+              plan.steps.front().threads);
+  std::printf("  a file of about %s, scratch of about %s\n",
+              format_bytes(plan.steps.back().predicted.output).c_str(),
+              format_bytes(p.scratch).c_str());
+  std::printf("  at most %s of memory with --memory %lluM\n", format_bytes(p.memory).c_str(),
+              static_cast<unsigned long long>(p.budget >> 20));
 }
 
 }  // namespace svdag

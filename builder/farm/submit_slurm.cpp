@@ -34,6 +34,14 @@ struct Job {
   std::string id;  // once submitted
 };
 
+Answer ask_sbatch(const std::vector<std::string>& command) {
+  try {
+    return ask_process(command);
+  } catch (const Error& error) {
+    fail_usage(std::string(error.what()) + ": is Slurm installed here?");
+  }
+}
+
 class Submission {
  public:
   Submission(const Plan& plan, const SlurmConfig& config) : plan_(plan), config_(config) {}
@@ -148,7 +156,7 @@ void Submission::submit(Job* job) {
   }
   command.insert(command.end(), config_.options.begin(), config_.options.end());
   command.push_back(job->script);
-  const Answer answer = ask_process(command);
+  const Answer answer = ask_sbatch(command);
   if (answer.code != 0) fail_usage("sbatch refused " + job->name + ": " + one_line(answer.output));
   const std::string line =
       last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
