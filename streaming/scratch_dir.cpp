@@ -58,8 +58,10 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
       if (!folder.holds(file, kOwner)) continue;
       if (folder.made()) folder.sync();  // the lock's name is on the disk before any other's
       *owner = std::move(file);
-    } catch (const Error& error) {
-      if (folder.made() && error.code() != ExitCode::kUsage) discard(folder, {});
+    } catch (const std::exception& error) {
+      const auto* known = dynamic_cast<const Error*>(&error);
+      const bool in_use = known != nullptr && known->code() == ExitCode::kUsage;
+      if (folder.made() && !in_use) discard(folder, {});
       throw;
     }
     return folder;

@@ -28,6 +28,7 @@ struct Log {
 
 // Never destroyed, as the plan.
 inline Log& the_log() {
+  const OwnRequests own;
   static Log& the = *new Log;
   return the;
 }

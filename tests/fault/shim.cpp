@@ -104,9 +104,12 @@ int on_open(int folder, const char* path, int flags, Call call) {
 
 }  // namespace
 
-// The next definition of the same name: libc's.
-#define NEXT(name) \
-  static const auto next = reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name))
+// The next definition of the same name: libc's. Looking it up may take memory.
+#define NEXT(name)                                                     \
+  static const auto next = [] {                                        \
+    const fault::OwnRequests own;                                      \
+    return reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name)); \
+  }()
 
 #define MODE_OF(flags)                                         \
   mode_t mode = 0;                                             \
