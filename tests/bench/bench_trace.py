@@ -23,7 +23,7 @@ NAMES = {"soft shadow 0": "soft shadow, light of 0.1 m", "soft shadow 1": "soft 
          "soft shadow 2": "soft shadow, light of 2 m", "ao 0": "AO, as far as the scene",
          "ao 1": "AO, 5 % of the scene"}
 OURS = {"svdag": "svdag", "svdag, without beams": "without beams", "svdag, plain": "plain", "svdag, from the root": "from the root",
-        "svdag, from the root, old instructions": "from the root, x86-64 of 2003", "svdag, cut": "cone of 9°",
+        "svdag, from the root, old instructions": "from the root, x86-64 of 2003", "svdag, huge pages": "huge pages", "svdag, cut": "cone of 9°",
         "svdag, depth-first": "depth-first", "svdag, depth-first, one section": "depth-first, one section"}
 TARGETS = {"primary": 0.5, "ao 0": 1.0, "ao 1": 1.0}
 TARGET_GRID = "16K"

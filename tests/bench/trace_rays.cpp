@@ -58,7 +58,7 @@ std::vector<RayBatch> make_batches(const DagView& dag, const ViewConfig& config,
       const Surfel surfel = make_surfel(dag, ray, trace_closest(dag, ray));
       if (!surfel.found) return;
       batches[1].add(shadow_ray(surfel, {config.light, 0}), middle);
-      if (x % 4 != 0 || y % 4 != 0) return;
+      if (x % 8 != 0 || y % 4 != 0) return;
       const uint64_t pixel = uint64_t(y) * config.width + x;
       for (uint32_t k = 0; k < config.samples; ++k) {
         for (size_t i = 0; i < config.light_radii.size(); ++i)

@@ -14,7 +14,7 @@
 #include <functional>
 
 #include "streaming/error.h"
-#include "tests/bench/depth_first.h"
+#include "tests/bench/relaid_dag.h"
 #include "tests/verify/trace/plain_traversal.h"
 #include "verify/snapped_scene.h"
 #include "verify/trace/beam.h"
@@ -100,8 +100,8 @@ Method one_by_one(const TraceOne& trace_one, bool fast) {
   };
 }
 
-std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
-                             const DepthFirstDag& one) {
+std::vector<Contestant> ours(const DagView& dag, const RelaidDag& as_in_file,
+                             const RelaidDag& levels, const RelaidDag& one) {
   const auto plain = [&dag](const Ray& ray, const Span& span) {
     return plain_closest(dag, ray, span).found;
   };
@@ -113,6 +113,7 @@ std::vector<Contestant> ours(const DagView& dag, const DepthFirstDag& levels,
           {"svdag, plain", one_by_one(plain, true)},
           {"svdag, from the root", one_by_one(from_root, true)},
           {"svdag, from the root, old instructions", one_by_one(from_root, false)},
+          {"svdag, huge pages", in_batches(as_in_file.view())},
           {"svdag, cut", in_batches(dag, {0xffffffffU, kConeSpread})},
           {"svdag, depth-first", in_batches(levels.view())},
           {"svdag, depth-first, one section", in_batches(one.view())}};
@@ -212,9 +213,10 @@ int run(int argc, char** argv) {
   const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
   const EmbreePeer peer(triangles);
   const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
-  const DepthFirstDag levels(dag, DepthFirstDag::Sections::kPerLevel);
-  const DepthFirstDag one(dag, DepthFirstDag::Sections::kOne);
-  std::vector<Contestant> contestants = ours(dag, levels, one);
+  const RelaidDag as_in_file(dag, RelaidDag::Layout::kAsInFile);
+  const RelaidDag levels(dag, RelaidDag::Layout::kDepthFirst);
+  const RelaidDag one(dag, RelaidDag::Layout::kDepthFirstOneSection);
+  std::vector<Contestant> contestants = ours(dag, as_in_file, levels, one);
   for (const Contestant& contestant : embree(peer)) contestants.push_back(contestant);
   std::printf("workload,rays,method,mrays,hits\n");
   for (const RayBatch& batch : make_batches(dag, config, middle)) measure(batch, contestants);

@@ -29,7 +29,7 @@ struct ViewConfig {
   Vec3 light;                       // in voxels
   std::vector<double> light_radii;  // in voxels
   std::vector<double> reaches;      // of ambient occlusion, in voxels
-  uint32_t samples = 64;            // soft and ao: rays of one pixel, of every 16th pixel
+  uint32_t samples = 64;            // soft and ao: rays of one pixel, of every 32nd pixel
 };
 
 // Primary rays in tiles of 8 x 8 pixels; from what they show shadow, soft and ao rays.

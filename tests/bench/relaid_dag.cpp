@@ -1,13 +1,29 @@
-#include "tests/bench/depth_first.h"
+#include "tests/bench/relaid_dag.h"
 
 #include "streaming/counts.h"
 
 namespace svdag::bench {
 
-DepthFirstDag::DepthFirstDag(const DagView& dag, Sections sections)
-    : one_(sections == Sections::kOne), view_(dag) {
+RelaidDag::RelaidDag(const DagView& dag, Layout layout)
+    : words_(dag.brick_level()), one_(layout == Layout::kDepthFirstOneSection), view_(dag) {
+  if (layout == Layout::kAsInFile) {
+    copy_all(dag);
+  } else {
+    copy_depth_first(dag);
+  }
+  for (uint32_t level = 0; level < dag.brick_level(); ++level)
+    view_.words[level] = words_[one_ ? 0 : level].data();
+  view_.bricks = bricks_.data();
+}
+
+void RelaidDag::copy_all(const DagView& dag) {
+  for (uint32_t level = 0; level < dag.brick_level(); ++level)
+    words_[level].assign(dag.words[level], dag.words[level] + dag.word_count[level]);
+  bricks_.assign(dag.bricks, dag.bricks + dag.brick_count);
+}
+
+void RelaidDag::copy_depth_first(const DagView& dag) {
   const uint32_t bricks = dag.brick_level();
-  words_.resize(bricks);
   moved_.resize(bricks + 1);
   uint64_t all = 0;
   for (uint32_t level = 0; level < bricks; ++level) {
@@ -19,13 +35,10 @@ DepthFirstDag::DepthFirstDag(const DagView& dag, Sections sections)
   moved_[bricks].assign(dag.brick_count, kNoChild);
   bricks_.reserve(dag.brick_count);
   if (!dag.empty()) copy(dag, 0, 0);
-  for (uint32_t level = 0; level < bricks; ++level)
-    view_.words[level] = words_[one_ ? 0 : level].data();
-  view_.bricks = bricks_.data();
   moved_.clear();
 }
 
-uint32_t DepthFirstDag::copy(const DagView& dag, uint32_t level, uint32_t node) {
+uint32_t RelaidDag::copy(const DagView& dag, uint32_t level, uint32_t node) {
   uint32_t& moved = moved_[level][node];
   if (moved != kNoChild) return moved;
   if (level == dag.brick_level()) {
@@ -33,7 +46,7 @@ uint32_t DepthFirstDag::copy(const DagView& dag, uint32_t level, uint32_t node) 
     bricks_.push_back(dag.bricks[node]);
     return moved;
   }
-  std::vector<uint32_t>& words = words_[one_ ? 0 : level];
+  HugeVector<uint32_t>& words = words_[one_ ? 0 : level];
   moved = uint32_t(words.size());
   const uint32_t at = moved, mask = dag.words[level][node];
   const uint32_t children = uint32_t(popcount8(mask & 0xffU));
