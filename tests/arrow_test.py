@@ -131,8 +131,9 @@ def functions(text):
         if re.match(r"\s*(\}? ?else|if|for|while|switch|do|catch|const auto|auto|return|TEST)\b", lines[start]):
             continue
         for j in range(i + 1, len(lines)):
-            if re.match(r" {%d}\}" % indent, lines[j]):
-                yield start + 1, j - start + 1
+            if re.match(r" {0,%d}\}" % indent, lines[j]):
+                if lines[j].startswith(" " * indent):  # else a lambda among arguments, in a function that ends
+                    yield start + 1, j - start + 1
                 break
 
 

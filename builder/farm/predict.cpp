@@ -12,8 +12,8 @@ constexpr double kPrepared = 60e-9;        // for a cell
 constexpr double kDecision = 0.41e-9;
 constexpr double kDivided = 281e-9;
 constexpr double kFound = 524e-9;  // found to be new, numbered, sorted, written
-constexpr double kMergeRead = 80e-9;
-constexpr double kMergeMade = 50e-9;
+constexpr double kMergeRead = 68e-9;
+constexpr double kMergeMade = 43e-9;
 constexpr double kStart = 0.01;  // of a process
 
 constexpr double kNodeInFile = 22.5;  // bytes of a node in a .svdag
