@@ -104,6 +104,66 @@ void add_mesh(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
+void add_light(CLI::App* command, RenderCommandConfig* config) {
+  command
+      ->add_option("--light", config->light,
+                   "Where the light is, and how large (default: over the left shoulder)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("x,y,z[,radius]");
+  command
+      ->add_option("--samples", config->samples,
+                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
+      ->type_name("N");
+  command
+      ->add_option("--reach", config->reach,
+                   "ao: how far they reach (default: a twentieth of the scene)")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--cone", config->cone,
+                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
+                   "soft 0, which is exact)")
+      ->type_name("DEGREES");
+}
+
+void add_render(CLI::App* app, int* result) {
+  auto config = std::make_shared<RenderCommandConfig>();
+  CLI::App* command =
+      app->add_subcommand("render", "Make a picture by tracing rays through the DAG");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("-o,--output", config->output, "The PNG to write")
+      ->required()
+      ->type_name("X.png");
+  command->add_option("--mode", config->mode,
+                      "primary, shadow, soft, ao, normal, depth, level or steps (default primary)");
+  command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
+  command
+      ->add_option("--camera", config->camera,
+                   "Position, target and angle of view in degrees (default: frames all)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("px,py,pz,tx,ty,tz[,fov]");
+  command->add_option("--preset", config->preset,
+                      "iso, front, back, left, right, top or inside, without --camera "
+                      "(default iso)");
+  add_light(command, config.get());
+  command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
+      ->type_name("K");
+  command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
+      ->type_name("N");
+  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
+  command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
+  add_threads(command, &config->common);
+  add_common(command, &config->common, false);
+  command->footer(
+      std::string(
+          "Examples: svdag-verify render scene.svdag -o scene.png\n"
+          "          svdag-verify render scene.svdag -o ao.png --mode ao --preset inside\n"
+          "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
+      kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
 void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
   CLI::App* command =
@@ -139,62 +199,6 @@ void add_trace(CLI::App* app, int* result) {
   add_common(command, &config->common, true);
   command->footer(std::string("Example: svdag-verify trace sponza.svdag sponza.glb\n") +
                   kExitCodes);
-  command->callback([config, result] { *result = run(*config); });
-}
-
-void add_render(CLI::App* app, int* result) {
-  auto config = std::make_shared<RenderCommandConfig>();
-  CLI::App* command =
-      app->add_subcommand("render", "Make a picture by tracing rays through the DAG");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("-o,--output", config->output, "The PNG to write")
-      ->required()
-      ->type_name("X.png");
-  command->add_option("--mode", config->mode,
-                      "primary, shadow, soft, ao, normal, depth, level or steps (default primary)");
-  command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
-  command
-      ->add_option("--camera", config->camera,
-                   "Position, target and angle of view in degrees (default: frames all)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("px,py,pz,tx,ty,tz[,fov]");
-  command->add_option("--preset", config->preset,
-                      "iso, front, back, left, right, top or inside, without --camera "
-                      "(default iso)");
-  command
-      ->add_option("--light", config->light,
-                   "Where the light is, and how large (default: over the left shoulder)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("x,y,z[,radius]");
-  command
-      ->add_option("--samples", config->samples,
-                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
-      ->type_name("N");
-  command
-      ->add_option("--reach", config->reach,
-                   "ao: how far they reach (default: a twentieth of the scene)")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
-                   "soft 0, which is exact)")
-      ->type_name("DEGREES");
-  command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
-      ->type_name("K");
-  command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
-      ->type_name("N");
-  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
-  command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
-  add_threads(command, &config->common);
-  add_common(command, &config->common, false);
-  command->footer(
-      std::string(
-          "Examples: svdag-verify render scene.svdag -o scene.png\n"
-          "          svdag-verify render scene.svdag -o ao.png --mode ao --preset inside\n"
-          "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
-      kExitCodes);
   command->callback([config, result] { *result = run(*config); });
 }
 

@@ -160,6 +160,8 @@ Answers trace_on_cuda(const PlainFile& file, const Workload& work) {
   const size_t pixels = size_t(picture.width) * picture.height;
   const uint32_t columns = (picture.width + kTile - 1) / kTile;
   const uint32_t tiles = columns * ((picture.height + kTile - 1) / kTile);
+  if (pixels * work.secondary.samples / kBlock >= 0x7fffffffU)
+    fail_usage("--size and --samples: too many rays for one launch on a GPU");
   require_room(file.words.size() * 8 + tiles * sizeof(Span) +
                pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const DeviceArray<uint64_t> copy(file.words.size());

@@ -1,0 +1,1 @@
+svdag-trace a.svdag --speed 9

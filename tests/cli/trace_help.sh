@@ -1,0 +1,1 @@
+svdag-trace --help | head -n 2

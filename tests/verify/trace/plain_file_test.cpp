@@ -1,0 +1,85 @@
+// The reader of svdag-trace: takes sound files, and what it takes is safe to trace.
+#include "verify/trace/plain_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+#include "tests/verify/trace/ray_families.h"
+#include "verify/trace/traverse.h"
+
+namespace svdag {
+namespace {
+
+class PlainFileTest : public ::testing::Test {
+ protected:
+  std::string path() const { return folder_.path() + "/a.svdag"; }
+  void write(const std::vector<std::byte>& bytes) const {
+    std::ofstream(path(), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  }
+  TempFolder folder_;
+};
+
+TEST_F(PlainFileTest, SeesTheVoxelsThatWereWritten) {
+  const VoxelSet voxels = clustered_voxels(6, 3, 5);
+  const RawFile raw(raw_dag(test_grid(6), voxels));
+  raw.write(path());
+  const PlainFile file = read_plain_file(path());
+  for (uint32_t x = 0; x < 64; ++x) {
+    for (uint32_t y = 0; y < 64; ++y) {
+      for (uint32_t z = 0; z < 64; ++z)
+        ASSERT_EQ(dag_voxel(file.view, x, y, z), voxels.count({x, y, z}) > 0);
+    }
+  }
+}
+
+TEST_F(PlainFileTest, TakesTheEmptyGrid) {
+  RawFile(raw_dag(test_grid(4), {})).write(path());
+  EXPECT_TRUE(read_plain_file(path()).view.empty());
+}
+
+TEST_F(PlainFileTest, AFileThatIsNotThereIsASentence) {
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "cannot be opened");
+}
+
+TEST_F(PlainFileTest, EveryCutIsRefused) {
+  const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
+  for (size_t size = 0; size < raw.bytes().size(); size += 41) {
+    write({raw.bytes().begin(), raw.bytes().begin() + std::ptrdiff_t(size)});
+    EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "");
+  }
+}
+
+// A damaged word is refused, or leads to other voxels, but never out of the file (as the
+// sanitizers would say).
+TEST_F(PlainFileTest, WhatItTakesCanBeTraced) {
+  const RawFile raw(raw_dag(test_grid(7), clustered_voxels(7, 8, 6)));
+  std::mt19937 random(1);
+  RayFamilies rays(2, 128);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::vector<std::byte> bytes = raw.bytes();
+    const size_t end = i % 2 ? 640 : size_t(raw.header().metadata_offset);
+    const size_t at = random() % (end / 4) * 4;
+    const uint32_t value = i % 3 ? uint32_t(random()) : uint32_t(random() % 300);
+    std::memcpy(&bytes[at], &value, 4);
+    write(bytes);
+    try {
+      const PlainFile file = read_plain_file(path());
+      ++taken;
+      for (int k = 0; k < 20; ++k)
+        trace_closest(file.view, rays.ray(k % kRayFamilies, {{64, 64, 64}}));
+    } catch (const Error& error) {
+      ++refused;
+      ASSERT_EQ(error.code(), ExitCode::kBadInput);
+    }
+  }
+  EXPECT_GT(refused, 300);
+  EXPECT_GT(taken, 50);
+}
+
+}  // namespace
+}  // namespace svdag
