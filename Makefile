@@ -65,10 +65,6 @@ test-farm: build
 	$(call install,$(FARM_PACKAGES))
 	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
 
-test-farm: build
-	$(call install,$(FARM_PACKAGES))
-	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
-
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
 	@sh tests/stress/stress.sh
@@ -94,9 +90,6 @@ bench-accuracy: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag accuracy_bench accuracy_volume
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
-
-bench-plan: build
-	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
 
 bench-plan: build
 	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)

@@ -93,6 +93,11 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
       ->type_name("SECONDS");
 }
 
+double checked_voxel_size(double size) {
+  if (size == 0) fail_usage("--voxel-size: 0 is not a size");
+  return size;
+}
+
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   CLI::Option_group* grid = app->add_option_group("grid");
   grid->add_option_function<std::string>(
@@ -100,11 +105,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
           "Voxels along the longest side: 8 ... 1M, a power of two")
       ->type_name("N");
   grid->add_option_function<double>(
-          "-s,--voxel-size",
-          [build](double s) {
-            build->voxel_size = s;
-            if (s == 0) fail_usage("--voxel-size: 0 is not a size");
-          },
+          "-s,--voxel-size", [build](double s) { build->voxel_size = checked_voxel_size(s); },
           "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
       ->type_name("S");
   grid->require_option(1);

@@ -28,18 +28,28 @@ LEFT_BY_KILL = [OF_SCRATCH, r"\.svdag-[0-9a-f]{16}\.tmp"]
 
 
 class Bake(NamedTuple):
-    """A scene of svdag-scene and the options of its bake (here go --memory small, --scratch DIR)."""
+    """A scene of svdag-scene and the options of its bake (here go --memory small, --scratch DIR).
+
+    With parts, it is the merge of their runs that is disturbed; `grid` is how those are baked.
+    """
     name: str
     scene: list
     options: list
+    parts: int = 0
+    grid: list = []
+
+    def inputs(self):
+        return ["scene.ply"] if not self.parts else [f"{i}.run" for i in range(1, self.parts + 1)]
 
     def command(self, *more, output=OUTPUT):
-        return [BUILD / "svdag", "build", "scene.ply", "-o", output, "-q", *self.options, *more]
+        return [BUILD / "svdag", "merge" if self.parts else "build", *self.inputs(), "-o", output, "-q",
+                *self.options, *more]
 
 
 # Small enough that every call can fail once; the second has triangles, runs and maps to spill.
 SMALL = [Bake("small", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "2"]),
-         Bake("spilling", ["hairball", "-n", "5K"], ["-r", "256", "-m", "3M", "-j", "1", "--scratch", SHARED_SCRATCH])]
+         Bake("spilling", ["hairball", "-n", "5K"], ["-r", "256", "-m", "3M", "-j", "1", "--scratch", SHARED_SCRATCH]),
+         Bake("merge", ["hairball", "-n", "2K"], ["-m", "1M", "-j", "1"], 3, ["-r", "128"])]
 SMALL_LONG = SMALL + [
     Bake("one thread", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "1"]),
     Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
@@ -68,6 +78,9 @@ class Kitchen:
         self.scene = self.root / "scene.ply"
         self.lay(self.root)
         subprocess.run([BUILD / "svdag-scene", *bake.scene, "-q", "-o", self.scene], check=True)
+        for i, run in enumerate(bake.inputs() if bake.parts else (), 1):
+            subprocess.run([BUILD / "svdag", "build", "scene.ply", "-o", run, "-q", *bake.grid, "--part",
+                            f"{i}/{bake.parts}"], cwd=self.root, check=True)
         self.old = self.bytes_of([BUILD / "svdag", "build", "scene.ply", "-o", OUTPUT, "-q", "-r", "8"])
         self.new = self.bytes_of(bake.command())
         assert self.old != self.new
@@ -90,9 +103,10 @@ class Kitchen:
             (folder / self.bake.options[self.bake.options.index("--scratch") + 1]).mkdir()
 
     def table(self):
-        """A fresh folder with the scene and the old file."""
+        """A fresh folder with the scene, or the runs, and the old file."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="table-", dir=self.root))
-        shutil.copy(self.scene, folder)
+        for name in self.bake.inputs():
+            shutil.copy(self.root / name, folder)
         self.lay(folder)
         (folder / OUTPUT).write_bytes(self.old)
         return folder
@@ -104,9 +118,13 @@ class Kitchen:
         return "nothing" if data is None else {self.old: "old", self.new: "new"}.get(data, "a damaged file")
 
 
+def is_input(path):
+    return re.fullmatch(r"scene\.ply|\d\.run", pathlib.Path(path).name) is not None
+
+
 def others(folder):
-    """Names of what is neither scene nor output; for the shared scratch folder, of what is in it."""
-    names = {p.name for p in folder.iterdir()} - {"scene.ply", OUTPUT, SHARED_SCRATCH}
+    """Names of what is neither input nor output; for the shared scratch folder, of what is in it."""
+    names = {p.name for p in folder.iterdir() if not is_input(p)} - {OUTPUT, SHARED_SCRATCH}
     shared = folder / SHARED_SCRATCH
     return sorted(names | {f"{SHARED_SCRATCH}/{p.name}" for p in (shared.iterdir() if shared.exists() else ())})
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every call of a bake on its files fails once, in every way it can: the verdict is always right.
 
-An interrupted call or a short transfer changes nothing. An error is exit 4 (3 for the scene) and one sentence.
+An interrupted call or a short transfer changes nothing. An error is exit 4 (3 for the scene, or a run) and one sentence.
 The output name holds the old file or the complete new one, and nothing else is left, whatever happens;
 a killed process, and one that says so, may leave its scratch folder, which the next bake takes over or speaks of.
 """
@@ -52,11 +52,11 @@ def codes_of_call(fault, path, folder):
     """The exit codes that one failed call of a file allows."""
     if fault.action == "short" or (fault.action == INTERRUPTED and fault.kind != "fsync"):
         return {0}
-    if fault.kind == "close" and path in [str(folder / p) for p in ("", "scene.ply", bakes.SHARED_SCRATCH)]:
+    if fault.kind == "close" and (bakes.is_input(path) or path in [str(folder), str(folder / bakes.SHARED_SCRATCH)]):
         return {0}  # what was only read loses nothing when it is closed
     if fault.kind == "unlink" or (fault.kind == "close" and is_scratch(path, folder)):
         return {0, 4}  # nobody needs the file any more
-    return {3} if path == str(folder / "scene.ply") else {4}
+    return {3} if bakes.is_input(path) else {4}
 
 
 def expected_codes(fault, paths, folder):

@@ -112,6 +112,20 @@ TEST(SpillFile, StreamsComeBackAtEverySizeAroundABlock) {
   }
 }
 
+TEST(SpillFile, AReaderMayBeginWithAnyBlock) {
+  Spill spill;
+  const Bytes bytes = random_bytes(3 * kPayload + 100, 5);
+  const SpillStream stream = spill.write(7, bytes);
+  for (size_t first = 0; first <= stream.blocks.size(); ++first) {
+    SpillReader reader(&spill.file, stream, &spill.budget, first);
+    Bytes rest;
+    for (auto block = reader.next(); !block.empty(); block = reader.next())
+      rest.insert(rest.end(), block.begin(), block.end());
+    const size_t from = std::min(first * kPayload, bytes.size());
+    EXPECT_TRUE(std::ranges::equal(rest, std::span(bytes).subspan(from))) << first;
+  }
+}
+
 TEST(SpillFile, InterleavedStreamsOfManyThreadsComeBack) {
   Spill spill;
   {
