@@ -68,6 +68,20 @@ class Bench:
                 "one_bake": written["one_bake"]["cpu_seconds"], "planning": planning, "steps": steps}
 
 
+    def predict_again(self, row):
+        """Plans the row anew and puts the predictions beside what was measured: for new constants of merges, memory
+        and seconds, which do not change how the work is cut."""
+        plan = OUT / "bench.plan"
+        shutil.rmtree(plan, ignore_errors=True)
+        subprocess.run([self.svdag, "plan", self.scene(row["scene"]), "-r", label(row["log2"]), "-o", plan, "--shards",
+                        str(row["shards"]), "-q"], check=True)
+        written = json.loads((plan / "plan.json").read_text())
+        shutil.rmtree(plan)
+        row["one_bake"] = written["one_bake"]["cpu_seconds"]
+        for old, new in zip(row["steps"], written["steps"], strict=True):
+            old["predicted"] = new["predicted"]
+
+
 def ratios(row, what, measured, kind=""):
     return [s["predicted"][what] / s["measured"][measured] for s in row["steps"] if s["name"].startswith(kind)]
 
@@ -141,6 +155,7 @@ def main():
     parser.add_argument("--log2", type=int, help="rows of this resolution, 14 for 16K; others become possible")
     parser.add_argument("--shards", type=int, default=SHARDS)
     parser.add_argument("--known", action="store_true", help="measure nothing, print what is known")
+    parser.add_argument("--predict-again", action="store_true", help="measure nothing, but predict what is known anew")
     parser.add_argument("--fit", action="store_true", help="print the constants anew")
     options = parser.parse_args()
     known = json.loads(KNOWN.read_text()) if KNOWN.exists() else {}
@@ -148,13 +163,17 @@ def main():
     wanted = GENERATED_ROWS + SHARED_ROWS
     if options.log2 and all(log2 != options.log2 for _, log2 in wanted):
         wanted = [(name, options.log2) for name in dict.fromkeys(name for name, _ in wanted)]
-    for name, log2 in wanted if not options.known else []:
+    for name, log2 in wanted if not (options.known or options.predict_again) else []:
         if options.only in name and options.log2 in (None, log2):
             row = bench.row(name, log2, options.shards)
             if row:
                 known[f"{name} {log2} {options.shards}"] = row
                 KNOWN.write_text(json.dumps(known))
                 print(farm_table([row]).splitlines()[-1], flush=True)
+    if options.predict_again:
+        for row in known.values():
+            bench.predict_again(row)
+        KNOWN.write_text(json.dumps(known))
     rows = [known[key] for key in sorted(known, key=lambda k: (known[k]["scene"] not in GENERATED, k))]
     contents = {"plans": farm_table(rows), "predictions": judgement(rows)}
     fill(PAGE, contents)

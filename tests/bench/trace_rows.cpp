@@ -28,7 +28,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr size_t kBundle = kTile * kTile;  // rays of one beam
 constexpr double kReaches[] = {1, 0.05};   // of ambient occlusion, of the scene's diagonal
-constexpr double kConeSpread = 0.15740341311655586;  // 2 tan(4.5 degrees): the paper's cone of 9
+constexpr double kConeSpread = 0.3167688806490681;  // 2 tan(9 degrees): 0.077 sr, the paper's cone
 
 using Method = std::function<RayRun(const RayBatch&)>;
 
