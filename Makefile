@@ -109,6 +109,7 @@ bench-vdb: build
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows
 	@$(PYTHON) tests/bench/bench_trace.py --programs $(PROGRAMS)
+
 bench-plan: build
 	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
 
