@@ -138,9 +138,7 @@ void refuse_overwriting_inputs(const BuildCommandConfig& config) {
 
 }  // namespace
 
-int run_build(const BuildCommandConfig& config) {
-  if (config.shard != 0) return run_shard(config);
-  if (config.dry_run) return run_dry(config);
+void bake_scene(const BuildCommandConfig& config, std::string* json) {
   refuse_overwriting_inputs(config);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
@@ -152,12 +150,21 @@ int run_build(const BuildCommandConfig& config) {
   const BuildReport report = build(build_config, &executor, &progress);
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
+  *json = report_json(config, report);
   if (!config.report.empty()) {
     AtomicFile file(config.report);
-    file.append(report_json(config, report));
+    file.append(*json);
     file.commit();
   }
   if (!config.output.quiet) print_summary(config, report);
+}
+
+int run_build(const BuildCommandConfig& config) {
+  if (!config.batch.empty()) return run_batch(config);
+  if (config.shard != 0) return run_shard(config);
+  if (config.dry_run) return run_dry(config);
+  std::string json;
+  bake_scene(config, &json);
   return int(ExitCode::kOk);
 }
 

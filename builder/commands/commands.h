@@ -2,6 +2,7 @@
 // run().
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,15 @@ struct OutputConfig {
 
 struct BuildCommandConfig {
   BuildConfig build;
-  CellCacheConfig cache;  // --cache, --cache-size; no folder: no cache
-  size_t threads = 0;     // 0: all processors
-  std::string report;     // --report: where the JSON report goes, "" for nowhere
-  size_t shard = 0;       // --shard: the scene is a plan, of which this is baked; 0: it is none
-  bool dry_run = false;   // --dry-run: tells what the bake would take
+  CellCacheConfig cache;    // --cache, --cache-size; no folder: no cache
+  size_t threads = 0;       // 0: all processors
+  std::string report;       // --report: where the JSON report goes, "" for nowhere
+  size_t shard = 0;         // --shard: the scene is a plan, of which this is baked; 0: it is none
+  bool dry_run = false;     // --dry-run: tells what the bake would take
+  std::string batch;        // --batch: a list of bakes instead of a scene
+  bool keep_going = false;  // --keep-going: a bake that fails does not stop those after it
+  // What `svdag build` with these arguments would do; an Error (kUsage) if they make no sense.
+  std::function<BuildCommandConfig(const std::vector<std::string>&)> parse;
   OutputConfig output;
 };
 
@@ -81,6 +86,9 @@ int run_info(const InfoConfig& config);
 int run_shard(const BuildCommandConfig& config);
 int run_merge_step(const MergeCommandConfig& config);
 int run_dry(const BuildCommandConfig& config);
+// That which does a list of bakes; what it does for one, with the report as JSON in *json.
+int run_batch(const BuildCommandConfig& config);
+void bake_scene(const BuildCommandConfig& config, std::string* json);
 // The parts of run_info that look at plans, runs and scenes.
 void info_plan(const InfoConfig& config);
 void info_run(const InfoConfig& config);

@@ -131,12 +131,26 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
 
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
-  app->add_option("SCENE", build->scene.paths, "Scene files (several are one scene), or a plan")
-      ->required();
+  CLI::Option* scene =
+      app->add_option("SCENE", build->scene.paths, "Scene files (several are one scene), or a plan")
+          ->required();
   CLI::Option* output =
       app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")
           ->required();
   CLI::Option_group* grid = add_grid_options(app, build);
+  app->add_option_function<std::string>(
+         "--batch",
+         [=](const std::string& list) {  // each bake of the list has these
+           config->batch = list;
+           scene->required(false);
+           output->required(false);
+           grid->require_option(0);
+         },
+         "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; --report "
+         "is "
+         "of all")
+      ->type_name("LIST.json");
+  app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid, and a place for the run
@@ -163,6 +177,19 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       "Examples:\n"
       "  svdag build city.glb -o city.svdag -r 64K\n"
       "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+}
+
+BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
+  CLI::App app("", "svdag build");
+  BuildCommandConfig config;
+  set_up_build(&app, &config);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    fail_usage(error.what());
+  }
+  if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
+  return config;
 }
 
 void set_up_merge(CLI::App* app, MergeCommandConfig* config) {
@@ -269,6 +296,7 @@ int run_program(int argc, char** argv) {
   app.add_subcommand("export", "Write the voxels of a .svdag in another format");
   app.add_subcommand("import", "Make a .svdag of the voxels of another program");
   set_up_build(build_app, &build);
+  build.parse = parse_build;
   set_up_merge(merge_app, &merge);
   set_up_plan(plan_app, &plan);
   set_up_run(run_app, &run);
