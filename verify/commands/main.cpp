@@ -10,6 +10,7 @@
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
 #include "verify/commands/render.h"
+#include "verify/commands/report.h"
 #include "verify/commands/trace.h"
 #include "verify/commands/vdb.h"
 
@@ -240,6 +241,25 @@ void add_trace(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
+void add_report(CLI::App* app, int* result) {
+  auto config = std::make_shared<ReportConfig>();
+  CLI::App* command = app->add_subcommand(
+      "report", "Make a page of HTML of a bake: pictures, verdicts, levels, times");
+  command->add_option("FILE", config->file, "The .svdag file")->required();
+  command->add_option("REPORT", config->bake, "What svdag build --report wrote of it")->required();
+  command->add_option("-o,--output", config->output, "The page to write")
+      ->required()
+      ->type_name("R.html");
+  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
+  command->add_option("--size", config->size, "Pixels of a picture (default 960x540)")
+      ->type_name("WxH");
+  add_threads(command, &config->common);
+  add_common(command, &config->common, false);
+  command->footer(std::string("Example: svdag-verify report a.svdag a.json -o a.html\n") +
+                  kExitCodes);
+  command->callback([config, result] { *result = run(*config); });
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Judges .svdag files independently of the builder.", "svdag-verify");
   app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION);
@@ -252,6 +272,7 @@ int run_program(int argc, char** argv) {
   add_vdb(&app, &result);
   add_trace(&app, &result);
   add_render(&app, &result);
+  add_report(&app, &result);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version

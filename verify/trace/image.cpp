@@ -40,7 +40,7 @@ void Image::set_raw(int x, int y, const Vec3& value) {
   for (int a = 0; a < 3; ++a) pixel[a] = to_byte(value[a]);
 }
 
-void write_png(const Image& image, const std::string& path) {
+std::vector<std::byte> encode_png(const Image& image, const std::string& path) {
   std::vector<std::byte> bytes;
   const auto append = [](void* context, void* data, int size) {
     auto* out = static_cast<std::vector<std::byte>*>(context);
@@ -51,6 +51,11 @@ void write_png(const Image& image, const std::string& path) {
                              image.width * 3) == 0)
     throw Error(ExitCode::kOutput, "the picture could not be encoded: choose a smaller --size",
                 path);
+  return bytes;
+}
+
+void write_png(const Image& image, const std::string& path) {
+  const std::vector<std::byte> bytes = encode_png(image, path);
   AtomicFile file(path);
   file.append(bytes);
   file.commit();

@@ -1,6 +1,7 @@
 // A picture, and its way to disk as PNG.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct Image {
   void set_raw(int x, int y, const Vec3& value);
 };
 
+// The bytes of a PNG; an Error (kOutput) that names `path` if there is no room for them.
+std::vector<std::byte> encode_png(const Image& image, const std::string& path);
 // Replaces `path` atomically. A failure is an Error (kOutput).
 void write_png(const Image& image, const std::string& path);
 

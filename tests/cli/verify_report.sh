@@ -1,0 +1,18 @@
+svdag-scene sheet -q -o a.ply
+svdag build a.ply -r 64 -o a.svdag -q --report a.json
+svdag-verify report a.svdag a.json -o a.html --size 64x36
+python3 - <<'PAGE'
+import base64, json, re
+page = open("a.html").read()
+pictures = [base64.b64decode(p, validate=True) for p in re.findall(r'src="data:image/png;base64,([^"]+)"', page)]
+print(len(pictures), all(p.startswith(b"\x89PNG") for p in pictures))
+print("loads nothing:", not re.search(r'(src|href)="(?!data:)|@import|url\(', page))
+print("hash:", json.load(open("a.json"))["content_hash"] in page)
+PAGE
+svdag build a.ply -r 32 -o b.svdag -q --report b.json
+svdag-verify report a.svdag b.json -o x.html 2>&1 || echo "exit $?"
+echo '{"content_hash": 3}' > c.json
+svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
+echo 'no JSON' > c.json
+svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
+svdag-verify report a.svdag a.json -o a.json 2>&1 || echo "exit $?"

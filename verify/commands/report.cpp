@@ -1,0 +1,81 @@
+#include "verify/commands/report.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "streaming/atomic_file.h"
+#include "streaming/error.h"
+#include "verify/commands/render.h"
+#include "verify/report_html.h"
+#include "verify/trace/presets.h"
+
+namespace svdag {
+namespace {
+
+std::string read_text(const std::string& path) {
+  constexpr uint64_t kMost = uint64_t(16) << 20;
+  const File file = File::open_read(path);
+  if (file.size() > kMost) fail_input(path, "is too large for the report of a bake");
+  std::string text(file.size(), ' ');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFile& file) {
+  struct Wanted {
+    const char *caption, *preset;
+    ShadeMode mode;
+  };
+  constexpr Wanted kWanted[] = {{"From above, with soft shadows", "iso", ShadeMode::kSoft},
+                                {"From inside, ambient occlusion", "inside", ShadeMode::kAo},
+                                {"The level at which rays end", "iso", ShadeMode::kLevel},
+                                {"Directions of the surface", "inside", ShadeMode::kNormal}};
+  std::vector<ReportPicture> pictures;
+  const DagView& dag = file.view();
+  if (dag.empty()) return pictures;
+  const RenderConfig picture = parse_size(config.size);
+  const int up = int(std::string("xyz").find(config.up));
+  const VoxelBounds box = occupied_bounds(dag);
+  const double aspect = double(picture.width) / picture.height;
+  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  Progress progress(config.common.progress);
+  for (const Wanted& wanted : kWanted) {
+    const Camera camera = preset_camera(wanted.preset, dag, box, up, Camera::kDefaultFov, aspect);
+    Shading shading = make_shading(wanted.mode, camera, up, box);
+    shading.levels = dag.levels;
+    shading.secondary.samples = 4;  // for each of four rays per pixel
+    shading.secondary.reach = 0.05 * length(box.max - box.min);
+    if (wanted.mode == ShadeMode::kLevel)
+      shading.primary.spread = 2 * camera.slope / picture.height;
+    const Image image = render(dag, camera, shading, picture, executor, progress);
+    pictures.push_back({wanted.caption, encode_png(image, config.output)});
+  }
+  return pictures;
+}
+
+}  // namespace
+
+int run(const ReportConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  if (config.up.size() != 1 || std::string("xyz").find(config.up) == std::string::npos)
+    fail_usage("--up: \"" + config.up + "\" is not x, y or z");
+  for (const std::string& input : {config.file, config.bake}) {
+    if (same_file(input, config.output))
+      fail_usage(config.output + ": is an input; choose another name for the page");
+  }
+  const DagFile file = DagFile::open(config.file);
+  const std::string bake = read_text(config.bake);
+  const IntegrityReport integrity = inspect(file.header(), file.view(), file.metadata());
+  const DagStats stats = compute_stats(file);
+  report_html(bake, config.bake, file, stats, integrity, {});  // refuses before there are pictures
+  const std::string page =
+      report_html(bake, config.bake, file, stats, integrity, make_pictures(config, file));
+  AtomicFile output(config.output);
+  output.append(page);
+  output.commit();
+  if (!config.common.quiet)
+    std::printf("%s: %s\n", config.output.c_str(), integrity.sound() ? "sound" : "not sound");
+  return int(integrity.sound() ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace svdag
