@@ -150,10 +150,10 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
   const BuildReport report = build(build_config, &executor, &progress);
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
-  *json = report_json(config, report);
+  if (json != nullptr) *json = report_json(config, report);
   if (!config.report.empty()) {
     AtomicFile file(config.report);
-    file.append(*json);
+    file.append(report_json(config, report));
     file.commit();
   }
   if (!config.output.quiet) print_summary(config, report);
@@ -163,8 +163,7 @@ int run_build(const BuildCommandConfig& config) {
   if (!config.batch.empty()) return run_batch(config);
   if (config.shard != 0) return run_shard(config);
   if (config.dry_run) return run_dry(config);
-  std::string json;
-  bake_scene(config, &json);
+  bake_scene(config);
   return int(ExitCode::kOk);
 }
 
