@@ -60,7 +60,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments) {
   if (arguments.empty()) return "";
-  const bool of_program = !option_in(arguments[0]).empty();
+  const bool of_program = commands.size() == 1 || !option_in(arguments[0]).empty();
   const std::string name = of_program ? "" : arguments[0];
   const std::string whole = of_program ? program : program + " " + name;
   std::vector<std::string> names;

@@ -25,7 +25,8 @@ struct CommandWords {
 };
 
 // A sentence about the first argument that is no command, or no option of its command, and what it
-// may have been meant to be; "" if all are known. `arguments` without the program's name.
+// may have been meant to be; "" if all are known. `arguments` without the program's name. A program
+// whose only entry is its own has no commands.
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments);
 

@@ -1,4 +1,4 @@
-// The program `svdag`: the command line, and the one place where an Error is caught.
+// The program `svdag`: the command line.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -7,8 +7,8 @@
 #include "builder/commands/sibling.h"
 #include "io/suggest.h"
 #include "io/units.h"
-#include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/program.h"
 
 namespace svdag {
 namespace {
@@ -274,7 +274,7 @@ void set_up_info(CLI::App* app, InfoConfig* config) {
   app->footer("Examples:\n  svdag info city.svdag --levels\n  svdag info city.glb");
 }
 
-int run_program(int argc, char** argv) {
+int run_command(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
@@ -304,47 +304,26 @@ int run_program(int argc, char** argv) {
   set_up_info(info_app, &info);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::CallForVersion& version) {
-    return app.exit(version);
-  } catch (const CLI::Success& success) {
+  } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, argc, argv, error));
   }
-  const int result = build_app->parsed()    ? run_build(build)
-                     : merge_app->parsed()  ? run_merge(merge)
-                     : plan_app->parsed()   ? run_plan(plan)
-                     : run_app->parsed()    ? run_run(run)
-                     : submit_app->parsed() ? run_submit(submit)
-                                            : run_info(info);
-  if (std::fflush(stdout) != 0)
-    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
-  return result;
+  return build_app->parsed()    ? run_build(build)
+         : merge_app->parsed()  ? run_merge(merge)
+         : plan_app->parsed()   ? run_plan(plan)
+         : run_app->parsed()    ? run_run(run)
+         : submit_app->parsed() ? run_submit(submit)
+                                : run_info(info);
 }
 
 }  // namespace
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  try {
-    svdag::catch_interrupts();
-    return svdag::run_program(argc, argv);
-  } catch (const svdag::Interrupted& interrupted) {
-    std::fprintf(stderr, interrupted.resumable
-                             ? "svdag: stopped; the same command with --resume continues\n"
-                             : "svdag: stopped; nothing was saved to continue from\n");
-    return 128 + interrupted.signal;
-  } catch (const svdag::Error& error) {
-    std::fprintf(stderr, "svdag: %s\n", error.what());
-    return int(error.code());
-  } catch (const std::exception& error) {
-    if (svdag::is_lack_of_memory(error)) {
-      std::fprintf(stderr, "svdag: %s\n", svdag::kNoMemory);
-      return int(svdag::ExitCode::kMemory);
-    }
-    std::fprintf(stderr, "svdag: internal error: %s; please report this\n", error.what());
-    return int(svdag::ExitCode::kInternal);
-  }
+  svdag::catch_interrupts();
+  const svdag::ProgramWords words{.name = "svdag",
+                                  .stopped = "stopped; nothing was saved to continue from",
+                                  .resumable = "stopped; the same command with --resume continues"};
+  return svdag::run_program(words, [&] { return svdag::run_command(argc, argv); });
 }

@@ -41,6 +41,13 @@ TEST(Suggest, KnowsTheOptionsOfTheProgramItself) {
   EXPECT_EQ(explain({"--version"}), "");
 }
 
+TEST(Suggest, AsksNoCommandOfAProgramThatHasNone) {
+  const std::vector<CommandWords> alone = {{"", {"--output", "--level"}}};
+  const std::vector<std::string> line = {"a.svdag", "--levle", "3"};
+  EXPECT_EQ(explain_unknown("svdag export", alone, line),
+            "--levle is no option of svdag export; did you mean --level?");
+}
+
 TEST(Suggest, SaysNothingOfWhatIsKnownOrNoOption) {
   EXPECT_EQ(explain({"build", "x.ply", "-j4", "-r", "64K", "--rule=thin"}), "");
   EXPECT_EQ(explain({"build", "-5", "--", "--strange.ply"}), "");

@@ -5,7 +5,7 @@
 
 #include "io/suggest.h"
 #include "io/units.h"
-#include "streaming/error.h"
+#include "streaming/program.h"
 #include "verify/commands/check.h"
 #include "verify/commands/diff.h"
 #include "verify/commands/mesh.h"
@@ -260,7 +260,7 @@ void add_report(CLI::App* app, int* result) {
   command->callback([config, result] { *result = run(*config); });
 }
 
-int run_program(int argc, char** argv) {
+int run_judge(int argc, char** argv) {
   CLI::App app("Judges .svdag files independently of the builder.", "svdag-verify");
   app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION);
   app.require_subcommand(1);
@@ -280,8 +280,6 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, argc, argv, error));
   }
-  if (std::fflush(stdout) != 0)
-    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
   return result;
 }
 
@@ -289,17 +287,6 @@ int run_program(int argc, char** argv) {
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  try {
-    return svdag::run_program(argc, argv);
-  } catch (const svdag::Error& error) {
-    std::fprintf(stderr, "svdag-verify: %s\n", error.what());
-    return int(error.code());
-  } catch (const std::exception& error) {
-    if (svdag::is_lack_of_memory(error)) {
-      std::fprintf(stderr, "svdag-verify: this machine has too little memory for that\n");
-      return int(svdag::ExitCode::kMemory);
-    }
-    std::fprintf(stderr, "svdag-verify: internal error: %s; please report this\n", error.what());
-    return int(svdag::ExitCode::kInternal);
-  }
+  return svdag::run_program({"svdag-verify", "this machine has too little memory for that"},
+                            [&] { return svdag::run_judge(argc, argv); });
 }

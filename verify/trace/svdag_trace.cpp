@@ -3,7 +3,7 @@
 #include <fstream>
 #include <new>
 
-#include "streaming/error.h"
+#include "streaming/program.h"
 #include "verify/trace/device.h"
 #include "verify/trace/trace_options.h"
 
@@ -134,8 +134,6 @@ int run(const TraceOptions& options) {
   }
   if (!options.dump.empty()) write_dump(answers, options.dump);
   if (!options.picture.empty()) write_picture(answers, work, options.picture);
-  if (std::fflush(stdout) != 0)
-    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
   return result;
 }
 
@@ -143,17 +141,6 @@ int run(const TraceOptions& options) {
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  try {
-    return svdag::run(svdag::parse_trace_options(argc, argv));
-  } catch (const svdag::Error& error) {
-    std::fprintf(stderr, "svdag-trace: %s\n", error.what());
-    return int(error.code());
-  } catch (const std::exception& error) {
-    const bool memory = svdag::is_lack_of_memory(error);
-    std::fprintf(stderr,
-                 memory ? "svdag-trace: this machine has too little memory for that\n"
-                        : "svdag-trace: internal error: %s; please report this\n",
-                 error.what());
-    return int(memory ? svdag::ExitCode::kMemory : svdag::ExitCode::kInternal);
-  }
+  return svdag::run_program({"svdag-trace", "this machine has too little memory for that"},
+                            [&] { return svdag::run(svdag::parse_trace_options(argc, argv)); });
 }

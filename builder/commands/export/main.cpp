@@ -3,9 +3,10 @@
 #include <cstdio>
 
 #include "builder/commands/export/export.h"
+#include "io/suggest.h"
 #include "io/units.h"
-#include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/program.h"
 
 namespace svdag {
 namespace {
@@ -45,7 +46,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
       "  svdag export city.svdag --format hashdag -o data/city");
 }
 
-int run_program(int argc, char** argv) {
+int run_command(int argc, char** argv) {
   CLI::App app("Writes the voxels of a .svdag in another format.", "svdag export");
   app.set_version_flag("--version", "svdag-export " SVDAG_VERSION);
   ExportConfig config;
@@ -55,33 +56,15 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fail_usage(std::string(error.what()) + "; see svdag export --help");
+    fail_usage(explain(app, argc, argv, error));
   }
-  const int result = run(config);
-  if (std::fflush(stdout) != 0)
-    throw Error(ExitCode::kOutput, "the result could not be written to standard output");
-  return result;
+  return run(config);
 }
 
 }  // namespace
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  try {
-    svdag::catch_interrupts();
-    return svdag::run_program(argc, argv);
-  } catch (const svdag::Interrupted& interrupted) {
-    std::fprintf(stderr, "svdag: stopped; nothing was written\n");
-    return 128 + interrupted.signal;
-  } catch (const svdag::Error& error) {
-    std::fprintf(stderr, "svdag: %s\n", error.what());
-    return int(error.code());
-  } catch (const std::exception& error) {
-    if (svdag::is_lack_of_memory(error)) {
-      std::fprintf(stderr, "svdag: %s\n", svdag::kNoMemory);
-      return int(svdag::ExitCode::kMemory);
-    }
-    std::fprintf(stderr, "svdag: internal error: %s; please report this\n", error.what());
-    return int(svdag::ExitCode::kInternal);
-  }
+  svdag::catch_interrupts();
+  return svdag::run_program({"svdag"}, [&] { return svdag::run_command(argc, argv); });
 }

@@ -1,0 +1,35 @@
+#include "streaming/program.h"
+
+#include <cstdio>
+
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+int tell(const ProgramWords& words, const char* sentence, int code) {
+  std::fprintf(stderr, "%s: %s\n", words.name, sentence);
+  return code;
+}
+
+}  // namespace
+
+int run_program(const ProgramWords& words, const std::function<int()>& work) {
+  try {
+    const int result = work();
+    if (std::fflush(stdout) != 0)
+      throw Error(ExitCode::kOutput, "the result could not be written to standard output");
+    return result;
+  } catch (const Interrupted& interrupted) {
+    return tell(words, interrupted.resumable ? words.resumable : words.stopped,
+                128 + interrupted.signal);
+  } catch (const Error& error) {
+    return tell(words, error.what(), int(error.code()));
+  } catch (const std::exception& error) {
+    if (is_lack_of_memory(error)) return tell(words, words.no_memory, int(ExitCode::kMemory));
+    std::fprintf(stderr, "%s: internal error: %s; please report this\n", words.name, error.what());
+    return int(ExitCode::kInternal);
+  }
+}
+
+}  // namespace svdag
