@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/dag/grid_fields.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -19,23 +20,14 @@ void check_identity(const File& file, const RunHeader& h) {
           offsetof(RunHeader, header_checksum));
 }
 
-void check_grid(const File& file, const RunHeader& h) {
-  require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels), file,
-          "the number of levels is not 3 to 20", 16);
-  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), file, "wrong lattice fraction", 20);
-  require(h.rule <= 1, file, "unknown rule", 24);
-  require(h.grid_kind <= 1, file, "unknown kind of grid", 28);
-  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, file, "impossible voxel size", 56);
-  require(h.bounded <= 1, file, "impossible flag", 88);
-  const uint32_t n = 1U << h.levels;
+void check_place(const File& file, const RunHeader& h) {
+  check_grid(h, [&](bool condition, const char* sentence, uint64_t offset) {
+    require(condition, file, sentence, offset);
+  });
   for (int a = 0; a < 3; ++a) {
     require(std::isfinite(h.origin[a]) && (h.grid_kind == 0 || h.origin[a] == 0), file,
             "impossible grid corner", 32);
     require(h.grid_kind == 1 || h.k0[a] == 0, file, "impossible grid corner", 64);
-    require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n, file,
-            "impossible selection", 96);
-    require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n), file,
-            "impossible selection", 96);
   }
 }
 
@@ -69,7 +61,7 @@ RunHeader read_header(const File& file) {
       std::memcmp(header.magic, kRunMagic, sizeof kRunMagic) == 0)
     throw Error(ExitCode::kBadInput, "ends too early", file.path(), n);
   check_identity(file, header);
-  check_grid(file, header);
+  check_place(file, header);
   check_counts(file, header);
   return header;
 }
@@ -142,18 +134,7 @@ void RunFile::read_roots(MemoryBudget* budget) {
 }
 
 Grid RunFile::grid() const {
-  Grid grid;
-  grid.kind = Grid::Kind(header_.grid_kind);
-  grid.levels = int(header_.levels);
-  grid.voxel_size = header_.voxel_size;
-  grid.bounded = header_.bounded != 0;
-  for (int a = 0; a < 3; ++a) {
-    grid.origin[a] = header_.origin[a];
-    grid.k0[a] = header_.k0[a];
-    grid.selection.min[a] = header_.selection_min[a];
-    grid.selection.max[a] = header_.selection_max[a];
-  }
-  return grid;
+  return get_grid(header_, header_.origin);
 }
 
 std::unique_ptr<BlockSource> RunFile::read(int level, MemoryBudget* budget) const {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "io/dag/grid_fields.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -23,19 +24,9 @@ RunWriter::RunWriter(const std::string& path, const Grid& grid, Rule rule, Part 
   std::memcpy(header_.magic, kRunMagic, sizeof kRunMagic);
   header_.version = kRunVersion;
   header_.header_bytes = sizeof(RunHeader);
-  header_.levels = uint32_t(grid.levels);
-  header_.fraction = uint32_t(grid.fraction());
-  header_.rule = uint32_t(rule);
-  header_.grid_kind = uint32_t(grid.kind);
-  header_.voxel_size = grid.voxel_size;
-  header_.bounded = grid.bounded;
+  put_grid(grid, rule, &header_);
   header_.block_bytes = kRunBlockBytes;
-  for (int a = 0; a < 3; ++a) {
-    header_.origin[a] = grid.origin[a];
-    header_.k0[a] = grid.k0[a];
-    header_.selection_min[a] = uint32_t(grid.selection.min[a]);
-    header_.selection_max[a] = uint32_t(grid.selection.max[a]);
-  }
+  for (int a = 0; a < 3; ++a) header_.origin[a] = grid.origin[a];
   header_.ranges = part_.ranges().size();
   header_.run = run_number(header_, stored(part_.ranges()));
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));

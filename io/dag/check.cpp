@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "io/dag/grid_fields.h"
 #include "io/dag/symvox_header.h"
 #include "io/grid.h"
 #include "streaming/checksum.h"
@@ -35,22 +36,12 @@ void check_identity(const File& file, const Header& h) {
 
 void check_fields(const File& file, const Header& h) {
   require(h.header_bytes == sizeof(Header), file, "wrong header size", 12);
-  require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels), file,
-          "the number of levels is not 3 to 20", 16);
-  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), file, "wrong lattice fraction", 20);
-  require(h.rule <= 1, file, "unknown rule", 24);
-  require(h.grid_kind <= 1, file, "unknown kind of grid", 28);
-  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, file, "impossible voxel size", 56);
-  require(h.bounded <= 1, file, "impossible flag", 88);
+  check_grid(h, [&](bool condition, const char* sentence, uint64_t offset) {
+    require(condition, file, sentence, offset);
+  });
   require(h.section_count == h.levels - 1, file, "wrong number of sections", 92);
-  for (int a = 0; a < 3; ++a) {
+  for (int a = 0; a < 3; ++a)
     require(std::isfinite(h.corner[a]), file, "impossible grid corner", 32);
-    const uint32_t n = 1U << h.levels;
-    require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n, file,
-            "impossible selection", 96);
-    require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n), file,
-            "impossible selection", 96);
-  }
   for (const unsigned char byte : h.reserved) require(byte == 0, file, "unknown header field", 648);
 }
 

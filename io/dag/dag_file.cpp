@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/dag/check.h"
+#include "io/dag/grid_fields.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -41,18 +42,7 @@ std::string_view DagFile::metadata() const {
 }
 
 Grid grid_of(const Header& header) {
-  Grid grid;
-  grid.kind = Grid::Kind(header.grid_kind);
-  grid.levels = int(header.levels);
-  grid.voxel_size = header.voxel_size;
-  grid.bounded = header.bounded != 0;
-  for (int a = 0; a < 3; ++a) {
-    if (grid.kind == Grid::Kind::kBox) grid.origin[a] = header.corner[a];
-    grid.k0[a] = header.k0[a];
-    grid.selection.min[a] = header.selection_min[a];
-    grid.selection.max[a] = header.selection_max[a];
-  }
-  return grid;
+  return get_grid(header, header.corner);
 }
 
 }  // namespace svdag

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "io/dag/grid_fields.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -24,20 +25,10 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint6
   std::memcpy(header_.magic, kMagic, sizeof kMagic);
   header_.version = kFormatVersion;
   header_.header_bytes = sizeof(Header);
-  header_.levels = uint32_t(grid.levels);
-  header_.fraction = uint32_t(grid.fraction());
-  header_.rule = uint32_t(rule);
-  header_.grid_kind = uint32_t(grid.kind);
-  header_.voxel_size = grid.voxel_size;
-  header_.bounded = grid.bounded;
+  put_grid(grid, rule, &header_);
   header_.section_count = uint32_t(grid.levels - 1);
   const Point corner = grid.corner();
-  for (int a = 0; a < 3; ++a) {
-    header_.corner[a] = corner[a];
-    header_.k0[a] = grid.k0[a];
-    header_.selection_min[a] = uint32_t(grid.selection.min[a]);
-    header_.selection_max[a] = uint32_t(grid.selection.max[a]);
-  }
+  for (int a = 0; a < 3; ++a) header_.corner[a] = corner[a];
   block_.reserve(kChecksumBlock);
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
 }

@@ -1,0 +1,64 @@
+// The fields by which the headers of `.svdag` and `.run` say what grid they are of. Both begin with
+// them, at the same offsets and under the same names, but for the corner (docs/format.md and
+// docs/run-format.md).
+#pragma once
+
+#include <cmath>
+
+#include "io/dag/format.h"
+#include "io/grid.h"
+
+namespace svdag {
+
+template <class H>
+void put_grid(const Grid& grid, Rule rule, H* header) {
+  header->levels = uint32_t(grid.levels);
+  header->fraction = uint32_t(grid.fraction());
+  header->rule = uint32_t(rule);
+  header->grid_kind = uint32_t(grid.kind);
+  header->voxel_size = grid.voxel_size;
+  header->bounded = grid.bounded;
+  for (int a = 0; a < 3; ++a) {
+    header->k0[a] = grid.k0[a];
+    header->selection_min[a] = uint32_t(grid.selection.min[a]);
+    header->selection_max[a] = uint32_t(grid.selection.max[a]);
+  }
+}
+
+// `corner`: what the header says of it.
+template <class H>
+Grid get_grid(const H& header, const double (&corner)[3]) {
+  Grid grid;
+  grid.kind = Grid::Kind(header.grid_kind);
+  grid.levels = int(header.levels);
+  grid.voxel_size = header.voxel_size;
+  grid.bounded = header.bounded != 0;
+  for (int a = 0; a < 3; ++a) {
+    if (grid.kind == Grid::Kind::kBox) grid.origin[a] = corner[a];
+    grid.k0[a] = header.k0[a];
+    grid.selection.min[a] = header.selection_min[a];
+    grid.selection.max[a] = header.selection_max[a];
+  }
+  return grid;
+}
+
+// require(condition, sentence, offset) is asked for each field.
+template <class H, class Require>
+void check_grid(const H& h, const Require& require) {
+  require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels),
+          "the number of levels is not 3 to 20", 16);
+  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), "wrong lattice fraction", 20);
+  require(h.rule <= 1, "unknown rule", 24);
+  require(h.grid_kind <= 1, "unknown kind of grid", 28);
+  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size", 56);
+  require(h.bounded <= 1, "impossible flag", 88);
+  const uint32_t n = 1U << h.levels;
+  for (int a = 0; a < 3; ++a) {
+    require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n,
+            "impossible selection", 96);
+    require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n),
+            "impossible selection", 96);
+  }
+}
+
+}  // namespace svdag
