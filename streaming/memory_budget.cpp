@@ -68,4 +68,11 @@ uint64_t peak_resident_bytes() {
   return uint64_t(usage.ru_maxrss) * 1024;
 }
 
+double cpu_seconds() {
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 }  // namespace svdag

@@ -58,5 +58,7 @@ class MemoryBudget {
 uint64_t default_memory_limit();
 // Largest resident set of this process so far, in bytes.
 uint64_t peak_resident_bytes();
+// Processor time of the process so far, of all its threads.
+double cpu_seconds();
 
 }  // namespace svdag

@@ -1,7 +1,5 @@
 #include "builder/farm/run_step.h"
 
-#include <sys/resource.h>
-
 #include <chrono>
 
 #include "builder/build.h"
@@ -11,13 +9,6 @@
 
 namespace svdag {
 namespace {
-
-double cpu_seconds() {
-  struct rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& config,
                    const std::string& output, Executor* executor, Progress* progress) {
