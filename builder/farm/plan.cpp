@@ -65,6 +65,17 @@ Json counts_json(const SplitCounts& counts) {
           {"largest_snap_voxels", counts.largest_snap}};
 }
 
+bool is_possible(const Grid& grid) {
+  bool good = grid.levels >= kMinLevels && grid.levels <= kMaxLevels &&
+              std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
+  for (int a = 0; good && a < 3; ++a) {
+    const VoxelBox& box = grid.selection;
+    good = std::isfinite(grid.origin[a]) && box.min[a] >= 0 && box.min[a] <= box.max[a] &&
+           box.max[a] <= grid.resolution();
+  }
+  return good;
+}
+
 SplitCounts get_counts(const Json& json) {
   SplitCounts counts;
   counts.scene.triangles = json.at("triangles");
@@ -108,10 +119,19 @@ Json step_json(const Plan& plan, const PlanStep& step) {
   return json;
 }
 
+// Steps write into the folder of their plan, whoever has written that.
+bool stays_inside(const std::string& path) {
+  const std::string parts = "/" + path + "/";
+  return !path.empty() && path[0] != '/' && parts.find("/../") == std::string::npos &&
+         path.find('\0') == std::string::npos;
+}
+
 PlanStep get_step(const Json& json, const Plan& plan) {
   PlanStep step;
   step.name = json.at("name");
   step.output = json.at("output");
+  if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
+    throw Error(ExitCode::kBadInput, "a step leads out of the plan's folder: " + step.output);
   step.threads = json.at("threads");
   step.predicted = get_prediction(json.at("predicted"));
   if (json.contains("cells")) {
@@ -136,8 +156,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
     plan->inputs.push_back({input.at("path"), input.at("bytes"), input.at("hash")});
   plan->description = json.at("description");
   plan->grid = get_grid(json.at("grid"));
-  if (plan->grid.levels < kMinLevels || plan->grid.levels > kMaxLevels)
-    throw Error(ExitCode::kBadInput, "has a grid of no size");
+  if (!is_possible(plan->grid)) throw Error(ExitCode::kBadInput, "has an impossible grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   plan->counts = get_counts(json.at("scene"));
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <numeric>
+#include <random>
 
 #include "builder/farm/leaf_bins.h"
 #include "tests/builder/farm/plans.h"
@@ -100,11 +102,41 @@ TEST_F(Plans, ThatAreDamagedSaySo) {
   write(json, moved);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "not in the grid");
   write(json, text);
+  std::string outside = text;
+  const size_t output = outside.find("\"output\": \"runs/");
+  outside.replace(output, 17, "\"output\": \"../up/");
+  write(json, outside);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "leads out");
+  std::string huge = text;
+  huge.replace(huge.find("\"voxel_size\": "), 14, "\"voxel_size\": -");
+  write(json, huge);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "impossible grid");
+  write(json, text);
   std::string flipped = bytes;
   flipped[flipped.size() / 2] ^= 1;
   write(index, flipped);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "index");
   EXPECT_SVDAG_ERROR(load_plan(folder_.path(), true), ExitCode::kBadInput, "is no plan");
+}
+
+TEST_F(Plans, ThatWereWrittenOverAreReadOrRefused) {
+  plan_of(config());
+  const std::string json = folder_.file("plan/plan.json"), text = read_bytes(json);
+  std::mt19937 random(5);
+  int refused = 0;
+  for (int run = 0; run < 2000; ++run) {
+    std::string other = text;
+    for (int k = 0; k < 3; ++k)
+      other[random() % other.size()] = "0-9.e\"[]{},:/\x01"[random() % 15];
+    std::ofstream(json, std::ios::binary) << other;
+    try {
+      load_plan(folder_.file("plan"), true);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
 }
 
 TEST_F(Plans, PromiseWhatAStepMayHave) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
@@ -130,6 +131,32 @@ TEST_F(Vdb, BrokenFilesAreASentence) {
   std::filesystem::resize_file(path("cut.vdb"), std::filesystem::file_size(path("cut.vdb")) / 2);
   EXPECT_SVDAG_ERROR(read_vdb(path("cut.vdb"), "", {}), ExitCode::kBadInput,
                      "OpenVDB cannot read it");
+}
+
+TEST_F(Vdb, DamagedFilesAreReadOrRefused) {
+  write("whole.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);
+  std::ifstream file(path("whole.vdb"), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  std::mt19937 random(7);
+  int refused = 0;
+  for (int run = 0; run < 200; ++run) {
+    std::string broken = whole;
+    const size_t at = random() % broken.size();
+    if (run % 2 == 0) {
+      broken.resize(at);
+    } else {
+      broken[at] = char(random());
+    }
+    std::ofstream(path("broken.vdb"), std::ios::binary) << broken;
+    try {
+      voxels_of(*read_vdb(path("broken.vdb"), "", {}));
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage)
+          << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 60);
 }
 
 TEST_F(Vdb, AFolderThatIsNotThereIsASentence) {
