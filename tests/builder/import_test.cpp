@@ -31,7 +31,8 @@ BrickMap random_bricks(int levels, size_t count, uint32_t seed) {
   const uint32_t side = 1U << (levels - 2);
   BrickMap bricks;
   for (size_t i = 0; i < count; ++i) {
-    const Coordinate at{random() % side, random() % side, random() % 4};
+    const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
+    const Coordinate at{below(side), below(side), below(4)};
     bricks[at] = uint64_t(1 + random() % 3) << (random() % 60);
   }
   return bricks;
