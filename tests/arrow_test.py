@@ -53,7 +53,7 @@ EXACT = {
     "verify/trace/cuda.cu": ["verify/trace/device.h", "streaming/error.h"],
     "verify/trace/without_cuda.cpp": ["verify/trace/device.h", "streaming/error.h"],
     "verify/trace/svdag_trace.cpp": ["verify/trace/device.h", "verify/trace/presets.h",
-                                     "verify/trace/trace_options.h", "streaming/error.h"],
+                                     "verify/trace/trace_options.h", "streaming/program.h"],
     "verify/trace/trace_options.h": ["verify/trace/device.h"],
     "verify/trace/trace_options.cpp": ["verify/trace/trace_options.h", "verify/trace/presets.h",
                                        "streaming/error.h"],
