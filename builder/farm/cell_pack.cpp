@@ -213,8 +213,8 @@ Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
               to += bytes.size();
             });
   for (const PackEntry& entry : entries_) {
-    if (entry.rank != kNoNode &&
-        (entry.height >= kHeights || entry.rank >= header_.keys[entry.height]))
+    if (entry.rank != kNoNode && (entry.height < kBrickHeight || entry.height >= kHeights ||
+                                  entry.rank >= header_.keys[entry.height]))
       fail_input(path_, "is damaged: an entry has no node");
   }
 }
