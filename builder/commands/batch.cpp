@@ -2,8 +2,8 @@
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene": a path or several. Each object becomes a command line and is understood as that, all of
-// them before the first is baked. What the command line of the batch says of memory, threads, disk
-// and cache holds for bakes that say nothing of it.
+// them before the first is baked. What the command line of the batch says of memory, threads, disk,
+// cache and --sandbox holds for bakes that say nothing of it.
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -49,6 +49,7 @@ void inherit(const BuildCommandConfig& batch, BuildCommandConfig* job) {
   if (job->build.memory == 0) job->build.memory = batch.build.memory;
   if (job->build.scratch.empty()) job->build.scratch = batch.build.scratch;
   if (job->build.unfinished == Unfinished::kRefuse) job->build.unfinished = batch.build.unfinished;
+  job->build.scene.sandbox |= batch.build.scene.sandbox;
   if (job->threads == 0) job->threads = batch.threads;
   if (job->cache.folder.empty()) job->cache = batch.cache;
   job->output = batch.output;

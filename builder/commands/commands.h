@@ -70,6 +70,7 @@ struct InfoConfig {
   bool levels = false;  // a table of levels
   NameFilter names;     // for scenes
   bool skip_invalid = false;
+  bool sandbox = false;
   uint64_t memory = 0;  // budget in bytes; 0: half of the machine
 };
 

@@ -22,7 +22,7 @@ CLI::App* add_info(CLI::App* program, InfoConfig* config);
 
 // What several commands understand (shared_options.cpp).
 void add_output_options(CLI::App* app, OutputConfig* output);
-void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid);
+void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox);
 // Memory, threads and disk; the result is the same with any of them.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch);
 // The grid of a bake; one of the options in the group returned is required.

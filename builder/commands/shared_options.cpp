@@ -27,13 +27,15 @@ void add_output_options(CLI::App* app, OutputConfig* output) {
       "Never show progress");
 }
 
-void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid) {
+void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
   app->add_option("--include", names->include,
                   "Only parts whose name matches a pattern (*, ?, [..])")
       ->type_name("PATTERN");
   app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
+  app->add_flag("--sandbox", *sandbox,
+                "Decode Draco and OpenMesh data in a limited process: for scenes of strangers");
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
@@ -71,7 +73,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
          "about 1.8 times fewer voxels")
       ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
-  add_scene_options(app, &build->scene.names, &build->scene.skip_invalid);
+  add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);
   return grid;
 }
 
