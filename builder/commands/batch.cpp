@@ -26,18 +26,22 @@ std::string text_of(const Json& value) {
 // The command line of one object.
 std::vector<std::string> arguments_of(const Json& job) {
   std::vector<std::string> scene, options;
-  for (const auto& [key, value] : job.items()) {
-    const Json values = value.is_array() ? value : Json::array({value});
-    for (const Json& one : values) {
-      if (one.is_object() || one.is_array() || one.is_null())
-        fail_usage("\"" + key + "\" is no text, number or flag");
-      if (key == "scene") {
-        scene.push_back(text_of(one));
-      } else if (one.is_boolean()) {
-        if (one.get<bool>()) options.push_back("--" + key);
-      } else {
-        options.push_back("--" + key + "=" + text_of(one));
-      }
+  const auto add = [&](const std::string& key, const Json& one) {
+    if (one.is_structured() || one.is_null())
+      fail_usage("\"" + key + "\" is no text, number or flag");
+    if (key == "scene") {
+      scene.push_back(text_of(one));
+    } else if (one.is_boolean()) {
+      if (one.get<bool>()) options.push_back("--" + key);
+    } else {
+      options.push_back("--" + key + "=" + text_of(one));
+    }
+  };
+  for (const auto& [key, value] : job.items()) {  // never copied: a copy of a deep one is recursive
+    if (value.is_array()) {
+      for (const Json& one : value) add(key, one);
+    } else {
+      add(key, value);
     }
   }
   options.push_back("--");
@@ -66,7 +70,9 @@ Json read_list(const std::string& path) {
   return list;
 }
 
-std::vector<BuildCommandConfig> parse_jobs(const BuildCommandConfig& batch) {
+}  // namespace
+
+std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
   std::vector<BuildCommandConfig> jobs;
   std::set<std::string> outputs;
   for (const Json& job : read_list(batch.batch)) {
@@ -83,6 +89,8 @@ std::vector<BuildCommandConfig> parse_jobs(const BuildCommandConfig& batch) {
   }
   return jobs;
 }
+
+namespace {
 
 struct Outcome {
   ExitCode code = ExitCode::kOk;
@@ -112,7 +120,7 @@ Outcome run(const BuildCommandConfig& job) {
 }  // namespace
 
 int run_batch(const BuildCommandConfig& config) {
-  const std::vector<BuildCommandConfig> jobs = parse_jobs(config);
+  const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;

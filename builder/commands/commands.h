@@ -89,6 +89,7 @@ int run_merge_step(const MergeCommandConfig& config);
 int run_dry(const BuildCommandConfig& config);
 // That which does a list of bakes; what it does for one, with the report as JSON in *json if given.
 int run_batch(const BuildCommandConfig& config);
+std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& config);
 void bake_scene(const BuildCommandConfig& config, std::string* json = nullptr);
 // The parts of run_info that look at plans, runs and scenes.
 void info_plan(const InfoConfig& config);

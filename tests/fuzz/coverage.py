@@ -29,6 +29,8 @@ READERS = {
     "journal": ["streaming/journal.cpp", "streaming/record.h", "builder/saved_bake.cpp", "builder/bin_record.cpp"],
     "pack": ["builder/farm/cell_pack.cpp", "builder/farm/pack_blocks.cpp"],
     "plan": ["builder/farm/plan.cpp", "builder/farm/plan_index.cpp", "builder/farm/receipt.cpp"],
+    "command_line": [f"builder/commands/{kind}_options.cpp" for kind in ("build", "farm", "info", "shared")],
+    "batch": ["builder/commands/batch.cpp"],
     "hashdag": ["io/formats/hashdag.cpp"],
     "symvox": ["io/formats/symvox.cpp", "io/dag/symvox_header.cpp"],
     "transform_dag": ["io/formats/transform_dag.cpp"],
