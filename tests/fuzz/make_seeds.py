@@ -65,12 +65,13 @@ def main(programs, corpus):
             keep("svdag", f"{kind}.svdag", (folder / "a.svdag").read_bytes())
             svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")
             keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
-            svdag("build", scene, "-o", "half.run", *grid, "--part", "1/2")
-            keep("run", f"{kind}_half.run", (folder / "half.run").read_bytes())
+            if grid[1] != "8":
+                svdag("build", scene, "-o", "part.run", *grid, "--part", "2/3")
+                keep("run", f"{kind}_part.run", (folder / "part.run").read_bytes())
             svdag("build", scene, "-o", "b.svdag", *grid, "--cache", f"cache_{kind}", "-j", "1")
             for pack in (folder / f"cache_{kind}").iterdir():
                 keep("pack", f"{kind}.cells", pack.read_bytes())
-            svdag("plan", scene, "-o", f"plan_{kind}", *grid, "--shards", "2")
+            svdag("plan", scene, "-o", f"plan_{kind}", *grid, "--shards", "1" if grid[1] == "8" else "2")
             plan = folder / f"plan_{kind}"
             svdag("build", plan, "--shard", "1")
             parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
