@@ -29,7 +29,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libgtest-dev librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
 BENCH_PACKAGES = python3-matplotlib
-STRESS_PACKAGES = clang libclang-rt-14-dev
+STRESS_PACKAGES = clang libclang-rt-14-dev llvm
 
 PRESET = release
 PROGRAMS = build/$(PRESET)

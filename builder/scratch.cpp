@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kSmallestBlock = uint64_t(1) << 14, kLargestBlock = uint64_t(1) << 18;
+constexpr uint64_t kSmallestBlock = uint64_t(1) << 14;
 
 }  // namespace
 
@@ -17,6 +17,10 @@ Scratch::Scratch(ScratchDir* folder, MemoryBudget* budget)
       budget_(budget),
       block_bytes_(
           std::bit_floor(std::clamp(budget->limit() / 4096, kSmallestBlock, kLargestBlock))) {}
+
+bool Scratch::can_have_blocks_of(uint64_t bytes) {
+  return std::has_single_bit(bytes) && bytes >= SpillBlock::kAlignment && bytes <= kLargestBlock;
+}
 
 SpillFile* Scratch::file(std::unique_ptr<SpillFile>* file, const char* name) {
   const std::lock_guard lock(mutex_);

@@ -19,12 +19,16 @@ namespace svdag {
 
 class Scratch {
  public:
+  static constexpr uint64_t kLargestBlock = uint64_t(1) << 18;
+
   // Sizes blocks so that a thousand of them take a quarter of the budget.
   Scratch(ScratchDir* folder, MemoryBudget* budget);
 
   ScratchDir* folder() const { return folder_; }
   MemoryBudget* budget() const { return budget_; }
   size_t block_bytes() const { return block_bytes_; }
+  // Whether the blocks of a scratch, of any budget, or of a plan can have this size.
+  static bool can_have_blocks_of(uint64_t bytes);
 
   // A file that a journal may speak of has its name on disk from the beginning.
   SpillFile* triangles() { return file(&triangles_, "triangles"); }

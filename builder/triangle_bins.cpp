@@ -95,8 +95,8 @@ std::vector<TriangleBin> TriangleBins::finish() {
     Open& bin = bins_[i];
     if (!bin.writer) continue;
     const Cube cube{bin_level_, unmorton(first + i)};
-    bins.push_back({shrink(cube, bin), morton_range(cube, grid_.levels), bin.triangles,
-                    bin.writer->finish()});
+    bins.push_back(
+        {shrink(cube, bin), morton_range(cube, grid_.levels), bin.triangles, bin.writer->finish()});
     bin.writer.reset();
   }
   return bins;
@@ -122,13 +122,27 @@ Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
   return least;
 }
 
+namespace {
+
+// No vertex is farther from the grid's corner (io/lattice.cpp).
+bool on_lattice(const LatticeTriangle& t) noexcept {
+  constexpr int64_t kFarthest = int64_t(1) << 62;
+  bool near = true;
+  for (const LatticePoint& p : t.v) {
+    for (int a = 0; a < 3; ++a) near &= p[a] >= -kFarthest && p[a] <= kFarthest;
+  }
+  return near;
+}
+
+}  // namespace
+
 BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
     : reader_(file, bin.stream, budget), left_(bin.triangles) {}
 
 uint8_t BinReader::byte() {
   if (at_ == end_) {
     const std::span<std::byte> block = reader_.next();
-    SVDAG_ASSERT(!block.empty());
+    if (block.empty()) reader_.fail_damaged();
     at_ = reinterpret_cast<const uint8_t*>(block.data());
     end_ = at_ + block.size();
   }
@@ -138,6 +152,7 @@ uint8_t BinReader::byte() {
 int64_t BinReader::number() {
   uint64_t code = 0;
   for (int shift = 0;; shift += 7) {
+    if (shift > 63) reader_.fail_damaged();
     const uint8_t b = byte();
     code |= uint64_t(b & 0x7f) << shift;
     if (b < 0x80) break;
@@ -151,8 +166,9 @@ bool BinReader::read(size_t most, std::vector<LatticeTriangle>* out) {
     LatticeTriangle& t = out->emplace_back();
     for (int a = 0; a < 3; ++a) t.v[0][a] = number();
     for (size_t i = 1; i < 3; ++i) {
-      for (int a = 0; a < 3; ++a) t.v[i][a] = t.v[0][a] + number();
+      for (int a = 0; a < 3; ++a) t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(number()));
     }
+    if (!on_lattice(t)) reader_.fail_damaged();
   }
   return true;
 }

@@ -59,7 +59,8 @@ class TriangleBins {
   std::vector<Open> bins_;  // in Morton order
 };
 
-// Reads the triangles of a bin, in the order they were added.
+// Reads the triangles of a bin, in the order they were added. Bytes that are no triangles on the
+// lattice are as a damaged block: plans travel.
 class BinReader {
  public:
   BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget);

@@ -49,6 +49,17 @@ Point Grid::corner() const {
   return p;
 }
 
+bool Grid::is_possible() const {
+  if (levels < kMinLevels || levels > kMaxLevels || !std::isnormal(voxel_size) || voxel_size < 0)
+    return false;
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(origin[a]) || selection.min[a] < 0 || selection.min[a] > selection.max[a] ||
+        selection.max[a] > resolution())
+      return false;
+  }
+  return kind == Kind::kBox || kind == Kind::kLattice;
+}
+
 Grid divide_box(const Box& box, int levels) {
   SVDAG_ASSERT(levels >= kMinLevels && levels <= kMaxLevels && !box.empty());
   double extent = 0;

@@ -50,6 +50,8 @@ struct Grid {
   VoxelBox whole() const { return {LatticePoint(0), LatticePoint(resolution())}; }
   // World position of the corner of voxel (0, 0, 0), for display and export.
   Point corner() const;
+  // Whether it can be one that a bake made, for grids that come from files.
+  bool is_possible() const;
   bool operator==(const Grid&) const = default;
 };
 

@@ -1,8 +1,8 @@
 // Values to bytes and back, for records that only this machine reads again.
 //
 // Trivially copyable values as they stand in memory, vectors and strings with their length in
-// front. A record is checksummed where it is stored; one that ends too early all the same is an
-// Error.
+// front. A record is checksummed where it is stored, so one that makes no sense all the same was
+// written by somebody else: an Error that names its file, before anything is allocated for it.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@ namespace svdag {
 class RecordWriter {
  public:
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void put(const T& value) {
     const auto* from = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), from, from + sizeof value);
   }
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void put(const std::vector<T>& values) {
     put_list(std::as_bytes(std::span(values)), values.size());
   }
@@ -45,19 +45,25 @@ class RecordWriter {
 
 class RecordReader {
  public:
-  explicit RecordReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  // Errors have `code` and speak of `path`.
+  RecordReader(std::span<const std::byte> bytes, std::string path, ExitCode code)
+      : bytes_(bytes), path_(std::move(path)), code_(code) {}
+
+  void require(bool condition, const char* sentence) const {
+    if (!condition) throw Error(code_, std::string("is damaged: ") + sentence, path_);
+  }
+  // Nothing may be left.
+  void finish() const { require(bytes_.empty(), "a record is too long"); }
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  void get(T* value) {
-    std::memcpy(value, take(sizeof *value), sizeof *value);
-  }
+  requires std::is_trivially_copyable_v<T>
+  void get(T* value) { std::memcpy(value, take(sizeof *value), sizeof *value); }
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void get(std::vector<T>* values) {
     uint64_t count = 0;
     get(&count);
-    SVDAG_ASSERT(count <= bytes_.size() / sizeof(T));
+    require(count <= bytes_.size() / sizeof(T), kTooShort);
     values->resize(count);
     const std::byte* from = take(count * sizeof(T));
     if (count != 0) std::memcpy(values->data(), from, count * sizeof(T));
@@ -69,14 +75,18 @@ class RecordReader {
   }
 
  private:
+  static constexpr const char* kTooShort = "a record ends too early";
+
   const std::byte* take(size_t n) {
-    SVDAG_ASSERT(n <= bytes_.size());
+    require(n <= bytes_.size(), kTooShort);
     const std::byte* at = bytes_.data();
     bytes_ = bytes_.subspan(n);
     return at;
   }
 
   std::span<const std::byte> bytes_;
+  std::string path_;
+  ExitCode code_;
 };
 
 }  // namespace svdag

@@ -221,6 +221,8 @@ class SpillReader::Impl {
     return file_->open(current_, stream_, index);
   }
 
+  [[noreturn]] void fail_damaged() const { file_->fail_damaged(); }
+
  private:
   // Asks for the next block, if there is one.
   void ask() {
@@ -247,6 +249,10 @@ SpillReader::~SpillReader() = default;
 
 std::span<std::byte> SpillReader::next() {
   return impl_->next();
+}
+
+void SpillReader::fail_damaged() const {
+  impl_->fail_damaged();
 }
 
 class SpillFetch::Impl {

@@ -99,6 +99,8 @@ class SpillReader : public BlockSource {
   ~SpillReader() override;
 
   std::span<std::byte> next() override;
+  // The Error about a damaged block: for who finds that what is in one makes no sense.
+  [[noreturn]] void fail_damaged() const;
 
  private:
   class Impl;

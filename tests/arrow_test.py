@@ -60,7 +60,7 @@ EXACT = {
 }
 
 LIBRARIES = {
-    r"CLI/": r"(builder/commands(/export|/import)?|verify/commands)/main\.cpp|tests/scenes/main\.cpp",
+    r"CLI/": r"(builder/commands(/export|/import)?|verify/commands)/(main|\w+_options)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/openmesh\.cpp|tests/io/scene/openmesh_test\.cpp",
     r"draco/": r"io/scene/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",

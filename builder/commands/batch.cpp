@@ -2,8 +2,8 @@
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene": a path or several. Each object becomes a command line and is understood as that, all of
-// them before the first is baked. What the command line of the batch says of memory, threads, disk
-// and cache holds for bakes that say nothing of it.
+// them before the first is baked. What the command line of the batch says of memory, threads, disk,
+// cache and --sandbox holds for bakes that say nothing of it.
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -26,18 +26,22 @@ std::string text_of(const Json& value) {
 // The command line of one object.
 std::vector<std::string> arguments_of(const Json& job) {
   std::vector<std::string> scene, options;
-  for (const auto& [key, value] : job.items()) {
-    const Json values = value.is_array() ? value : Json::array({value});
-    for (const Json& one : values) {
-      if (one.is_object() || one.is_array() || one.is_null())
-        fail_usage("\"" + key + "\" is no text, number or flag");
-      if (key == "scene") {
-        scene.push_back(text_of(one));
-      } else if (one.is_boolean()) {
-        if (one.get<bool>()) options.push_back("--" + key);
-      } else {
-        options.push_back("--" + key + "=" + text_of(one));
-      }
+  const auto add = [&](const std::string& key, const Json& one) {
+    if (one.is_structured() || one.is_null())
+      fail_usage("\"" + key + "\" is no text, number or flag");
+    if (key == "scene") {
+      scene.push_back(text_of(one));
+    } else if (one.is_boolean()) {
+      if (one.get<bool>()) options.push_back("--" + key);
+    } else {
+      options.push_back("--" + key + "=" + text_of(one));
+    }
+  };
+  for (const auto& [key, value] : job.items()) {  // never copied: a copy of a deep one is recursive
+    if (value.is_array()) {
+      for (const Json& one : value) add(key, one);
+    } else {
+      add(key, value);
     }
   }
   options.push_back("--");
@@ -49,6 +53,7 @@ void inherit(const BuildCommandConfig& batch, BuildCommandConfig* job) {
   if (job->build.memory == 0) job->build.memory = batch.build.memory;
   if (job->build.scratch.empty()) job->build.scratch = batch.build.scratch;
   if (job->build.unfinished == Unfinished::kRefuse) job->build.unfinished = batch.build.unfinished;
+  job->build.scene.sandbox |= batch.build.scene.sandbox;
   if (job->threads == 0) job->threads = batch.threads;
   if (job->cache.folder.empty()) job->cache = batch.cache;
   job->output = batch.output;
@@ -65,7 +70,9 @@ Json read_list(const std::string& path) {
   return list;
 }
 
-std::vector<BuildCommandConfig> parse_jobs(const BuildCommandConfig& batch) {
+}  // namespace
+
+std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
   std::vector<BuildCommandConfig> jobs;
   std::set<std::string> outputs;
   for (const Json& job : read_list(batch.batch)) {
@@ -82,6 +89,8 @@ std::vector<BuildCommandConfig> parse_jobs(const BuildCommandConfig& batch) {
   }
   return jobs;
 }
+
+namespace {
 
 struct Outcome {
   ExitCode code = ExitCode::kOk;
@@ -111,7 +120,7 @@ Outcome run(const BuildCommandConfig& job) {
 }  // namespace
 
 int run_batch(const BuildCommandConfig& config) {
-  const std::vector<BuildCommandConfig> jobs = parse_jobs(config);
+  const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;

@@ -70,6 +70,7 @@ struct InfoConfig {
   bool levels = false;  // a table of levels
   NameFilter names;     // for scenes
   bool skip_invalid = false;
+  bool sandbox = false;
   uint64_t memory = 0;  // budget in bytes; 0: half of the machine
 };
 
@@ -88,6 +89,7 @@ int run_merge_step(const MergeCommandConfig& config);
 int run_dry(const BuildCommandConfig& config);
 // That which does a list of bakes; what it does for one, with the report as JSON in *json if given.
 int run_batch(const BuildCommandConfig& config);
+std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& config);
 void bake_scene(const BuildCommandConfig& config, std::string* json = nullptr);
 // The parts of run_info that look at plans, runs and scenes.
 void info_plan(const InfoConfig& config);

@@ -52,7 +52,7 @@ void print_text(const InfoConfig& config, const Box& box, const SceneCounts& cou
 
 void info_scene(const InfoConfig& config) {
   MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
-  const Scene scene({config.paths, config.names, config.skip_invalid}, &budget);
+  const Scene scene({config.paths, config.names, config.skip_invalid, config.sandbox}, &budget);
   SceneCounts counts;
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);

@@ -88,7 +88,9 @@ bool CellCache::take(const CellKey& key, const Cube& cube) {
   if (found == places_.end()) return false;
   const std::lock_guard lock(mutex_);
   Open& open = packs_[found->second.pack];
-  if (!usable(&open)) return false;
+  const PackEntry& entry = open.pack.entries()[found->second.entry];
+  const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
+  if (!fits || !usable(&open)) return false;
   open.taken.push_back({found->second.entry, cube});
   ++hits_;
   return true;

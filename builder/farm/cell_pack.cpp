@@ -86,6 +86,21 @@ class LevelWriter {
   std::optional<SpillWriter> writer_;
 };
 
+// Keys of one height, of which none is empty: what a merge relies on.
+template <class Key>
+class Ascending {
+ public:
+  explicit Ascending(const std::string& path) : path_(path) {}
+  void add(const Key& key) {
+    if (!(last_ < key)) fail_input(path_, "is damaged: its nodes do not ascend");
+    last_ = key;
+  }
+
+ private:
+  const std::string& path_;
+  Key last_{};
+};
+
 // Copies what taken nodes reach out of a proven pack.
 class Extraction {
  public:
@@ -124,8 +139,7 @@ class Extraction {
       for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
         if (!marks_[height].has(rank++)) continue;
         for (const uint32_t child : key) {
-          if (child > header_.keys[height - 1])
-            fail_input(path_, "is damaged: a child is outside of the pack");
+          SVDAG_ASSERT(child <= header_.keys[height - 1]);  // the pack was proven
           if (child != 0) marks_[height - 1].set(child - 1);
         }
       }
@@ -213,8 +227,8 @@ Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
               to += bytes.size();
             });
   for (const PackEntry& entry : entries_) {
-    if (entry.rank != kNoNode &&
-        (entry.height >= kHeights || entry.rank >= header_.keys[entry.height]))
+    if (entry.rank != kNoNode && (entry.height < kBrickHeight || entry.height >= kHeights ||
+                                  entry.rank >= header_.keys[entry.height]))
       fail_input(path_, "is damaged: an entry has no node");
   }
 }
@@ -222,7 +236,25 @@ Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
 void Pack::prove() {
   if (file_.descriptor() >= 0) return;
   File file = File::open_read(path_);
-  read_pack(file, checksums_, payload_of(header_), 0, payload_of(header_), [](auto) {});
+  const auto read = [&](uint32_t height, const auto& use) {
+    const uint64_t begin = begin_of(header_, height);
+    read_pack(file, checksums_, payload_of(header_), begin,
+              begin + header_.keys[height] * key_bytes(height), use);
+  };
+  Ascending<Brick> bricks(path_);
+  read(kBrickHeight, [&](std::span<std::byte> bytes) {
+    for (const Brick brick : keys_in<Brick>(bytes)) bricks.add(brick);
+  });
+  for (uint32_t h = kBrickHeight + 1; h < kHeights; ++h) {
+    Ascending<NodeKey> nodes(path_);
+    read(h, [&](std::span<std::byte> bytes) {
+      for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
+        nodes.add(key);
+        if (*std::max_element(key.begin(), key.end()) > header_.keys[h - 1])
+          fail_input(path_, "is damaged: a child is outside of the pack");
+      }
+    });
+  }
   file_ = std::move(file);
 }
 

@@ -58,8 +58,8 @@ class Pack {
   const std::string& path() const { return path_; }
   uint64_t bytes() const { return header_.file_bytes; }
   std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file, for good, and reads it once to the end: an Error if it is gone, or a byte of it
-  // is not as it was written.
+  // Opens the file, for good, and reads it once to the end: an Error if it is gone, a byte of it is
+  // not as it was written, or its nodes are none that a run can have.
   void prove();
 
   struct Taken {

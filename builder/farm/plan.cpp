@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
 constexpr int kFormat = 1;
+constexpr size_t kMostThreads = 1024;
 
 template <class Vector>
 Json three(const Vector& v) {
@@ -63,17 +64,6 @@ Json counts_json(const SplitCounts& counts) {
           {"clipped", counts.clipped},
           {"degenerate", counts.degenerate},
           {"largest_snap_voxels", counts.largest_snap}};
-}
-
-bool is_possible(const Grid& grid) {
-  bool good = grid.levels >= kMinLevels && grid.levels <= kMaxLevels &&
-              std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
-  for (int a = 0; good && a < 3; ++a) {
-    const VoxelBox& box = grid.selection;
-    good = std::isfinite(grid.origin[a]) && box.min[a] >= 0 && box.min[a] <= box.max[a] &&
-           box.max[a] <= grid.resolution();
-  }
-  return good;
 }
 
 SplitCounts get_counts(const Json& json) {
@@ -133,6 +123,8 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
     throw Error(ExitCode::kBadInput, "a step leads out of the plan's folder: " + step.output);
   step.threads = json.at("threads");
+  if (step.threads < 1 || step.threads > kMostThreads)
+    throw Error(ExitCode::kBadInput, "step " + step.name + " has an impossible number of threads");
   step.predicted = get_prediction(json.at("predicted"));
   if (json.contains("cells")) {
     const Json& cells = json.at("cells");
@@ -156,7 +148,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
     plan->inputs.push_back({input.at("path"), input.at("bytes"), input.at("hash")});
   plan->description = json.at("description");
   plan->grid = get_grid(json.at("grid"));
-  if (!is_possible(plan->grid)) throw Error(ExitCode::kBadInput, "has an impossible grid");
+  if (!plan->grid.is_possible()) throw Error(ExitCode::kBadInput, "has an impossible grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   plan->counts = get_counts(json.at("scene"));
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");

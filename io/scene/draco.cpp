@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
 
+#include "io/scene/limited_decoder.h"
 #include "io/scene/mesh_reader.h"
 #include "streaming/error.h"
 
@@ -232,13 +234,7 @@ DracoMesh copy_mesh(const draco::Mesh& mesh, const DracoSource& source) {
   return out;
 }
 
-}  // namespace
-
-bool has_draco() {
-  return true;
-}
-
-DracoMesh decode_draco(const DracoSource& source, MemoryBudget* budget) {
+DracoMesh decode_here(const DracoSource& source, MemoryBudget* budget) {
   Allowance allowance(source, budget);
   try {
     draco::Mesh mesh;
@@ -253,12 +249,91 @@ DracoMesh decode_draco(const DracoSource& source, MemoryBudget* budget) {
   }
 }
 
+// A mesh as it comes out of a child, which may say anything: counts, positions, indices.
+class MeshReceiver {
+ public:
+  struct Counts {
+    uint64_t positions, indices;
+    double step;
+  };
+
+  MeshReceiver(const DracoSource& source, MemoryBudget* budget, DracoMesh* mesh)
+      : source_(source), budget_(budget), mesh_(mesh) {}
+
+  void operator()(std::span<const std::byte> bytes) {
+    if (!begun_) return begin(bytes);
+    const auto positions = std::as_writable_bytes(std::span(mesh_->positions));
+    const auto indices = std::as_writable_bytes(std::span(mesh_->indices));
+    const auto to = filled_ < positions.size() ? positions.subspan(filled_)
+                                               : indices.subspan(filled_ - positions.size());
+    require(bytes.size() <= to.size());
+    std::copy(bytes.begin(), bytes.end(), to.begin());
+    filled_ += bytes.size();
+  }
+
+  void finish() const {
+    require(begun_ &&
+            filled_ == mesh_->positions.size() * sizeof(Point) + mesh_->indices.size() * 4);
+    for (const uint32_t index : mesh_->indices) require(index < mesh_->positions.size());
+  }
+
+ private:
+  void begin(std::span<const std::byte> bytes) {
+    Counts counts;
+    require(bytes.size() == sizeof counts);
+    std::memcpy(&counts, bytes.data(), sizeof counts);
+    const uint64_t most = kMaxFree + kMaxPerByte * source_.bytes.size();
+    require(counts.positions <= most && counts.indices <= 3 * most && counts.step >= 0);
+    mesh_->memory =
+        budget_->reserve(counts.positions * sizeof(Point) + counts.indices * 4, "Draco meshes");
+    mesh_->positions.resize(counts.positions);
+    mesh_->indices.resize(counts.indices);
+    mesh_->step = counts.step;
+    begun_ = true;
+  }
+  void require(bool condition) const {
+    if (!condition) fail_broken(source_.path, "its decoder sent what is no mesh");
+  }
+
+  const DracoSource& source_;
+  MemoryBudget* budget_;
+  DracoMesh* mesh_;
+  bool begun_ = false;
+  size_t filled_ = 0;  // bytes of both arrays
+};
+
+void send(const DracoMesh& mesh, const BlockSink& out) {
+  const MeshReceiver::Counts counts = {mesh.positions.size(), mesh.indices.size(), mesh.step};
+  out(std::as_bytes(std::span(&counts, 1)));
+  out(std::as_bytes(std::span(mesh.positions)));
+  out(std::as_bytes(std::span(mesh.indices)));
+}
+
+}  // namespace
+
+bool has_draco() {
+  return true;
+}
+
+DracoMesh decode_draco(const DracoSource& source, MemoryBudget* budget) {
+  if (!source.sandbox) return decode_here(source, budget);
+  DracoMesh mesh;
+  MeshReceiver receiver(source, budget, &mesh);
+  run_limited(
+      decoder_limits(source.bytes.size(), *budget), source.path,
+      [&](const BlockSink& out) { send(decode_here(source, budget), out); }, std::ref(receiver));
+  receiver.finish();
+  return mesh;
+}
+
 void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink) {
   if (!options.wants("")) return;
   const auto memory = options.budget->reserve(file.size(), "Draco files");
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
-  const DracoMesh mesh = decode_draco({bytes, file.path()}, options.budget);
+  DracoSource source{bytes, file.path()};
+  source.sandbox = options.sandbox;
+  const DracoMesh mesh = decode_draco(source, options.budget);
   BatchWriter out(sink);
   out.quantisation(mesh.step);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

@@ -33,6 +33,7 @@ struct DracoSource {
   std::string path;                          // for errors
   std::optional<uint64_t> position_id = {};  // unique id of the attribute; else the POSITION
   bool normalized = false;                   // integers that are not quantised: c / max
+  bool sandbox = false;                      // decode in a limited child process
 };
 
 bool has_draco();

@@ -149,7 +149,8 @@ class GltfReader {
     MemoryBudget::Reservation memory;
     const auto bytes = buffers_.view_bytes(draco.count("bufferView"), &memory);
     const DracoSource source{bytes, draco.path(), draco.object("attributes").count("POSITION"),
-                             document_.element("accessors", accessor).flag("normalized")};
+                             document_.element("accessors", accessor).flag("normalized"),
+                             options_.sandbox};
     DracoMesh mesh = decode_draco(source, options_.budget);
     const std::vector<uint32_t>& indices = mesh.indices;
     const auto placed = place_for(mesh.positions, instances);

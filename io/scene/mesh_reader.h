@@ -71,6 +71,8 @@ struct ReadOptions {
   const SpillSpace* spill = nullptr;
   // Not null: a reader may add triangles to this instead of handing them on, if all are finite.
   MeshBox* box_alone = nullptr;
+  // Decoders of others run in a limited child process (streaming/limited_child.h).
+  bool sandbox = false;
 
   // Whether a part called `name` inside the file is wanted.
   bool wants(const std::string& name) const {

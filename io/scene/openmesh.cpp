@@ -5,8 +5,11 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <array>
+#include <cstring>
 #include <exception>
+#include <sstream>
 
+#include "io/scene/limited_decoder.h"
 #include "io/scene/mesh_reader.h"
 #include "streaming/error.h"
 
@@ -42,28 +45,25 @@ Header read_header(const File& file) {
   return header;
 }
 
-void load(const File& file, Mesh* mesh) {
+// From memory, so that a limited child needs no file.
+void load(const File& file, std::span<const std::byte> bytes, Mesh* mesh) {
   omerr().disable();  // the one error sentence is ours
   omlog().disable();
   OpenMesh::IO::Options options;
+  std::istringstream in(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   bool read = false;
   try {
-    read = OpenMesh::IO::read_mesh(*mesh, file.path(), options);
+    read = OpenMesh::IO::read_mesh(*mesh, in, ".om", options);
   } catch (const std::exception&) {
     read = false;
   }
   if (!read) fail_input(file.path(), "is a broken OpenMesh file");
 }
 
-}  // namespace
-
-void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  if (!options.wants("")) return;
-  const Header header = read_header(file);
-  const auto memory = options.budget->reserve((header.vertices + header.faces) * kBytesPerElement,
-                                              "OpenMesh files");
+void decode(const File& file, std::span<const std::byte> bytes, const Header& header,
+            const TriangleSink& sink) {
   Mesh mesh;
-  load(file, &mesh);
+  load(file, bytes, &mesh);
   if (mesh.n_faces() != header.faces) {
     fail_input(file.path(), "has " + std::to_string(header.faces) +
                                 " faces, of which OpenMesh could read only " +
@@ -85,6 +85,40 @@ void read_openmesh(const File& file, const ReadOptions& options, const TriangleS
     }
   }
   out.flush();
+}
+
+void decode_limited(const File& file, std::span<const std::byte> bytes, const Header& header,
+                    const MemoryBudget& budget, const TriangleSink& sink) {
+  BatchWriter out(sink);
+  run_limited(
+      decoder_limits(bytes.size(), budget), file.path(),
+      [&](const BlockSink& send) {
+        decode(file, bytes, header,
+               [&](const TriangleBatch& batch) { send(std::as_bytes(batch.triangles)); });
+      },
+      [&](std::span<const std::byte> block) {
+        if (block.size() % sizeof(Triangle) != 0)
+          fail_input(file.path(), "has a decoder that sent what is no triangle");
+        for (; !block.empty(); block = block.subspan(sizeof(Triangle))) {
+          Triangle t;
+          std::memcpy(&t, block.data(), sizeof t);
+          out.add(t.v[0], t.v[1], t.v[2]);
+        }
+      });
+  out.flush();
+}
+
+}  // namespace
+
+void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  if (!options.wants("")) return;
+  const Header header = read_header(file);
+  const auto memory = options.budget->reserve(
+      2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
+  std::vector<std::byte> bytes(size_t(file.size()));
+  file.read_at(0, bytes);
+  options.sandbox ? decode_limited(file, bytes, header, *options.budget, sink)
+                  : decode(file, bytes, header, sink);
 }
 
 }  // namespace svdag

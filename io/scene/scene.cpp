@@ -116,7 +116,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File file = File::open_read(path);
     const bool by_name = !config_.names.include.empty() && config_.names.includes(name);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
-    read_file(file, {&config_.names, by_name, budget_, spill_, box_alone}, std::ref(filter));
+    read_file(file, {&config_.names, by_name, budget_, spill_, box_alone, config_.sandbox},
+              std::ref(filter));
   }
   return counts;
 }

@@ -15,6 +15,7 @@ struct SceneConfig {
   std::vector<std::string> paths;  // at least one
   NameFilter names;                // --include, --exclude
   bool skip_invalid = false;       // drop triangles with NaN or infinity instead of refusing them
+  bool sandbox = false;            // --sandbox: decoders of others run in a limited child process
 };
 
 struct SceneCounts {

@@ -29,6 +29,8 @@ for fuzzer in build/fuzz/tests/*_fuzz; do
   name=$(basename "$fuzzer")
   corpus=build/fuzz/corpus/$name
   mkdir -p "$corpus"
-  "$fuzzer" "$corpus" tests/fuzz/corpus/"$name" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20
+  words=tests/fuzz/$name.dict
+  [ -e "$words" ] && words=-dict=$words || words=
+  "$fuzzer" "$corpus" tests/fuzz/corpus/"$name" $words -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20
 done
 echo "All of it passed."

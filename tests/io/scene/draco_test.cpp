@@ -60,9 +60,12 @@ std::string encode(int n, int bits, draco::MeshEncoderMethod method) {
   return {buffer.data(), buffer.size()};
 }
 
-DracoMesh decode(const std::string& bytes, uint64_t limit = MemoryBudget::kUnlimited) {
+DracoMesh decode(const std::string& bytes, uint64_t limit = MemoryBudget::kUnlimited,
+                 bool sandbox = false) {
   MemoryBudget budget(limit);
-  DracoMesh mesh = decode_draco({std::as_bytes(std::span(bytes)), "test.drc"}, &budget);
+  DracoSource source{std::as_bytes(std::span(bytes)), "test.drc"};
+  source.sandbox = sandbox;
+  DracoMesh mesh = decode_draco(source, &budget);
   mesh.memory.release();  // before the budget goes
   return mesh;
 }
@@ -140,6 +143,16 @@ TEST_P(DracoMethods, NoDamagedByteCrashes) {
   }
 }
 
+TEST_P(DracoMethods, ALimitedChildDecodesTheSame) {
+  for (const int bits : {kUnquantized, 12}) {
+    const std::string bytes = encode(100, bits, GetParam());
+    const DracoMesh mesh = decode(bytes), limited = decode(bytes, uint64_t(1) << 28, true);
+    EXPECT_EQ(limited.positions, mesh.positions);
+    EXPECT_EQ(limited.indices, mesh.indices);
+    EXPECT_EQ(limited.step, mesh.step);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, DracoMethods,
                          testing::Values(draco::MESH_SEQUENTIAL_ENCODING,
                                          draco::MESH_EDGEBREAKER_ENCODING));
@@ -173,11 +186,30 @@ TEST(DracoHostile, ClaimsBeyondTheBytesAreRefusedBeforeAllocation) {
 }
 
 TEST(DracoHostile, ClaimsInsideTheBoundAskTheBudgetFirst) {
-  try {
-    decode(claim(draco::MESH_EDGEBREAKER_ENCODING, {100000, 200000}), uint64_t(1) << 20);
-    FAIL() << "200000 faces do not fit in one MiB";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kMemory);
+  for (const bool sandbox : {false, true}) {
+    try {
+      decode(claim(draco::MESH_EDGEBREAKER_ENCODING, {100000, 200000}), uint64_t(1) << 20, sandbox);
+      FAIL() << "200000 faces do not fit in one MiB";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kMemory);
+    }
+  }
+}
+
+TEST(DracoHostile, ALimitedChildSaysTheSameOfIt) {
+  for (const std::string& bytes : {claim(draco::MESH_SEQUENTIAL_ENCODING, {UINT32_MAX, 3}),
+                                   claim(draco::MESH_EDGEBREAKER_ENCODING, {3, 100'000}),
+                                   std::string("DRACO"), std::string()}) {
+    const auto sentence = [&](bool sandbox) {
+      try {
+        decode(bytes, uint64_t(1) << 28, sandbox);
+      } catch (const Error& error) {
+        return std::to_string(int(error.code())) + error.what();
+      }
+      return std::string("nothing");
+    };
+    EXPECT_EQ(sentence(true), sentence(false));
+    EXPECT_THAT(sentence(true), HasSubstr("test.drc"));
   }
 }
 

@@ -63,6 +63,78 @@ TEST_F(GltfUri, NothingOutsideOfTheFolderIsOpened) {
   }
 }
 
+// The file that lies outside holds the very triangle that is asked for: a way out would be seen.
+TEST_F(GltfUri, NoSpellingOfAWayOutIsOne) {
+  namespace fs = std::filesystem;
+  const std::string top = folder_.path(), inside = top + "/scenes/";
+  place("secret.bin");
+  place("scenes/a.bin");
+  fs::create_symlink("../secret.bin", inside + "relative.bin");
+  fs::create_symlink("relative.bin", inside + "twice.bin");
+  fs::create_symlink("/dev/zero", inside + "zero.bin");
+  fs::create_symlink("loop.bin", inside + "loop.bin");
+  fs::create_directory_symlink("..", inside + "parent");
+  fs::create_directory_symlink("/", inside + "sub dir/root");
+  const std::string ways[] = {
+      "..",
+      ".",
+      "",
+      "..%2fsecret.bin",
+      "%2e./secret.bin",
+      ".%2E/secret.bin",
+      "./../secret.bin",
+      ".//..//secret.bin",
+      "sub%20dir/%2e%2e/%2e%2e/secret.bin",
+      "sub%20dir/..%2F..%2Fsecret.bin",
+      "%252e%252e/secret.bin",
+      "%c0%ae%c0%ae/secret.bin",
+      "..\\secret.bin",
+      "..%5csecret.bin",
+      "\\\\host\\share\\secret.bin",
+      "C:/secret.bin",
+      "c:secret.bin",
+      "//localhost/etc/passwd",
+      "%2fetc%2fpasswd",
+      "/dev/zero",
+      "/proc/self/environ",
+      "FILE:///etc/passwd",
+      "file://localhost" + top + "/secret.bin",
+      "https://localhost/secret.bin",
+      "%00",
+      "%00../secret.bin",
+      "../secret.bin%00a.bin",
+      "?../secret.bin",
+      "#../secret.bin",
+      "~/secret.bin",
+      "$HOME/secret.bin",
+      "relative.bin",
+      "twice.bin",
+      "zero.bin",
+      "loop.bin",
+      "parent/secret.bin",
+      "parent/scenes/../secret.bin",
+      "sub%20dir/root/etc/passwd",
+      "sub%20dir/root" + top + "/secret.bin",
+      "sub%20dir/",
+      std::string(100'000, 'a'),
+      std::string(50'000, '.') + "/secret.bin",
+      "data:",
+      "data:;base64",
+      "data:;base64,../secret.bin",
+      "data:text/plain," + top,
+  };
+  static_assert(std::size(ways) >= 30);
+  for (const std::string& way : ways) {
+    try {
+      read_corners(scene(way));
+      ADD_FAILURE() << way.substr(0, 80) << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      EXPECT_LT(std::string(error.what()).size(), 400u);
+    }
+  }
+}
+
 TEST_F(GltfUri, OnlyRegularFilesAreRead) {
   ASSERT_EQ(mkfifo((folder_.path() + "/scenes/pipe.bin").c_str(), 0600), 0);
   EXPECT_THAT(failure(scene("pipe.bin")), HasSubstr("regular file"));

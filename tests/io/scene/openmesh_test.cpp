@@ -44,11 +44,13 @@ std::string save(const TestFolder& folder, const Mesh& mesh) {
   return path;
 }
 
-Corners read_om(const std::string& path) {
-  MemoryBudget budget;
+Corners read_om(const std::string& path, bool sandbox = false) {
+  MemoryBudget budget(uint64_t(1) << 28);
   const NameFilter all;
   Corners corners;
-  read_openmesh(File::open_read(path), {&all, false, &budget}, [&](const TriangleBatch& batch) {
+  ReadOptions options{&all, false, &budget};
+  options.sandbox = sandbox;
+  read_openmesh(File::open_read(path), options, [&](const TriangleBatch& batch) {
     for (const Triangle& t : batch.triangles) {
       for (const Point& p : t.v) corners.push_back({p.x, p.y, p.z});
     }
@@ -76,6 +78,14 @@ TEST(OpenMesh, PolygonsComeAsFansOfTheirExactDoubles) {
   EXPECT_NEAR(area, 2 * 5.0 / 9, 1e-12);
 }
 
+TEST(OpenMesh, ALimitedChildReadsTheSame) {
+  const TestFolder folder;
+  const std::string path = save(folder, sheet(100, true));
+  const Corners corners = read_om(path);
+  EXPECT_GT(corners.size(), 3 * BatchWriter::kBatch);
+  EXPECT_EQ(read_om(path, true), corners);
+}
+
 TEST(OpenMesh, ACutFileIsAnError) {
   const TestFolder folder;
   const std::string path = save(folder, sheet(5, false));
@@ -83,6 +93,7 @@ TEST(OpenMesh, ACutFileIsAnError) {
   for (uintmax_t cut : {uintmax_t(0), uintmax_t(8), uintmax_t(16), size / 2, size - 40}) {
     std::filesystem::resize_file(path, cut);
     EXPECT_THROW(read_om(path), Error) << cut;
+    EXPECT_THROW(read_om(path, true), Error) << cut;
     save(folder, sheet(5, false));
   }
 }

@@ -1,0 +1,135 @@
+// svdag build, and each bake of its lists.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "builder/commands/options.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+CellRange parse_part(const std::string& text) {
+  unsigned long long number = 0, count = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%llu/%llu%n", &number, &count, &used) != 2 ||
+      used != int(text.size()))
+    fail_usage("--part: \"" + text + "\" is not I/N, for example 3/8");
+  return Part::share(number, count);
+}
+
+void add_measurement_options(CLI::App* app, DescentConfig* descent) {
+  constexpr const char* kGroup = "Measurements (the result is the same)";
+  app->add_flag_callback(
+         "--no-plane-memo", [descent] { descent->plane_memo = descent->patches = false; },
+         "Compute every cube, also where a plane repeats")
+      ->group(kGroup);
+  app->add_option_function<std::string>(
+         "--vectors",
+         [descent](const std::string& name) { descent->kernels = &kernels_by_name(name); },
+         "Instruction set of the inner loops, for example AVX2, or plain (default: the best)")
+      ->type_name("NAME")
+      ->group(kGroup);
+}
+
+void add_resume_options(CLI::App* app, BuildConfig* build) {
+  CLI::Option* resume = app->add_flag_callback(
+      "--resume", [build] { build->unfinished = Unfinished::kResume; },
+      "Continue an unfinished bake of this output, if there is one");
+  app->add_flag_callback(
+         "--restart", [build] { build->unfinished = Unfinished::kRestart; },
+         "Discard an unfinished bake of this output")
+      ->excludes(resume);
+  app->add_option("--checkpoint", build->checkpoint,
+                  "Save the work of every so many seconds for --resume (default: 30)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+}
+
+void add_cache_options(CLI::App* app, CellCacheConfig* config) {
+  CLI::Option* cache =
+      app->add_option(
+             "--cache", config->folder,
+             "Folder of cells baked before, by any bake: the same cells are not baked again")
+          ->type_name("DIR");
+  app->add_option_function<std::string>(
+         "--cache-size",
+         [config](const std::string& s) { config->most_bytes = parse_count(s, "--cache-size"); },
+         "Most that the cache may hold; the least used goes first (default: 16G)")
+      ->needs(cache)
+      ->type_name("SIZE");
+}
+
+void set_up_build(CLI::App* app, BuildCommandConfig* config) {
+  BuildConfig* build = &config->build;
+  CLI::Option* scene =
+      app->add_option("SCENE", build->scene.paths, "Scene files (several are one scene), or a plan")
+          ->required();
+  CLI::Option* output =
+      app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")
+          ->required();
+  CLI::Option_group* grid = add_grid_options(app, build);
+  app->add_option_function<std::string>(
+         "--batch",
+         [=](const std::string& list) {  // each bake of the list has these
+           config->batch = list;
+           scene->required(false);
+           output->required(false);
+           grid->require_option(0);
+         },
+         "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; --report "
+         "is "
+         "of all")
+      ->type_name("LIST.json");
+  app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
+  app->add_option_function<size_t>(
+         "--shard",
+         [=](size_t shard) {  // the plan has a grid, and a place for the run
+           config->shard = shard;
+           output->required(false);
+           grid->require_option(0);
+         },
+         "Bake shard I of a plan; one that is there already is kept")
+      ->check(CLI::PositiveNumber)
+      ->type_name("I");
+  app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
+  app->add_option_function<std::string>(
+         "--part", [build](const std::string& s) { build->part = parse_part(s); },
+         "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
+      ->type_name("I/N");
+  add_resource_options(app, &build->memory, &config->threads, &build->scratch);
+  add_resume_options(app, build);
+  add_cache_options(app, &config->cache);
+  app->add_option("--report", config->report, "Write a report of the bake as JSON")
+      ->type_name("FILE");
+  add_output_options(app, &config->output);
+  add_measurement_options(app, &build->descent);
+  app->footer(
+      "Examples:\n"
+      "  svdag build city.glb -o city.svdag -r 64K\n"
+      "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+}
+
+BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
+  CLI::App app("", "svdag build");
+  BuildCommandConfig config;
+  set_up_build(&app, &config);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    fail_usage(error.what());
+  }
+  if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
+  return config;
+}
+
+}  // namespace
+
+CLI::App* add_build(CLI::App* program, BuildCommandConfig* config) {
+  CLI::App* app = program->add_subcommand("build", "Bake scene files as one .svdag");
+  set_up_build(app, config);
+  config->parse = parse_build;
+  return app;
+}
+
+}  // namespace svdag

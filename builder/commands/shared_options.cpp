@@ -1,0 +1,80 @@
+// What several commands understand.
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "builder/commands/options.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+double checked_voxel_size(double size) {
+  if (size == 0) fail_usage("--voxel-size: 0 is not a size");
+  return size;
+}
+
+}  // namespace
+
+void add_output_options(CLI::App* app, OutputConfig* output) {
+  app->add_flag("-q,--quiet", output->quiet, "Print errors only");
+  app->add_flag("-v,--verbose", output->verbose, "Print seconds and memory per phase");
+  app->add_flag_callback(
+      "--progress", [output] { output->progress = Progress::Mode::kOn; },
+      "Show progress even if stderr is no terminal");
+  app->add_flag_callback(
+      "--no-progress", [output] { output->progress = Progress::Mode::kOff; },
+      "Never show progress");
+}
+
+void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
+  app->add_option("--include", names->include,
+                  "Only parts whose name matches a pattern (*, ?, [..])")
+      ->type_name("PATTERN");
+  app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
+      ->type_name("PATTERN");
+  app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
+  app->add_flag("--sandbox", *sandbox,
+                "Decode Draco and OpenMesh data in a limited process: for scenes of strangers");
+}
+
+void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
+  app->add_option_function<std::string>(
+         "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
+         "Memory budget, for example 4G (default: half of the machine)")
+      ->type_name("SIZE");
+  app->add_option("-j,--threads", *threads, "Threads (default: all processors)")
+      ->check(CLI::Range(size_t(1), size_t(1024)));
+  app->add_option("--scratch", *scratch,
+                  "Folder for what does not fit in memory (default: OUT.scratch)")
+      ->type_name("DIR");
+}
+
+CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
+  CLI::Option_group* grid = app->add_option_group("grid");
+  grid->add_option_function<std::string>(
+          "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
+          "Voxels along the longest side: 8 ... 1M, a power of two")
+      ->type_name("N");
+  grid->add_option_function<double>(
+          "-s,--voxel-size", [build](double s) { build->voxel_size = checked_voxel_size(s); },
+          "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
+      ->type_name("S");
+  grid->require_option(1);
+  app->add_option_function<std::string>(
+         "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
+         "Bake only this box, in scene units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
+                                                     {"thin", Rule::kThin}};
+  app->add_option(
+         "--rule", build->descent.rule,
+         "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
+         "about 1.8 times fewer voxels")
+      ->transform(CLI::CheckedTransformer(kRules).description(""))
+      ->type_name("RULE");
+  add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);
+  return grid;
+}
+
+}  // namespace svdag

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""coverage.py [--seconds N] [TARGET ...]: how much of each reader its fuzzer reaches.
+
+Builds the preset `coverage` (the fuzzers with clang's source-based coverage), runs each for N seconds from its seeds
+(default 60), and prints the lines reached of the files that it is for, after all that is in its corpus.
+"""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = ROOT / "build" / "coverage"
+TEXT = ["io/scene/text_scan.cpp", "io/scene/decimal.h", "io/scene/triangulate.cpp"]
+GLTF = [f"io/scene/gltf{part}.cpp" for part in ("", "_buffers", "_document", "_elements", "_json", "_kept", "_nodes", "_transform", "_uri")]
+READERS = {
+    "ply": ["io/scene/ply.cpp", "io/scene/ply_header.cpp", "io/scene/ply_values.h", "io/scene/ply_faces.h"],
+    "stl": ["io/scene/stl.cpp"],
+    "obj": ["io/scene/obj.cpp", "io/scene/obj_plain.h", *TEXT],
+    "off": ["io/scene/off.cpp"],
+    "gltf": GLTF,
+    "draco": ["io/scene/draco.cpp"],
+    "openmesh": ["io/scene/openmesh.cpp"],
+    "svdag": ["io/dag/check.cpp"],
+    "run": ["builder/run_file.cpp", "builder/run_check.cpp", "builder/run_format.cpp"],
+    "journal": ["streaming/journal.cpp", "streaming/record.h", "builder/saved_bake.cpp", "builder/bin_record.cpp"],
+    "pack": ["builder/farm/cell_pack.cpp", "builder/farm/pack_blocks.cpp"],
+    "plan": ["builder/farm/plan.cpp", "builder/farm/plan_index.cpp", "builder/farm/receipt.cpp"],
+    "command_line": [f"builder/commands/{kind}_options.cpp" for kind in ("build", "farm", "info", "shared")],
+    "batch": ["builder/commands/batch.cpp"],
+    "hashdag": ["io/formats/hashdag.cpp"],
+    "symvox": ["io/formats/symvox.cpp", "io/dag/symvox_header.cpp"],
+    "transform_dag": ["io/formats/transform_dag.cpp"],
+    "npz": ["io/formats/npz.cpp", "io/formats/zip.cpp"],
+    "binvox": ["io/formats/binvox.cpp"],
+    "vox": ["io/formats/vox_read.cpp"],
+}
+
+
+def build(targets):
+    for command in (["cmake", "--preset", "coverage", "--log-level=WARNING"],
+                    ["cmake", "--build", "--preset", "coverage", "--target", *[f"{t}_fuzz" for t in targets]]):
+        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+
+
+def run(binary, target, seconds, profile):
+    """Fuzzes, then passes once over all there is; returns the executions."""
+    corpus, seeds = BUILD / "corpus" / target, ROOT / "tests" / "fuzz" / "corpus" / f"{target}_fuzz"
+    dictionary = ROOT / "tests" / "fuzz" / f"{target}_fuzz.dict"
+    corpus.mkdir(parents=True, exist_ok=True)
+    options = [f"-dict={dictionary}"] if dictionary.exists() else []
+    environment = {**os.environ, "LLVM_PROFILE_FILE": str(profile)}
+    executions = 0
+    for limit in ([f"-max_total_time={seconds}"] if seconds else []), ["-runs=0"]:
+        if not limit:
+            continue
+        done = subprocess.run(["nice", "-n", "15", binary, corpus, seeds, *limit, *options, "-rss_limit_mb=2048", "-timeout=20",
+                               "-print_final_stats=1", f"-artifact_prefix={BUILD}/"],
+                              env=environment, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{target}: a finding\n{done.stderr[-4000:]}")
+        for line in done.stderr.splitlines():
+            if line.startswith("stat::number_of_executed_units:"):
+                executions += int(line.split()[-1])
+    return executions
+
+
+def lines(binary, profile, files):
+    """{file: (lines reached, lines)}"""
+    merged = profile.with_suffix(".profdata")
+    llvm = lambda tool: shutil.which(tool) or shutil.which(f"{tool}-14") or sys.exit(f"{tool} is missing: install llvm")
+    subprocess.run([llvm("llvm-profdata"), "merge", "-sparse", profile, "-o", merged], check=True)
+    report = subprocess.run([llvm("llvm-cov"), "export", "-summary-only", binary, f"-instr-profile={merged}",
+                             *[str(ROOT / f) for f in files]], check=True, capture_output=True, text=True).stdout
+    return {str(pathlib.Path(f["filename"]).relative_to(ROOT)): (f["summary"]["lines"]["covered"], f["summary"]["lines"]["count"])
+            for f in json.loads(report)["data"][0]["files"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("--binaries", type=pathlib.Path, help="folder of fuzzers that are built already")
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    arguments = parser.parse_args()
+    targets = arguments.targets or list(READERS)
+    BUILD.mkdir(parents=True, exist_ok=True)
+    if not arguments.binaries:
+        build(targets)
+    print("| fuzzer | executions | file | lines reached | of | % |\n|---|---|---|---|---|---|")
+    for target in targets:
+        binary = (arguments.binaries or BUILD / "tests").resolve() / f"{target}_fuzz"
+        profile = BUILD / f"{target}.profraw"
+        executions = run(binary, target, arguments.seconds, profile)
+        for file, (reached, count) in lines(binary, profile, READERS[target]).items():
+            print(f"| {target} | {executions:,} | `{file}` | {reached} | {count} | {100 * reached / count:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

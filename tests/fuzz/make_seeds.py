@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""make_seeds.py PROGRAMS CORPUS: valid files of our own as seeds of the fuzzers.
+
+Small ones, as the programs write them; the journal as builder/saved_bake.cpp has it. They are kept in tests/fuzz/corpus,
+so this is run again where a format changes.
+"""
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+import xxhash
+
+
+def stl(path, triangles):
+    path.write_bytes(bytes(80) + struct.pack("<I", len(triangles)) + b"".join(
+        bytes(12) + struct.pack("<9f", *t) + bytes(2) for t in triangles))
+
+
+def record(kind, payload):
+    tag = struct.pack("<II", kind, len(payload))
+    return tag + struct.pack("<Q", xxhash.xxh3_64_intdigest(tag + payload)) + payload
+
+
+def text(value):
+    return struct.pack("<Q", len(value)) + value
+
+
+def stream(number, size, blocks):
+    return struct.pack("<3Q", number, size, len(blocks)) + struct.pack(f"<{len(blocks)}I", *blocks)
+
+
+def journal(lattice):
+    """A bake at 32^3: its triangles in two bins, two runs, and a process that resumed."""
+    levels, all_voxels = 5, 1 << 15
+    grid = struct.pack("<Ii4d3qI6q", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32)
+    bake = text(b"algorithm: 1\nrule: thin\n") + grid + struct.pack("<Q", 16384)
+    bins = b"".join(struct.pack("<i4x3q2Q", 1, 0, 0, z, z * 4096, (z + 1) * 4096) + struct.pack("<Q", 9) + stream(
+        1 + z, 16000 + z, [z]) for z in range(2))
+    split = struct.pack("<QdQ3Qd", 18, 0.25, 0, 1, 2, 3, 0.125) + struct.pack("<Q", 2) + bins
+    run = struct.pack("<Q", levels - 2) + stream(3, 16, [0]) + stream(4, 32, [1]) + stream(5, 64, [2]) + stream(6, 32, [3])
+    root = struct.pack("<Q", 1) + struct.pack("<QiII4x", 5, 1, 0, 1)
+    done = struct.pack("<Q", 7) + struct.pack("<Q", 2) + struct.pack("<4Q", 0, 512, 4096, all_voxels)
+    return record(1, bake) + record(2, split) + record(3, run + root + done) + record(4, b"") + record(3, run + root + done)
+
+
+def main(programs, corpus):
+    programs, corpus = pathlib.Path(programs).resolve(), pathlib.Path(corpus).resolve()
+    with tempfile.TemporaryDirectory(prefix="svdag-seeds-") as name:
+        folder = pathlib.Path(name)
+
+        def svdag(*words):
+            subprocess.run([programs / "svdag", *map(str, words), "-q"], cwd=folder, check=True)
+
+        def keep(target, name, data):
+            (corpus / f"{target}_fuzz").mkdir(parents=True, exist_ok=True)
+            (corpus / f"{target}_fuzz" / name).write_bytes(data)
+
+        stl(folder / "one.stl", [(0, 0, 0, 1, 0, 0, 0, 1, 0)])
+        stl(folder / "two.stl", [(0, 0, 0, 9, 0, 1, 0, 7, 0), (0, 5, 8, 3, 3, 3, 9, 9, 1)])
+        for scene, grid in (("one.stl", ["-r", "8"]), ("two.stl", ["-r", "32"]), ("two.stl", ["-s", "0.4", "--rule", "thin"])):
+            kind = f"{scene[:3]}_{grid[1]}"
+            svdag("build", scene, "-o", "a.svdag", *grid)
+            keep("svdag", f"{kind}.svdag", (folder / "a.svdag").read_bytes())
+            svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")
+            keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
+            if grid[1] != "8":
+                svdag("build", scene, "-o", "part.run", *grid, "--part", "2/3")
+                keep("run", f"{kind}_part.run", (folder / "part.run").read_bytes())
+            svdag("build", scene, "-o", "b.svdag", *grid, "--cache", f"cache_{kind}", "-j", "1")
+            for pack in (folder / f"cache_{kind}").iterdir():
+                keep("pack", f"{kind}.cells", pack.read_bytes())
+            svdag("plan", scene, "-o", f"plan_{kind}", *grid, "--shards", "1" if grid[1] == "8" else "2")
+            plan = folder / f"plan_{kind}"
+            svdag("build", plan, "--shard", "1")
+            parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
+            keep("plan", f"{kind}.plan", b"\n---\n".join(part.read_bytes().replace(str(folder).encode(), b"/work")
+                                                     for part in parts))
+    for lattice in (0, 1):
+        keep("journal", f"lattice_{lattice}.journal", journal(lattice))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

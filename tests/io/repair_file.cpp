@@ -1,0 +1,29 @@
+// repair_file KIND FILE: makes a damaged file look genuine, for tests in Python. The program's exit
+// code is not 0 if there is nothing that it could repair.
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/repair_checksums.h"
+#include "tests/repair_files.h"
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const std::string kind = argv[1];
+  std::ifstream in(argv[2], std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (kind == "svdag") {
+    svdag::repair_checksums(&bytes);
+  } else if (kind == "run") {
+    svdag::repair_run(&bytes);
+  } else if (kind == "pack") {
+    svdag::repair_pack(&bytes);
+  } else if (kind == "journal") {
+    svdag::repair_journal(&bytes);
+  } else {
+    return 2;
+  }
+  std::ofstream(argv[2], std::ios::binary) << bytes;
+  return bytes.empty() ? 1 : 0;
+}

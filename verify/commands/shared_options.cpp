@@ -1,0 +1,60 @@
+// What several commands understand.
+#include <CLI/CLI.hpp>
+
+#include "io/units.h"
+#include "verify/commands/options.h"
+
+namespace svdag {
+
+void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
+  command->add_flag("-q,--quiet", config->quiet, "Print nothing but errors");
+  command->add_flag("-v,--verbose", config->verbose, "Also print seconds and memory");
+  if (with_json) command->add_flag("--json", config->json, "Print the result as one JSON object");
+  command->add_flag_callback(
+      "--progress", [config] { config->progress = Progress::Mode::kOn; },
+      "Show progress even if stderr is no terminal");
+  command->add_flag_callback(
+      "--no-progress", [config] { config->progress = Progress::Mode::kOff; },
+      "Never show progress");
+}
+
+void add_threads(CLI::App* command, CommonConfig* config) {
+  command->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
+
+void add_scene(CLI::App* command, SceneConfig* scene) {
+  command->add_option("SCENE", scene->paths, "The scene files it was baked from")->required();
+  command
+      ->add_option("--include", scene->names.include,
+                   "Only parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command
+      ->add_option("--exclude", scene->names.exclude,
+                   "No parts with a name that matches this pattern")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  command->add_flag("--skip-invalid", scene->skip_invalid,
+                    "Drop triangles with NaN or infinity, as in the bake");
+}
+
+void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
+               const char* type) {
+  const std::string name = option.substr(option.find("--"));
+  command
+      ->add_option_function<std::string>(
+          option,
+          [name, count](const std::string& value) { *count = parse_count(value, name.c_str()); },
+          text)
+      ->type_name(type);
+}
+
+void add_memory(CLI::App* command, uint64_t* memory) {
+  add_count(command, "-m,--memory", memory,
+            "Memory budget of the readers and the triangles held (default: half of the machine)",
+            "SIZE");
+}
+
+}  // namespace svdag
