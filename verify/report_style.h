@@ -14,7 +14,7 @@ body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(
   margin: 0 auto; padding: 1.5rem 1rem 3rem; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; }
-p { margin: .5rem 0; } .dim, footer { color: var(--dim); font-size: .9rem; }
+sup { line-height: 0; font-size: .7em; } p { margin: .5rem 0; } .dim, footer { color: var(--dim); font-size: .9rem; }
 code { font-size: .85em; overflow-wrap: anywhere; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(8.5rem, 1fr)); gap: .7rem; margin: 1.1rem 0; }
 .tiles div, .plot, .card { background: var(--card); border: 1px solid var(--line); border-radius: .5rem; }
