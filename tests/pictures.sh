@@ -23,7 +23,7 @@ bake atrium 8K
 inside=-10.5,2.2,1.8,6,3.4,-1.2,75
 light=2,7.5,0,0.5
 render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420
-for mode in soft ao level steps; do
+for mode in level steps; do
   render atrium_$mode atrium --mode $mode --camera=$inside --light=$light --size 304x171 --samples 32
 done
 bake scan 4K

@@ -45,6 +45,8 @@ th { text-align: left; font-weight: 500; } .facts th { width: 38%; color: var(--
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .bars th { color: var(--dim); font-weight: 400; width: 1%; white-space: nowrap; padding-left: 0; } .bars .n { width: 1%; padding-right: 0; }
 .bar { vertical-align: middle; } .bar div { background: currentColor; height: .8rem; border-radius: .2rem; min-width: 1px; }
-footer { margin-top: 2.5rem; })";
+footer { margin-top: 2.5rem; }
+@media (max-width: 34rem) { .card { font-size: .85rem; } .card td, .card th { padding: .25rem .3rem; } th.n { white-space: normal; }
+  .facts th, .facts td { display: block; width: auto; } .facts td { border: 0 !important; padding-top: 0; } })";
 
 }  // namespace svdag
