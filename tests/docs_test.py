@@ -2,7 +2,8 @@
 """The commands of README.md and docs/commands.md do what they say, and links lead somewhere.
 
 Each line of a ```sh block is run, in order, in one folder per page; the comment "# exit N" names an exit code
-other than 0. Scenes of the names that the pages use are made here, small (so are grids and pictures, see small()). A block after a line "<!-- not run: WHY -->" is left out.
+other than 0. Scenes of the names that the pages use are made here, small, and so are grids and pictures (small()).
+A block after a line "<!-- not run: WHY -->" is left out.
 """
 import json
 import os
