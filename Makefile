@@ -7,7 +7,8 @@
 #   test    build and run every test, then once more under ASan and UBSan
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
-#   stress  the long forms: TSan, every compiler and flag, fuzzers
+#   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
+#           page in Chromium, fuzzers
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
@@ -29,7 +30,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libgtest-dev librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
 BENCH_PACKAGES = python3-matplotlib
-STRESS_PACKAGES = clang libclang-rt-14-dev llvm
+STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap
 
 PRESET = release
 PROGRAMS = build/$(PRESET)

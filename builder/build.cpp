@@ -73,6 +73,10 @@ class Bake {
   void take_from_store();
   void save(BakedRun baked);
   void add(BakedRun baked);
+  void end_phase(double* seconds, uint64_t* peak) {
+    *seconds = phase_.lap();
+    *peak = budget_.lap_peak();
+  }
 
   const BuildConfig& config_;
   Executor* executor_;
@@ -141,7 +145,7 @@ void Bake::choose_grid() {
   }
   const int levels = report_.grid.levels;
   part_ = config_.part ? Part::of_cells(*config_.part, levels) : Part::whole(levels);
-  report_.seconds.bounds = phase_.lap();
+  end_phase(&report_.seconds.bounds, &report_.phase_peaks.bounds);
 }
 
 void Bake::split() {
@@ -163,7 +167,7 @@ void Bake::split() {
     }
   }
   report_.split = split_.counts;
-  report_.seconds.split = phase_.lap();
+  end_phase(&report_.seconds.split, &report_.phase_peaks.split);
 }
 
 void Bake::voxelize() {
@@ -197,13 +201,13 @@ void Bake::voxelize() {
     }
   }
   describe_work(voxelizer);
-  report_.seconds.voxelize = phase_.lap();
+  end_phase(&report_.seconds.voxelize, &report_.phase_peaks.voxelize);
   progress_->phase("sort", 0);
   // Where others were saved, the last are, too: a bake killed in the merge voxelizes nothing again.
   for (BakedRun& baked : voxelizer.finish(spilled_)) hand_on(std::move(baked));
   take_from_store();
   report_.runs = runs_.size();
-  report_.seconds.sort = phase_.lap();
+  end_phase(&report_.seconds.sort, &report_.phase_peaks.sort);
 }
 
 void Bake::hand_on(BakedRun baked) {
@@ -230,6 +234,7 @@ void Bake::take_from_store() {
 
 void Bake::describe_work(const Voxelizer& voxelizer) {
   const VoxelizeCounts counts = voxelizer.counts();
+  report_.cell_level = split_config_.cell_level;
   report_.cells = counts.cells;
   report_.decisions = counts.decisions;
   report_.memo = counts.memo;
@@ -270,7 +275,7 @@ std::vector<CellRoot> Bake::merge(BakeOutput* output) {
   config.window_bytes = shares_.maps / executor_->workers();
   config.sources = std::max<size_t>(2, shares_.sources / (4 * scratch_.block_bytes()));
   auto tops = svdag::merge(runs_, std::move(roots_), *part_, config, output, executor_);
-  report_.seconds.merge = phase_.lap();
+  end_phase(&report_.seconds.merge, &report_.phase_peaks.merge);
   return tops;
 }
 
@@ -314,7 +319,7 @@ BuildReport Bake::run() {
   saves_ = false;
   folder_.keep(false);
   checkpoint_.discard();
-  report_.seconds.write = phase_.lap();
+  end_phase(&report_.seconds.write, &report_.phase_peaks.write);
   progress_->finish();
 
   describe_output(*output, &report_);
@@ -325,6 +330,7 @@ BuildReport Bake::run() {
   report_.seconds.cpu = cpu_seconds();
   report_.peak_counted = budget_.peak();
   report_.peak_resident = peak_resident_bytes();
+  if (config_.name_files) report_.files = scene_files(scene_);
   return std::move(report_);
 }
 

@@ -42,13 +42,23 @@ struct BuildConfig {
   int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
-  double checkpoint = 30;  // --checkpoint: seconds of work that a killed bake may lose
+  bool name_files = false;  // --report: the scene's files are read once more, for their hashes
+  double checkpoint = 30;   // --checkpoint: seconds of work that a killed bake may lose
   // --cache: opens the store of cells baked before; empty: there is none.
   std::function<std::unique_ptr<CellStore>(const Grid&, Rule, MemoryBudget*)> open_store;
 };
 
+// A file of the scene, buffers of glTF included.
+struct SceneFile {
+  std::string name;  // without its folder
+  uint64_t bytes = 0;
+  std::string hash;  // XXH3-128 of its content, 32 hex digits
+};
+
 struct BuildReport {
+  std::vector<SceneFile> files;  // if they were asked for
   Grid grid;
+  int cell_level = 0;
   Rule rule = Rule::kConservative;
   SplitCounts split;
   DecisionCounts decisions;
@@ -68,6 +78,9 @@ struct BuildReport {
     double bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0, total = 0;
     double cpu = 0;  // of all threads, whole process
   } seconds;
+  struct PhaseBytes {
+    uint64_t bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0;
+  } phase_peaks;  // by the memory budget
   struct ScratchBytes {
     uint64_t estimated = 0, peak = 0, written = 0, read = 0;
   } scratch;                   // of this process

@@ -10,7 +10,10 @@
 
 namespace svdag {
 
-// Reads all files of the scene, which is that of `config`, once, for their hashes.
+// The files that a scene is made of. Reads all of them once, for their hashes.
+std::vector<SceneFile> scene_files(const Scene& scene);
+
+// Reads all files of the scene, which is that of `config`, too.
 std::string describe(const BuildConfig& config, const Scene& scene);
 
 // What differs first between two descriptions, for people; empty if nothing does.

@@ -20,8 +20,10 @@ void MemoryBudget::take(uint64_t bytes, const char* purpose) {
                     " MiB in all, more than the memory budget of " + std::to_string(limit_ >> 20) +
                     " MiB: give more with --memory");
   }
-  uint64_t peak = peak_.load(std::memory_order_relaxed);
-  while (peak < now && !peak_.compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
+  for (std::atomic<uint64_t>* highest : {&peak_, &lap_peak_}) {
+    uint64_t peak = highest->load(std::memory_order_relaxed);
+    while (peak < now && !highest->compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
+    }
   }
 }
 

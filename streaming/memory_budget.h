@@ -44,6 +44,8 @@ class MemoryBudget {
   uint64_t limit() const { return limit_; }
   uint64_t used() const { return used_.load(std::memory_order_relaxed); }
   uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }
+  // The most that was used at once since this was last asked: the peak of a phase.
+  uint64_t lap_peak() { return lap_peak_.exchange(used(), std::memory_order_relaxed); }
 
  private:
   void take(uint64_t bytes, const char* purpose);
@@ -52,6 +54,7 @@ class MemoryBudget {
   uint64_t limit_;
   std::atomic<uint64_t> used_{0};
   std::atomic<uint64_t> peak_{0};
+  std::atomic<uint64_t> lap_peak_{0};
 };
 
 // Half of what this machine, or the cgroup we run in, allows: the default of --memory.

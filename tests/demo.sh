@@ -1,5 +1,5 @@
 #!/bin/sh
-# make demo: a scene from the generator, baked at 16K, verified, reported, rendered.
+# make demo: a scene from the generator, baked at 16K, verified, rendered, and reported on a page.
 # Usage: demo.sh PROGRAMS FOLDER
 set -eu
 programs=$1
@@ -24,4 +24,6 @@ step "and 100,000 drawn bricks at 16K"
 step "render"
 "$programs"/svdag-verify render "$folder"/atrium.svdag -o "$folder"/atrium.png -q \
   --camera=-10.5,2.2,1.8,6,3.4,-1.2,75
-step "done: $folder/atrium.svdag, atrium.json, atrium.png"
+step "report"
+"$programs"/svdag-verify report "$folder"/atrium.svdag "$folder"/atrium.json -o "$folder"/atrium.html -q
+step "done: $folder/atrium.svdag, atrium.json, atrium.png; look at $folder/atrium.html"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# make pictures: the rendered pictures of docs/images/, of a generated scene, in the manner of figure 4 of
+# make pictures: the rendered pictures of docs/images/, of generated scenes, the modes in the manner of figure 4 of
 # Kaempe, Sintorn and Assarsson 2013.
 # Usage: pictures.sh PROGRAMS FOLDER
 set -eu
@@ -7,10 +7,29 @@ programs=$1
 folder=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$programs"/svdag-scene atrium -q -o "$work"/atrium.ply
-"$programs"/svdag build "$work"/atrium.ply -r 8K -q -o "$work"/atrium.svdag
+
+# bake SCENE GRID, then render NAME SCENE OPTIONS...
+bake() {
+  "$programs"/svdag-scene "$1" -q -o "$work"/"$1".ply
+  "$programs"/svdag build "$work"/"$1".ply -r "$2" -q -o "$work"/"$1".svdag
+}
+render() {
+  name=$1 scene=$2
+  shift 2
+  "$programs"/svdag-verify render "$work"/"$scene".svdag -o "$folder"/"$name".png "$@" -q
+}
+
+bake atrium 8K
 inside=-10.5,2.2,1.8,6,3.4,-1.2,75
-for mode in soft ao level steps; do
-  "$programs"/svdag-verify render "$work"/atrium.svdag -o "$folder"/atrium_$mode.png --mode $mode \
-    --camera=$inside --light=2,7.5,0,0.5 --size 304x171 --samples 32 -q
+light=2,7.5,0,0.5
+render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420
+for mode in level steps; do
+  render atrium_$mode atrium --mode $mode --camera=$inside --light=$light --size 304x171 --samples 32
 done
+bake scan 4K
+render scan scan --mode soft --camera=-95,45,110,-4,4,-3,48 --light=-150,220,60,20 --size 400x300
+bake hairball 2K
+render hairball hairball --mode soft --camera=-75,50,95,0,0,0,44 --light=-120,160,120,20 --size 400x300
+
+# The two rules in two dimensions.
+/usr/bin/python3 -B "$(dirname "$0")"/rules_picture.py "$folder"/rules.svg

@@ -1,74 +1,29 @@
 #include "verify/report_html.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "verify/report_plots.h"
+#include "verify/report_style.h"
+#include "verify/report_text.h"
 
 namespace svdag {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --line: #8884; --bar: #4a86c5; --soft: #8882; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; }
-.verdict { padding: .6rem 1rem; border-radius: .4rem; border-left: .4rem solid; background: var(--soft); }
-.good { border-color: #2e8b57; } .bad { border-color: #c0392b; } .note { border-color: #d9a400; }
-table { border-collapse: collapse; width: 100%; } td, th { padding: .2rem .6rem; border-bottom: 1px solid var(--line); }
-th { text-align: left; font-weight: 600; } td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
-td.bar { width: 40%; } td.bar div { background: var(--bar); height: .8rem; border-radius: .2rem; min-width: 1px; }
-figure { margin: 0; } figure img { width: 100%; border-radius: .4rem; background: var(--soft); }
-.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
-figcaption, footer, .dim { color: #888; font-size: .9rem; } code { word-break: break-all; })";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+double share_of(uint64_t part, uint64_t whole) {
+  return whole == 0 ? 0 : std::min(1.0, double(part) / double(whole));
 }
 
-std::string base64(const std::vector<std::byte>& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t bits = 0;
-    for (size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? uint32_t(bytes[i + k]) : 0);
-    for (int k = 0; k < 4; ++k)
-      out += i + size_t(k) <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
+std::string percent(double share) {
+  return formatted("%.3g", 100 * share) + " %";
 }
 
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
+// The page from top to bottom; one function per section, in the order of make().
 class Page {
  public:
   Page(const Json& bake, const DagFile& file, const DagStats& stats,
@@ -78,22 +33,24 @@ class Page {
   std::string make(const std::vector<ReportPicture>& pictures) {
     const std::string output = bake_.at("output").get<std::string>();
     const std::string name = escaped(output.substr(output.find_last_of('/') + 1));
+    // The policy makes a browser refuse whatever would come from elsewhere.
     out_ =
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width\"><title>" +
-        name + "</title><style>" + kStyle + "</style>\n<h1>" + name + "</h1>\n";
-    out_ += "<p class=\"dim\">" + format_resolution(file_.view().resolution()) + "<sup>3</sup>, " +
-            format_count(stats_.voxels) + " voxels, " + format_count(stats_.dag_nodes()) +
-            " DAG nodes, " + format_bytes(file_.header().file_bytes) + "</p>\n";
+        "content=\"width=device-width, initial-scale=1\"><meta "
+        "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+        "style-src 'unsafe-inline'\"><title>" +
+        name + "</title><style>" + kReportStyle + "</style>\n<h1>" + name + "</h1>\n";
+    tiles();
     verdict();
+    warnings();
     show(pictures);
     source();
     accuracy();
     levels();
-    seconds();
+    work();
     skipped();
-    out_ += "<footer><p>svdag " + escaped(bake_.at("svdag").get<std::string>()) +
-            ". Content hash <code>" + hash() + "</code></p></footer></html>\n";
+    out_ += "<footer>Made by svdag-verify report of what svdag " +
+            escaped(bake_.at("svdag").get<std::string>()) + " baked.</footer></html>\n";
     return std::move(out_);
   }
   std::string hash() const {
@@ -108,25 +65,40 @@ class Page {
   void box(const char* kind, const std::string& text) {
     out_ += std::string("<p class=\"verdict ") + kind + "\">" + text + "</p>\n";
   }
-  void begin_table(const std::string& title, const std::string& head = "") {
-    out_ += "<h2>" + title + "</h2>\n<table>" + head + "\n";
+  void tile(const std::string& value, const std::string& what) {
+    out_ += "<div><b>" + value + "</b><span>" + what + "</span></div>\n";
   }
-  void end_table() { out_ += "</table>\n"; }
+  void begin_facts(const std::string& title) {
+    out_ += "<h2>" + title + "</h2>\n<div class=\"card\"><table class=\"facts\">\n";
+  }
   void row(const std::string& name, const std::string& value) {
     out_ += "<tr><th>" + name + "<td>" + value + "\n";
   }
-  static std::string bar(double share) {
-    return "<td class=\"bar\"><div style=\"width:" + format("%.1f", 100 * share) + "%\"></div>";
+  void end_table() { out_ += "</table></div>\n"; }
+
+  void tiles() {
+    out_ += "<div class=\"tiles\">\n";
+    tile(format_resolution(file_.view().resolution()) + "<sup>3</sup>", "grid");
+    tile(short_count(count("triangles")), "triangles");
+    tile(short_count(stats_.voxels), "voxels");
+    tile(short_count(stats_.dag_nodes()), "DAG nodes");
+    tile(format_bytes(file_.header().file_bytes), "file");
+    tile(formatted("%.3g", number("bits_per_voxel")), "bits per voxel");
+    tile(formatted("%.1f s", bake_.at("seconds").at("total").get<double>()), "to bake");
+    out_ += "</div>\n";
   }
 
   void verdict() {
     if (integrity_.sound()) {
-      box("good", "Every checksum is right; the DAG is in canonical order and minimal.");
+      box("good", "Sound: every checksum is right; the DAG is in canonical order and minimal.");
     } else {
       std::string text = "This file is not sound:";
       for (const std::string& defect : integrity_.defects) text += "<br>" + escaped(defect);
       box("bad", text);
     }
+  }
+
+  void warnings() {
     if (count("triangles_invalid") > 0)
       box("note", format_count(count("triangles_invalid")) +
                       " triangles with NaN or infinite coordinates were dropped.");
@@ -136,11 +108,14 @@ class Page {
                       format_count(count("triangles_clipped")) + " reach out of it.");
     if (number("quantisation_voxels") > 0.5)
       box("note", "The scene's positions are quantised in steps of " +
-                      format("%.3g", number("quantisation_voxels")) + " voxels.");
+                      formatted("%.3g", number("quantisation_voxels")) + " voxels.");
     if (stats_.voxels == 0) box("note", "No voxel is set.");
+    if (bake_.at("resumed").get<bool>())
+      box("note", "The bake was resumed: times, memory and skips are those of its last process.");
   }
 
   void show(const std::vector<ReportPicture>& pictures) {
+    if (pictures.empty()) return;
     out_ += "<div class=\"pictures\">\n";
     for (const ReportPicture& picture : pictures)
       out_ += "<figure><img alt=\"" + escaped(picture.caption) + "\" src=\"data:image/png;base64," +
@@ -152,80 +127,128 @@ class Page {
   void source() {
     const Grid grid = file_.grid();
     const Point corner = grid.corner();
-    begin_table("What was baked");
-    std::string scene;
-    for (const Json& path : bake_.at("scene"))
-      scene += (scene.empty() ? "" : "<br>") + escaped(path.get<std::string>());
-    row("scene", scene);
+    begin_facts("What was baked");
+    for (const Json& source : bake_.at("files"))
+      row("scene file", escaped(source.at("name").get<std::string>()) + ", " +
+                            format_bytes(source.at("bytes").get<uint64_t>()) + "<br><code>" +
+                            escaped(source.at("hash").get<std::string>()) + "</code>");
     row("triangles", format_count(count("triangles")));
-    row("rule", escaped(bake_.at("rule").get<std::string>()));
-    row("voxel size", format_double(grid.voxel_size));
-    row("corner",
+    row("grid",
+        format_resolution(grid.resolution()) + "<sup>3</sup> voxels of " +
+            format_double(grid.voxel_size) +
+            (grid.kind == Grid::Kind::kBox ? ", fitted to a box" : ", on the world lattice"));
+    row("corner of the grid",
         format_double(corner.x) + ", " + format_double(corner.y) + ", " + format_double(corner.z));
+    row("rule", escaped(bake_.at("rule").get<std::string>()));
     row("voxels", format_count(stats_.voxels));
-    row("bits per voxel", format("%.3g", number("bits_per_voxel")));
-    row("as an octree without sharing", format_count(stats_.svo_nodes()) + " nodes");
+    row("content hash of the result", "<code>" + hash() + "</code>");
     end_table();
   }
 
   void accuracy() {
-    begin_table("Accuracy");
+    begin_facts("Accuracy");
     row("largest move of a coordinate by the snap",
-        format("%.3g voxel", number("largest_snap_voxels")));
-    row("decisions", format_count(count("decisions")) + ", of which " +
-                         format("%.3g", 100 * number("decisions_exact_share")) +
-                         " % needed integers; all of them are exact");
-    row("triangles of zero area", format_count(count("triangles_degenerate")));
+        formatted("%.3g voxel", number("largest_snap_voxels")) + ", to a lattice of 2<sup>" +
+            std::to_string(bake_.at("grid").at("fraction_bits").get<int>()) +
+            "</sup> steps per voxel");
+    row("decisions at voxels", format_count(count("decisions")));
+    row("of which doubles could not decide, so integers did",
+        percent(number("decisions_exact_share")));
+    row("triangles of zero area, baked as segments or points",
+        format_count(count("triangles_degenerate")));
+    if (number("quantisation_voxels") > 0)
+      row("steps of the file's own quantisation",
+          formatted("%.3g voxel", number("quantisation_voxels")));
     end_table();
   }
 
   void levels() {
-    uint64_t most = 1;
-    for (const LevelStats& level : stats_.levels) most = std::max(most, level.bytes);
-    begin_table("Levels",
-                "<tr><th class=\"n\">level<th class=\"n\">SVO nodes<th class=\"n\">DAG nodes"
-                "<th class=\"n\">bytes<th>");
+    PlotLine svo{"octree nodes", "one", {}}, dag{"DAG nodes", "two", {}};
+    PlotLine divided{"cubes that the bake divided", "three", {}};
+    std::vector<PlotColumn> bytes;
+    const auto work = bake_.at("cubes_divided").get<std::vector<uint64_t>>();
     for (size_t k = 0; k < stats_.levels.size(); ++k) {
       const LevelStats& level = stats_.levels[k];
-      out_ += "<tr><td class=\"n\">" + std::to_string(k) + "<td class=\"n\">" +
-              format_count(level.svo_nodes) + "<td class=\"n\">" + format_count(level.dag_nodes) +
-              "<td class=\"n\">" + format_bytes(level.bytes) +
-              bar(double(level.bytes) / double(most)) + "\n";
+      svo.values.push_back(level.svo_nodes);
+      dag.values.push_back(level.dag_nodes);
+      divided.values.push_back(k < work.size() ? work[k] : 0);
+      bytes.push_back({double(level.bytes), short_count(level.bytes)});
     }
-    end_table();
+    out_ += "<h2>Levels</h2>\n<div class=\"plots\">\n" +
+            plot_lines("Nodes per level", {svo, dag, divided}) +
+            plot_columns("Bytes per level", bytes) + "</div>\n";
+    level_table();
   }
 
-  void seconds() {
-    const Json& seconds = bake_.at("seconds");
-    const double total = std::max(seconds.at("total").get<double>(), 1e-9);
-    begin_table("Seconds", "<tr><th>phase<th class=\"n\">seconds<th>");
-    for (const auto& [phase, value] : seconds.items()) {
-      if (phase == "total" || phase == "cpu") continue;
-      out_ += "<tr><td>" + escaped(phase) + "<td class=\"n\">" +
-              format("%.2f", value.get<double>()) +
-              bar(std::min(value.get<double>() / total, 1.0)) + "\n";
+  void level_table() {
+    out_ +=
+        "<p></p><div class=\"card\"><table>\n<tr><th class=\"n\">level<th "
+        "class=\"n\">octree nodes<th class=\"n\">DAG nodes<th class=\"n\">shared by<th "
+        "class=\"n\">bytes\n";
+    for (size_t k = 0; k < stats_.levels.size(); ++k) {
+      const LevelStats& level = stats_.levels[k];
+      const double shared =
+          double(level.svo_nodes) / double(std::max<uint64_t>(level.dag_nodes, 1));
+      out_ += "<tr><td class=\"n\">" + std::to_string(k) + "<td class=\"n\">" +
+              format_count(level.svo_nodes) + "<td class=\"n\">" + format_count(level.dag_nodes) +
+              "<td class=\"n\">" + formatted(shared < 99.5 ? "%.1f" : "%.0f", shared) +
+              "<td class=\"n\">" + format_count(level.bytes) + "\n";
     }
-    out_ += "<tr><th>total<th class=\"n\">" + format("%.2f", total) + "<td>" +
-            format("%.2f", seconds.at("cpu").get<double>()) + " CPU seconds on " +
-            std::to_string(count("threads")) + " threads, " +
-            escaped(bake_.at("vectors").get<std::string>()) + "\n";
     end_table();
+    out_ += "<p class=\"dim\">The last level holds bricks of 4&times;4&times;4 voxels.</p>\n";
+  }
+
+  // Seconds and memory of the phases.
+  void work() {
+    const Json& seconds = bake_.at("seconds");
     const Json& memory = bake_.at("memory");
-    out_ += "<p class=\"dim\">Memory: " + format_bytes(memory.at("peak_resident").get<uint64_t>()) +
-            " resident at most. Scratch: " +
+    const double total = std::max(seconds.at("total").get<double>(), 1e-9);
+    const auto counted = memory.at("peak_counted").get<uint64_t>();
+    std::vector<PlotBar> times, peaks;
+    for (const auto& [phase, bytes] : memory.at("phases").items()) {
+      const double value = seconds.at(phase).get<double>();
+      times.push_back({phase, value, formatted("%.2f s", value)});
+      peaks.push_back({phase, bytes.get<double>(), format_bytes(bytes.get<uint64_t>())});
+    }
+    out_ += "<h2>Time and memory</h2>\n<div class=\"plots\">\n" +
+            plot_bars("Seconds per phase", times, total, "one") +
+            plot_bars("Most memory per phase", peaks, double(counted), "two") + "</div>\n";
+    out_ += "<p class=\"dim\">" + formatted("%.2f", total) + " seconds in all, " +
+            formatted("%.2f", seconds.at("cpu").get<double>()) + " of processors, on " +
+            std::to_string(count("threads")) + " threads with " +
+            escaped(bake_.at("vectors").get<std::string>()) + ". Memory: " + format_bytes(counted) +
+            " counted at most, " + format_bytes(memory.at("peak_resident").get<uint64_t>()) +
+            " resident. Scratch on disk: " +
             format_bytes(bake_.at("scratch").at("peak").get<uint64_t>()) + " at most.</p>\n";
   }
 
   void skipped() {
     const Json& memo = bake_.at("plane_memo");
-    begin_table("What did not need to be done");
-    const uint64_t cells = count("cells");
-    row("cells visited", format_count(cells));
-    if (count("cache_hits") > 0) row("cells found in the cache", format_count(count("cache_hits")));
-    row("cubes put to the plane memo", format_count(memo.at("asked").get<uint64_t>()));
-    row("answered without descending", format_count(memo.at("answered").get<uint64_t>()));
-    row("nodes computed for that", format_count(memo.at("computed").get<uint64_t>()));
-    end_table();
+    const auto asked = memo.at("asked").get<uint64_t>(),
+               answered = memo.at("answered").get<uint64_t>();
+    const size_t cell_level = count("cell_level");
+    const uint64_t grid_cells = uint64_t(1) << (3 * cell_level), cells = count("cells");
+    const auto work = bake_.at("cubes_divided").get<std::vector<uint64_t>>();
+    uint64_t octree = 0, divided = 0;
+    for (size_t k = cell_level; k + 1 < stats_.levels.size() && k < work.size(); ++k) {
+      octree += stats_.levels[k].svo_nodes;
+      divided += work[k];
+    }
+    const double empty = 1 - share_of(cells, grid_cells), spared = 1 - share_of(divided, octree);
+    std::vector<PlotBar> bars = {
+        {"cells without a triangle", empty, percent(empty)},
+        {"octree nodes never divided", octree == 0 ? 0 : spared, percent(octree == 0 ? 0 : spared)},
+        {"planes known already", share_of(answered, asked), percent(share_of(answered, asked))}};
+    if (count("cache_hits") > 0)
+      bars.push_back({"cells from the cache", share_of(count("cache_hits"), cells),
+                      percent(share_of(count("cache_hits"), cells))});
+    out_ += "<h2>What did not need to be done</h2>\n" + plot_bars("Skipped", bars, 1, "three");
+    out_ += "<p class=\"dim\">Of " + format_count(grid_cells) + " cells, " + format_count(cells) +
+            " were visited. Inside of them the octree has " + format_count(octree) +
+            " nodes above the bricks, and the bake divided " + format_count(divided) + " cubes. " +
+            format_count(asked) + " cubes were put to the plane memo, which answered " +
+            format_count(answered) + " and computed " +
+            format_count(memo.at("computed").get<uint64_t>()) + " nodes for that.</p>\n";
   }
 
   const Json& bake_;

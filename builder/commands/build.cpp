@@ -23,6 +23,26 @@ Json grid_json(const Grid& g) {
           {"bounded", g.bounded}};
 }
 
+Json files_json(const std::vector<SceneFile>& files) {
+  Json list = Json::array();
+  for (const SceneFile& file : files)
+    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"hash", file.hash}});
+  return list;
+}
+
+Json memory_json(const BuildReport& r) {
+  const auto& p = r.phase_peaks;
+  return {{"peak_counted", r.peak_counted},
+          {"peak_resident", r.peak_resident},
+          {"phases",
+           {{"bounds", p.bounds},
+            {"split", p.split},
+            {"voxelize", p.voxelize},
+            {"sort", p.sort},
+            {"merge", p.merge},
+            {"write", p.write}}}};
+}
+
 double bits_per_voxel(const BuildReport& r) {
   return r.voxels == 0 ? 0 : 8.0 * double(r.file_bytes) / double(r.voxels);
 }
@@ -36,6 +56,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
   const auto& s = r.seconds;
   Json json = {{"svdag", SVDAG_VERSION},
                {"scene", config.build.scene.paths},
+               {"files", files_json(r.files)},
                {"output", config.build.output},
                {"grid", grid_json(r.grid)},
                {"rule", r.rule == Rule::kThin ? "thin" : "conservative"},
@@ -56,6 +77,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"vectors", config.build.descent.kernels->name},
                {"lanes", config.build.descent.kernels->lanes},
                {"cubes_divided", r.divided},
+               {"cell_level", r.cell_level},
                {"cells", r.cells},
                {"cache_hits", r.cache_hits},
                {"voxels", r.voxels},
@@ -80,7 +102,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"peak", r.scratch.peak},
                  {"written", r.scratch.written},
                  {"read", r.scratch.read}}},
-               {"memory", {{"peak_counted", r.peak_counted}, {"peak_resident", r.peak_resident}}}};
+               {"memory", memory_json(r)}};
   return json.dump(2) + "\n";
 }
 
@@ -143,6 +165,7 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
   BuildConfig build_config = config.build;
+  build_config.name_files = json != nullptr || !config.report.empty();
   if (!config.cache.folder.empty())
     build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
       return std::make_unique<CellCache>(config.cache, grid, rule, budget);

@@ -5,4 +5,8 @@ python3 -c '
 import json
 report = json.load(open("r.json"))
 print(report["triangles"], report["grid"]["resolution"], report["nodes"], report["voxels"])
-print(sorted(report["seconds"]), sorted(report["memory"]))'
+print(sorted(report["seconds"]), sorted(report["memory"]))
+import os
+print([(f["name"], f["bytes"] == os.path.getsize("r.ply"), len(f["hash"])) for f in report["files"]])
+print(list(report["memory"]["phases"]), max(report["memory"]["phases"].values()) == report["memory"]["peak_counted"])
+print(report["cell_level"])'

@@ -64,6 +64,10 @@ class Package(unittest.TestCase):
         needs = run("dpkg-deb", "-f", packages["svdag"], "Depends")
         for library in ("libc6", "libstdc++6", "libxxhash0"):
             self.assertRegex(needs, rf"\b{re.escape(library)}\b")
+        for name, package in packages.items():
+            self.assertIn(f"./usr/share/doc/{name}/copyright\n", run("dpkg-deb", "-c", package))
+            synopsis = run("dpkg-deb", "-f", package, "Description").splitlines()[0]
+            self.assertIn({"svdag": "builder", "libsvdag-dev": "reader"}[name], synopsis)
         held = run("dpkg-deb", "-c", packages["svdag"])
         self.assertIn("./usr/bin/svdag-verify\n", held)
         self.assertIn("./usr/lib/cmake", run("dpkg-deb", "-c", packages["libsvdag-dev"]).replace("/x86_64-linux-gnu", ""))

@@ -41,6 +41,17 @@ TEST(MemoryBudget, AFailedReservationTakesNothingAndCountsNoPeak) {
   EXPECT_EQ(budget.peak(), 50U);
 }
 
+TEST(MemoryBudget, APeakOfAPhaseBeginsWithWhatIsHeldAndForgetsThePhaseBefore) {
+  MemoryBudget budget(100);
+  const auto held = budget.reserve(20, "nodes");
+  { const auto passing = budget.reserve(70, "nodes"); }
+  EXPECT_EQ(budget.lap_peak(), 90U);
+  EXPECT_EQ(budget.lap_peak(), 20U);
+  { const auto passing = budget.reserve(10, "nodes"); }
+  EXPECT_EQ(budget.lap_peak(), 30U);
+  EXPECT_EQ(budget.peak(), 90U);
+}
+
 TEST(MemoryBudget, ResizeGrowsShrinksAndKeepsTheOldSizeWhenItFails) {
   MemoryBudget budget(100);
   auto held = budget.reserve(10, "nodes");

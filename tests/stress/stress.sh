@@ -21,6 +21,14 @@ echo "Faults from outside: every call, small disks, signals, kills, power cuts, 
 cmake --build --preset release --target svdag svdag-scene svdag_fault_shim
 SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure
 
+echo "The page of a report, in Chromium"
+cmake --build --preset release
+/usr/bin/python3 -B tests/stress/report_shot.py build/release build/report_shots
+
+echo "The packages, in a clean Debian"
+(cd build/release && cpack -G DEB -B ../deb >/dev/null)
+sh tests/stress/deb_test.sh build/release build/deb
+
 echo "Fuzzers, $seconds s each"
 cmake --preset fuzz --log-level=WARNING >/dev/null
 cmake --build --preset fuzz

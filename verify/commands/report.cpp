@@ -28,8 +28,8 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   };
   constexpr Wanted kWanted[] = {{"From above, with soft shadows", "iso", ShadeMode::kSoft},
                                 {"From inside, ambient occlusion", "inside", ShadeMode::kAo},
-                                {"The level at which rays end", "iso", ShadeMode::kLevel},
-                                {"Directions of the surface", "inside", ShadeMode::kNormal}};
+                                {"The level at which rays end", "inside", ShadeMode::kLevel},
+                                {"Directions of the surface", "iso", ShadeMode::kNormal}};
   std::vector<ReportPicture> pictures;
   const DagView& dag = file.view();
   if (dag.empty()) return pictures;

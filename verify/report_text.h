@@ -1,0 +1,19 @@
+// Text of the report's page: what stands in HTML must not become HTML.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace svdag {
+
+// With & < > and " as entities.
+std::string escaped(const std::string& text);
+std::string base64(const std::vector<std::byte>& bytes);
+// One number through a printf pattern.
+std::string formatted(const char* pattern, double value);
+// 104807909 -> "104.8 M": K, M, G and T are powers of 1000.
+std::string short_count(uint64_t count);
+
+}  // namespace svdag
