@@ -44,7 +44,7 @@ end
 
 # Files with these endings, and folders.
 function @_files
-    set -l files (__fish_complete_path (commandline -ct))
+    set -l files (complete -C "__fish_command_without_completions "(commandline -ct))
     string match -r -- '^.*/$' $files
     for ending in $argv
         string match -r -- '(?i)^.*'(string escape --style=regex -- $ending)'$' $files

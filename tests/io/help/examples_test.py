@@ -16,7 +16,7 @@ import told
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 TOPICS = pathlib.Path(__file__).resolve().parents[3] / "builder" / "commands" / "topics"
-USAGE, MISSING = 2, 3
+USAGE, MISSING = 2, {3, 4}  # a scene, or a folder for what is spilled
 
 
 def run(line):
@@ -30,8 +30,10 @@ class Examples(unittest.TestCase):
         self.assertGreaterEqual(len(lines), least)
         for line in lines:
             done = run(line)
-            wanted = 0 if " help " in line else MISSING
-            self.assertEqual(done.returncode, wanted, f"{line}: {done.stderr}")
+            wanted = {0} if " help " in line else MISSING
+            if "city.plan is none: svdag plan makes one" in done.stderr:  # a shard of a plan that is missing
+                wanted = {USAGE}
+            self.assertIn(done.returncode, wanted, f"{line}: {done.stderr}")
 
     def test_of_help(self):
         self.check([line.strip() for command in told.commands(PROGRAMS).values() for line in command.notes

@@ -2,6 +2,7 @@
 import fcntl
 import os
 import pty
+import re
 import select
 import struct
 import subprocess
@@ -10,14 +11,14 @@ import time
 
 
 class Screen:
-    """A program whose standard streams are a terminal."""
+    """A program whose standard streams are a terminal, but for its results if they go elsewhere."""
 
-    def __init__(self, command, columns, environment=None, folder=None):
+    def __init__(self, command, columns, environment=None, folder=None, results=None):
         master, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
         base = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "LINES", "NO_COLOR")}
         self.master = master
-        self.program = subprocess.Popen(command, cwd=folder, stdin=slave, stdout=slave, stderr=slave,
+        self.program = subprocess.Popen(command, cwd=folder, stdin=slave, stdout=results or slave, stderr=slave,
                                         env=base | {"TERM": "xterm", "LC_ALL": "C.UTF-8"} | (environment or {}),
                                         start_new_session=True)
         os.close(slave)
@@ -37,11 +38,10 @@ class Screen:
     def wait_for(self, text, seconds=20):
         """Whether `text` comes to be seen, from here on."""
         start, end = len(self.seen), time.monotonic() + seconds
-        while text not in self.seen[start:]:
+        while text not in re.sub(rb"\x1b\[[\d;?]*[A-Za-z]", b"", self.seen[start:]):  # what is bold, what is erased
             if time.monotonic() > end:
                 return False
-            if not self.read(0.2) and self.program.poll() is not None:
-                return text in self.seen[start:]
+            self.read(0.2)
         return True
 
     def write(self, text):
@@ -53,9 +53,9 @@ class Screen:
         os.close(self.master)
 
 
-def shown(command, columns, environment=None, folder=None):
+def shown(command, columns, environment=None, folder=None, results=None):
     """(exit code, all that a program showed)."""
-    screen = Screen(command, columns, environment, folder)
+    screen = Screen(command, columns, environment, folder, results)
     while screen.program.poll() is None:
         screen.read(0.1)
     while screen.read(0.1):
