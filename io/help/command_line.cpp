@@ -108,17 +108,25 @@ Manual asked_manual(const CLI::App& program) {
 }
 
 // "help mesh" as "mesh --help", for a program that has no command help.
-std::vector<char*> without_help(const CLI::App& program, int argc, char** argv) {
+std::vector<char*> without_help(const Manual& program, int argc, char** argv) {
   static char option[] = "--help";
   std::vector<char*> words(argv, argv + argc);
-  const bool asks = argc > 1 && std::string_view(argv[1]) == "help";
-  const auto is_help = [](const CLI::App* each) { return each->get_name() == "help"; };
-  if (!asks || program.get_subcommands({}).empty() || !program.get_subcommands(is_help).empty())
+  const auto is_help = [&](const Manual& each) {
+    return each.command == program.command + " help";
+  };
+  if (argc < 2 || std::string_view(argv[1]) != "help" || program.commands.empty() ||
+      std::any_of(program.commands.begin(), program.commands.end(), is_help))
     return words;
   words.erase(words.begin() + 1);
   words.resize(std::min<size_t>(words.size(), 2));
   words.push_back(option);
   return words;
+}
+
+// "biuld" of "biuld --help", which CLI11 would answer with the help of the program.
+bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
+  return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
+         asked_manual(program).command == program.get_name();
 }
 
 }  // namespace
@@ -135,13 +143,14 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     std::fputs(to_table(manual_of(*program)).c_str(), stdout);
     return 0;
   }
-  std::vector<char*> words = without_help(*program, argc, argv);
+  std::vector<char*> words = without_help(manual_of(*program), argc, argv);
   argc = int(words.size());
   argv = words.data();
   try {
     program->parse(argc, argv);
     return std::nullopt;
-  } catch (const CLI::CallForHelp&) {
+  } catch (const CLI::CallForHelp& call) {
+    if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, argc, argv, call));
     std::fputs(help_text(asked_manual(*program), text_width(stdout)).c_str(), stdout);
     return 0;
   } catch (const CLI::Success& success) {  // --version

@@ -23,15 +23,15 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-// The words of a text in lines of at most `width` columns; the first one begins at the column `at`,
-// the others with `indent`. Each but the last ends with `line_end`.
-std::string fill(std::string_view text, size_t at, const std::string& indent, size_t width,
-                 const char* line_end = "") {
+// Words in lines of at most `width` columns; the first one begins at the column `at`, the others
+// with `indent`. Each but the last ends with `line_end`.
+std::string fill(const std::vector<std::string>& words, size_t at, const std::string& indent,
+                 size_t width, const char* line_end = "") {
   const size_t reserve = std::string_view(line_end).size();
   std::string out;
   size_t column = at;
   bool first = true;
-  for (const std::string& word : words_of(text)) {
+  for (const std::string& word : words) {
     if (!first && column + 1 + word.size() + reserve > width) {
       out += line_end + ("\n" + indent);
       column = indent.size();
@@ -42,6 +42,25 @@ std::string fill(std::string_view text, size_t at, const std::string& indent, si
     out += word;
     column += word.size();
     first = false;
+  }
+  return out;
+}
+
+std::string fill(std::string_view text, size_t at, const std::string& indent, size_t width) {
+  return fill(words_of(text), at, indent, width);
+}
+
+// The words of a command, options together with what follows them where that fits into `room`.
+std::vector<std::string> with_values(const std::vector<std::string>& words, size_t room) {
+  std::vector<std::string> out;
+  bool open = false;  // the last word is an option that may have a value
+  for (const std::string& word : words) {
+    const bool is_option = word[0] == '-' && word != "--";
+    if (open && !is_option && word != "--" && out.back().size() + 1 + word.size() <= room)
+      out.back() += " " + word;
+    else
+      out.push_back(word);
+    open = is_option && word.find('=') == word.npos;
   }
   return out;
 }
@@ -61,8 +80,8 @@ std::string kept(const std::string& line, size_t width) {
   const size_t indent = line.find_first_not_of(' ');
   if (line.size() <= width) return line + "\n";
   if (line.compare(indent, 5, "svdag") == 0) {
-    const std::string text = fill(line, indent, indentation(indent + 2), width, " \\");
-    return indentation(indent) + text + "\n";
+    const std::vector<std::string> words = with_values(words_of(line), width - indent - 4);
+    return indentation(indent) + fill(words, indent, indentation(indent + 2), width, " \\") + "\n";
   }
   const size_t column = second_column(line, indent);
   if (column == 0 || column > width / 2) return line + "\n";

@@ -63,8 +63,8 @@ TEST(HelpText, PutsTextsBelowNamesWhereThereIsNone) {
 
 TEST(HelpText, ALongCommandGoesOnInTheNextLineAsAShellReadsIt) {
   EXPECT_EQ(filled("  svdag build city.glb -o city.svdag -r 64K\n", 30),
-            "  svdag build city.glb -o \\\n"
-            "    city.svdag -r 64K\n");
+            "  svdag build city.glb \\\n"
+            "    -o city.svdag -r 64K\n");
 }
 
 TEST(HelpText, ALongRowOfATableGoesOnInItsSecondColumn) {
