@@ -158,6 +158,9 @@ class Arrow(unittest.TestCase):
                               ("verify/trace/traverse.h", '"io/grid.h"'),
                               ("io/dag/dag_view.h", '"streaming/error.h"'),
                               ("builder/build.cpp", "<CLI/CLI.hpp>"),
+                              ("builder/commands/build.cpp", "<CLI/CLI.hpp>"),
+                              ("io/help/help_text.cpp", "<CLI/CLI.hpp>"),
+                              ("io/help/manual.cpp", '"io/help/pages/man_page.h"'),
                               ("io/scene/ply.cpp", "<OpenMesh/Core/IO/MeshIO.hh>"),
                               ("io/scene/gltf.cpp", "<draco/compression/decode.h>"),
                               ("verify/compare.cpp", "<CGAL/Exact_predicates_exact_constructions_kernel.h>"),
@@ -170,6 +173,7 @@ class Arrow(unittest.TestCase):
         for path, include in [("io/grid.cpp", '"io/grid.h"'), ("io/grid.cpp", "<vector>"),
                               ("builder/build.cpp", '"io/scene/scene.h"'),
                               ("verify/trace/ray.h", '"io/dag/dag_view.h"'),
+                              ("builder/commands/build_options.cpp", "<CLI/CLI.hpp>"),
                               ("tests/builder/build_test.cpp", '"verify/occupancy.h"')]:
             self.assertEqual(breaches(path, f"#include {include}\n"), [], (path, include))
 

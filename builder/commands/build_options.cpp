@@ -113,13 +113,11 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->type_name("FILE");
   add_output_options(app, &config->output);
   add_measurement_options(app, &build->descent);
-  app->footer(
-      std::string("Examples:\n"
-                  "  svdag build city.glb -o city.svdag -r 64K\n"
-                  "  svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'\n"
-                  "  svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume\n"
-                  "\n") +
-      kExitCodes);
+  add_examples(app,
+               {"svdag build city.glb -o city.svdag -r 64K",
+                "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
+                "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
+               "svdag help grid, rules and memory tell more.");
 }
 
 BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {

@@ -28,9 +28,11 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
       ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_output_options(app, &config->output);
-  add_examples(app, {"svdag build city.glb -r 64K --part 1/2 -o a.run",
-                     "svdag build city.glb -r 64K --part 2/2 -o b.run",
-                     "svdag merge a.run b.run -o city.svdag"});
+  add_examples(
+      app,
+      {"svdag build city.glb -r 64K --part 1/2 -o a.run",
+       "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
+      "svdag help farm tells more.");
   return app;
 }
 
@@ -55,17 +57,10 @@ CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
   add_grid_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch);
   add_output_options(app, &config->output);
-  app->footer(
-      std::string(
-          "-m bounds the planning and each step; -j are the threads of a shard (default: 1).\n"
-          "\n"
-          "Examples:\n"
-          "  svdag plan city.glb -r 64K --shards 16 -o city.plan\n"
-          "  svdag run city.plan -j 4\n"
-          "\n"
-          "svdag help farm tells more.\n"
-          "\n") +
-      kExitCodes);
+  add_examples(app,
+               {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
+               "-m bounds the planning and each step; -j are the threads of a shard (default: 1). "
+               "svdag help farm tells more.");
   return app;
 }
 

@@ -11,22 +11,24 @@ namespace {
 
 void add_light(CLI::App* command, RenderCommandConfig* config) {
   command
-      ->add_option("--light", config->light,
-                   "Where the light is, and how large (default: over the left shoulder)")
+      ->add_option(
+          "--light", config->light,
+          "Where the light is, and how large, in scene units (default: over the left shoulder)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("x,y,z[,radius]");
   command
       ->add_option("--samples", config->samples,
-                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
+                   "soft, ao: rays to the light or sky for each camera ray, 1 to 4096 (default 16)")
       ->type_name("N");
   command
       ->add_option("--reach", config->reach,
-                   "ao: how far they reach (default: a twentieth of the scene)")
+                   "ao: how far they reach, in scene units (default: a twentieth of the scene)")
       ->type_name("LENGTH");
   command
       ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
+                   "soft, ao: half the angle, from 0 and below 45, of the cone in which they end "
+                   "early (default: ao 9, "
                    "soft 0, which is exact)")
       ->type_name("DEGREES");
 }
@@ -46,10 +48,12 @@ void add_render(CLI::App* app, int* result) {
                "primary, shadow, soft, ao, normal, depth, level or steps (default primary)"),
            {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps"})
       ->type_name("MODE");
-  command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
+  command->add_option("--size", config->size, "Pixels, 1 to 16384 each way (default 1280x720)")
+      ->type_name("WxH");
   command
       ->add_option("--camera", config->camera,
-                   "Position, target and angle of view in degrees (default: frames all)")
+                   "Position and target in scene units, angle of view in degrees, 0.1 to 179 "
+                   "(default: frames all)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("px,py,pz,tx,ty,tz[,fov]");
@@ -59,15 +63,22 @@ void add_render(CLI::App* app, int* result) {
            {"iso", "front", "back", "left", "right", "top", "inside"})
       ->type_name("NAME");
   add_light(command, config.get());
-  command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
+  command
+      ->add_option(
+          "--level", config->level,
+          "Trace the cubes of level K instead of the voxels (svdag info --levels lists them)")
       ->type_name("K");
-  command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
+  command
+      ->add_option("--fly", config->fly,
+                   "N frames of a turn, 1 to 9999, into X_0001.png, X_0002.png, ...")
       ->type_name("N");
   suggests(
       command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
       {"x", "y", "z"})
       ->type_name("AXIS");
-  command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)")
+  command
+      ->add_option("--supersample", config->supersample,
+                   "N x N rays per pixel, N from 1 to 16 (default 2)")
       ->type_name("N");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
@@ -92,7 +103,9 @@ void add_report(CLI::App* app, int* result) {
       command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
       {"x", "y", "z"})
       ->type_name("AXIS");
-  command->add_option("--size", config->size, "Pixels of a picture (default 960x540)")
+  command
+      ->add_option("--size", config->size,
+                   "Pixels of a picture, 1 to 16384 each way (default 960x540)")
       ->type_name("WxH");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);

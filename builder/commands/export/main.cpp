@@ -46,9 +46,11 @@ void set_up(CLI::App* app, ExportConfig* config) {
          "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
-  add_examples(app, {"svdag export city.svdag -o city.vdb --level 10",
-                     "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
-                     "svdag export city.svdag --format hashdag -o data/city"});
+  add_examples(app,
+               {"svdag export city.svdag -o city.vdb --level 10",
+                "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
+                "svdag export city.svdag --format hashdag -o data/city"},
+               "svdag help formats tells more.");
 }
 
 int run_command(int argc, char** argv) {

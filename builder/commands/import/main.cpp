@@ -44,8 +44,10 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
                       "Folder for what does not fit in memory (default: OUT.svdag.scratch)"))
       ->type_name("DIR");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
-  add_examples(app, {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",
-                     "svdag import points.npz -o points.svdag -r 1K"});
+  add_examples(app,
+               {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",
+                "svdag import points.npz -o points.svdag -r 1K"},
+               "svdag help formats tells more.");
 }
 
 int run_command(int argc, char** argv) {
