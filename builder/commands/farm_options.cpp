@@ -90,7 +90,7 @@ CLI::App* add_submit(CLI::App* program, SubmitConfig* config) {
   app->add_flag("--wait", config->wait, "Wait until the plan is done");
   takes_files(app->add_option("--program", config->program,
                               "svdag on the other machines (default: this file)"),
-              {""})
+              {"*"})
       ->type_name("FILE");
   takes_files(app->add_option("-o,--output", config->template_path,
                               "Of openjd: the template (default: PLAN/openjd.json)"),

@@ -28,7 +28,7 @@ struct ManualOption {
   std::string text;                  // what it does, with units, range and default
   std::string group;                 // its heading; "" for that of most
   std::vector<std::string> choices;  // the values it takes, if they have names
-  std::vector<std::string> endings;  // the files it takes: ".ply"; "/" for folders
+  std::vector<std::string> endings;  // the files it takes: ".ply"; "/": folders, "*": any
   bool required = false;
   bool repeated = false;  // takes several values
 };

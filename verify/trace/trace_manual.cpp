@@ -42,7 +42,7 @@ Manual trace_manual() {
       value({"--dump"}, "FILE",
             "Write 56 bytes per pixel, little-endian: u32 found, x, y, z, level, axis; f64 t; u32 "
             "blocked rays of shadow, soft, ao; u32 0, 0, 0",
-            {}, {""}),
+            {}, {"*"}),
       value({"--picture"}, "FILE.ppm", "Write a picture of the answers", {}, {".ppm"}),
       flag({"-h", "--help"}, "Print this help message and exit"),
       flag({"--version"}, "Print the version and exit"),

@@ -19,7 +19,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
     formats += std::string(formats.empty() ? "" : "; ") + format.name + ": " + format.what;
   }
   takes_files(app->add_option("FILE", config->file, "The .svdag file"), {".svdag"})->required();
-  takes_files(app->add_option("-o,--output", config->output, "The file to write"), {""})
+  takes_files(app->add_option("-o,--output", config->output, "The file to write"), {"*"})
       ->required()
       ->type_name("OUT");
   suggests(

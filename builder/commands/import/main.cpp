@@ -15,7 +15,8 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   std::string formats;
   for (const std::string& name : import_formats()) formats += (formats.empty() ? "" : ", ") + name;
   ImportConfig* import = &config->import;
-  takes_files(app->add_option("FILE", config->file, "A file of another program"), {""})->required();
+  takes_files(app->add_option("FILE", config->file, "A file of another program"), {"*"})
+      ->required();
   takes_files(app->add_option("-o,--output", import->output, "The .svdag to write"), {".svdag"})
       ->required()
       ->type_name("OUT");

@@ -6,6 +6,7 @@ namespace {
 // What may stand in the place of a value, as the script below understands it.
 std::string kind_of(const ManualOption& option) {
   if (!option.choices.empty()) return "words " + words(option.choices);
+  if (takes_any_file(option)) return "files ";
   if (!option.endings.empty()) return "files " + words(option.endings);
   return "value";
 }

@@ -2,6 +2,14 @@
 
 namespace svdag {
 
+bool takes_folders(const ManualOption& option) {
+  return option.endings == std::vector<std::string>{"/"};
+}
+
+bool takes_any_file(const ManualOption& option) {
+  return option.endings == std::vector<std::string>{"*"};
+}
+
 std::string name_in_program(const Manual& command) {
   const size_t space = command.command.find(' ');
   return space == std::string::npos ? "" : command.command.substr(space + 1);

@@ -18,6 +18,10 @@ std::string zsh_completion(const std::vector<Manual>& programs);
 // A script for fish 3, of one program.
 std::string fish_completion(const Manual& program);
 
+// Whether an option takes folders alone, or files of any name.
+bool takes_folders(const ManualOption& option);
+bool takes_any_file(const ManualOption& option);
+
 // "build" of "svdag build"; "" for the program itself.
 std::string name_in_program(const Manual& command);
 

@@ -13,9 +13,8 @@ std::string fish_quoted(const std::string& text) {
 // What may stand in the place of a value; @ is the name of the program's functions.
 std::string offer(const ManualOption& option) {
   if (!option.choices.empty()) return " -x -a " + fish_quoted(words(option.choices));
-  if (option.endings == std::vector<std::string>{"/"})
-    return " -x -a '(__fish_complete_directories (commandline -ct))'";
-  if (option.endings == std::vector<std::string>{""}) return " -r -F";
+  if (takes_folders(option)) return " -x -a '(__fish_complete_directories (commandline -ct))'";
+  if (takes_any_file(option)) return " -r -F";
   if (option.endings.empty()) return " -x";
   return " -x -k -a '(@_files " + words(option.endings) + ")'";
 }

@@ -18,9 +18,9 @@ std::string value_of(const std::string& name, const ManualOption& option) {
   std::string action;
   if (!option.choices.empty()) {
     action = "(" + words(option.choices) + ")";
-  } else if (option.endings == std::vector<std::string>{"/"}) {
+  } else if (takes_folders(option)) {
     action = "_files -/";
-  } else if (option.endings == std::vector<std::string>{""}) {
+  } else if (takes_any_file(option)) {
     action = "_files";
   } else if (!option.endings.empty()) {
     for (const std::string& ending : option.endings)

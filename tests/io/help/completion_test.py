@@ -35,6 +35,8 @@ OFFERS = [
     ("svdag run ", {"folder/"}),
     ("svdag submit folder --engine ", {"slurm", "openjd"}),
     ("svdag export city.svdag --format hash", {"hashdag"}),
+    ("svdag export city.svdag -o no", {"notes.txt"}),
+    ("svdag import p", {"points.vdb"}),
     ("svdag import --format bin", {"binvox"}),
     ("svdag-verify re", {"render", "report"}),
     ("svdag-verify mesh ", {"city.svdag", "folder/"}),
@@ -96,7 +98,7 @@ class Shell(unittest.TestCase):
         try:
             shell.write(setup)
             self.assertTrue(shell.wait_for(prompt), shell.seen)
-            for line, wanted in LINES:
+            for line, wanted in LINES + [(f"{name} --hel", f"{name} --help") for name in self.commands]:
                 shell.write("\x15" + line)  # ^U takes back what is there
                 shell.write("\t")
                 self.assertTrue(shell.wait_for(wanted.encode()), f"{line}: {shell.seen[-400:]}")
