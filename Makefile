@@ -2,7 +2,7 @@
 #
 #   deps    install the packages below (as root, through sudo, or print the line)
 #   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-trace,
-#           svdag-scene
+#           svdag-scene; man pages and completions below build/release/share
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test, then once more under ASan and UBSan
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
@@ -27,10 +27,10 @@
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libhwy-dev libsodium-dev libdraco-dev libopenmesh-dev libstb-dev libboost-dev \
   libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
-  libgtest-dev librapidcheck-dev dpkg-dev file python3 python3-numpy python3-xxhash valgrind
+  libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
 BENCH_PACKAGES = python3-matplotlib
-STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap
+STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
 
 PRESET = release
 PROGRAMS = build/$(PRESET)
@@ -63,7 +63,7 @@ deps:
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target svdag svdag-export svdag-import svdag-verify \
-	  svdag-trace svdag-scene
+	  svdag-trace svdag-scene svdag_manuals
 
 demo: build
 	@sh tests/demo.sh $(PROGRAMS) demo

@@ -1,13 +1,15 @@
 #include "streaming/progress.h"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
+
+#include "streaming/terminal.h"
 
 namespace svdag {
 
 Progress::Progress(Mode mode)
-    : enabled_(mode == Mode::kOn || (mode == Mode::kAuto && isatty(STDERR_FILENO) == 1)),
+    : enabled_(mode == Mode::kOn || (mode == Mode::kAuto && is_lively(stderr))),
       start_(std::chrono::steady_clock::now()) {}
 
 void Progress::phase(const std::string& name, uint64_t total) {
@@ -32,21 +34,29 @@ void Progress::advance(uint64_t steps) {
 }
 
 void Progress::draw(uint64_t done) {
-  drawn_ = true;
-  if (total_ > 0) {
-    std::fprintf(stderr, "\r\033[K%s %3.0f %%", name_.c_str(),
-                 100.0 * double(done) / double(total_));
-  } else if (done > 0) {
-    std::fprintf(stderr, "\r\033[K%s %llu", name_.c_str(), static_cast<unsigned long long>(done));
-  } else {
-    std::fprintf(stderr, "\r\033[K%s", name_.c_str());
-  }
+  char count[32] = "";
+  if (total_ > 0)
+    std::snprintf(count, sizeof count, " %3.0f %%", 100.0 * double(done) / double(total_));
+  else if (done > 0)
+    std::snprintf(count, sizeof count, " %llu", static_cast<unsigned long long>(done));
+  // The last column stays free, since some terminals wrap when it is written. What is counted
+  // matters more than the end of the name.
+  const size_t room = line_width(stderr) - 1, of_count = std::min(std::strlen(count), room);
+  show(name_.substr(0, room - of_count) + std::string(count, of_count));
+}
+
+void Progress::show(std::string line) {
+  const size_t columns = line.size();
+  if (drawn_ > columns) line += std::string(drawn_ - columns, ' ');
+  std::fprintf(stderr, "\r%s", line.c_str());
   std::fflush(stderr);
+  drawn_ = columns;
 }
 
 void Progress::finish() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
-  drawn_ = false;
+  if (drawn_ == 0) return;
+  show("");
+  std::fputc('\r', stderr);
 }
 
 }  // namespace svdag

@@ -1,5 +1,9 @@
 // A progress line on stderr: only on a terminal, erased at the end. It names a phase as it begins,
 // and counts its steps at most ten times a second.
+//
+// The line is drawn over itself with a carriage return and spaces, so it needs no escape sequence,
+// and is cut where the terminal ends: a line that wraps cannot be drawn over. A dumb terminal shows
+// none unless asked to.
 #pragma once
 
 #include <atomic>
@@ -26,9 +30,10 @@ class Progress {
 
  private:
   void draw(uint64_t done);
+  void show(std::string line);
 
   bool enabled_;
-  bool drawn_ = false;
+  size_t drawn_ = 0;  // columns of the line that stands there
   std::string name_;
   uint64_t total_ = 0;
   std::atomic<uint64_t> done_{0};

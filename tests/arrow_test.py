@@ -12,24 +12,26 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["streaming", "io", "io/scene", "io/dag", "io/formats", "builder", "builder/farm",
+FOLDERS = ["streaming", "io", "io/help", "io/help/pages", "io/scene", "io/dag", "io/formats", "builder", "builder/farm",
            "builder/commands", "builder/commands/export", "builder/commands/import", "verify", "verify/trace", "verify/commands"]
 
 READERS = ["streaming", "io", "io/scene", "io/dag"]
 ALLOWED = {
     "streaming": [],
     "io": ["streaming"],
+    "io/help": ["streaming", "io"],
+    "io/help/pages": ["streaming", "io/help"],
     "io/scene": ["streaming", "io"],
     "io/dag": ["streaming", "io"],
     "io/formats": ["streaming", "io", "io/dag"],
     "builder": READERS,
     "builder/farm": READERS + ["builder"],
-    "builder/commands": READERS + ["io/formats", "builder", "builder/farm"],
-    "builder/commands/export": ["streaming", "io", "io/dag", "io/formats"],
-    "builder/commands/import": ["streaming", "io", "io/dag", "io/formats", "builder"],
+    "builder/commands": READERS + ["io/help", "io/formats", "builder", "builder/farm"],
+    "builder/commands/export": ["streaming", "io", "io/help", "io/dag", "io/formats"],
+    "builder/commands/import": ["streaming", "io", "io/help", "io/dag", "io/formats", "builder"],
     "verify": READERS + ["io/formats"],
-    "verify/trace": READERS,
-    "verify/commands": READERS + ["io/formats", "verify", "verify/trace"],
+    "verify/trace": READERS + ["io/help"],
+    "verify/commands": READERS + ["io/help", "io/formats", "verify", "verify/trace"],
 }
 
 # Files whose includes are fixed one by one: they compile for the GPU or without any dependency.
@@ -53,14 +55,16 @@ EXACT = {
     "verify/trace/cuda.cu": ["verify/trace/device.h", "streaming/error.h"],
     "verify/trace/without_cuda.cpp": ["verify/trace/device.h", "streaming/error.h"],
     "verify/trace/svdag_trace.cpp": ["verify/trace/device.h", "verify/trace/presets.h",
-                                     "verify/trace/trace_options.h", "streaming/program.h"],
-    "verify/trace/trace_options.h": ["verify/trace/device.h"],
+                                     "verify/trace/trace_options.h", "streaming/program.h",
+                                     "streaming/terminal.h", "io/help/help_text.h"],
+    "verify/trace/trace_options.h": ["verify/trace/device.h", "io/help/manual.h"],
+    "verify/trace/trace_manual.cpp": ["verify/trace/trace_options.h"],
     "verify/trace/trace_options.cpp": ["verify/trace/trace_options.h", "verify/trace/presets.h",
                                        "streaming/error.h"],
 }
 
 LIBRARIES = {
-    r"CLI/": r"(builder/commands(/export|/import)?|verify/commands)/(main|\w+_options)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
+    r"CLI/": r"(builder/commands(/export|/import)?|verify/commands)/(main|\w+_options)\.cpp|io/help/command_line\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/openmesh\.cpp|tests/io/scene/openmesh_test\.cpp",
     r"draco/": r"io/scene/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",
@@ -154,6 +158,9 @@ class Arrow(unittest.TestCase):
                               ("verify/trace/traverse.h", '"io/grid.h"'),
                               ("io/dag/dag_view.h", '"streaming/error.h"'),
                               ("builder/build.cpp", "<CLI/CLI.hpp>"),
+                              ("builder/commands/build.cpp", "<CLI/CLI.hpp>"),
+                              ("io/help/help_text.cpp", "<CLI/CLI.hpp>"),
+                              ("io/help/manual.cpp", '"io/help/pages/man_page.h"'),
                               ("io/scene/ply.cpp", "<OpenMesh/Core/IO/MeshIO.hh>"),
                               ("io/scene/gltf.cpp", "<draco/compression/decode.h>"),
                               ("verify/compare.cpp", "<CGAL/Exact_predicates_exact_constructions_kernel.h>"),
@@ -166,6 +173,7 @@ class Arrow(unittest.TestCase):
         for path, include in [("io/grid.cpp", '"io/grid.h"'), ("io/grid.cpp", "<vector>"),
                               ("builder/build.cpp", '"io/scene/scene.h"'),
                               ("verify/trace/ray.h", '"io/dag/dag_view.h"'),
+                              ("builder/commands/build_options.cpp", "<CLI/CLI.hpp>"),
                               ("tests/builder/build_test.cpp", '"verify/occupancy.h"')]:
             self.assertEqual(breaches(path, f"#include {include}\n"), [], (path, include))
 

@@ -7,6 +7,7 @@ moved, and run from a third one.
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,12 @@ class Bundle(unittest.TestCase):
         names = [p.name for p in (self.bundle / "lib").iterdir()]
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
+
+    def test_brings_its_manual(self):
+        shown = self.run_bundled("man", "-M", self.bundle / "share" / "man", "svdag-build") if shutil.which("man") else \
+            (self.bundle / "share/man/man1/svdag-build.1").read_text()
+        self.assertIn("Bake scene files as one .svdag", shown)
+        self.assertTrue((self.bundle / "share/bash-completion/completions/svdag").exists())
 
     def test_nothing_but_libc_is_found_outside(self):
         for program in (self.bundle / "bin").iterdir():

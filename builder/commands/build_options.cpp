@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "builder/commands/options.h"
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -24,10 +25,12 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
          "--no-plane-memo", [descent] { descent->plane_memo = descent->patches = false; },
          "Compute every cube, also where a plane repeats")
       ->group(kGroup);
-  app->add_option_function<std::string>(
-         "--vectors",
-         [descent](const std::string& name) { descent->kernels = &kernels_by_name(name); },
-         "Instruction set of the inner loops, for example AVX2, or plain (default: the best)")
+  suggests(
+      app->add_option_function<std::string>(
+          "--vectors",
+          [descent](const std::string& name) { descent->kernels = &kernels_by_name(name); },
+          "Instruction set of the inner loops, for example AVX2, or plain (default: the best)"),
+      {"plain", "AVX2"})
       ->type_name("NAME")
       ->group(kGroup);
 }
@@ -42,20 +45,21 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
       ->excludes(resume);
   app->add_option("--checkpoint", build->checkpoint,
                   "Save the work of every so many seconds for --resume (default: 30)")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::PositiveNumber.description(""))
       ->type_name("SECONDS");
 }
 
 void add_cache_options(CLI::App* app, CellCacheConfig* config) {
   CLI::Option* cache =
-      app->add_option(
-             "--cache", config->folder,
-             "Folder of cells baked before, by any bake: the same cells are not baked again")
+      takes_folder(
+          app->add_option(
+              "--cache", config->folder,
+              "Folder of cells baked before, by any bake: the same cells are not baked again"))
           ->type_name("DIR");
   app->add_option_function<std::string>(
          "--cache-size",
          [config](const std::string& s) { config->most_bytes = parse_count(s, "--cache-size"); },
-         "Most that the cache may hold; the least used goes first (default: 16G)")
+         "Most bytes that the cache may hold; the least used go first (default: 16G)")
       ->needs(cache)
       ->type_name("SIZE");
 }
@@ -63,23 +67,27 @@ void add_cache_options(CLI::App* app, CellCacheConfig* config) {
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
   CLI::Option* scene =
-      app->add_option("SCENE", build->scene.paths, "Scene files (several are one scene), or a plan")
+      takes_files(app->add_option("SCENE", build->scene.paths,
+                                  "Scene files (several are one scene), or a plan"),
+                  kSceneEndings)
           ->required();
-  CLI::Option* output =
-      app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write")
-          ->required();
+  CLI::Option* output = takes_files(app->add_option("-o,--output", build->output,
+                                                    "The .svdag, or the .run, to write"),
+                                    {".svdag", ".run"})
+                            ->required()
+                            ->type_name("OUT");
   CLI::Option_group* grid = add_grid_options(app, build);
-  app->add_option_function<std::string>(
-         "--batch",
-         [=](const std::string& list) {  // each bake of the list has these
-           config->batch = list;
-           scene->required(false);
-           output->required(false);
-           grid->require_option(0);
-         },
-         "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; --report "
-         "is "
-         "of all")
+  takes_files(app->add_option_function<std::string>(
+                  "--batch",
+                  [=](const std::string& list) {  // each bake of the list has these
+                    config->batch = list;
+                    scene->required(false);
+                    output->required(false);
+                    grid->require_option(0);
+                  },
+                  "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
+                  "--report is of all"),
+              {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
   app->add_option_function<size_t>(
@@ -89,8 +97,8 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
            output->required(false);
            grid->require_option(0);
          },
-         "Bake shard I of a plan; one that is there already is kept")
-      ->check(CLI::PositiveNumber)
+         "Bake shard I of a plan, from 1 on; one that is there already is kept")
+      ->check(CLI::PositiveNumber.description(""))
       ->type_name("I");
   app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
   app->add_option_function<std::string>(
@@ -100,14 +108,16 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   add_resource_options(app, &build->memory, &config->threads, &build->scratch);
   add_resume_options(app, build);
   add_cache_options(app, &config->cache);
-  app->add_option("--report", config->report, "Write a report of the bake as JSON")
+  takes_files(app->add_option("--report", config->report, "Write a report of the bake as JSON"),
+              {".json"})
       ->type_name("FILE");
   add_output_options(app, &config->output);
   add_measurement_options(app, &build->descent);
-  app->footer(
-      "Examples:\n"
-      "  svdag build city.glb -o city.svdag -r 64K\n"
-      "  svdag build hall.obj props.ply -o hall.svdag --voxel-size 0.01 --exclude 'sky*'");
+  add_examples(app,
+               {"svdag build city.glb -o city.svdag -r 64K",
+                "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
+                "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
+               "svdag help grid, rules and memory tell more.");
 }
 
 BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {

@@ -2,16 +2,22 @@
 #include <CLI/CLI.hpp>
 
 #include "builder/commands/options.h"
+#include "io/help/command_line.h"
 
 namespace svdag {
 
 CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
   CLI::App* app = program->add_subcommand("merge", "Join the runs of parts of one bake");
-  app->add_option("RUN", config->merge.runs, "Runs of parts of one bake, or a plan")->required();
+  takes_files(app->add_option("RUN", config->merge.runs, "Runs of parts of one bake, or a plan"),
+              {".run"})
+      ->required();
   CLI::Option* output =
-      app->add_option("-o,--output", config->merge.output,
-                      "The .svdag to write, if the runs hold the whole grid, or a larger .run")
-          ->required();
+      takes_files(
+          app->add_option("-o,--output", config->merge.output,
+                          "The .svdag to write, if the runs hold the whole grid, or a larger .run"),
+          {".svdag", ".run"})
+          ->required()
+          ->type_name("OUT");
   app->add_option_function<std::string>(
          "--step",
          [=](const std::string& step) {
@@ -22,62 +28,81 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
       ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_output_options(app, &config->output);
-  app->footer(
-      "Examples:\n"
-      "  svdag build city.glb -r 64K --part 1/2 -o a.run\n"
-      "  svdag build city.glb -r 64K --part 2/2 -o b.run\n"
-      "  svdag merge a.run b.run -o city.svdag");
+  add_examples(
+      app,
+      {"svdag build city.glb -r 64K --part 1/2 -o a.run",
+       "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
+      "svdag help farm tells more.");
   return app;
 }
 
 CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
   CLI::App* app = program->add_subcommand("plan", "Cut a bake into jobs for a farm");
   PlanConfig* plan = &config->plan;
-  app->add_option("SCENE", plan->build.scene.paths, "Scene files; several files are one scene")
+  takes_files(
+      app->add_option("SCENE", plan->build.scene.paths, "Scene files; several are one scene"),
+      kSceneEndings)
       ->required();
-  app->add_option("-o,--output", plan->folder, "The folder of the plan, to be made")->required();
-  app->add_option("--shards", plan->shards, "Into how many jobs the bake is cut")
+  takes_folder(app->add_option("-o,--output", plan->folder, "The folder of the plan, to be made"))
       ->required()
-      ->check(CLI::Range(size_t(1), size_t(100000)));
-  app->add_option("--fan-in", plan->fan_in, "Runs that one merge reads, at most (default: 16)")
-      ->check(CLI::Range(size_t(2), size_t(1000)));
+      ->type_name("PLAN");
+  from_to(app->add_option("--shards", plan->shards, "Into how many jobs the bake is cut"), 1,
+          100000)
+      ->required()
+      ->type_name("N");
+  from_to(
+      app->add_option("--fan-in", plan->fan_in, "Runs that one merge reads, at most (default: 16)"),
+      2, 1000)
+      ->type_name("N");
   add_grid_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch);
   add_output_options(app, &config->output);
-  app->footer(
-      "-m bounds the planning and each step; -j are the threads of a shard (default: 1). Example:\n"
-      "  svdag plan city.glb -r 64K --shards 16 -o city.plan\n"
-      "  svdag run city.plan -j 4");
+  add_examples(app,
+               {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
+               "-m bounds the planning and each step; -j are the threads of a shard (default: 1). "
+               "svdag help farm tells more.");
   return app;
 }
 
 CLI::App* add_run(CLI::App* program, RunCommandConfig* config) {
   CLI::App* app = program->add_subcommand("run", "Run a plan on this machine");
-  app->add_option("PLAN", config->plan, "The folder of a plan")->required();
-  app->add_option("-j,--jobs", config->processes,
-                  "Steps at once (default: as many as there are processors)")
-      ->check(CLI::Range(size_t(1), size_t(1024)));
-  app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory")
+  takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
+  from_to(app->add_option("-j,--jobs", config->processes,
+                          "Steps at once (default: as many as there are processors)"),
+          1, 1024)
+      ->type_name("N");
+  takes_folder(
+      app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory"))
       ->type_name("DIR");
   add_output_options(app, &config->output);
+  add_examples(app, {"svdag run city.plan -j 4"});
   return app;
 }
 
 CLI::App* add_submit(CLI::App* program, SubmitConfig* config) {
   CLI::App* app = program->add_subcommand("submit", "Hand a plan to a farm");
-  app->add_option("PLAN", config->plan, "The folder of a plan")->required();
-  app->add_option("--engine", config->engine, "slurm (submits jobs) or openjd (writes a template)")
+  takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
+  one_of(app->add_option("--engine", config->engine,
+                         "slurm (submits jobs) or openjd (writes a template)"),
+         {"slurm", "openjd"})
       ->required()
-      ->check(CLI::IsMember({"slurm", "openjd"}));
+      ->type_name("NAME");
   app->add_flag("--wait", config->wait, "Wait until the plan is done");
-  app->add_option("--program", config->program, "svdag on the other machines (default: this file)");
-  app->add_option("-o,--output", config->template_path,
-                  "Of openjd: the template (default: PLAN/openjd.json)");
-  app->add_option("--scratch", config->scratch, "Folder on the machines for what is spilled")
+  takes_files(app->add_option("--program", config->program,
+                              "svdag on the other machines (default: this file)"),
+              {"*"})
+      ->type_name("FILE");
+  takes_files(app->add_option("-o,--output", config->template_path,
+                              "Of openjd: the template (default: PLAN/openjd.json)"),
+              {".json"})
+      ->type_name("FILE");
+  takes_folder(
+      app->add_option("--scratch", config->scratch, "Folder on the machines for what is spilled"))
       ->type_name("DIR");
   app->add_option("OPTION", config->options, "Behind --: options for the engine");
   add_output_options(app, &config->output);
-  app->footer("Example: svdag submit city.plan --engine slurm --wait -- --partition=bake");
+  add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",
+                     "svdag submit city.plan --engine openjd -o city.openjd.json"});
   return app;
 }
 

@@ -2,13 +2,18 @@
 #include <CLI/CLI.hpp>
 
 #include "builder/commands/options.h"
+#include "io/help/command_line.h"
 #include "io/units.h"
 
 namespace svdag {
 
 CLI::App* add_info(CLI::App* program, InfoConfig* config) {
   CLI::App* app = program->add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
-  app->add_option("FILE", config->paths, "A .svdag or .run file, or the files of a scene")
+  std::vector<std::string> endings = kSceneEndings;
+  endings.insert(endings.begin(), {".svdag", ".run"});
+  takes_files(app->add_option("FILE", config->paths,
+                              "A .svdag or .run file, a plan, or the files of a scene"),
+              endings)
       ->required();
   app->add_flag("--json", config->json, "Print JSON");
   app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
@@ -16,9 +21,9 @@ CLI::App* add_info(CLI::App* program, InfoConfig* config) {
   app->add_option_function<std::string>(
          "-m,--memory",
          [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
-         "Memory budget (default: half of the machine)")
+         "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
-  app->footer("Examples:\n  svdag info city.svdag --levels\n  svdag info city.glb");
+  add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});
   return app;
 }
 

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <cstdio>
 
 #include "builder/commands/commands.h"
@@ -9,6 +7,7 @@
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/terminal.h"
 
 namespace svdag {
 
@@ -19,7 +18,7 @@ int run_run(const RunCommandConfig& config) {
   local.scratch = config.scratch;
   local.quiet = config.output.quiet;
   local.table = config.output.progress == Progress::Mode::kOn ||
-                (config.output.progress == Progress::Mode::kAuto && ::isatty(STDERR_FILENO) == 1);
+                (config.output.progress == Progress::Mode::kAuto && is_lively(stderr));
   try {
     run_local(plan, local);
   } catch (const Interrupted& interrupted) {

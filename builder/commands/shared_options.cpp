@@ -3,6 +3,7 @@
 #include <map>
 
 #include "builder/commands/options.h"
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -41,20 +42,20 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
   app->add_option_function<std::string>(
          "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
-         "Memory budget, for example 4G (default: half of the machine)")
+         "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
-  app->add_option("-j,--threads", *threads, "Threads (default: all processors)")
-      ->check(CLI::Range(size_t(1), size_t(1024)));
-  app->add_option("--scratch", *scratch,
-                  "Folder for what does not fit in memory (default: OUT.scratch)")
+  from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1, 1024)
+      ->type_name("N");
+  takes_folder(app->add_option("--scratch", *scratch,
+                               "Folder for what does not fit in memory (default: OUT.scratch)"))
       ->type_name("DIR");
 }
 
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
-  CLI::Option_group* grid = app->add_option_group("grid");
+  CLI::Option_group* grid = app->add_option_group("Grid");
   grid->add_option_function<std::string>(
           "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
-          "Voxels along the longest side: 8 ... 1M, a power of two")
+          "Voxels along the longest side: a power of two, 8 to 1M, for example 64K")
       ->type_name("N");
   grid->add_option_function<double>(
           "-s,--voxel-size", [build](double s) { build->voxel_size = checked_voxel_size(s); },
@@ -67,10 +68,11 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
       ->type_name("x0,y0,z0,x1,y1,z1");
   static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
                                                      {"thin", Rule::kThin}};
-  app->add_option(
-         "--rule", build->descent.rule,
-         "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
-         "about 1.8 times fewer voxels")
+  suggests(app->add_option(
+               "--rule", build->descent.rule,
+               "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
+               "about 1.8 times fewer voxels"),
+           {"conservative", "thin"})
       ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);

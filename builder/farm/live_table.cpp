@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "io/units.h"
+#include "streaming/terminal.h"
 
 namespace svdag {
 namespace {
@@ -41,6 +42,15 @@ void LiveTable::tell(size_t step, const StepRow& row) {
   std::fflush(stdout);
 }
 
+// Cut where the terminal ends: clear() takes back as many rows as there were lines.
+template <class... Values>
+void LiveTable::line(const char* format, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
+  std::fprintf(stderr, "%.*s\n", int(line_width(stderr) - 1), text);
+  ++lines_;
+}
+
 void LiveTable::draw(const std::vector<StepRow>& rows) {
   if (!live_ || Clock::now() < next_) return;
   next_ = Clock::now() + std::chrono::milliseconds(100);
@@ -53,14 +63,11 @@ void LiveTable::draw(const std::vector<StepRow>& rows) {
     failed += rows[i].state == StepState::kFailed;
     if (rows[i].state == StepState::kDone) planned_done += plan_.steps[i].predicted.cpu;
     if (rows[i].state != StepState::kRunning || lines_ >= kMostRows) continue;
-    std::fprintf(stderr, "  %-12s %8.1f s of %.1f s\n", plan_.steps[i].name.c_str(),
-                 seconds(Clock::now() - rows[i].begin), plan_.steps[i].predicted.seconds);
-    ++lines_;
+    line("  %-12s %8.1f s of %.1f s", plan_.steps[i].name.c_str(),
+         seconds(Clock::now() - rows[i].begin), plan_.steps[i].predicted.seconds);
   }
-  std::fprintf(stderr, "  %zu of %zu steps done, %zu failed; %.0f %% of the work; %.1f s\n", done,
-               rows.size(), failed, planned > 0 ? 100 * planned_done / planned : 0,
-               seconds(Clock::now() - begin_));
-  ++lines_;
+  line("  %zu of %zu steps done, %zu failed; %.0f %% of the work; %.1f s", done, rows.size(),
+       failed, planned > 0 ? 100 * planned_done / planned : 0, seconds(Clock::now() - begin_));
   std::fflush(stderr);
 }
 

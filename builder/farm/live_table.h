@@ -37,6 +37,9 @@ class LiveTable {
   void finish(const std::vector<StepRow>& rows);
 
  private:
+  template <class... Values>
+  void line(const char* format, Values... values);
+
   const Plan& plan_;
   bool live_, quiet_;
   size_t lines_ = 0;  // drawn

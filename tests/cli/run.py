@@ -34,7 +34,8 @@ def matches(patterns, lines):
 
 
 def run_script(script, programs):
-    environment = dict(os.environ, PATH=f"{programs}:/usr/bin:/bin", LC_ALL="C", TESTS=str(HERE))
+    environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"}  # help is filled to 80 columns
+    environment |= dict(PATH=f"{programs}:/usr/bin:/bin", LC_ALL="C", TESTS=str(HERE))
     with tempfile.TemporaryDirectory(prefix="svdag-cli-") as folder:
         try:
             done = subprocess.run(["sh", "-e", script], cwd=folder, env=environment, timeout=TIMEOUT,

@@ -55,7 +55,7 @@ def live(command, folder, phase=None, delay=0.0):
         if not data:
             break
         told += data
-        for name in re.findall(rb"\x1b\[K([a-z]+)", data):
+        for name in re.findall(rb"\r([a-z]+)", data):
             if begun.setdefault(name.decode(), time.monotonic() - start) and name.decode() == phase and due is None:
                 due = start + begun[phase] + delay
     program.stderr.close()

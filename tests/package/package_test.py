@@ -70,6 +70,9 @@ class Package(unittest.TestCase):
             self.assertIn({"svdag": "builder", "libsvdag-dev": "reader"}[name], synopsis)
         held = run("dpkg-deb", "-c", packages["svdag"])
         self.assertIn("./usr/bin/svdag-verify\n", held)
+        for path in ("man/man1/svdag-build.1.gz", "man/man7/svdag-grid.7.gz", "bash-completion/completions/svdag",
+                     "zsh/vendor-completions/_svdag", "fish/vendor_completions.d/svdag.fish"):
+            self.assertIn(f"./usr/share/{path}\n", held)
         self.assertIn("./usr/lib/cmake", run("dpkg-deb", "-c", packages["libsvdag-dev"]).replace("/x86_64-linux-gnu", ""))
 
 

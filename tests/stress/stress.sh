@@ -17,6 +17,10 @@ SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --
 echo "Every compiler and flag gives the same bytes"
 bash tests/stress/one_hash.sh
 
+echo "Completion by bash, fish and zsh"
+cmake --build --preset release --target svdag_manuals
+ctest --test-dir build/release -R '^completion$' --output-on-failure
+
 echo "Faults from outside: every call, small disks, signals, kills, power cuts, little memory"
 cmake --build --preset release --target svdag svdag-scene svdag_fault_shim
 SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure

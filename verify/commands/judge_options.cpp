@@ -1,6 +1,7 @@
 // The commands that judge: check, mesh, diff, vdb and trace.
 #include <CLI/CLI.hpp>
 
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "verify/commands/check.h"
 #include "verify/commands/diff.h"
@@ -15,9 +16,9 @@ void add_check(CLI::App* app, int* result) {
   auto config = std::make_shared<CheckConfig>();
   CLI::App* command =
       app->add_subcommand("check", "Prove every checksum and pointer, order and minimality");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_file(command, &config->file);
   add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify check scene.svdag\n") + kExitCodes);
+  add_examples(command, {"svdag-verify check scene.svdag"});
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -25,13 +26,13 @@ void add_mesh(CLI::App* app, int* result) {
   auto config = std::make_shared<MeshConfig>();
   CLI::App* command = app->add_subcommand(
       "mesh", "Voxelize the scene again, by other means, and compare every voxel");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_file(command, &config->file);
   add_scene(command, &config->scene);
-  command
-      ->add_option("--judge", config->judge,
-                   "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
-                   "kernel; slow) or openvdb (two bounds by its distances)")
-      ->check(CLI::IsMember({"integer", "cgal", "openvdb"}))
+  one_of(command->add_option(
+             "--judge", config->judge,
+             "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
+             "kernel; slow) or openvdb (two bounds by its distances)"),
+         {"integer", "cgal", "openvdb"})
       ->type_name("JUDGE");
   add_count(command, "--sample", &config->sample,
             "Compare N drawn bricks instead of all, and bound the error rate (openvdb: N windows "
@@ -40,10 +41,8 @@ void add_mesh(CLI::App* app, int* result) {
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
-  command->footer(
-      std::string("Examples: svdag-verify mesh sponza.svdag sponza.glb\n"
-                  "          svdag-verify mesh --sample 100000 city.svdag city.ply --json\n") +
-      kExitCodes);
+  add_examples(command, {"svdag-verify mesh sponza.svdag sponza.glb",
+                         "svdag-verify mesh --sample 100000 city.svdag city.ply --json"});
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -51,29 +50,32 @@ void add_diff(CLI::App* app, int* result) {
   auto config = std::make_shared<DiffConfig>();
   CLI::App* command =
       app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
-  command->add_option("A", config->a, "A .svdag file")->required();
-  command->add_option("B", config->b, "Another; one of other resolution is compared at the coarser")
+  takes_files(command->add_option("A", config->a, "A .svdag file"), {".svdag"})->required();
+  takes_files(command->add_option("B", config->b,
+                                  "Another; one of other resolution is compared at the coarser"),
+              {".svdag"})
       ->required();
   command->add_option("--show", config->show, "How many differing voxels to list (default 10)")
       ->type_name("N");
   command->add_flag("--by-index", config->by_index,
                     "Compare voxel by voxel although the grids lie in different places");
-  command
-      ->add_option("--write-diff", config->write_diff,
-                   "Write the differing voxels as a PLY of points: red only A, blue only B")
+  takes_files(
+      command->add_option("--write-diff", config->write_diff,
+                          "Write the differing voxels as a PLY of points: red only A, blue only B"),
+      {".ply"})
       ->type_name("X.ply");
   add_count(command, "--write-most", &config->write_most,
             "Refuse to write more points than this (default 10M)");
   add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify diff old.svdag new.svdag\n") + kExitCodes);
+  add_examples(command, {"svdag-verify diff old.svdag new.svdag"});
   command->callback([config, result] { *result = run(*config); });
 }
 
 void add_vdb(CLI::App* app, int* result) {
   auto config = std::make_shared<VdbConfig>();
   CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("GRID", config->vdb, "The .vdb file")->required();
+  add_file(command, &config->file);
+  takes_files(command->add_option("GRID", config->vdb, "The .vdb file"), {".vdb"})->required();
   command->add_option("--grid", config->grid, "Which grid of the .vdb (default: the only one)")
       ->type_name("NAME");
   command
@@ -88,9 +90,9 @@ void add_vdb(CLI::App* app, int* result) {
       ->type_name("x0,y0,z0,x1,y1,z1");
   command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
       ->type_name("N");
-  command
-      ->add_option("--write-diff", config->write_diff,
-                   "Write two mask grids, missing and extra, in the place of GRID")
+  takes_files(command->add_option("--write-diff", config->write_diff,
+                                  "Write two mask grids, missing and extra, in the place of GRID"),
+              {".vdb"})
       ->type_name("X.vdb");
   const auto set_most = [config](const std::string& text) {
     config->write_most = parse_count(text, "--write-most");
@@ -100,7 +102,7 @@ void add_vdb(CLI::App* app, int* result) {
           "--write-most", set_most, "Refuse to write more extra voxels than this (default 10M)")
       ->type_name("N");
   add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify vdb scene.svdag scene.vdb\n") + kExitCodes);
+  add_examples(command, {"svdag-verify vdb scene.svdag scene.vdb"});
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -108,15 +110,14 @@ void add_trace(CLI::App* app, int* result) {
   auto config = std::make_shared<TraceConfig>();
   CLI::App* command = app->add_subcommand(
       "trace", "Send rays through the DAG and through the triangles (by Embree), and compare");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
+  add_file(command, &config->file);
   add_scene(command, &config->scene);
   add_count(command, "--rays", &config->rays, "How many rays (default 1,000,000)");
   command->add_option("--seed", config->seed, "Seed of the rays (default 1)")->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
-  command->footer(std::string("Example: svdag-verify trace sponza.svdag sponza.glb\n") +
-                  kExitCodes);
+  add_examples(command, {"svdag-verify trace sponza.svdag sponza.glb"});
   command->callback([config, result] { *result = run(*config); });
 }
 

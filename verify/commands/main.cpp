@@ -1,7 +1,7 @@
 // svdag-verify: the independent judge of what `svdag build` wrote.
 #include <CLI/CLI.hpp>
 
-#include "io/suggest.h"
+#include "io/help/command_line.h"
 #include "streaming/program.h"
 #include "verify/commands/options.h"
 
@@ -10,9 +10,9 @@ namespace {
 
 int run_judge(int argc, char** argv) {
   CLI::App app("Judges .svdag files independently of the builder.", "svdag-verify");
-  app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION);
+  app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION, "Print the version and exit");
   app.require_subcommand(1);
-  app.footer(std::string("Example: svdag-verify mesh scene.svdag scene.ply\n") + kExitCodes);
+  add_examples(&app, {"svdag-verify check scene.svdag", "svdag-verify mesh scene.svdag scene.ply"});
   int result = 0;
   add_check(&app, &result);
   add_mesh(&app, &result);
@@ -21,13 +21,7 @@ int run_judge(int argc, char** argv) {
   add_trace(&app, &result);
   add_render(&app, &result);
   add_report(&app, &result);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fail_usage(explain(app, argc, argv, error));
-  }
+  if (const auto done = read_command_line(&app, argc, argv)) return *done;
   return result;
 }
 

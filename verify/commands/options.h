@@ -33,8 +33,7 @@ void add_memory(CLI::App* command, uint64_t* memory);
 // A number as people write it: "10M".
 void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
                const char* type = "N");
-
-inline constexpr const char* kExitCodes =
-    "Exit codes: 0 ok, 1 differs, 2 usage, 3 bad input, 4 disk or output, 5 memory.";
+// "The .svdag file", the first argument of most.
+void add_file(CLI::App* command, std::string* file);
 
 }  // namespace svdag

@@ -1,6 +1,7 @@
 // The commands that show: render and report.
 #include <CLI/CLI.hpp>
 
+#include "io/help/command_line.h"
 #include "verify/commands/options.h"
 #include "verify/commands/render.h"
 #include "verify/commands/report.h"
@@ -10,22 +11,24 @@ namespace {
 
 void add_light(CLI::App* command, RenderCommandConfig* config) {
   command
-      ->add_option("--light", config->light,
-                   "Where the light is, and how large (default: over the left shoulder)")
+      ->add_option(
+          "--light", config->light,
+          "Where the light is, and how large, in scene units (default: over the left shoulder)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("x,y,z[,radius]");
   command
       ->add_option("--samples", config->samples,
-                   "soft, ao: rays to the light or sky for each camera ray (default 16)")
+                   "soft, ao: rays to the light or sky for each camera ray, 1 to 4096 (default 16)")
       ->type_name("N");
   command
       ->add_option("--reach", config->reach,
-                   "ao: how far they reach (default: a twentieth of the scene)")
+                   "ao: how far they reach, in scene units (default: a twentieth of the scene)")
       ->type_name("LENGTH");
   command
       ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle of the cone in which they end early (default: ao 9, "
+                   "soft, ao: half the angle, from 0 and below 45, of the cone in which they end "
+                   "early (default: ao 9, "
                    "soft 0, which is exact)")
       ->type_name("DEGREES");
 }
@@ -36,37 +39,52 @@ void add_render(CLI::App* app, int* result) {
   auto config = std::make_shared<RenderCommandConfig>();
   CLI::App* command =
       app->add_subcommand("render", "Make a picture by tracing rays through the DAG");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("-o,--output", config->output, "The PNG to write")
+  add_file(command, &config->file);
+  takes_files(command->add_option("-o,--output", config->output, "The PNG to write"), {".png"})
       ->required()
       ->type_name("X.png");
-  command->add_option("--mode", config->mode,
-                      "primary, shadow, soft, ao, normal, depth, level or steps (default primary)");
-  command->add_option("--size", config->size, "Pixels (default 1280x720)")->type_name("WxH");
+  suggests(command->add_option(
+               "--mode", config->mode,
+               "primary, shadow, soft, ao, normal, depth, level or steps (default primary)"),
+           {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps"})
+      ->type_name("MODE");
+  command->add_option("--size", config->size, "Pixels, 1 to 16384 each way (default 1280x720)")
+      ->type_name("WxH");
   command
       ->add_option("--camera", config->camera,
-                   "Position, target and angle of view in degrees (default: frames all)")
+                   "Position and target in scene units, angle of view in degrees, 0.1 to 179 "
+                   "(default: frames all)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("px,py,pz,tx,ty,tz[,fov]");
-  command->add_option("--preset", config->preset,
-                      "iso, front, back, left, right, top or inside, without --camera "
-                      "(default iso)");
+  suggests(command->add_option("--preset", config->preset,
+                               "iso, front, back, left, right, top or inside, without --camera "
+                               "(default iso)"),
+           {"iso", "front", "back", "left", "right", "top", "inside"})
+      ->type_name("NAME");
   add_light(command, config.get());
-  command->add_option("--level", config->level, "Trace the cubes of level K instead of the voxels")
+  command
+      ->add_option(
+          "--level", config->level,
+          "Trace the cubes of level K instead of the voxels (svdag info --levels lists them)")
       ->type_name("K");
-  command->add_option("--fly", config->fly, "N frames of a turn, into X_0001.png, X_0002.png, ...")
+  command
+      ->add_option("--fly", config->fly,
+                   "N frames of a turn, 1 to 9999, into X_0001.png, X_0002.png, ...")
       ->type_name("N");
-  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
-  command->add_option("--supersample", config->supersample, "n x n rays per pixel (default 2)");
+  suggests(
+      command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
+      {"x", "y", "z"})
+      ->type_name("AXIS");
+  command
+      ->add_option("--supersample", config->supersample,
+                   "N x N rays per pixel, N from 1 to 16 (default 2)")
+      ->type_name("N");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
-  command->footer(
-      std::string(
-          "Examples: svdag-verify render scene.svdag -o scene.png\n"
-          "          svdag-verify render scene.svdag -o ao.png --mode ao --preset inside\n"
-          "          svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65\n") +
-      kExitCodes);
+  add_examples(command, {"svdag-verify render scene.svdag -o scene.png",
+                         "svdag-verify render scene.svdag -o ao.png --mode ao --preset inside",
+                         "svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65"});
   command->callback([config, result] { *result = run(*config); });
 }
 
@@ -74,18 +92,24 @@ void add_report(CLI::App* app, int* result) {
   auto config = std::make_shared<ReportConfig>();
   CLI::App* command = app->add_subcommand(
       "report", "Make a page of HTML of a bake: pictures, verdicts, levels, times");
-  command->add_option("FILE", config->file, "The .svdag file")->required();
-  command->add_option("REPORT", config->bake, "What svdag build --report wrote of it")->required();
-  command->add_option("-o,--output", config->output, "The page to write")
+  add_file(command, &config->file);
+  takes_files(command->add_option("REPORT", config->bake, "What svdag build --report wrote of it"),
+              {".json"})
+      ->required();
+  takes_files(command->add_option("-o,--output", config->output, "The page to write"), {".html"})
       ->required()
       ->type_name("R.html");
-  command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)");
-  command->add_option("--size", config->size, "Pixels of a picture (default 960x540)")
+  suggests(
+      command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
+      {"x", "y", "z"})
+      ->type_name("AXIS");
+  command
+      ->add_option("--size", config->size,
+                   "Pixels of a picture, 1 to 16384 each way (default 960x540)")
       ->type_name("WxH");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
-  command->footer(std::string("Example: svdag-verify report a.svdag a.json -o a.html\n") +
-                  kExitCodes);
+  add_examples(command, {"svdag-verify report a.svdag a.json -o a.html"});
   command->callback([config, result] { *result = run(*config); });
 }
 

@@ -1,6 +1,7 @@
 // What several commands understand.
 #include <CLI/CLI.hpp>
 
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "verify/commands/options.h"
 
@@ -19,13 +20,15 @@ void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
 }
 
 void add_threads(CLI::App* command, CommonConfig* config) {
-  command->add_option("-j,--threads", config->threads, "Threads (default: all processors)")
-      ->check(CLI::Range(1, 1024))
+  from_to(command->add_option("-j,--threads", config->threads, "Threads (default: all processors)"),
+          1, 1024)
       ->type_name("N");
 }
 
 void add_scene(CLI::App* command, SceneConfig* scene) {
-  command->add_option("SCENE", scene->paths, "The scene files it was baked from")->required();
+  takes_files(command->add_option("SCENE", scene->paths, "The scene files it was baked from"),
+              kSceneEndings)
+      ->required();
   command
       ->add_option("--include", scene->names.include,
                    "Only parts with a name that matches this pattern")
@@ -53,8 +56,13 @@ void add_count(CLI::App* command, const std::string& option, uint64_t* count, co
 
 void add_memory(CLI::App* command, uint64_t* memory) {
   add_count(command, "-m,--memory", memory,
-            "Memory budget of the readers and the triangles held (default: half of the machine)",
+            "Memory budget of the readers and the triangles held, for example 4G (default: half of "
+            "the machine)",
             "SIZE");
+}
+
+void add_file(CLI::App* command, std::string* file) {
+  takes_files(command->add_option("FILE", *file, "The .svdag file"), {".svdag"})->required();
 }
 
 }  // namespace svdag

@@ -3,7 +3,9 @@
 #include <fstream>
 #include <new>
 
+#include "io/help/help_text.h"
 #include "streaming/program.h"
+#include "streaming/terminal.h"
 #include "verify/trace/device.h"
 #include "verify/trace/trace_options.h"
 
@@ -112,8 +114,11 @@ int compare(const Answers& cpu, const Answers& gpu) {
 }
 
 int run(const TraceOptions& options) {
-  if (options.help || options.version) {
-    std::fputs(options.help ? kTraceHelp : "svdag-trace " SVDAG_VERSION "\n", stdout);
+  if (options.help || options.version || options.table) {
+    const std::string text = options.help      ? help_text(trace_manual(), text_width(stdout))
+                             : options.version ? "svdag-trace " SVDAG_VERSION "\n"
+                                               : to_table(trace_manual());
+    std::fputs(text.c_str(), stdout);
     return 0;
   }
   if (options.dump == options.file || options.picture == options.file)

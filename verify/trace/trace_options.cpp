@@ -9,32 +9,6 @@
 
 namespace svdag {
 
-const char* const kTraceHelp =
-    "Traces rays through a .svdag on the processor or a GPU, and says how many per second.\n"
-    "Usage: svdag-trace [OPTIONS] FILE\n"
-    "\n"
-    "  --device cpu|cuda      where (default cpu)\n"
-    "  --compare              both, and count the rays that differ; exit 1 if any does\n"
-    "  --size WxH             pixels (default 1280x720)\n"
-    "  --preset NAME          iso, front, back, left, right, top or inside (default iso)\n"
-    "  --camera px,py,pz,tx,ty,tz[,fov]   position, target, angle of view in degrees\n"
-    "  --up x|y|z             the axis that points up (default y)\n"
-    "  --light x,y,z[,radius] where the light is, and how large (default: above what is seen)\n"
-    "  --samples N            soft, ao: rays per pixel (default 64)\n"
-    "  --reach LENGTH         ao: how far they reach (default: all the way)\n"
-    "  --cone DEGREES         ao: half the angle of the cone in which they end early, for example\n"
-    "                         9 (default 0, which is exact)\n"
-    "  --no-beams             primary rays start at the camera (same hits)\n"
-    "  --rounds N             the least time of N counts (default 3)\n"
-    "  -j, --threads N        of the processor (default: all)\n"
-    "  --dump FILE            56 bytes per pixel, little-endian: u32 found, x, y, z, level, axis;\n"
-    "                         f64 t; u32 blocked rays of shadow, soft, ao; u32 0, 0, 0\n"
-    "  --picture FILE.ppm     a picture of the answers\n"
-    "  --version, --help\n"
-    "\n"
-    "Example: svdag-trace city.svdag --preset inside --cone 9\n"
-    "Exit codes: 0 ok, 1 differs, 2 usage, 3 bad input, 4 disk or output, 5 memory.\n";
-
 namespace {
 
 std::vector<double> numbers(const std::string& name, const std::string& text) {
@@ -81,6 +55,7 @@ bool set_flag(const std::string& name, TraceOptions* options) {
   if (name == "--compare") return options->compare = true;
   if (name == "--help" || name == "-h") return options->help = true;
   if (name == "--version") return options->version = true;
+  if (name == kManualTable) return options->table = true;
   if (name == "--no-beams") return !(options->beams = false);
   return false;
 }
@@ -166,7 +141,7 @@ TraceOptions parse_trace_options(int argc, char** argv) {
     }
     set_option(name, value, &options);
   }
-  if (options.file.empty() && !options.help && !options.version)
+  if (options.file.empty() && !options.help && !options.version && !options.table)
     fail_usage("give the .svdag to trace (--help lists the options)");
   return options;
 }

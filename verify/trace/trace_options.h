@@ -1,6 +1,7 @@
 // The command line of svdag-trace, read without a library.
 #pragma once
 
+#include "io/help/manual.h"
 #include "verify/trace/device.h"
 
 namespace svdag {
@@ -18,9 +19,9 @@ struct TraceOptions {
   double reach = 0;  // of ambient occlusion, in world units; 0: no limit
   double cone = 0;   // half the angle of its rays' cones, in degrees; 0: exact
   bool beams = true;
-  bool compare = false;  // the processor's answers with the GPU's
-  bool help = false, version = false;
-  std::string dump, picture;  // files to write, or empty
+  bool compare = false;                               // the processor's answers with the GPU's
+  bool help = false, version = false, table = false;  // the last: kManualTable
+  std::string dump, picture;                          // files to write, or empty
 };
 
 // Anything that cannot be meant is an Error (kUsage).
@@ -29,6 +30,7 @@ TraceOptions parse_trace_options(int argc, char** argv);
 // The rays that the options ask for, on this file.
 Workload make_workload(const TraceOptions& options, const PlainFile& file);
 
-extern const char* const kTraceHelp;
+// What its options say.
+Manual trace_manual();
 
 }  // namespace svdag

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "builder/commands/export/export.h"
-#include "io/suggest.h"
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/interrupt.h"
 #include "streaming/program.h"
@@ -13,11 +13,18 @@ namespace {
 
 void set_up(CLI::App* app, ExportConfig* config) {
   std::string formats;
-  for (const ExportFormat& format : export_formats())
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) {
+    names.push_back(format.name);
     formats += std::string(formats.empty() ? "" : "; ") + format.name + ": " + format.what;
-  app->add_option("FILE", config->file, "The .svdag file")->required();
-  app->add_option("-o,--output", config->output, "The file to write")->required();
-  app->add_option("--format", config->format, formats + " (default: the ending of the output)")
+  }
+  takes_files(app->add_option("FILE", config->file, "The .svdag file"), {".svdag"})->required();
+  takes_files(app->add_option("-o,--output", config->output, "The file to write"), {"*"})
+      ->required()
+      ->type_name("OUT");
+  suggests(
+      app->add_option("--format", config->format, formats + " (default: the ending of the output)"),
+      names)
       ->type_name("NAME");
   app->add_option("--level", config->level,
                   "Write the nodes of this level as voxels (default: the voxels themselves)")
@@ -36,28 +43,22 @@ void set_up(CLI::App* app, ExportConfig* config) {
   app->add_option_function<std::string>(
          "-m,--memory",
          [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
-         "Memory budget (default: half of the machine)")
+         "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
-  app->footer(
-      "Examples:\n"
-      "  svdag export city.svdag -o city.vdb --level 10\n"
-      "  svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5\n"
-      "  svdag export city.svdag --format hashdag -o data/city");
+  add_examples(app,
+               {"svdag export city.svdag -o city.vdb --level 10",
+                "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
+                "svdag export city.svdag --format hashdag -o data/city"},
+               "svdag help formats tells more.");
 }
 
 int run_command(int argc, char** argv) {
   CLI::App app("Writes the voxels of a .svdag in another format.", "svdag export");
-  app.set_version_flag("--version", "svdag-export " SVDAG_VERSION);
+  app.set_version_flag("--version", "svdag-export " SVDAG_VERSION, "Print the version and exit");
   ExportConfig config;
   set_up(&app, &config);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fail_usage(explain(app, argc, argv, error));
-  }
+  if (const auto done = read_command_line(&app, argc, argv)) return *done;
   return run(config);
 }
 

@@ -1,0 +1,69 @@
+#include "builder/commands/help.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "builder/commands/sibling.h"
+#include "io/help/help_text.h"
+#include "io/suggest.h"
+#include "streaming/error.h"
+#include "streaming/terminal.h"
+
+namespace svdag {
+namespace {
+
+int print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+// The programs that become_sibling() starts know their options themselves.
+bool is_sibling(const std::string& name) {
+  return name == "export" || name == "import";
+}
+
+[[noreturn]] void ask_sibling(std::string name) {
+  std::string program = "svdag", question = "--help";
+  char* arguments[] = {program.data(), name.data(), question.data(), nullptr};
+  become_sibling(("svdag-" + name).c_str(), arguments);
+}
+
+}  // namespace
+
+std::vector<std::string> help_subjects(const Manual& program) {
+  std::vector<std::string> subjects;
+  for (const Manual& command : program.commands) {
+    std::string name = command.command.substr(command.command.find(' ') + 1);
+    if (name != "help") subjects.push_back(std::move(name));
+  }
+  for (const Topic& topic : topics()) subjects.emplace_back(topic.name);
+  return subjects;
+}
+
+std::string list_of_topics() {
+  std::string list = "Topics:\n";
+  for (const Topic& topic : topics()) {
+    const std::string what(topic.text.substr(0, topic.text.find('\n')));
+    std::string name(topic.name);
+    name.resize(std::max<size_t>(name.size(), 12), ' ');
+    list += "  " + name + what.substr(what.find(':') + 1) + "\n";
+  }
+  return list;
+}
+
+int run_help(const Manual& program, const std::string& subject) {
+  const size_t width = text_width(stdout);
+  if (subject.empty()) return print(help_text(program, width));
+  for (const Topic& topic : topics()) {
+    if (topic.name == subject) return print(filled(topic.text, width));
+  }
+  if (is_sibling(subject)) ask_sibling(subject);
+  for (const Manual& command : program.commands) {
+    if (command.command == program.command + " " + subject) return print(help_text(command, width));
+  }
+  const std::string guess = nearest(subject, help_subjects(program));
+  fail_usage("\"" + subject + "\" is no command and no topic of svdag" +
+             (guess.empty() ? "; svdag help lists them" : "; did you mean " + guess + "?"));
+}
+
+}  // namespace svdag

@@ -1,0 +1,195 @@
+#include "io/help/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "io/help/help_text.h"
+#include "io/suggest.h"
+#include "streaming/error.h"
+#include "streaming/terminal.h"
+
+namespace svdag {
+namespace {
+
+// CLI11 keeps a hint as the name of a validator that accepts everything.
+constexpr const char* kChoices = "choices ";
+constexpr const char* kEndings = "endings ";
+
+CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words) {
+  std::string name = kind;
+  for (const std::string& word : words) name += word + " ";
+  return option->check(CLI::Validator("").name(name));
+}
+
+std::vector<std::string> hinted(const CLI::Option& option, const std::string& kind) {
+  std::vector<std::string> words;
+  auto& validators = const_cast<CLI::Option&>(option);  // CLI11 only has this for what can change
+  for (int i = 0;; ++i) {
+    const CLI::Validator* validator = nullptr;
+    try {
+      validator = validators.get_validator(i);
+    } catch (const CLI::OptionNotFound&) {  // the only sign that there are no more
+      return words;
+    }
+    const std::string& name = validator->get_name();
+    if (name.compare(0, kind.size(), kind) != 0) continue;
+    for (size_t at = kind.size(); at < name.size(); at = name.find(' ', at) + 1)
+      words.push_back(name.substr(at, name.find(' ', at) - at));
+  }
+}
+
+std::string with_conditions(const CLI::Option& option) {
+  std::string text = option.get_description();
+  for (const CLI::Option* other : option.get_needs()) text += " (needs " + other->get_name() + ")";
+  for (const CLI::Option* other : option.get_excludes())
+    text += " (not with " + other->get_name() + ")";
+  return text;
+}
+
+std::string heading_of(const CLI::App& group) {
+  std::string name = group.get_group();
+  if (group.get_require_option_min() == 1) name += " (exactly one is required)";
+  return name;
+}
+
+// The heading "" is that of the command itself, for CLI11 "Options".
+ManualOption entry_of(const CLI::Option& option, const std::string& heading) {
+  ManualOption entry;
+  for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
+  if (option.get_positional()) entry.names = {option.get_name(true)};
+  const bool is_flag = option.get_items_expected_max() == 0;
+  if (!is_flag && !option.get_positional()) entry.value = option.get_type_name();
+  entry.text = with_conditions(option);
+  entry.group = !heading.empty()                  ? heading
+                : option.get_group() == "Options" ? ""
+                                                  : option.get_group();
+  entry.choices = hinted(option, kChoices);
+  entry.endings = hinted(option, kEndings);
+  entry.required = option.get_required();
+  entry.repeated = option.get_items_expected_max() > 1 &&
+                   (option.get_positional() || option.get_allow_extra_args());
+  return entry;
+}
+
+void describe_options(const CLI::App& app, const std::string& heading, Manual* manual) {
+  for (const CLI::App* group : app.get_subcommands({})) {
+    if (group->get_name().empty()) describe_options(*group, heading_of(*group), manual);
+  }
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;                       // hidden
+    if (!heading.empty() && option == app.get_help_ptr()) continue;  // every group has its own
+    ManualOption entry = entry_of(*option, heading);
+    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(entry));
+  }
+}
+
+Manual describe(const CLI::App& app, const std::string& command) {
+  Manual manual;
+  manual.command = command;
+  manual.text = app.get_description();
+  manual.notes = app.get_footer();
+  describe_options(app, "", &manual);
+  for (const CLI::App* each : app.get_subcommands({})) {
+    if (!each->get_name().empty())
+      manual.commands.push_back(describe(*each, command + " " + each->get_name()));
+  }
+  return manual;
+}
+
+// The manual of the command whose --help is asked for.
+Manual asked_manual(const CLI::App& program) {
+  const std::vector<const CLI::App*> parsed = program.get_subcommands(
+      [](const CLI::App* each) { return each->parsed() && !each->get_name().empty(); });
+  return parsed.empty()
+             ? manual_of(program)
+             : describe(*parsed.front(), program.get_name() + " " + parsed.front()->get_name());
+}
+
+// "help mesh" as "mesh --help", for a program that has no command help.
+std::vector<char*> without_help(const Manual& program, int argc, char** argv) {
+  static char option[] = "--help";
+  std::vector<char*> words(argv, argv + argc);
+  const auto is_help = [&](const Manual& each) {
+    return each.command == program.command + " help";
+  };
+  if (argc < 2 || std::string_view(argv[1]) != "help" || program.commands.empty() ||
+      std::any_of(program.commands.begin(), program.commands.end(), is_help))
+    return words;
+  words.erase(words.begin() + 1);
+  words.resize(std::min<size_t>(words.size(), 2));
+  words.push_back(option);
+  return words;
+}
+
+// "biuld" of "biuld --help", which CLI11 would answer with the help of the program.
+bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
+  return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
+         asked_manual(program).command == program.get_name();
+}
+
+}  // namespace
+
+const std::vector<std::string> kSceneEndings = {".ply",  ".stl", ".obj", ".off",
+                                                ".gltf", ".glb", ".drc", ".om"};
+
+Manual manual_of(const CLI::App& program) {
+  return describe(program, program.get_name());
+}
+
+std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == kManualTable) {
+    std::fputs(to_table(manual_of(*program)).c_str(), stdout);
+    return 0;
+  }
+  std::vector<char*> words = without_help(manual_of(*program), argc, argv);
+  argc = int(words.size());
+  argv = words.data();
+  try {
+    program->parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::CallForHelp& call) {
+    if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, argc, argv, call));
+    std::fputs(help_text(asked_manual(*program), text_width(stdout)).c_str(), stdout);
+    return 0;
+  } catch (const CLI::Success& success) {  // --version
+    return program->exit(success);
+  } catch (const CLI::ParseError& error) {
+    fail_usage(explain(*program, argc, argv, error));
+  }
+}
+
+CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choices) {
+  return hint(option, kChoices, choices);
+}
+
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices) {
+  return suggests(option->check(CLI::IsMember(choices).description("")), choices);
+}
+
+CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
+  return hint(option, kEndings, endings);
+}
+
+CLI::Option* takes_folder(CLI::Option* option) {
+  return hint(option, kEndings, {"/"});
+}
+
+CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
+  std::string text = option->get_description();
+  const size_t end = std::min(text.find(" (default"), text.size());
+  text.insert(end, ", " + std::to_string(least) + " to " + std::to_string(most));
+  option->description(text);
+  return option->check(CLI::Range(least, most).description(""));
+}
+
+void add_examples(CLI::App* command, const std::vector<std::string>& lines,
+                  const std::string& before) {
+  std::string notes = before + (before.empty() ? "" : "\n\n");
+  notes += lines.size() == 1 ? "Example:\n" : "Examples:\n";
+  for (const std::string& line : lines) notes += "  " + line + "\n";
+  command->footer(notes + "\n" + kExitCodes);
+}
+
+}  // namespace svdag

@@ -1,0 +1,65 @@
+#include "io/help/manual.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace svdag {
+namespace {
+
+bool is_heading(const std::string& line) {
+  return std::isupper(static_cast<unsigned char>(line[0])) && line.back() == ':' &&
+         line.size() < 32 && std::all_of(line.begin(), line.end() - 1, [](char c) {
+           return c == ' ' || std::isalpha(static_cast<unsigned char>(c));
+         });
+}
+
+}  // namespace
+
+std::string page_of(const std::string& command) {
+  std::string page = command;
+  std::replace(page.begin(), page.end(), ' ', '-');
+  return page;
+}
+
+std::string usage_of(const Manual& manual) {
+  if (!manual.commands.empty()) return "COMMAND [OPTIONS]";
+  std::string usage;
+  for (const ManualOption& option : manual.options) {
+    if (option.required) usage += option.names.front() + " " + option.value + " ";
+  }
+  usage += "[OPTIONS]";
+  for (const ManualOption& operand : manual.operands) {
+    const std::string name = operand.names.front() + (operand.repeated ? "..." : "");
+    usage += operand.required ? " " + name : " [" + name + "]";
+  }
+  return usage;
+}
+
+std::vector<Paragraph> paragraphs_of(std::string_view text) {
+  std::vector<Paragraph> paragraphs;
+  bool apart = true;  // the next line begins a paragraph
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    const std::string line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty()) {
+      apart = true;
+      continue;
+    }
+    const auto kind = line[0] == ' '              ? Paragraph::Kind::kLines
+                      : apart && is_heading(line) ? Paragraph::Kind::kHeading
+                                                  : Paragraph::Kind::kText;
+    if (apart || paragraphs.back().kind != kind) {
+      paragraphs.push_back({kind, {line}});
+    } else if (kind == Paragraph::Kind::kText) {
+      paragraphs.back().lines[0] += " " + line;
+    } else {
+      paragraphs.back().lines.push_back(line);
+    }
+    if (kind == Paragraph::Kind::kHeading) paragraphs.back().lines[0].pop_back();
+    apart = false;
+  }
+  return paragraphs;
+}
+
+}  // namespace svdag

@@ -1,0 +1,118 @@
+#include "io/help/pages/completion.h"
+
+namespace svdag {
+namespace {
+
+// What may stand in the place of a value, as the script below understands it.
+std::string kind_of(const ManualOption& option) {
+  if (!option.choices.empty()) return "words " + words(option.choices);
+  if (takes_any_file(option)) return "files ";
+  if (!option.endings.empty()) return "files " + words(option.endings);
+  return "value";
+}
+
+// The cases of one command: its options, then its operands by their number.
+std::string cases_of(const Manual& command) {
+  const std::string name = name_in_program(command);
+  std::string out;
+  for (const ManualOption& option : command.options) {
+    if (option.value.empty()) continue;
+    std::string patterns;
+    for (const std::string& each : option.names)
+      patterns += (patterns.empty() ? "" : "|") + ("\"" + name + " " + each + "\"");
+    out += "    " + patterns + ") kind=" + quoted(kind_of(option)) + " ;;\n";
+  }
+  size_t number = 0;
+  for (const ManualOption& operand : command.operands) {
+    const std::string which = operand.repeated ? "\"" + name + " \"[0-9]*"
+                                               : "\"" + name + " " + std::to_string(number) + "\"";
+    out += "    " + which + ") kind=" + quoted(kind_of(operand)) + " ;;\n";
+    ++number;
+  }
+  return out;
+}
+
+std::string options_of(const Manual& command) {
+  std::string out;
+  for (const ManualOption& option : command.options) out += words(option.names) + " ";
+  if (!out.empty()) out.pop_back();
+  return "    " + quoted(name_in_program(command)) + ") options=" + quoted(out) + " ;;\n";
+}
+
+// @ stands for the name of the program's function.
+constexpr const char* kEngine = R"sh(
+# Offers what fits the word so far: choices, or files and folders by their endings.
+@_offer() {
+  local kind=$1 name ending
+  case $kind in
+    words*) COMPREPLY=($(compgen -W "${kind#words }" -- "$cur")) ;;
+    files*)
+      compopt -o filenames 2>/dev/null
+      while IFS= read -r name; do
+        if [[ -d ${name/#\~/$HOME} ]]; then
+          COMPREPLY+=("$name")
+          continue
+        fi
+        [[ $kind == "files " ]] && COMPREPLY+=("$name")
+        for ending in ${kind#files }; do
+          [[ ${name,,} == *"$ending" ]] && COMPREPLY+=("$name") && break
+        done
+      done < <(compgen -f -- "$cur")
+      ;;
+  esac
+}
+
+@() {
+  local cur=${COMP_WORDS[COMP_CWORD]}
+  local command= number=0 after= i word kind options
+  COMPREPLY=()
+  [[ $cur == = ]] && cur=  # bash splits --rule=thin into three words
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    word=${COMP_WORDS[i]}
+    if [[ $after ]]; then  # the value of an option, which may stand behind =
+      [[ $word == = ]] || after=
+    elif [[ $word == -* ]]; then
+      @_kind "$command" "$word"
+      after=$kind
+    elif [[ -z $command && "@COMMANDS" == *" $word "* ]]; then
+      command=$word
+    else
+      ((++number))
+    fi
+  done
+  if [[ $after ]]; then
+    @_offer "$after"
+  elif [[ $cur == -* ]]; then
+    @_options "$command"
+    COMPREPLY=($(compgen -W "$options" -- "$cur"))
+  elif [[ -z $command && "@COMMANDS" != "  " ]]; then
+    COMPREPLY=($(compgen -W "@COMMANDS" -- "$cur"))
+  else
+    @_kind "$command" "$number"
+    @_offer "$kind"
+  fi
+}
+)sh";
+
+}  // namespace
+
+std::string bash_completion(const Manual& program) {
+  std::string function = "_" + with(program.command, "-", "_"), cases, options, commands = " ";
+  cases = cases_of(program);
+  options = options_of(program);
+  for (const Manual& command : program.commands) {
+    cases += cases_of(command);
+    options += options_of(command);
+    commands += name_in_program(command) + " ";
+  }
+  if (program.commands.empty()) commands = "  ";
+  std::string out = "# Completion of " + program.command + " for bash.\n\n";
+  out += "# What an option takes, or the operand of a number: sets kind.\n" + function +
+         "_kind() {\n  kind=\n  case \"$1 $2\" in\n" + cases + "  esac\n}\n\n";
+  out += "# The options of a command: sets options.\n" + function + "_options() {\n  case $1 in\n" +
+         options + "  esac\n}\n";
+  out += with(with(kEngine, "@COMMANDS", commands), "@", function);
+  return out + "\ncomplete -F " + function + " " + program.command + "\n";
+}
+
+}  // namespace svdag

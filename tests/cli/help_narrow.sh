@@ -1,0 +1,2 @@
+COLUMNS=40 svdag submit --help
+COLUMNS=40 svdag-verify --help

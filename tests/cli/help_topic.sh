@@ -1,0 +1,2 @@
+svdag help rules
+COLUMNS=44 svdag help exit-codes

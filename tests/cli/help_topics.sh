@@ -1,0 +1,1 @@
+svdag help
