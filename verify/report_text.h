@@ -13,7 +13,7 @@ std::string escaped(const std::string& text);
 std::string base64(const std::vector<std::byte>& bytes);
 // One number through a printf pattern.
 std::string formatted(const char* pattern, double value);
-// 104807909 -> "104.8 M": K, M, G and T are powers of 1000.
+// 104807909 -> "105 M": K, M, G and T are powers of 1000.
 std::string short_count(uint64_t count);
 
 }  // namespace svdag

@@ -13,6 +13,7 @@ import unittest
 
 BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 READER = pathlib.Path(__file__).resolve().parent / "reader"
+ROOT = READER.parents[2]
 
 
 def run(*command, folder=None):
@@ -65,7 +66,10 @@ class Package(unittest.TestCase):
         for library in ("libc6", "libstdc++6", "libxxhash0"):
             self.assertRegex(needs, rf"\b{re.escape(library)}\b")
         for name, package in packages.items():
-            self.assertIn(f"./usr/share/doc/{name}/copyright\n", run("dpkg-deb", "-c", package))
+            for file in ("copyright", "changelog.gz"):
+                self.assertIn(f"./usr/share/doc/{name}/{file}\n", run("dpkg-deb", "-c", package))
+            version = run("dpkg-deb", "-f", package, "Version").strip()
+            self.assertTrue((ROOT / "debian" / "changelog").read_text().startswith(f"svdag ({version}) "))
             synopsis = run("dpkg-deb", "-f", package, "Description").splitlines()[0]
             self.assertIn({"svdag": "builder", "libsvdag-dev": "reader"}[name], synopsis)
         held = run("dpkg-deb", "-c", packages["svdag"])
