@@ -27,7 +27,7 @@
 namespace svdag {
 
 struct ChildLimits {
-  uint64_t memory = 0;   // bytes that the child may have beyond what it inherits
+  uint64_t memory = 0;   // bytes that the child may have beyond what it inherits, used or free
   uint64_t seconds = 0;  // of processor time; it may keep us waiting ten times as long
 };
 

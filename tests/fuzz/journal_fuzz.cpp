@@ -1,5 +1,6 @@
 // Arbitrary bytes as the journal of a bake, as they are and with their checksums repaired: what is
-// whole of it is read, and makes sense or is an Error.
+// whole of it is read, and makes sense or is an Error; what makes sense can be written and read
+// again.
 #include "builder/saved_bake.h"
 #include "streaming/file_folder.h"
 #include "tests/fuzz/file_fuzz.h"
@@ -9,16 +10,36 @@
 namespace svdag {
 namespace {
 
+JournalRecord record_of(SavedKind kind, const RecordWriter& record) {
+  return {uint32_t(kind), {record.bytes().begin(), record.bytes().end()}};
+}
+
+// Nothing may be thrown here.
+void write_and_read_again(const SavedBake& saved) noexcept {
+  std::vector<JournalRecord> records = {
+      record_of(SavedKind::kBake, bake_record(saved.description, saved.grid, saved.block_bytes))};
+  if (saved.split) records.push_back(record_of(SavedKind::kSplit, split_record(*saved.split)));
+  for (const BakedRun& run : saved.runs)
+    records.push_back(record_of(SavedKind::kRun, run_record(run)));
+  const SavedBake again = read_saved(records, "again");
+  const bool same = again.description == saved.description && again.grid == saved.grid &&
+                    again.runs.size() == saved.runs.size() &&
+                    again.split.has_value() == saved.split.has_value() &&
+                    again.run_blocks == saved.run_blocks;
+  if (!same) std::abort();
+}
+
 void try_journal(const std::string& bytes) {
   static const OwnFolder temp;
   static const Folder folder = Folder::open_private(temp.path());
   temp.write("journal", bytes);
   std::vector<JournalRecord> records;
-  const Journal journal(folder.open("journal"), &records);
+  Journal journal(folder.open("journal"), &records);
   expect_only_errors(
       [&] {
         const SavedBake saved = read_saved(records, "journal");
-        if (!saved.runs.empty() && !saved.grid.is_possible()) std::abort();
+        if (saved.block_bytes != 0) write_and_read_again(saved);
+        journal.append(uint32_t(SavedKind::kSession), {});
       },
       ExitCode::kOutput);
 }

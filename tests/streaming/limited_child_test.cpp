@@ -75,7 +75,7 @@ TEST(LimitedChild, ACrashIsOneSentence) {
 TEST(LimitedChild, GetsNoMoreMemoryThanItMay) {
   expect_stopped(
       [](const BlockSink& out) {
-        std::vector<std::byte> large(size_t(100) << 20, std::byte(1));
+        std::vector<std::byte> large(size_t(4) << 30, std::byte(1));
         out(std::span(large).first(9));
       },
       "it needs more memory than it may have");
