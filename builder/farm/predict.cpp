@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kSceneTriangle = 350e-9;  // read, snapped and sorted into a cell
 constexpr double kPlanTriangle = 150e-9;   // read from a bin
-constexpr double kPrepared = 60e-9;        // for a cell
 constexpr double kDecision = 0.41e-9;
 constexpr double kDivided = 281e-9;
 constexpr double kFound = 524e-9;  // found to be new, numbered, sorted, written
@@ -35,7 +34,7 @@ uint64_t budget_for(double need, const StepLimits& limits) {
 }  // namespace
 
 double cpu_of(const Work& work) {
-  return kPrepared * work.triangles + kDecision * work.decisions + kDivided * work.divided;
+  return kDecision * work.decisions + kDivided * work.divided;
 }
 
 double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles) {
