@@ -17,8 +17,9 @@ constexpr int kCellLevel = 6;       // as builder/build.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
 constexpr size_t kMostSamples = 512, kFewestSamples = 8;
-constexpr int kPart = 4;              // one drawn cell in so many is in the smaller sample, too
-constexpr double kUnsurveyed = 2e-6;  // seconds per triangle of a bin that is too heavy to survey
+constexpr int kPart = 4;  // one drawn cell in so many is in the smaller sample, too
+constexpr double kUnsurveyed =
+    7.05e-6;  // seconds per triangle of a bin that is too heavy to survey
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,

@@ -24,17 +24,17 @@ LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
 }  // namespace
 
 Work& Work::operator+=(const Work& other) {
-  decisions += other.decisions;
   divided += other.divided;
+  computed += other.computed;
   return *this;
 }
 
 Work Work::operator-(const Work& other) const {
-  return {decisions - other.decisions, divided - other.divided};
+  return {divided - other.divided, computed - other.computed};
 }
 
 Work Work::operator*(double factor) const {
-  return {decisions * factor, divided * factor};
+  return {divided * factor, computed * factor};
 }
 
 Grid coarser_grid(const Grid& grid, int level) {
@@ -61,8 +61,7 @@ class Survey::Baker : public Spiller {
 
   Work work() const {
     const auto& divided = descent_.divided();
-    return {double(descent_.decisions().asked),
-            std::accumulate(divided.begin(), divided.end(), 0.0)};
+    return {std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
   }
 
   bool due(const NodeTable& table) override { return freeze_bytes(table) >= config_.table_bytes; }

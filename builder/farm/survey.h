@@ -18,8 +18,8 @@ namespace svdag {
 
 // What a descent did.
 struct Work {
-  double decisions = 0;  // of the kernels
-  double divided = 0;    // cubes
+  double divided = 0;   // cubes
+  double computed = 0;  // nodes of the plane memo
 
   Work& operator+=(const Work& other);
   Work operator-(const Work& other) const;
