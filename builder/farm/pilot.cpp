@@ -18,8 +18,8 @@ constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
 constexpr size_t kMostSamples = 512, kFewestSamples = 8;
 constexpr int kPart = 4;  // one drawn cell in so many is in the smaller sample, too
-constexpr double kUnsurveyed =
-    7.05e-6;  // seconds per triangle of a bin that is too heavy to survey
+// Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
+constexpr double kUnsurveyed = 7.05e-6;
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,
@@ -113,7 +113,8 @@ double PowerLaw::operator()(double x) const {
 
 PowerLaw power_law(double quarter_x, double quarter_y, double x, double y) {
   constexpr double kApart = 1.2;
-  PowerLaw law = {std::max(1.0, x), y, 1};
+  if (x <= 0 || y <= 0) return {};
+  PowerLaw law = {x, y, 1};
   if (quarter_x > 0 && quarter_y > 0 && x > kApart * quarter_x)
     law.exponent = std::clamp(std::log(y / quarter_y) / std::log(x / quarter_x), 0.0, 1.0);
   return law;

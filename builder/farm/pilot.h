@@ -36,7 +36,8 @@ struct PowerLaw {
 };
 
 // Through (quarter_x, quarter_y) and (x, y). The exponent is between 0 and 1, for finer voxels
-// repeat themselves no less; 1 where the points are too near to each other to tell.
+// repeat themselves no less; 1 where the points are too near to each other to tell. Without a
+// sample: y = x.
 PowerLaw power_law(double quarter_x, double quarter_y, double x, double y);
 
 struct Pilot {

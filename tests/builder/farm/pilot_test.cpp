@@ -23,7 +23,7 @@ TEST(PowerLaw, NeverGrowsFasterThanTheCoarseCount) {
 TEST(PowerLaw, IsAProportionWhereSamplesTellNothing) {
   EXPECT_DOUBLE_EQ(power_law(390, 10, 400, 2000)(800), 4000);
   EXPECT_DOUBLE_EQ(power_law(0, 0, 400, 2000)(800), 4000);
-  EXPECT_EQ(power_law(0, 0, 0, 0)(800), 0);
+  EXPECT_DOUBLE_EQ(power_law(0, 0, 0, 0)(800), 800);
 }
 
 // The scene is finer than its coarse survey by two levels, so the counts are not known beforehand.
