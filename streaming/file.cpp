@@ -29,6 +29,10 @@ std::string reason(int error) {
       return "the disk quota is used up";
     case EROFS:
       return "the file system is read-only";
+    case ESTALE:
+      return "the file server has replaced or forgotten it";
+    case ETIMEDOUT:
+      return "the file server does not answer";
     default:
       return std::strerror(error);
   }
@@ -42,6 +46,19 @@ std::string random_suffix() {
   return text;
 }
 
+// What only a file server says: it may be well again a moment later, whatever was asked of it.
+bool is_of_server(int error) {
+  return error == ESTALE || error == ETIMEDOUT;
+}
+
+// Whether `path` names the open file `fd`: what a rename has done that was sent to a file server
+// twice, and is said to have failed the second time.
+bool names(const std::string& path, int fd) {
+  struct stat own, named;
+  return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+}
+
 // From direct transfers back to those through the page cache; false if they were that already.
 bool leave_direct(int fd) {
   const int flags = ::fcntl(fd, F_GETFL);
@@ -51,7 +68,8 @@ bool leave_direct(int fd) {
 }  // namespace
 
 void fail_call(ExitCode code, const char* what, const std::string& path, int error) {
-  throw Error(code, std::string(what) + ": " + reason(error), path);
+  throw Error(is_of_server(error) ? ExitCode::kOutput : code,
+              std::string(what) + ": " + reason(error), path);
 }
 
 File File::open_read(const std::string& path) {
@@ -161,6 +179,9 @@ bool File::use_direct() {
 
 bool File::try_lock() {
   if (retry_interrupted([&] { return ::flock(fd_, LOCK_EX | LOCK_NB); }) == 0) return true;
+  if (errno == ENOLCK || errno == EOPNOTSUPP)
+    throw Error(ExitCode::kOutput,
+                "cannot be locked, as files can on local disks: choose one with --scratch", path_);
   if (errno != EWOULDBLOCK) fail_call(ExitCode::kOutput, "cannot be locked", path_, errno);
   return false;
 }
@@ -181,7 +202,7 @@ void File::link_as(const std::string& path) {
   ::umask(mask);
   if (::fchmod(fd_, 0666 & ~mask) != 0)
     fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
-  if (::rename(temporary_.c_str(), path.c_str()) != 0)
+  if (::rename(temporary_.c_str(), path.c_str()) != 0 && !(errno == ENOENT && names(path, fd_)))
     fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
   temporary_.clear();
   path_ = path;
@@ -204,7 +225,8 @@ void sync_folder(const std::string& folder) {
 }
 
 void fail_folder_sync(const std::string& folder, int error) {
-  if (error != EINVAL) fail_call(ExitCode::kOutput, "cannot be brought to disk", folder, error);
+  if (error != EINVAL && error != EOPNOTSUPP)
+    fail_call(ExitCode::kOutput, "cannot be brought to disk", folder, error);
 }
 
 std::string folder_of(const std::string& path) {

@@ -8,11 +8,12 @@
 
 namespace svdag {
 
-// Throws the Error "PATH: WHAT: reason", the reason being that of an errno in a user's words.
+// Throws the Error "PATH: WHAT: reason", the reason being that of an errno in a user's words. What
+// a file server says of itself is always kOutput, for it may pass.
 [[noreturn]] void fail_call(ExitCode code, const char* what, const std::string& path, int error);
 
-// After a failed fsync of a folder. Some file systems cannot sync one and say EINVAL: nothing more
-// can be done there, and nothing is thrown.
+// After a failed fsync of a folder. Some file systems cannot sync one and say EINVAL or EOPNOTSUPP:
+// nothing more can be done there, and nothing is thrown.
 void fail_folder_sync(const std::string& folder, int error);
 
 template <class Call>

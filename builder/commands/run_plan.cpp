@@ -2,6 +2,7 @@
 
 #include "builder/commands/commands.h"
 #include "builder/farm/run_local.h"
+#include "builder/farm/shell.h"
 #include "builder/farm/submit_openjd.h"
 #include "builder/farm/submit_slurm.h"
 #include "streaming/atomic_file.h"
@@ -22,7 +23,11 @@ int run_run(const RunCommandConfig& config) {
   try {
     run_local(plan, local);
   } catch (const Interrupted& interrupted) {
-    std::fprintf(stderr, "svdag: stopped; the same command goes on with what is left\n");
+    std::vector<std::string> again = {"svdag", "run", config.plan};
+    if (config.processes != 0) again.insert(again.end(), {"-j", std::to_string(config.processes)});
+    if (!config.scratch.empty()) again.insert(again.end(), {"--scratch", config.scratch});
+    std::fprintf(stderr, "svdag: stopped; this goes on with what is left: %s\n",
+                 shell_words(again).c_str());
     return 128 + interrupted.signal;
   }
   if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());
@@ -32,8 +37,12 @@ int run_run(const RunCommandConfig& config) {
 int run_submit(const SubmitConfig& config) {
   const Plan plan = load_plan(config.plan, false);
   if (config.engine == "slurm") {
-    submit_slurm(
-        plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
+    try {
+      submit_slurm(
+          plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
+    } catch (const Interrupted& interrupted) {  // it has told what goes on
+      return 128 + interrupted.signal;
+    }
     return int(ExitCode::kOk);
   }
   if (config.wait || !config.options.empty())

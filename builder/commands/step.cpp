@@ -2,17 +2,41 @@
 
 #include "builder/commands/commands.h"
 #include "builder/farm/run_step.h"
+#include "builder/farm/shell.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
+
+// The command that does the step again in the same way: scratch is found where it was left.
+std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                       size_t threads) {
+  std::vector<std::string> words = {"svdag"};
+  for (const std::string& word : plan.command(step)) words.push_back(word);
+  if (!config.output.empty()) words.insert(words.end(), {"-o", config.output});
+  if (!config.scratch.empty()) words.insert(words.end(), {"--scratch", config.scratch});
+  if (config.memory != 0) words.insert(words.end(), {"-m", std::to_string(config.memory)});
+  if (threads != 0) words.insert(words.end(), {"-j", std::to_string(threads)});
+  return shell_words(words);
+}
 
 int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
         const OutputConfig& output) {
   ParallelExecutor executor(threads != 0 ? threads : step.threads);
   Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
-  const StepReport report = run_step(plan, step, config, &executor, &progress);
+  StepReport report;
+  try {
+    report = run_step(plan, step, config, &executor, &progress);
+  } catch (const Interrupted& interrupted) {
+    progress.finish();
+    std::fprintf(stderr, "svdag: %s stopped; %s: %s\n", step.name.c_str(),
+                 interrupted.resumable ? "what is done is saved, and this goes on from there"
+                                       : "this begins it again",
+                 command_of(plan, step, config, threads).c_str());
+    return 128 + interrupted.signal;
+  }
   progress.finish();
   if (output.quiet) return int(ExitCode::kOk);
   std::printf("%s: %s, %s, content %s\n", report.output.c_str(),

@@ -51,8 +51,7 @@ void CellCache::open_packs() {
       packs_.push_back({Pack(config_.folder + "/" + name, budget_), {}});
       entries += packs_.back().pack.entries().size();
     } catch (const Error& error) {
-      if (error.code() != ExitCode::kBadInput) throw;
-      folder_.remove(name);
+      discard(name, error);
     }
   }
   counted_ = budget_->reserve(entries * kPerPlace, "the cell cache");
@@ -67,6 +66,14 @@ CellKey CellCache::key(const Cube& cube, const EntryList& list) const {
   return cell_key(grid_, rule_, cube, list);
 }
 
+// What to do about a pack that cannot be used. One that a file server cannot give just now may be
+// good another time.
+void CellCache::discard(const std::string& name, const Error& error) const {
+  if (error.code() == ExitCode::kOutput) return;
+  if (error.code() != ExitCode::kBadInput) throw error;
+  folder_.remove(name);
+}
+
 // Proves a pack before its first use; its file is marked as used.
 bool CellCache::usable(Open* open) const {
   if (open->proven || open->broken) return open->proven;
@@ -76,9 +83,8 @@ bool CellCache::usable(Open* open) const {
     std::error_code ignored;  // a cache that cannot be written to serves all the same
     fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
   } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput) throw;
     open->broken = true;
-    folder_.remove(fs::path(open->pack.path()).filename().string());
+    discard(fs::path(open->pack.path()).filename().string(), error);
   }
   return open->proven;
 }
@@ -139,10 +145,12 @@ void CellCache::trim() const {
   }
   std::sort(packs.begin(), packs.end(),
             [](const Found& a, const Found& b) { return a.used < b.used; });
+  size_t left = packs.size();
   for (const Found& pack : packs) {
-    if (all <= config_.most_bytes) return;
+    if (all <= config_.most_bytes && left <= config_.most_packs) return;
     folder_.remove(pack.name);
     all -= pack.bytes;
+    --left;
   }
 }
 

@@ -5,8 +5,9 @@
 // adds packs of its own at its end, each under a random name and complete from the moment that it
 // has the name: any number of bakes may share the folder. A pack is read through before anything of
 // it is taken; one that is damaged, or gone, is as if it had never been, and is removed. Beyond the
-// folder's limit the packs that were not used for the longest time go first.
-// Rejected: a file per cell (262,144 at 64K^3), one data base (locks over NFS).
+// folder's limits the packs that were not used for the longest time go first: one limit is of
+// bytes, the other of packs, for small ones are never joined to larger ones and each costs a bake
+// its reading. Rejected: a file per cell (262,144 at 64K^3), one data base (locks over NFS).
 #pragma once
 
 #include <mutex>
@@ -23,12 +24,13 @@ namespace svdag {
 struct CellCacheConfig {
   std::string folder;                        // made if it is not there; private to the user
   uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
+  size_t most_packs = 4096;
 };
 
 class CellCache final : public CellStore {
  public:
   CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule, MemoryBudget* budget);
-  // Removes packs until the folder is within its limit.
+  // Removes packs until the folder is within its limits.
   ~CellCache() override;
 
   CellKey key(const Cube& cube, const EntryList& list) const override;
@@ -55,6 +57,7 @@ class CellCache final : public CellStore {
   void open_packs();
   void trim() const;
   bool usable(Open* open) const;
+  void discard(const std::string& name, const Error& error) const;
 
   CellCacheConfig config_;
   Grid grid_;

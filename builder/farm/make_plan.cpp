@@ -146,6 +146,7 @@ void Planner::add_shards(const std::vector<ShardWork>& works) {
     PlanStep step;
     step.name = "shard-" + std::to_string(i + 1);
     step.cells = shards_[i];
+    step.triangles = works[i].triangles;
     step.output = "runs/" + step.name + ".run";
     step.threads = config_.step_threads;
     step.predicted = predict_shard(works[i], limits());

@@ -16,15 +16,20 @@ constexpr int kFinestPilot = 14;    // beyond, the sample alone tells
 constexpr int kCellLevel = 6;       // as builder/build.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
-constexpr size_t kMostSamples = 64, kFewestSamples = 6;
-constexpr double kRepeats = 0.93;     // of logarithms: a sample repeats itself less than the whole
-constexpr double kUnsurveyed = 2e-6;  // seconds per triangle of a bin that is too heavy to survey
+constexpr size_t kMostSamples = 512, kFewestSamples = 8;
+constexpr int kPart = 4;  // one drawn cell in so many is in the smaller sample, too
+// Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
+constexpr double kUnsurveyed = 7.05e-6;
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,
                          config.triangle_bytes};
   survey.descent.memo_bytes = config.table_bytes / 8;
   return survey;
+}
+
+NodeCounts counts_of(Survey* survey) {
+  return {double(survey->nodes()), double(survey->bricks())};
 }
 
 // The coarse survey: cost and work of each cell.
@@ -48,7 +53,7 @@ Coarse survey_coarsely(const Grid& grid, const std::vector<TriangleBin>& bins, S
     });
     if (!counted) coarse.heavy.push_back(b);
   }
-  coarse.found = {double(survey.nodes()), double(survey.bricks())};
+  coarse.found = counts_of(&survey);
   return coarse;
 }
 
@@ -67,29 +72,32 @@ std::map<uint64_t, int> draw(const Coarse& coarse) {
   return drawn;
 }
 
-// The drawn cells at two levels of detail, each with a table of its own.
+// The drawn cells at one level of detail, and a part of them, each with a table of its own.
 struct Sample {
-  Work work;
-  NodeCounts found;
+  NodeCounts found, found_in_part;
   std::map<uint64_t, Work> cells;
 };
 
 Sample survey_sample(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
                      const SurveyConfig& config, const Coarse& coarse,
                      const std::map<uint64_t, int>& drawn, MemoryBudget* budget) {
-  Survey survey(grid, config, budget);
+  Survey survey(grid, config, budget), smaller(grid, config, budget);
   std::set<size_t> wanted_bins;
-  for (const auto& [cell, times] : drawn) wanted_bins.insert(coarse.bin_of.at(cell));
+  std::set<uint64_t> part;
+  int index = 0;
+  for (const auto& [cell, times] : drawn) {
+    wanted_bins.insert(coarse.bin_of.at(cell));
+    if (index++ % kPart == 0) part.insert(cell);
+  }
+  survey.share_with(&smaller, [&](uint64_t cell) { return part.contains(cell); });
   Sample sample;
   for (const size_t b : wanted_bins) {
     survey.count(
         file, bins[b], [&](uint64_t cell) { return drawn.contains(cell); },
-        [&](uint64_t cell, const Work& work) {
-          sample.work += work;
-          sample.cells[cell] += work;
-        });
+        [&](uint64_t cell, const Work& work) { sample.cells[cell] += work; });
   }
-  sample.found = {double(survey.nodes()), double(survey.bricks())};
+  sample.found = counts_of(&survey);
+  sample.found_in_part = counts_of(&smaller);
   return sample;
 }
 
@@ -98,6 +106,19 @@ double ratio(double fine, double coarse) {
 }
 
 }  // namespace
+
+double PowerLaw::operator()(double x) const {
+  return x > 0 ? fine * std::pow(x / coarse, exponent) : 0;
+}
+
+PowerLaw power_law(double quarter_x, double quarter_y, double x, double y) {
+  constexpr double kApart = 1.2;
+  if (x <= 0 || y <= 0) return {};
+  PowerLaw law = {x, y, 1};
+  if (quarter_x > 0 && quarter_y > 0 && x > kApart * quarter_x)
+    law.exponent = std::clamp(std::log(y / quarter_y) / std::log(x / quarter_x), 0.0, 1.0);
+  return law;
+}
 
 Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
                 const PilotConfig& config, MemoryBudget* budget) {
@@ -131,11 +152,12 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   }
   const double growth = times > 0 ? sum / times : 1;
   pilot.work_growth = growth;
-  pilot.growth = {std::pow(ratio(fine.found.nodes, same.found.nodes), kRepeats),
-                  std::pow(ratio(fine.found.bricks, same.found.bricks), kRepeats)};
+  pilot.nodes = power_law(same.found_in_part.nodes, fine.found_in_part.nodes, same.found.nodes,
+                          fine.found.nodes);
+  pilot.bricks = power_law(same.found_in_part.bricks, fine.found_in_part.bricks, same.found.bricks,
+                           fine.found.bricks);
   pilot.work = coarse.work * growth;
-  pilot.found = {coarse.found.nodes * pilot.growth.nodes,
-                 coarse.found.bricks * pilot.growth.bricks};
+  pilot.found = {pilot.nodes(coarse.found.nodes), pilot.bricks(coarse.found.bricks)};
   for (const auto& [cell, work] : coarse.cells)
     pilot.cells.push_back({cell, cpu_of(work) * growth});
   for (const size_t b : coarse.heavy) {
@@ -162,8 +184,8 @@ std::vector<ShardWork> survey_shards(const Grid& grid, const std::vector<Triangl
           file, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
           [&](uint64_t, const Work& work) { coarse += work; });
     }
-    shard.found = {double(survey.nodes()) * pilot.growth.nodes,
-                   double(survey.bricks()) * pilot.growth.bricks};
+    const NodeCounts found = counts_of(&survey);
+    shard.found = {pilot.nodes(found.nodes), pilot.bricks(found.bricks)};
     shard.work = coarse * pilot.work_growth;
     works.push_back(shard);
   }

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr size_t kMostThreads = 1024;
 
 template <class Vector>
@@ -98,6 +98,7 @@ Json step_json(const Plan& plan, const PlanStep& step) {
   if (step.is_shard()) {
     json["cells"] = {
         {"level", step.cells.level}, {"begin", step.cells.begin}, {"end", step.cells.end}};
+    json["triangles"] = step.triangles;
   } else {
     for (const size_t i : step.inputs) json["inputs"].push_back(plan.steps[i].name);
   }
@@ -129,6 +130,7 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   if (json.contains("cells")) {
     const Json& cells = json.at("cells");
     step.cells = {cells.at("level"), cells.at("begin"), cells.at("end")};
+    step.triangles = json.at("triangles");
     const int level = step.cells.level;
     if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
         step.cells.end > uint64_t(1) << 3 * level)

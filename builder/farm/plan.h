@@ -33,6 +33,7 @@ struct Prediction {
 struct PlanStep {
   std::string name;            // "shard-3", "merge-1"
   CellRange cells;             // of a shard; of a merge: none
+  uint64_t triangles = 0;      // that a shard reads
   std::vector<size_t> inputs;  // steps of which a merge reads the outputs; a shard has none
   std::string output;          // in the plan's folder
   size_t threads = 1;

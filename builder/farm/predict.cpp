@@ -6,17 +6,16 @@
 namespace svdag {
 namespace {
 
-constexpr double kSceneTriangle = 350e-9;  // read, snapped and sorted into a cell
-constexpr double kPlanTriangle = 150e-9;   // read from a bin
-constexpr double kPrepared = 60e-9;        // for a cell
-constexpr double kDecision = 0.41e-9;
-constexpr double kDivided = 281e-9;
-constexpr double kFound = 524e-9;  // found to be new, numbered, sorted, written
-constexpr double kMergeRead = 68e-9;
-constexpr double kMergeMade = 43e-9;
-constexpr double kStart = 0.01;  // of a process
+// As tests/bench/plan.py --calibrate prints them.
+constexpr double kStart = 0.0103;            // of a process
+constexpr double kSceneTriangle = 875.6e-9;  // read, snapped, sorted into cells and prepared
+constexpr double kPlanTriangle = 478.9e-9;   // read from a bin and prepared
+constexpr double kDivided = 305.1e-9;        // a cube
+constexpr double kComputed = 346.4e-9;       // a node of the plane memo
+constexpr double kFound = 397.1e-9;          // a node that is new: numbered, sorted, written
+constexpr double kMergeRead = 102.7e-9;
+constexpr double kNodeInFile = 22.7;  // bytes of a node in a .svdag
 
-constexpr double kNodeInFile = 22.5;  // bytes of a node in a .svdag
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 constexpr double kCheckpoint = 30;  // seconds after which a bake saves what it has
 
@@ -35,7 +34,7 @@ uint64_t budget_for(double need, const StepLimits& limits) {
 }  // namespace
 
 double cpu_of(const Work& work) {
-  return kPrepared * work.triangles + kDecision * work.decisions + kDivided * work.divided;
+  return kDivided * work.divided + kComputed * work.computed;
 }
 
 double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles) {
@@ -64,7 +63,7 @@ Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool la
                          const StepLimits& limits) {
   constexpr double kMap = 4, kMargin = 1.5;  // bytes of a number in a map
   Prediction p;
-  p.cpu = kStart + kMergeRead * read.keys() + kMergeMade * made.keys();
+  p.cpu = kStart + kMergeRead * read.keys();
   p.seconds = p.cpu;  // a merge is one stream
   const double maps = 2 * kMap * read.keys();
   p.budget = budget_for(kMargin * 2 * maps, limits);

@@ -1,8 +1,10 @@
 // From counted work to seconds, memory and disk.
 //
-// The model is linear in what the descent counts (builder/farm/survey.h); its constants were fitted
-// to bakes of generated scenes on one machine (tests/bench/plan.py does it again and tells how well
-// they do). Seconds are those of that machine; shares between shards are right on any.
+// The model is linear in triangles, cubes divided, nodes computed for the plane memo and nodes
+// found (builder/farm/survey.h); its constants were fitted to bakes of generated scenes alone, on
+// one machine (tests/bench/plan.py --calibrate does it again, and judges them on other scenes).
+// Seconds are those of that machine; shares between shards are right on any. Memory is no guess: it
+// is what a step is allowed, and it keeps within that.
 #pragma once
 
 #include "builder/farm/plan.h"

@@ -1,6 +1,8 @@
 #include "builder/farm/receipt.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -20,8 +22,14 @@ using Json = nlohmann::ordered_json;
 constexpr uint64_t kLargestReceipt = 1 << 16;
 constexpr uint64_t kCheckMemory = uint64_t(64) << 20;
 
+// A client of a file server remembers for a while that there was no such file. To open the folder
+// makes it ask again (the close-to-open rule of NFS).
 bool exists(const std::string& path) {
   struct stat status;
+  if (::stat(path.c_str(), &status) == 0) return true;
+  const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  ::close(folder);
   return ::stat(path.c_str(), &status) == 0;
 }
 

@@ -16,7 +16,8 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kArray = 1000;    // tasks; Slurm's own limit is 1001 unless configured
+constexpr size_t kUsualArray = 1000;     // tasks, where Slurm does not say how many it allows
+constexpr size_t kLargestArray = 10000;  // a list of more would be too long for a command line
 constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
 constexpr uint64_t kLeastMinutes = 10;
 constexpr uint64_t kMiB = uint64_t(1) << 20;
@@ -26,7 +27,7 @@ constexpr int kPatience = 120;  // polls that squeue may fail for in a row
 // The steps of one sbatch.
 struct Job {
   std::string name;
-  std::vector<size_t> steps;  // an array if they are shards, else one merge
+  std::vector<size_t> steps;  // shards, or one merge
   std::string script;         // its path
   uint64_t memory = 0;
   size_t threads = 1;
@@ -42,9 +43,39 @@ Answer ask_sbatch(const std::vector<std::string>& command) {
   }
 }
 
+// The largest power of ten of which every remainder may be the number of a task; 1 where Slurm has
+// no arrays.
+size_t array_size() {
+  Answer answer;
+  try {
+    answer = ask_process({"scontrol", "show", "config"});
+  } catch (const Error&) {  // not installed beside sbatch
+    return kUsualArray;
+  }
+  const size_t at = answer.code == 0 ? answer.output.find("MaxArraySize") : std::string::npos;
+  const size_t digits = answer.output.find_first_of("0123456789", at);
+  if (at == std::string::npos || digits == std::string::npos) return kUsualArray;
+  const uint64_t most = std::strtoull(answer.output.c_str() + digits, nullptr, 10);
+  size_t size = 1;
+  while (size < kLargestArray && 10 * size <= most) size *= 10;
+  return size;
+}
+
+// "3" and "5-7" for 3, 5, 6, 7: the tasks of an array.
+std::string task_list(const std::vector<size_t>& numbers) {
+  std::string list;
+  for (size_t begin = 0, end; begin < numbers.size(); begin = end) {
+    for (end = begin + 1; end < numbers.size() && numbers[end] == numbers[end - 1] + 1;) ++end;
+    list += (list.empty() ? "" : ",") + std::to_string(numbers[begin]);
+    if (end - begin > 1) list += "-" + std::to_string(numbers[end - 1]);
+  }
+  return list;
+}
+
 class Submission {
  public:
-  Submission(const Plan& plan, const SlurmConfig& config) : plan_(plan), config_(config) {}
+  Submission(const Plan& plan, const SlurmConfig& config)
+      : plan_(plan), config_(config), array_(array_size()) {}
 
   void run() {
     collect();
@@ -55,10 +86,25 @@ class Submission {
     for (Job& job : jobs_) submit(&job);
     if (config_.wait) wait();
   }
+  // Of the jobs that were submitted, with commas between them.
+  std::string jobs() const {
+    std::string ids;
+    for (const Job& job : jobs_) {
+      if (!job.id.empty()) ids += (ids.empty() ? "" : ",") + job.id;
+    }
+    return ids;
+  }
 
  private:
   void collect();
   void add(size_t step, Job* job) const;
+  // Shards are the first steps of a plan.
+  static size_t number_of(size_t shard) { return shard + 1; }
+  size_t task_of(size_t shard) const { return number_of(shard) % array_; }
+  bool is_array(const Job& job) const {
+    return array_ > 1 && plan_.steps[job.steps.front()].is_shard();
+  }
+  std::string log_of(const Job& job) const;
   void submit(Job* job);
   std::string script_of(const Job& job) const;
   std::string dependencies_of(const Job& job) const;
@@ -67,21 +113,25 @@ class Submission {
 
   const Plan& plan_;
   const SlurmConfig& config_;
+  size_t array_;  // shards whose numbers agree but for the remainder go in one array
   std::vector<Job> jobs_;
   std::map<size_t, std::string> ids_;  // of the steps that were submitted: "12" or "12_3"
 };
 
 void Submission::collect() {
-  size_t first = 0;  // shard of the current array
+  const size_t none = SIZE_MAX;
+  size_t current = none;  // array of the last job
   for (size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlanStep& step = plan_.steps[i];
     if (state_of(plan_, step, plan_.path(step.output), false) == OutputState::kValid) continue;
-    const bool joins = step.is_shard() && !jobs_.empty() && i < first + kArray;
-    if (!joins) {
-      first = i / kArray * kArray;
+    const size_t array = step.is_shard() && array_ > 1 ? number_of(i) / array_ : none;
+    if (array == none || array != current) {
       jobs_.emplace_back();
-      jobs_.back().name = step.is_shard() ? "shards-" + std::to_string(first + 1) : step.name;
+      jobs_.back().name = array == none
+                              ? step.name
+                              : "shards-" + std::to_string(std::max<size_t>(1, array * array_));
     }
+    current = array;
     add(i, &jobs_.back());
   }
 }
@@ -98,12 +148,12 @@ void Submission::add(size_t i, Job* job) const {
 std::string Submission::script_of(const Job& job) const {
   const PlanStep& step = plan_.steps[job.steps.front()];
   std::vector<std::string> words = plan_.command(step);
-  if (step.is_shard()) words.pop_back();  // the number
+  if (is_array(job)) words.pop_back();  // the number
   std::string command = shell_word(config_.program.empty() ? own_program() : config_.program);
   for (const std::string& word : words) command += " " + shell_word(word);
-  if (step.is_shard())
+  if (is_array(job))
     command += " \"$((SLURM_ARRAY_TASK_ID + " +
-               std::to_string(job.steps.front() / kArray * kArray) + "))\"";
+               std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) + "))\"";
   if (!config_.scratch.empty()) command += " --scratch " + shell_word(config_.scratch);
   return "#!/bin/sh\n" + command +
          "\n"
@@ -126,12 +176,25 @@ std::string Submission::dependencies_of(const Job& job) const {
   return list;
 }
 
+// Each shard's log bears the shard's own number: that of its array in front of the task's, which
+// has leading zeros then.
+std::string Submission::log_of(const Job& job) const {
+  std::string name = job.name;
+  if (is_array(job)) {
+    const size_t array = number_of(job.steps.front()) / array_;
+    const size_t digits = std::to_string(array_).size() - 1;
+    name = array == 0 ? "shard-%a"
+                      : "shard-" + std::to_string(array) + "%" + std::to_string(digits) + "a";
+  }
+  return plan_.path("logs/" + name + ".slurm.log");
+}
+
 void Submission::submit(Job* job) {
   job->script = plan_.path("logs/" + job->name + ".sh");
   AtomicFile file(job->script);
   file.append(script_of(*job));
   file.commit();
-  const bool array = plan_.steps[job->steps.front()].is_shard();
+  const bool array = is_array(*job);
   const uint64_t minutes = std::max(kLeastMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
   std::vector<std::string> command = {
       "sbatch",
@@ -139,15 +202,14 @@ void Submission::submit(Job* job) {
       "--requeue",
       "--open-mode=append",
       "--job-name=" + job->name,
-      "--output=" + plan_.path("logs/") + (array ? "shard-%a.slurm.log" : job->name + ".slurm.log"),
+      "--output=" + log_of(*job),
       "--mem=" + std::to_string((job->memory + kMiB - 1) / kMiB) + "M",
       "--cpus-per-task=" + std::to_string(job->threads),
       "--time=" + std::to_string(minutes)};
   if (array) {
-    std::string tasks;
-    for (const size_t i : job->steps)
-      tasks += (tasks.empty() ? "" : ",") + std::to_string(i % kArray + 1);
-    command.push_back("--array=" + tasks);
+    std::vector<size_t> tasks;
+    for (const size_t i : job->steps) tasks.push_back(task_of(i));
+    command.push_back("--array=" + task_list(tasks));
   }
   const std::string after = dependencies_of(*job);
   if (!after.empty()) {
@@ -162,7 +224,7 @@ void Submission::submit(Job* job) {
       last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
   job->id = line.substr(0, line.find(';'));
   for (const size_t i : job->steps)
-    ids_[i] = array ? job->id + "_" + std::to_string(i % kArray + 1) : job->id;
+    ids_[i] = array ? job->id + "_" + std::to_string(task_of(i)) : job->id;
   if (!config_.quiet)
     std::printf("%s: job %s%s%s\n", job->name.c_str(), job->id.c_str(),
                 after.empty() ? "" : " after ", after.empty() ? "" : after.c_str() + 1);
@@ -180,8 +242,7 @@ bool Submission::any_queued(const std::string& ids) const {
 }
 
 void Submission::wait() const {
-  std::string ids;
-  for (const Job& job : jobs_) ids += (ids.empty() ? "" : ",") + job.id;
+  const std::string ids = jobs();
   for (int failures = 0;;) {
     std::this_thread::sleep_for(kPoll);
     check_interrupt();
@@ -208,10 +269,27 @@ void Submission::wait() const {
                                      "; submitting again does only what is missing");
 }
 
+void tell_interrupted(std::string ids) {
+  if (ids.empty()) {
+    std::fprintf(stderr, "svdag: stopped; nothing was submitted\n");
+    return;
+  }
+  std::fprintf(stderr, "svdag: stopped; what was submitted goes on (squeue --jobs=%s)",
+               ids.c_str());
+  std::replace(ids.begin(), ids.end(), ',', ' ');
+  std::fprintf(stderr, " until it is done, or cancelled (scancel %s)\n", ids.c_str());
+}
+
 }  // namespace
 
 void submit_slurm(const Plan& plan, const SlurmConfig& config) {
-  Submission(plan, config).run();
+  Submission submission(plan, config);
+  try {
+    submission.run();
+  } catch (const Interrupted&) {
+    tell_interrupted(submission.jobs());
+    throw;
+  }
 }
 
 }  // namespace svdag

@@ -4,6 +4,11 @@
 // whose node dies is queued again by Slurm; one that failed in a way that may pass queues itself
 // again, twice at most. A merge whose inputs failed for good is cancelled (--kill-on-invalid-dep).
 // Steps that are done are not submitted, so submitting again after a failure repeats nothing.
+//
+// A Slurm limits the numbers in an array (MaxArraySize, 1001 unless configured), so shards go in
+// arrays of a power of ten, as large as the controller says that it allows: shard 2345 is task 345
+// of the array of shards 2000 to 2999. Rejected: shards in one array that loop over several (a
+// failure would then repeat them all).
 #pragma once
 
 #include <string>
@@ -22,7 +27,8 @@ struct SlurmConfig {
 };
 
 // With `wait`, returns when the plan is done; Error (kOutput) if jobs ended and it is not. Error
-// (kUsage) if there is no sbatch, or it refuses.
+// (kUsage) if there is no sbatch, or it refuses. Interrupted leaves alone what was submitted, and
+// tells about it on stderr.
 void submit_slurm(const Plan& plan, const SlurmConfig& config);
 
 }  // namespace svdag

@@ -24,20 +24,17 @@ LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
 }  // namespace
 
 Work& Work::operator+=(const Work& other) {
-  triangles += other.triangles;
-  decisions += other.decisions;
   divided += other.divided;
   computed += other.computed;
   return *this;
 }
 
 Work Work::operator-(const Work& other) const {
-  return {triangles - other.triangles, decisions - other.decisions, divided - other.divided,
-          computed - other.computed};
+  return {divided - other.divided, computed - other.computed};
 }
 
 Work Work::operator*(double factor) const {
-  return {triangles * factor, decisions * factor, divided * factor, computed * factor};
+  return {divided * factor, computed * factor};
 }
 
 Grid coarser_grid(const Grid& grid, int level) {
@@ -60,15 +57,11 @@ class Survey::Baker : public Spiller {
         table_(grid.levels, budget),
         descent_(grid, config.descent, &table_, nullptr, this) {}
 
-  void run(const Cube& cell, const EntryList& list) {
-    triangles_ += double(list.size());
-    descent_.run(cell, list);
-  }
+  void run(const Cube& cell, const EntryList& list) { descent_.run(cell, list); }
 
   Work work() const {
     const auto& divided = descent_.divided();
-    return {triangles_, double(descent_.decisions().asked),
-            std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
+    return {std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
   }
 
   bool due(const NodeTable& table) override { return freeze_bytes(table) >= config_.table_bytes; }
@@ -94,7 +87,6 @@ class Survey::Baker : public Spiller {
   const SurveyConfig& config_;
   NodeTable table_;
   Descent descent_;
-  double triangles_ = 0;
   uint64_t nodes_ = 0, bricks_ = 0;  // of tables that were emptied
 };
 
@@ -127,8 +119,14 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted
     const Work before = baker_->work();
     baker_->run(cell, cursor.list(cell));
     visit(code, baker_->work() - before);
+    if (part_ != nullptr && wanted_by_part_(code)) part_->baker_->run(cell, cursor.list(cell));
   }
   return true;
+}
+
+void Survey::share_with(Survey* part, Wanted wanted) {
+  part_ = part;
+  wanted_by_part_ = std::move(wanted);
 }
 
 uint64_t Survey::nodes() {

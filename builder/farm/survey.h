@@ -18,10 +18,8 @@ namespace svdag {
 
 // What a descent did.
 struct Work {
-  double triangles = 0;  // prepared, once for each cell they stand in
-  double decisions = 0;  // of the kernels
-  double divided = 0;    // cubes
-  double computed = 0;   // nodes of the plane memo
+  double divided = 0;   // cubes
+  double computed = 0;  // nodes of the plane memo
 
   Work& operator+=(const Work& other);
   Work operator-(const Work& other) const;
@@ -46,6 +44,8 @@ class Survey {
 
   // Counts the wanted cells of `bin`, in Morton order. False if it has too many triangles.
   bool count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted, const Visit& visit);
+  // From now on `part`, a survey of the same kind, counts those of the cells that are wanted there.
+  void share_with(Survey* part, Wanted wanted);
   // Unique nodes and bricks so far.
   uint64_t nodes();
   uint64_t bricks();
@@ -58,6 +58,8 @@ class Survey {
   SurveyConfig config_;
   MemoryBudget* budget_;
   std::unique_ptr<Baker> baker_;
+  Survey* part_ = nullptr;
+  Wanted wanted_by_part_;
 };
 
 // `grid` with voxels of octree level `level`: cubes stand where they stood.

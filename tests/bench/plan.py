@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """`make bench-plan`: what plans predict, beside what their steps then take.
 
-Each row bakes a scene in one piece and by a plan of 16 shards. Constants are fitted to generated scenes (--fit
-prints them anew for builder/farm/predict.cpp) and judged on the shared ones. The tables go between the markers of
-docs/farm.md; figures of rows that are not asked for again are kept in build/bench/plan.json.
+Each row bakes a scene in one piece and by a plan of 16 shards. The constants of builder/farm/predict.cpp are fitted to
+generated scenes and to nothing else: --calibrate measures those and prints the constants. The shared scenes judge them.
+The tables go between the markers of docs/farm.md; rows that are not asked for again are kept in build/bench/plan.json.
 """
 import argparse
 import json
@@ -13,15 +13,15 @@ import shutil
 import statistics
 import subprocess
 
-from bakes import GENERATED, label
+import plan_fit
+import plan_scenes
+from bakes import label
 from bench import OUT, ROOT, fill
 from bench_tables import table
 
 PAGE = ROOT / "docs" / "farm.md"
 KNOWN = OUT / "plan.json"
 SHARDS = 16
-GENERATED_ROWS = [(name, log2) for name in ["atrium", "city", "scan 70K", "scan", "hairball"] for log2 in (12, 14)
-                  if (name, log2) != ("hairball", 14)]
 SHARED_FILES = ["crytek_sponza.glb", "lyon_city_epsg3946.glb", "samurai_monastery.obj", "stanford_dragon.ply",
                 "stk_black_forest.glb", "openfoam_motorbike.obj", "openfoam_buildings.stl"]
 SHARED_ROWS = [(name, log2) for name in SHARED_FILES for log2 in (12, 14)]
@@ -35,13 +35,10 @@ class Bench:
         OUT.mkdir(parents=True, exist_ok=True)
 
     def scene(self, name):
-        if name not in GENERATED:
-            path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), name)
-            return path if "SVDAG_SCENES" in os.environ and path.exists() else None
-        path = OUT / ("_".join(a.strip("-") for a in GENERATED[name]) + ".ply")
-        if not path.exists():
-            subprocess.run([self.programs / "svdag-scene", *GENERATED[name], "-q", "-o", path], check=True)
-        return path
+        if name in plan_scenes.NAMES:
+            return plan_scenes.scene(name, self.programs, OUT)
+        path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), name)
+        return path if "SVDAG_SCENES" in os.environ and path.exists() else None
 
     def row(self, name, log2, shards):
         """One bake, one plan, its steps; None if the scene is not here."""
@@ -59,7 +56,8 @@ class Bench:
         subprocess.run([self.svdag, "run", plan, "-j", "2", "-q"], check=True)
         written = json.loads((plan / "plan.json").read_text())
         same = dag.read_bytes() == (plan / written["steps"][-1]["output"]).read_bytes()
-        steps = [dict(name=step["name"], predicted=step["predicted"],
+        steps = [dict(name=step["name"], predicted=step["predicted"], inputs=step.get("inputs", []),
+                      triangles=step.get("triangles", 0), keys=self.keys(plan / step["output"]),
                       measured=json.loads((plan / "runs" / f"{step['name']}.json").read_text()))
                  for step in written["steps"]]
         shutil.rmtree(plan)
@@ -67,10 +65,14 @@ class Bench:
         return {"scene": name, "log2": log2, "shards": shards, "report": json.loads(report.read_text()), "same": same,
                 "one_bake": written["one_bake"]["cpu_seconds"], "planning": planning, "steps": steps}
 
+    def keys(self, path):
+        """Unique nodes and bricks in a .run or .svdag."""
+        info = json.loads(subprocess.run([self.svdag, "info", "--json", path], check=True, capture_output=True).stdout)
+        return sum(info["nodes"])
 
     def predict_again(self, row):
-        """Plans the row anew and puts the predictions beside what was measured: for new constants of merges, memory
-        and seconds, which do not change how the work is cut."""
+        """Plans the row anew and puts the predictions beside what was measured: for new constants, which hardly change
+        how the work is cut."""
         plan = OUT / "bench.plan"
         shutil.rmtree(plan, ignore_errors=True)
         subprocess.run([self.svdag, "plan", self.scene(row["scene"]), "-r", label(row["log2"]), "-o", plan, "--shards",
@@ -115,8 +117,8 @@ def judged(rows, what):
 
 def judgement(rows):
     lines = []
-    for kind, own in (("generated", [r for r in rows if r["scene"] in GENERATED]),
-                      ("shared", [r for r in rows if r["scene"] not in GENERATED])):
+    for kind, own in (("generated", [r for r in rows if r["scene"] in plan_scenes.NAMES]),
+                      ("shared", [r for r in rows if r["scene"] not in plan_scenes.NAMES])):
         if not own:
             continue
         lines.append(judged([r["one_bake"] / r["report"]["seconds"]["cpu"] for r in own], f"{kind}: CPU of one bake"))
@@ -131,23 +133,6 @@ def judgement(rows):
     return table(["what", "values", "median error", "worst factor", f"≤ {MEDIAN:.0%}, ≤ {WORST}; memory ≥ 1"], lines)
 
 
-def fit(rows):
-    """Least squares of relative errors, none negative: ns per triangle, decision, cube divided, key found."""
-    import numpy
-    reports = [r["report"] for r in rows if r["scene"] in GENERATED]
-    counts = numpy.array([[r["triangles"], r["decisions"], sum(r["cubes_divided"]), sum(r["nodes"])] for r in reports], float)
-    seconds = numpy.array([r["seconds"]["cpu"] for r in reports])
-    used = list(range(counts.shape[1]))
-    while True:
-        found = numpy.linalg.lstsq(counts[:, used] / seconds[:, None], numpy.ones(len(seconds)), rcond=None)[0]
-        if (found >= 0).all():
-            break
-        used.pop(int(numpy.argmin(found)))
-    names = ["kSceneTriangle", "kDecision", "kDivided", "kFound"]
-    for i, value in zip(used, found):
-        print(f"{names[i]} = {1e9 * value:.3g}e-9")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", required=True, type=pathlib.Path)
@@ -156,11 +141,11 @@ def main():
     parser.add_argument("--shards", type=int, default=SHARDS)
     parser.add_argument("--known", action="store_true", help="measure nothing, print what is known")
     parser.add_argument("--predict-again", action="store_true", help="measure nothing, but predict what is known anew")
-    parser.add_argument("--fit", action="store_true", help="print the constants anew")
+    parser.add_argument("--calibrate", action="store_true", help="measure the generated scenes only, and print the constants")
     options = parser.parse_args()
     known = json.loads(KNOWN.read_text()) if KNOWN.exists() else {}
     bench = Bench(options.programs.resolve())
-    wanted = GENERATED_ROWS + SHARED_ROWS
+    wanted = plan_scenes.CALIBRATION + (SHARED_ROWS if not options.calibrate else [])
     if options.log2 and all(log2 != options.log2 for _, log2 in wanted):
         wanted = [(name, options.log2) for name in dict.fromkeys(name for name, _ in wanted)]
     for name, log2 in wanted if not (options.known or options.predict_again) else []:
@@ -174,12 +159,13 @@ def main():
         for row in known.values():
             bench.predict_again(row)
         KNOWN.write_text(json.dumps(known))
-    rows = [known[key] for key in sorted(known, key=lambda k: (known[k]["scene"] not in GENERATED, k))]
+    rows = [known[key] for key in sorted(known, key=lambda k: (known[k]["scene"] not in plan_scenes.NAMES, k))]
+    if options.calibrate:
+        plan_fit.print_constants([r for r in rows if r["scene"] in plan_scenes.NAMES])
+        return
     contents = {"plans": farm_table(rows), "predictions": judgement(rows)}
     fill(PAGE, contents)
     print("\n\n".join(contents.values()))
-    if options.fit:
-        fit(rows)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """`make test-farm`: one plan, three engines, the same bytes as one bake.
 
 The generated atrium, cut into 16 shards, is baked
-  by Slurm on four nodes, one of which dies with its job in the middle;
+  by Slurm on four nodes, in two arrays of shards (MaxArraySize is 11), one node dying with its job in the middle;
   by `svdag run -j 2`, which is ended in the middle and asked again;
   by the reference runner of Open Job Description (PyPI openjd-cli).
 Where SVDAG_SCENES is set, Crytek Sponza as well, on Slurm. --only ENGINE runs a part.
@@ -121,7 +121,12 @@ def by_slurm(farm, name, resolution, with_accident):
             submit.terminate()
             submit.wait()
             raise Failure("the plan was not done in time\n" + log.read() + cluster.ask("squeue") + cluster.ask("sinfo"))
-        require(submit.returncode == 0, f"submit --wait: exit code {submit.returncode}\n" + log.read())
+        said = log.read()
+        require(submit.returncode == 0, f"submit --wait: exit code {submit.returncode}\n" + said)
+        arrays = [line.split(":")[0] for line in said.splitlines() if line.startswith("shards-")]
+        require(arrays == ["shards-1", "shards-10"], f"{SHARDS} shards went in the arrays {arrays}:\n{said}")
+        logs = sorted(path.name for path in (plan / "logs").glob("shard-*.slurm.log"))
+        require(len(logs) == SHARDS and "shard-10.slurm.log" in logs, f"not a log per shard: {logs}")
         if with_accident:
             require(killed, "every job was too fast to be killed while it ran")
             job = cluster.ask("scontrol", "show", "job", killed[0])

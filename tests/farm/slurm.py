@@ -42,6 +42,7 @@ ReturnToService=2
 SlurmdTimeout=5
 KillWait=2
 MinJobAge=600
+MaxArraySize=11
 NodeName=n[1-{nodes}] NodeHostname={host} NodeAddr=127.0.0.1 Port={first}-{last} CPUs=1 RealMemory=2000
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """

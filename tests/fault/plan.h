@@ -8,6 +8,9 @@
 //   SVDAG_FAULT_DO      an errno (a number), "short" or "exit" (status 137, before the call)
 //   SVDAG_FAULT_STAYS   1: so do all later calls of the kind
 //   SVDAG_FAULT_NO_TMPFILE   1: the file system has no O_TMPFILE (not counted as a call)
+//   SVDAG_FAULT_FOLDER_SYNC  an errno: what every fsync of a folder says (not counted)
+//   SVDAG_FAULT_RENAME_TWICE 1: every rename is done, and says ENOENT: an NFS server was asked
+//   twice
 //
 // Only descriptors and paths below the watched folders count, so that libraries, /proc and stdout
 // stay out of the game.
@@ -69,6 +72,8 @@ struct Plan {
   long at = std::atol(setting("SVDAG_FAULT_AT").c_str());
   bool stays = setting("SVDAG_FAULT_STAYS") == "1";
   bool no_tmpfile = setting("SVDAG_FAULT_NO_TMPFILE") == "1";
+  int folder_sync = std::atoi(setting("SVDAG_FAULT_FOLDER_SYNC").c_str());
+  bool rename_twice = setting("SVDAG_FAULT_RENAME_TWICE") == "1";
   int action = 0;
   std::array<std::atomic<long>, kKinds> counts{};
   std::array<std::atomic<bool>, kDescriptors> watched{};

@@ -60,6 +60,13 @@ void tell_sync(int fd) {
   tell(S_ISDIR(status.st_mode) ? "syncdir" : "sync", status.st_ino, 0, of_descriptor(fd));
 }
 
+// A folder of a file system that cannot bring folders to disk.
+bool is_unsyncable(int fd) {
+  struct stat status = {};
+  return plan().folder_sync != 0 && is_watched(fd) && fstat(fd, &status) == 0 &&
+         S_ISDIR(status.st_mode);
+}
+
 // Half of n, and whole pages of a file that is written directly.
 size_t less_than(size_t n) {
   return n >= 8192 ? n / 2 & ~size_t(4095) : std::max<size_t>(n / 2, 1);
@@ -158,6 +165,7 @@ int on_open(int folder, const char* path, int flags, Call call) {
 #define SYNC(name)                                                          \
   int name(int fd) {                                                        \
     NEXT(name);                                                             \
+    if (is_unsyncable(fd)) return errno = plan().folder_sync, -1;           \
     return on_descriptor(                                                   \
         kFsync, fd, [&] { return next(fd); }, [&](int) { tell_sync(fd); }); \
   }
@@ -231,8 +239,11 @@ int close(int fd) {
 
 int rename(const char* from, const char* to) noexcept {
   NEXT(rename);
-  return on_path(
+  const int result = on_path(
       kRename, "rename", AT_FDCWD, to, [&] { return next(from, to); }, inode_of(AT_FDCWD, from, 0));
+  if (result == 0 && plan().rename_twice && is_watched(absolute(AT_FDCWD, to)))
+    return errno = ENOENT, -1;
+  return result;
 }
 
 int renameat(int from_folder, const char* from, int folder, const char* to) noexcept {

@@ -139,6 +139,22 @@ TEST_F(Cache, TheLeastUsedPacksGoFirst) {
   EXPECT_EQ(packs().size(), 2U);
 }
 
+TEST_F(Cache, TooManyPacksGoAsTooLargeOnesDo) {
+  cache_.most_packs = 3;
+  fs::create_directory(cache_.folder);
+  std::vector<fs::path> before;
+  for (unsigned seed = 20; seed < 26; ++seed) {
+    before = packs();
+    bake_as_expected(prepare(random_soup(200, 0.1, seed), 6));
+    for (const fs::path& pack : packs()) {  // older by an hour than what the next bake leaves
+      const auto used = fs::last_write_time(pack);
+      fs::last_write_time(pack, used - std::chrono::hours(1));
+    }
+  }
+  EXPECT_EQ(packs().size(), 3U);
+  EXPECT_NE(packs(), before) << "the newest stay";
+}
+
 TEST_F(Cache, AFolderThatCannotBeWrittenIsNoFailure) {
   BuildConfig config = prepare(random_soup(500, 0.1, 11), 6);
   const auto open = config.open_store;

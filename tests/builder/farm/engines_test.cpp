@@ -29,6 +29,24 @@ class Engines : public ::testing::Test {
   }
   // The commands that were asked for, a line each.
   std::string asked() const { return read_bytes(folder_.file("asked")); }
+  // What sbatch was asked for by `submit`, a line each; a job's number is that of its line.
+  std::vector<std::string> submitted(const SlurmConfig& config = {}) const {
+    const std::string log = folder_.file("asked");
+    std::filesystem::remove(log);
+    program("sbatch", "echo \"$@\" >> " + log + "; wc -l < " + log);
+    submit(config);
+    std::istringstream lines(asked());
+    std::vector<std::string> jobs;
+    for (std::string line; std::getline(lines, line);) jobs.push_back(line);
+    return jobs;
+  }
+  void submit(SlurmConfig config) const {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (folder_.path() + ":" + path).c_str(), 1);
+    const std::shared_ptr<void> after(nullptr, [&](void*) { setenv("PATH", path.c_str(), 1); });
+    config.quiet = true;
+    submit_slurm(plan_, config);
+  }
   void run(const std::string& script) const {
     RunLocalConfig config;
     config.program = program("svdag", "echo \"$4\" >> " + folder_.file("asked") + "\n" + script);
@@ -71,20 +89,11 @@ TEST_F(Engines, GiveUpWhatFailsTwice) {
 }
 
 TEST_F(Engines, SubmitAnArrayOfShardsAndMergesThatWaitForTheirs) {
-  const std::string log = folder_.file("asked");
-  program("sbatch", "echo \"$@\" >> " + log + "; wc -l < " + log);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", (folder_.path() + ":" + path).c_str(), 1);
   SlurmConfig config;
   config.options = {"--partition=bake"};
-  config.quiet = true;
-  submit_slurm(plan_, config);
-  setenv("PATH", path.c_str(), 1);
-  std::istringstream lines(asked());
-  std::vector<std::string> jobs;
-  for (std::string line; std::getline(lines, line);) jobs.push_back(line);
+  const std::vector<std::string> jobs = submitted(config);
   ASSERT_EQ(jobs.size(), 4u);
-  EXPECT_NE(jobs[0].find("--array=1,2,3,4 --partition=bake"), std::string::npos) << jobs[0];
+  EXPECT_NE(jobs[0].find("--array=1-4 --partition=bake"), std::string::npos) << jobs[0];
   EXPECT_NE(jobs[0].find("--mem="), std::string::npos);
   EXPECT_NE(jobs[1].find("--dependency=afterok:1_1:1_2 --kill-on-invalid-dep=yes"),
             std::string::npos)
@@ -95,26 +104,80 @@ TEST_F(Engines, SubmitAnArrayOfShardsAndMergesThatWaitForTheirs) {
 TEST_F(Engines, SubmitOnlyWhatIsMissing) {
   for (const size_t i : {0, 1, 3}) do_step(plan_, plan_.steps[i]);
   do_step(plan_, find_step(plan_, "merge-1"));
-  const std::string log = folder_.file("asked");
-  program("sbatch", "echo \"$@\" >> " + log + "; wc -l < " + log);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", (folder_.path() + ":" + path).c_str(), 1);
+  const std::vector<std::string> jobs = submitted();
+  ASSERT_EQ(jobs.size(), 3u);
+  EXPECT_NE(jobs[0].find("--array=3 "), std::string::npos) << jobs[0];
+  EXPECT_NE(jobs[1].find("afterok:1_3 "), std::string::npos) << jobs[1];
+}
+
+// The words of `line` that begin with `option`, without it.
+std::string value_of(const std::string& line, const std::string& option) {
+  const size_t at = line.find(option);
+  return at == std::string::npos
+             ? "none"
+             : line.substr(at + option.size(), line.find(' ', at) - at - option.size());
+}
+
+class LargePlans : public Engines {
+ protected:
+  // A plan of so many shards, of which nothing is ever done.
+  void prepare(size_t shards) {
+    PlanConfig config = plan_config(folder_.file("scene.stl"), 5, folder_.file("large"), shards);
+    config.fan_in = 1000;
+    plan_ = plan_of(config);
+  }
+  // What task `task` of the job `line` would run.
+  std::string run_by(const std::string& line, const std::string& task) const {
+    const std::string script = line.substr(line.find_last_of(' ') + 1);
+    return ask_process({"env", "SLURM_ARRAY_TASK_ID=" + task, "sh", script}).output;
+  }
+};
+
+TEST_F(LargePlans, GoInArraysOfAThousandWhereSlurmDoesNotSayMore) {
+  prepare(2005);
+  program("scontrol", "exit 1");
   SlurmConfig config;
-  config.quiet = true;
-  submit_slurm(plan_, config);
-  setenv("PATH", path.c_str(), 1);
-  const std::string text = asked();
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;
-  EXPECT_NE(text.find("--array=3 "), std::string::npos) << text;
-  EXPECT_NE(text.find("afterok:1_3 "), std::string::npos) << text;
+  config.program = "echo";
+  const std::vector<std::string> jobs = submitted(config);
+  ASSERT_EQ(jobs.size(), 3u + 4u) << "arrays, and merges of 3 + 1";
+  EXPECT_EQ(value_of(jobs[0], "--array="), "1-999");
+  EXPECT_EQ(value_of(jobs[1], "--array="), "0-999");
+  EXPECT_EQ(value_of(jobs[2], "--array="), "0-5");
+  const std::string build = "build " + plan_.folder + " --shard ";
+  EXPECT_EQ(run_by(jobs[0], "999"), build + "999\n");
+  EXPECT_EQ(run_by(jobs[1], "0"), build + "1000\n");
+  EXPECT_EQ(run_by(jobs[2], "5"), build + "2005\n");
+  EXPECT_EQ(value_of(jobs[0], "--output="), plan_.path("logs/shard-%a.slurm.log"));
+  EXPECT_EQ(value_of(jobs[1], "--output="), plan_.path("logs/shard-1%3a.slurm.log"));
+  const std::string last =
+      value_of(jobs[5], "--dependency=");  // of the merge that reads shard-2005
+  EXPECT_NE((last + ":").find(":3_5:"), std::string::npos) << last;
+}
+
+TEST_F(LargePlans, GoInArraysAsSmallAsSlurmWants) {
+  prepare(25);
+  program("scontrol", "echo 'Slurm data'; echo 'MaxArraySize            = 55'");
+  const std::vector<std::string> jobs = submitted();
+  ASSERT_EQ(jobs.size(), 3u + 1u);
+  EXPECT_EQ(value_of(jobs[0], "--array="), "1-9");
+  EXPECT_EQ(value_of(jobs[2], "--array="), "0-5");
+}
+
+TEST_F(LargePlans, GoShardByShardWhereSlurmHasNoArrays) {
+  prepare(3);
+  program("scontrol", "echo 'MaxArraySize            = 0'");
+  SlurmConfig config;
+  config.program = "echo";
+  const std::vector<std::string> jobs = submitted(config);
+  ASSERT_EQ(jobs.size(), 3u + 1u);
+  EXPECT_EQ(value_of(jobs[1], "--array="), "none");
+  EXPECT_EQ(run_by(jobs[1], ""), "build " + plan_.folder + " --shard 2\n");
+  EXPECT_EQ(value_of(jobs[3], "--dependency="), "afterok:1:2:3");
 }
 
 TEST_F(Engines, SayWhatSbatchSays) {
   program("sbatch", "echo 'sbatch: error: no such partition' >&2; exit 1");
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", (folder_.path() + ":" + path).c_str(), 1);
-  EXPECT_SVDAG_ERROR(submit_slurm(plan_, {}), ExitCode::kUsage, "no such partition");
-  setenv("PATH", path.c_str(), 1);
+  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kUsage, "no such partition");
 }
 
 TEST_F(Engines, DescribeStagesToOpenJobDescription) {
