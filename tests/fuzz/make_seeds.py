@@ -88,6 +88,20 @@ def scenes(corpus):
             "accessors": [{"componentType": 5126, "count": 4, "type": "VEC3"}]}).encode()
 
 
+def plys():
+    """Every type of number as a coordinate, in both orders of bytes."""
+    types = [("char", "b"), ("uchar", "B"), ("short", "h"), ("ushort", "H"), ("int", "i"), ("uint", "I"), ("float", "f"), ("double", "d")]
+    for order, name in (("<", "little"), (">", "big")):
+        for first in (0, 3, 5):
+            (x, fx), (y, fy), (z, fz) = types[first:first + 3]
+            head = (f"ply\nformat binary_{name}_endian 1.0\nelement vertex 3\nproperty {x} x\nproperty {y} y\nproperty {z} z\n"
+                    f"element face 1\nproperty list {'ushort' if first else 'uchar'} {'uint' if first == 3 else 'short'} vertex_index\n"
+                    "end_header\n")
+            body = b"".join(struct.pack(order + fx + fy + fz, *p) for p in ((0, 0, 0), (9, 0, 1), (0, 7, 2)))
+            face = struct.pack(order + ("H" if first else "B") + ("3I" if first == 3 else "3h"), 3, 0, 1, 2)
+            yield f"types_{name}_{first}.ply", head.encode() + body + face
+
+
 def main(programs, corpus):
     programs, corpus = pathlib.Path(programs).resolve(), pathlib.Path(corpus).resolve()
     with tempfile.TemporaryDirectory(prefix="svdag-seeds-") as name:
@@ -122,6 +136,10 @@ def main(programs, corpus):
                                                      for part in parts))
         for name, data in scenes(corpus):
             keep("gltf", name, data)
+        for name, data in plys():
+            keep("ply", name, data)
+        keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
+             b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):
         keep("journal", f"lattice_{lattice}.journal", journal(lattice))
 
