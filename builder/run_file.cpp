@@ -122,7 +122,7 @@ void RunFile::read_part(MemoryBudget* budget) {
 void RunFile::read_roots(MemoryBudget* budget) {
   uint64_t end = 0;  // of the last one, in voxels
   for (const StoredRoot& root : read_items<StoredRoot>(file_, header_, layout_.roots, budget)) {
-    require(root.level + 2 <= header_.levels && root.code >> 3 * root.level == 0 &&
+    require(root.level <= header_.levels - 2 && root.code >> 3 * root.level == 0 &&
                 root.rank < header_.keys[root.level],
             file_, "impossible root", 152);
     const int shift = 3 * int(header_.levels - root.level);

@@ -29,6 +29,7 @@ namespace svdag {
 struct ChildLimits {
   uint64_t memory = 0;   // bytes that the child may have beyond what it inherits, used or free
   uint64_t seconds = 0;  // of processor time; it may keep us waiting ten times as long
+  bool filter = true;  // false: any system call may be made; only crashes and floods are contained
 };
 
 using BlockSink = std::function<void(std::span<const std::byte>)>;
@@ -39,7 +40,7 @@ constexpr size_t kChildBlock = size_t(72) * 8192;
 
 // Runs work(out) in a limited child and hands its output to `use`. An Error of `work` is thrown
 // here, too; a child that does not finish is an Error (kBadInput) "`path`: the decoder was stopped:
-// it ...". Error (kUsage) where the system has no seccomp filters.
+// it ...". Error (kUsage) where a filter is asked for and the system has none.
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use);
 

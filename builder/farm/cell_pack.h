@@ -42,7 +42,7 @@ struct PackHeader {
   uint64_t entries;
   uint64_t file_bytes;
   unsigned char reserved[48];  // zero
-  uint64_t checksum;  // XXH3-64 of all before
+  uint64_t checksum;           // XXH3-64 of all before
 };
 
 // Writes the cells of `baked` that have keys, baked in a grid of `levels` levels, for packs that

@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kPlanJson = "plan.json";
 constexpr int kFormat = 2;
 constexpr size_t kMostThreads = 1024;
+constexpr std::string_view kShard = "shard-";
 
 template <class Vector>
 Json three(const Vector& v) {
@@ -135,10 +136,14 @@ PlanStep get_step(const Json& json, const Plan& plan) {
     if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
         step.cells.end > uint64_t(1) << 3 * level)
       throw Error(ExitCode::kBadInput, "the cells of step " + step.name + " are not in the grid");
+    if (!step.name.starts_with(kShard))
+      throw Error(ExitCode::kBadInput, "the shard " + step.name + " has no name of one");
     return step;
   }
   for (const Json& name : json.at("inputs"))
     step.inputs.push_back(size_t(&find_step(plan, name.get<std::string>()) - plan.steps.data()));
+  if (step.inputs.empty())
+    throw Error(ExitCode::kBadInput, "the merge " + step.name + " has no inputs");
   return step;
 }
 
@@ -180,7 +185,7 @@ size_t Plan::shards() const {
 }
 
 std::vector<std::string> Plan::command(const PlanStep& step) const {
-  if (step.is_shard()) return {"build", folder, "--shard", step.name.substr(sizeof "shard-" - 1)};
+  if (step.is_shard()) return {"build", folder, "--shard", step.name.substr(kShard.size())};
   return {"merge", folder, "--step", step.name};
 }
 

@@ -320,7 +320,7 @@ DracoMesh decode_draco(const DracoSource& source, MemoryBudget* budget) {
   DracoMesh mesh;
   MeshReceiver receiver(source, budget, &mesh);
   run_limited(
-      decoder_limits(source.bytes.size(), *budget), source.path,
+      decoder_limits(source.bytes.size(), *budget, true), source.path,
       [&](const BlockSink& out) { send(decode_here(source, budget), out); }, std::ref(receiver));
   receiver.finish();
   return mesh;

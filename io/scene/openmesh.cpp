@@ -2,6 +2,8 @@
 //
 // OpenMesh holds the whole mesh (98 bytes per triangle) and drops faces that its halfedges cannot
 // express, so it reads nothing else for us, and its number of faces is checked against the file's.
+// Broken files end it in an assertion, so it always runs in a process of its own; under --sandbox,
+// one that can only compute.
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <array>
@@ -88,10 +90,10 @@ void decode(const File& file, std::span<const std::byte> bytes, const Header& he
 }
 
 void decode_limited(const File& file, std::span<const std::byte> bytes, const Header& header,
-                    const MemoryBudget& budget, const TriangleSink& sink) {
+                    const ChildLimits& limits, const TriangleSink& sink) {
   BatchWriter out(sink);
   run_limited(
-      decoder_limits(bytes.size(), budget), file.path(),
+      limits, file.path(),
       [&](const BlockSink& send) {
         decode(file, bytes, header,
                [&](const TriangleBatch& batch) { send(std::as_bytes(batch.triangles)); });
@@ -117,8 +119,9 @@ void read_openmesh(const File& file, const ReadOptions& options, const TriangleS
       2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
-  options.sandbox ? decode_limited(file, bytes, header, *options.budget, sink)
-                  : decode(file, bytes, header, sink);
+  ChildLimits limits = decoder_limits(bytes.size(), *options.budget, options.sandbox);
+  limits.memory += memory.bytes();  // it is the child that takes it
+  decode_limited(file, bytes, header, limits, sink);
 }
 
 }  // namespace svdag

@@ -211,6 +211,8 @@ TEST(RunFile, AHostileWriterIsToldWhatIsWrong) {
        [](Hostile* h) { h->at<StoredRange>(h->layout().ranges)->begin = 0x440; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->rank = 2; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->level = 3; }},
+      {"impossible root",
+       [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->level = UINT32_MAX; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->code = 8; }},
       {"a root is not where it belongs",
        [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->code = 5; }},

@@ -4,6 +4,8 @@
 Small ones, as the programs write them; the journal as builder/saved_bake.cpp has it. They are kept in tests/fuzz/corpus,
 so this is run again where a format changes.
 """
+import base64
+import json
 import pathlib
 import struct
 import subprocess
@@ -11,6 +13,9 @@ import sys
 import tempfile
 
 import xxhash
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "io"))
+import hostile_counts_test  # noqa: E402
 
 
 def stl(path, triangles):
@@ -45,6 +50,58 @@ def journal(lattice):
     return record(1, bake) + record(2, split) + record(3, run + root + done) + record(4, b"") + record(3, run + root + done)
 
 
+def scenes(corpus):
+    """glTF of every kind of element: sparse, instances, small integers, Draco."""
+    document = hostile_counts_test.gltf()
+    yield "sparse_instances.gltf", json.dumps(document).encode()
+    yield "sparse_instances.glb", hostile_counts_test.glb()[0]
+    for code, form, low, high in ((5120, "b", -128, 127), (5121, "B", 0, 255), (5122, "h", -32768, 32767), (5123, "H", 0, 65535)):
+        size = struct.calcsize(form)
+        corners = b"".join(struct.pack(f"<3{form}", *p).ljust(4 * size, b"\0") for p in (
+            (low, 0, 0), (high, 0, 1), (0, high, 0), (1, 2, 3)))
+        data = corners + struct.pack("<8I", 0, 1, 2, 3, 2, 1, 0, 0) + struct.pack("<4h", 0, 0, 32767, 0) + struct.pack("<4b", 0, 0, 127, 0)
+        at = len(corners)
+        views = [(0, at, 4 * size), (at, 32, 0), (at + 32, 8, 0), (at + 40, 4, 0)]
+        yield f"integers_{code}.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "extensionsRequired": ["KHR_mesh_quantization"],
+            "nodes": [{"name": "a", "rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, 3], "translation": [4, 5, 6], "children": [1]},
+                      {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1],
+                       "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"ROTATION": 2 if size == 2 else 3}}}}],
+            "meshes": [{"name": "m", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 5 if size == 1 else 6},
+                                                    {"attributes": {"POSITION": 0}, "mode": 5}]}],
+            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteOffset": begin, "byteLength": length, **({"byteStride": stride} if stride else {})}
+                            for begin, length, stride in views],
+            "accessors": [{"bufferView": 0, "componentType": code, "count": 4, "type": "VEC3", "normalized": code % 2 == 0},
+                          {"bufferView": 1, "componentType": 5125, "count": 6, "type": "SCALAR"},
+                          {"bufferView": 2, "componentType": 5122, "count": 1, "type": "VEC4", "normalized": True},
+                          {"bufferView": 3, "componentType": 5120, "count": 1, "type": "VEC4", "normalized": True}]}).encode()
+    for kind in ("edgebreaker_11", "sequential_0"):
+        data = (corpus / "draco_fuzz" / f"tetrahedron_{kind}.drc").read_bytes()
+        yield f"draco_{kind}.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "extensionsRequired": ["KHR_draco_mesh_compression"],
+            "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "extensions": {
+                "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
+            "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+            "accessors": [{"componentType": 5126, "count": 4, "type": "VEC3"}]}).encode()
+
+
+def plys():
+    """Every type of number as a coordinate, in both orders of bytes."""
+    types = [("char", "b"), ("uchar", "B"), ("short", "h"), ("ushort", "H"), ("int", "i"), ("uint", "I"), ("float", "f"), ("double", "d")]
+    for order, name in (("<", "little"), (">", "big")):
+        for first in (0, 3, 5):
+            (x, fx), (y, fy), (z, fz) = types[first:first + 3]
+            head = (f"ply\nformat binary_{name}_endian 1.0\nelement vertex 3\nproperty {x} x\nproperty {y} y\nproperty {z} z\n"
+                    f"element face 1\nproperty list {'ushort' if first else 'uchar'} {'uint' if first == 3 else 'short'} vertex_index\n"
+                    "end_header\n")
+            body = b"".join(struct.pack(order + fx + fy + fz, *p) for p in ((0, 0, 0), (9, 0, 1), (0, 7, 2)))
+            face = struct.pack(order + ("H" if first else "B") + ("3I" if first == 3 else "3h"), 3, 0, 1, 2)
+            yield f"types_{name}_{first}.ply", head.encode() + body + face
+
+
 def main(programs, corpus):
     programs, corpus = pathlib.Path(programs).resolve(), pathlib.Path(corpus).resolve()
     with tempfile.TemporaryDirectory(prefix="svdag-seeds-") as name:
@@ -77,6 +134,12 @@ def main(programs, corpus):
             parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
             keep("plan", f"{kind}.plan", b"\n---\n".join(part.read_bytes().replace(str(folder).encode(), b"/work")
                                                      for part in parts))
+        for name, data in scenes(corpus):
+            keep("gltf", name, data)
+        for name, data in plys():
+            keep("ply", name, data)
+        keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
+             b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):
         keep("journal", f"lattice_{lattice}.journal", journal(lattice))
 

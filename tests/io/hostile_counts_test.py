@@ -21,7 +21,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "formats"))
 import numpy  # noqa: E402
 import write_foreign  # noqa: E402
 
-PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
+PROGRAMS = pathlib.Path(sys.argv.pop(1) if __name__ == "__main__" else ".").resolve()
 CORPUS = pathlib.Path(__file__).resolve().parent.parent / "fuzz" / "corpus"
 LONG = bool(os.environ.get("SVDAG_LONG"))
 VALUES = [0, 1, 2**31, 2**32 - 1, 2**63, 2**64 - 1]

@@ -107,6 +107,14 @@ TEST_F(Plans, ThatAreDamagedSaySo) {
   outside.replace(output, 17, "\"output\": \"../up/");
   write(json, outside);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "leads out");
+  std::string renamed = text;
+  renamed.replace(renamed.find("\"name\": \"shard-1\""), 17, "\"name\": \"s\"");
+  write(json, renamed);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "no name of one");
+  std::string threads = text;
+  threads.replace(threads.find("\"threads\": "), 11, "\"threads\": 9999");
+  write(json, threads);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "of threads");
   std::string huge = text;
   huge.replace(huge.find("\"voxel_size\": "), 14, "\"voxel_size\": -");
   write(json, huge);
