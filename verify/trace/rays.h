@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "verify/trace/traverse.h"
+#include "verify/trace/tree64_view.h"
 
 namespace svdag {
 
@@ -12,6 +13,12 @@ void trace_closest(const DagView& dag, const Ray* rays, size_t count, const Span
                    const Cut& cut, Hit* hits);
 // found[i] is 1 if rays[i] meets a solid cube, else 0.
 void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& span, const Cut& cut,
+               uint8_t* found);
+
+// The same by the 64-tree of a DAG, without cuts: 2.5 to 4 times as fast.
+void trace_closest(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
+                   Hit* hits);
+void trace_any(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
                uint8_t* found);
 
 }  // namespace svdag

@@ -1,0 +1,144 @@
+#include "verify/trace/tree64.h"
+
+#include <algorithm>
+
+#include "streaming/counts.h"
+
+namespace svdag {
+namespace {
+
+// A node's cells: the DAG's node (or brick) in each, or kNoChild.
+struct Cells {
+  uint32_t child[64];
+};
+
+uint32_t depth_of(const DagView& dag) {
+  return std::max(1U, (dag.levels - 1) / 2);
+}
+
+// Whether nodes of the DAG's level are nodes of the tree, too.
+bool kept(const DagView& dag, uint32_t level) {
+  return (dag.brick_level() - level) % 2 == 0;
+}
+
+// The number of words of a node whose cells are of the DAG's `level`.
+uint64_t words_of(const DagView& dag, uint32_t level, uint32_t cells) {
+  return 1 + (level == dag.brick_level() ? cells : (cells + 1) / 2);
+}
+
+Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
+  Cells cells;
+  for (unsigned i = 0; i < 64; ++i) {
+    const uint32_t child = dag_child(dag, level, node, i / 8);
+    cells.child[i] = child == kNoChild ? kNoChild : dag_child(dag, level + 1, child, i % 8);
+  }
+  return cells;
+}
+
+// Cells of the root that are of level 0 or 1 repeat the grid.
+Cells of_root(const DagView& dag, uint32_t* level) {
+  const uint32_t extra = 2 * depth_of(dag) + 2 - dag.levels;
+  *level = 2 - extra;
+  if (extra == 0) return two_levels(dag, 0, 0);
+  Cells cells;
+  for (unsigned i = 0; i < 64; ++i) cells.child[i] = extra == 1 ? dag_child(dag, 0, 0, i % 8) : 0;
+  return cells;
+}
+
+uint32_t present(const Cells& cells) {
+  return uint32_t(64 - std::count(cells.child, cells.child + 64, kNoChild));
+}
+
+// The words of all nodes of the tree: those of the root, and one node per node of each kept level.
+uint64_t count_words(const DagView& dag) {
+  uint32_t level = 0;
+  const uint32_t cells = present(of_root(dag, &level));
+  uint64_t words = words_of(dag, level, cells);
+  for (; level < dag.brick_level(); level += 2) {
+    const uint32_t* of_level = dag.words[level];
+    for (uint64_t node = 0; node < dag.word_count[level];) {
+      const uint32_t children = uint32_t(popcount8(of_level[node] & 0xffU));
+      uint32_t grandchildren = 0;
+      for (uint32_t i = 1; i <= children; ++i)
+        grandchildren += uint32_t(popcount8(dag.words[level + 1][of_level[node + i]] & 0xffU));
+      words += words_of(dag, level + 2, grandchildren);
+      node += 1 + children;
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+class Tree64::Maker {
+ public:
+  Maker(const DagView& dag, HugeVector<uint64_t>* words) : dag_(dag), words_(*words) {
+    for (uint32_t level = 1; level < dag.brick_level(); ++level) {
+      if (kept(dag, level)) places_[level].assign(dag.word_count[level], kNoChild);
+    }
+  }
+
+  void run() {
+    uint32_t level = 0;
+    const Cells cells = of_root(dag_, &level);
+    add(level, cells);
+  }
+
+ private:
+  // Adds a node whose cells are of `level`, and all below it; returns its place.
+  uint32_t add(uint32_t level, const Cells& cells) {
+    const uint64_t at = words_.size();
+    uint64_t mask = 0;
+    for (int i = 0; i < 64; ++i) mask |= uint64_t(cells.child[i] != kNoChild) << i;
+    const bool bricks = level == dag_.brick_level();
+    words_.resize(at + words_of(dag_, level, popcount64(mask)));
+    words_[at] = mask;
+    for (uint32_t i = 0; mask != 0; ++i, mask &= mask - 1) {
+      const uint32_t child = cells.child[lowest_bit64(mask)];
+      if (bricks) {
+        words_[at + 1 + i] = dag_.bricks[child];
+      } else {
+        const uint64_t place = place_of(level, child);
+        uint64_t& pair = words_[at + 1 + i / 2];
+        pair = i % 2 == 0 ? place : pair | place << 32;
+      }
+    }
+    return uint32_t(at);
+  }
+
+  uint32_t place_of(uint32_t level, uint32_t node) {
+    uint32_t& place = places_[level][node];
+    if (place == kNoChild) place = add(level + 2, two_levels(dag_, level, node));
+    return place;
+  }
+
+  const DagView& dag_;
+  HugeVector<uint64_t>& words_;
+  HugeVector<uint32_t> places_[kMaxSections];  // [level][node]: kNoChild until it has one
+};
+
+uint64_t Tree64::bytes(const DagView& dag) {
+  if (dag.empty()) return 0;
+  uint64_t bytes = count_words(dag) * sizeof(uint64_t);
+  for (uint32_t level = 1; level < dag.brick_level(); ++level) {
+    if (kept(dag, level)) bytes += dag.word_count[level] * sizeof(uint32_t);
+  }
+  return bytes;
+}
+
+Tree64::Tree64(const DagView& dag) {
+  view_.levels = dag.levels;
+  if (dag.empty()) return;
+  const uint64_t words = count_words(dag);
+  as_u32(words, "words of a 64-tree");
+  words_.reserve(words);
+  Maker(dag, &words_).run();
+  view_.depth = depth_of(dag);
+  view_.words = words_.data();
+  for (uint32_t d = 0; d <= view_.depth; ++d) {
+    view_.side[d] = double(1U << 2 * (view_.depth - d));
+    view_.per_side[d] = 1 / view_.side[d];
+  }
+}
+
+}  // namespace svdag
