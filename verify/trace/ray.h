@@ -58,6 +58,8 @@ struct Cut {
   // A cube does that is no larger than spread * t * |direction| where it is entered: the width of a
   // cone of that many units per unit of length (2 * tangent of half its angle). 0: no cone.
   double spread = 0;
+
+  SVDAG_HD bool cuts(uint32_t levels) const { return level < levels || spread > 0; }
 };
 
 struct Hit {

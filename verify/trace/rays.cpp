@@ -116,14 +116,16 @@ void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& sp
   });
 }
 
-void trace_closest(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
-                   Hit* hits) {
+void trace_closest(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
+                   const Span& span, const Cut& cut, Hit* hits) {
+  if (tree.empty() || cut.cuts(dag.levels)) return trace_closest(dag, rays, count, span, cut, hits);
   walk_all(tree, rays, count, span,
            [&](size_t i, const Walk64& walk) { hits[i] = walk.hit(tree); });
 }
 
-void trace_any(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
-               uint8_t* found) {
+void trace_any(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
+               const Span& span, const Cut& cut, uint8_t* found) {
+  if (tree.empty() || cut.cuts(dag.levels)) return trace_any(dag, rays, count, span, cut, found);
   walk_all(tree, rays, count, span, [&](size_t i, const Walk64& walk) { found[i] = walk.found(); });
 }
 

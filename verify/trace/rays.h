@@ -15,10 +15,11 @@ void trace_closest(const DagView& dag, const Ray* rays, size_t count, const Span
 void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& span, const Cut& cut,
                uint8_t* found);
 
-// The same by the 64-tree of a DAG, without cuts: 2.5 to 4 times as fast.
-void trace_closest(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
-                   Hit* hits);
-void trace_any(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
-               uint8_t* found);
+// The same, by the DAG's 64-tree if that is not the one of nothing and rays are not cut: 2 to 4
+// times as fast. The more rays at once, the better; 64 will do.
+void trace_closest(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
+                   const Span& span, const Cut& cut, Hit* hits);
+void trace_any(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
+               const Span& span, const Cut& cut, uint8_t* found);
 
 }  // namespace svdag

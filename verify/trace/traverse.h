@@ -265,9 +265,8 @@ class Tracer::Walk {
 };
 
 SVDAG_HD inline Hit Tracer::closest(const Ray& ray, const Span& span, const Cut& cut) {
-  const bool whole = cut.level >= dag_.levels && !(cut.spread > 0);
-  return whole ? Walk<false>(this, ray, cut).closest(span)
-               : Walk<true>(this, ray, cut).closest(span);
+  return cut.cuts(dag_.levels) ? Walk<true>(this, ray, cut).closest(span)
+                               : Walk<false>(this, ray, cut).closest(span);
 }
 
 SVDAG_HD inline Hit trace_closest(const DagView& dag, const Ray& ray, const Span& span = {},

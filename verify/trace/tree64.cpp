@@ -7,13 +7,15 @@
 namespace svdag {
 namespace {
 
+constexpr uint64_t kMostBytes = sizeof(uint64_t) << 32;  // places are u32
+
 // A node's cells: the DAG's node (or brick) in each, or kNoChild.
 struct Cells {
   uint32_t child[64];
 };
 
 uint32_t depth_of(const DagView& dag) {
-  return std::max(1U, (dag.levels - 1) / 2);
+  return (dag.levels - 1) / 2;
 }
 
 // Whether nodes of the DAG's level are nodes of the tree, too.
@@ -35,13 +37,12 @@ Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   return cells;
 }
 
-// Cells of the root that are of level 0 or 1 repeat the grid.
+// Those of the root, and their level. With an odd number of levels they are of level 1.
 Cells of_root(const DagView& dag, uint32_t* level) {
-  const uint32_t extra = 2 * depth_of(dag) + 2 - dag.levels;
-  *level = 2 - extra;
-  if (extra == 0) return two_levels(dag, 0, 0);
+  *level = 2 - dag.levels % 2;
+  if (*level == 2) return two_levels(dag, 0, 0);
   Cells cells;
-  for (unsigned i = 0; i < 64; ++i) cells.child[i] = extra == 1 ? dag_child(dag, 0, 0, i % 8) : 0;
+  for (unsigned i = 0; i < 64; ++i) cells.child[i] = dag_child(dag, 0, 0, i % 8);
   return cells;
 }
 
@@ -129,9 +130,7 @@ uint64_t Tree64::bytes(const DagView& dag) {
 Tree64::Tree64(const DagView& dag) {
   view_.levels = dag.levels;
   if (dag.empty()) return;
-  const uint64_t words = count_words(dag);
-  as_u32(words, "words of a 64-tree");
-  words_.reserve(words);
+  words_.reserve(as_u32(count_words(dag), "words of a 64-tree"));
   Maker(dag, &words_).run();
   view_.depth = depth_of(dag);
   view_.words = words_.data();
@@ -139,6 +138,13 @@ Tree64::Tree64(const DagView& dag) {
     view_.side[d] = double(1U << 2 * (view_.depth - d));
     view_.per_side[d] = 1 / view_.side[d];
   }
+}
+
+Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
+  uint64_t nodes = dag.brick_count;
+  for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
+  const bool pays = rays > nodes && Tree64::bytes(dag) <= std::min(memory, kMostBytes);
+  return pays ? Tree64(dag) : Tree64();
 }
 
 }  // namespace svdag

@@ -18,6 +18,7 @@ class Tree64 {
   // What the tree of `dag` takes, with the room to make it.
   static uint64_t bytes(const DagView& dag);
 
+  Tree64() = default;  // of nothing
   explicit Tree64(const DagView& dag);
   const Tree64View& view() const { return view_; }
   uint64_t bytes() const { return words_.size() * sizeof(uint64_t); }
@@ -28,5 +29,9 @@ class Tree64 {
   HugeVector<uint64_t> words_;
   Tree64View view_;
 };
+
+// The tree, or the one of nothing where it does not pay: for fewer than one of `rays` (each
+// thread's) per node, or where it takes more than `memory` bytes.
+Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory);
 
 }  // namespace svdag

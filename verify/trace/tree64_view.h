@@ -12,8 +12,8 @@
 //   d + 1 = depth   per present cell the brick itself: no pointer, and no memory to wait for but
 //                   that of the nodes
 //
-// Where the DAG's levels do not come out even the root's cube is 2 (4) times as wide as the grid
-// and repeats it, so that mirroring (ray.h) needs no exception; the clipped ray ends before that.
+// Where the DAG's levels are odd in number the root's cube is twice as wide as the grid and repeats
+// it, so that mirroring (ray.h) needs no exception; clipped rays end before they come there.
 //
 // Depends on dag_view.h alone, for host and CUDA. verify/trace/tree64.h makes it.
 #pragma once
