@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "streaming/memory_budget.h"
+#include "verify/trace/processor.h"
 #include "verify/trace/rays.h"
 #include "verify/trace/tree64.h"
 
@@ -50,7 +51,8 @@ void trace_tile(const DagView& dag, const Tree64View& tree, const Workload& work
   Hit found[kTile * kTile];
   for (uint32_t i = 0; i < kTile * kTile; ++i)
     rays[i] = picture.ray(left + i % kTile, top + i / kTile);
-  const Span span = work.beams ? tile_span(dag, picture, left, top) : Span{};
+  Span span;
+  if (work.beams) run_fast([&] { span = tile_span(dag, picture, left, top); });
   trace_closest(dag, tree, rays, kTile * kTile, span, {}, found);
   for (uint32_t i = 0; i < kTile * kTile; ++i) {
     const uint32_t x = left + i % kTile, y = top + i / kTile;
