@@ -28,12 +28,21 @@ uint64_t words_of(const DagView& dag, uint32_t level, uint32_t cells) {
   return 1 + (level == dag.brick_level() ? cells : (cells + 1) / 2);
 }
 
+// Calls visit(c, child) for each child c of a node.
+template <class Visit>
+void for_children(const DagView& dag, uint32_t level, uint32_t node, const Visit& visit) {
+  const uint32_t* word = dag.words[level] + node;
+  for (uint32_t mask = *word & 0xffU; mask != 0; mask &= mask - 1)
+    visit(lowest_bit64(mask), *++word);
+}
+
 Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   Cells cells;
-  for (unsigned i = 0; i < 64; ++i) {
-    const uint32_t child = dag_child(dag, level, node, i / 8);
-    cells.child[i] = child == kNoChild ? kNoChild : dag_child(dag, level + 1, child, i % 8);
-  }
+  std::fill_n(cells.child, 64, kNoChild);
+  for_children(dag, level, node, [&](uint32_t b, uint32_t child) {
+    for_children(dag, level + 1, child,
+                 [&](uint32_t c, uint32_t grandchild) { cells.child[8 * b + c] = grandchild; });
+  });
   return cells;
 }
 
@@ -56,12 +65,12 @@ uint64_t count_words(const DagView& dag) {
   const uint32_t cells = present(of_root(dag, &level));
   uint64_t words = words_of(dag, level, cells);
   for (; level < dag.brick_level(); level += 2) {
-    const uint32_t* of_level = dag.words[level];
     for (uint64_t node = 0; node < dag.word_count[level];) {
-      const uint32_t children = uint32_t(popcount8(of_level[node] & 0xffU));
-      uint32_t grandchildren = 0;
-      for (uint32_t i = 1; i <= children; ++i)
-        grandchildren += uint32_t(popcount8(dag.words[level + 1][of_level[node + i]] & 0xffU));
+      uint32_t children = 0, grandchildren = 0;
+      for_children(dag, level, uint32_t(node), [&](uint32_t, uint32_t child) {
+        ++children;
+        grandchildren += uint32_t(popcount8(dag.words[level + 1][child] & 0xffU));
+      });
       words += words_of(dag, level + 2, grandchildren);
       node += 1 + children;
     }
@@ -119,18 +128,15 @@ class Tree64::Maker {
 };
 
 uint64_t Tree64::bytes(const DagView& dag) {
-  if (dag.empty()) return 0;
-  uint64_t bytes = count_words(dag) * sizeof(uint64_t);
-  for (uint32_t level = 1; level < dag.brick_level(); ++level) {
-    if (kept(dag, level)) bytes += dag.word_count[level] * sizeof(uint32_t);
-  }
-  return bytes;
+  return dag.empty() ? 0 : count_words(dag) * sizeof(uint64_t);
 }
 
-Tree64::Tree64(const DagView& dag) {
+Tree64::Tree64(const DagView& dag) : Tree64(dag, bytes(dag)) {}
+
+Tree64::Tree64(const DagView& dag, uint64_t bytes) {
   view_.levels = dag.levels;
   if (dag.empty()) return;
-  words_.reserve(as_u32(count_words(dag), "words of a 64-tree"));
+  words_.reserve(as_u32(bytes / sizeof(uint64_t), "words of a 64-tree"));
   Maker(dag, &words_).run();
   view_.depth = depth_of(dag);
   view_.words = words_.data();
@@ -143,8 +149,13 @@ Tree64::Tree64(const DagView& dag) {
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
   uint64_t nodes = dag.brick_count;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
-  const bool pays = rays > nodes && Tree64::bytes(dag) <= std::min(memory, kMostBytes);
-  return pays ? Tree64(dag) : Tree64();
+  if (dag.empty() || rays <= nodes) return {};
+  uint64_t room = 0;  // of the maker
+  for (uint32_t level = 1; level < dag.brick_level(); ++level) {
+    if (kept(dag, level)) room += dag.word_count[level] * sizeof(uint32_t);
+  }
+  const uint64_t bytes = Tree64::bytes(dag);
+  return bytes + room <= memory && bytes <= kMostBytes ? Tree64(dag, bytes) : Tree64();
 }
 
 }  // namespace svdag

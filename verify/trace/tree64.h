@@ -15,7 +15,7 @@ namespace svdag {
 
 class Tree64 {
  public:
-  // What the tree of `dag` takes, with the room to make it.
+  // What the tree of `dag` takes. Looks at every second level of it.
   static uint64_t bytes(const DagView& dag);
 
   Tree64() = default;  // of nothing
@@ -25,13 +25,15 @@ class Tree64 {
 
  private:
   class Maker;
+  friend Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory);
+  Tree64(const DagView& dag, uint64_t bytes);
 
   HugeVector<uint64_t> words_;
   Tree64View view_;
 };
 
 // The tree, or the one of nothing where it does not pay: for fewer than one of `rays` (each
-// thread's) per node, or where it takes more than `memory` bytes.
+// thread's) per node, or where making it takes more than `memory` bytes.
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory);
 
 }  // namespace svdag

@@ -144,7 +144,7 @@ TEST_P(SameHit64, WalksGiveThePlainHitOnEveryFamilyAndSpan) {
   const RawFile file(raw_dag(test_grid(levels), voxels));
   const DagView dag = file.view();
   const Tree64 tree(dag);
-  EXPECT_LE(tree.bytes(), Tree64::bytes(dag));
+  EXPECT_EQ(tree.bytes(), Tree64::bytes(dag)) << "what it was said to take";
   RayFamilies random(uint64_t(7 * levels), double(dag.resolution()));
   const std::vector<VoxelSet::value_type> list(voxels.begin(), voxels.end());
   for (int family = 0; family < kRayFamilies; ++family) {
@@ -190,6 +190,15 @@ TEST(Tree64, SharesWhatTheDagShares) {
     voxels.emplace(16 * (i / 16) + 3, 16 * (i / 4 % 4) + 7, 16 * (i % 4) + 1);
   const RawFile file(raw_dag(test_grid(6), voxels));
   EXPECT_EQ(Tree64(file.view()).bytes(), 8U * (1 + 32 + 1 + 1));  // the root, one node, its brick
+}
+
+TEST(Tree64, IsMadeWhereItPaysAndFits) {
+  const RawFile file(raw_dag(test_grid(9), clustered_voxels(9, 3, 12)));
+  const DagView dag = file.view();
+  const uint64_t many = uint64_t(1) << 40, bytes = Tree64::bytes(dag);
+  EXPECT_EQ(tree_if_it_pays(dag, many, many).bytes(), bytes);
+  EXPECT_EQ(tree_if_it_pays(dag, 1, many).bytes(), 0U) << "for one ray";
+  EXPECT_EQ(tree_if_it_pays(dag, many, bytes).bytes(), 0U) << "without room to make it";
 }
 
 }  // namespace
