@@ -4,8 +4,9 @@
 // end and its three far planes (ray.h). A node has five planes per axis, so fifteen times say it
 // for all 64 cells. They are compared as bytes, 64 in two vectors:
 //
-//   byte(t) = 0 .. 254, the whole part of (t - enter) * scale + 1,   enter = when the node is
-//   entered
+//   byte(t) = 0 .. 254, the whole part of (t - enter) * scale + 1
+//
+// where `enter` is the time at which the node is entered.
 //
 // Invariant: no met cell is lost. Rounding is monotone, in the times as in their bytes, so near <
 // far gives byte(near) <= byte(far); the byte of what comes after `enter` is 1 or more. What is
@@ -57,7 +58,7 @@ struct Visit {
   uint32_t depth;
 };
 
-// One number after the other.
+// One number after the other: for CUDA, and what the vectors are tested beside.
 struct PlainCells {
   // What is set and perhaps met. Fills in the corner.
   SVDAG_HD static uint64_t of(const Tree64View& tree, const RayTimes& ray, const Visit& visit) {

@@ -11,13 +11,19 @@ namespace svdag {
 
 #if defined(__x86_64__)
 #define SVDAG_FAST_TARGET "avx2,fma,bmi,bmi2,lzcnt,popcnt"
+#endif
 
 inline bool has_fast_target() {
+#if defined(__x86_64__)
   static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                           __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
   return has;
+#else
+  return false;
+#endif
 }
 
+#if defined(__x86_64__)
 template <typename Loop>
 [[gnu::target(SVDAG_FAST_TARGET), gnu::flatten]] void run_with_avx2(const Loop& loop) {
   loop();

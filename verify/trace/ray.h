@@ -35,6 +35,15 @@ SVDAG_HD inline double square_root(double v) {
 #endif
 }
 
+// v must not be 0.
+SVDAG_HD inline uint32_t highest_bit(uint32_t v) {
+#if defined(__CUDA_ARCH__)
+  return 31U - uint32_t(__clz(int(v)));
+#else
+  return 31U - uint32_t(__builtin_clz(v));
+#endif
+}
+
 struct Vec3 {
   double v[3];
   SVDAG_HD double operator[](int a) const { return v[a]; }

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// Rays that take turns. While one waits for memory the others go on; more than 8 gain nothing.
+// Rays that take turns. While one waits for memory the others go on; more than 8 gain little.
 constexpr int kInFlight = 8;
 
 // Walks that are on their way, and the rays that have not started.
@@ -66,6 +66,8 @@ class Walks {
   Numbered room_[kInFlight];
 };
 
+// done(i, walk) for each ray, once its walk is at its end. False where the processor has no vectors
+// for it: one number after the other the tree is slower than the file.
 #if defined(__x86_64__)
 template <class Done>
 [[gnu::target(SVDAG_FAST_TARGET), gnu::flatten]] void walk_with_avx2(const Tree64View& tree,
@@ -80,23 +82,20 @@ template <class Done>
     }
   }
 }
-#endif
 
-// done(i, walk) for each ray, once its walk is at its end.
 template <class Done>
-void walk_all(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
+bool walk_all(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
               const Done& done) {
-#if defined(__x86_64__)
-  if (has_fast_target()) return walk_with_avx2(tree, rays, count, span, done);
-#endif
-  Walks<Done> walks(tree, rays, count, span, done);
-  while (walks.active() > 0) {
-    for (int i = 0; i < walks.active();) {
-      const Walk64& walk = walks.walk(i);
-      i += walks.step(i, PlainCells::of(tree, walk.times(), walk.visit()));
-    }
-  }
+  if (tree.empty() || !has_fast_target()) return false;
+  walk_with_avx2(tree, rays, count, span, done);
+  return true;
 }
+#else
+template <class Done>
+bool walk_all(const Tree64View&, const Ray*, size_t, const Span&, const Done&) {
+  return false;
+}
+#endif
 
 }  // namespace
 
@@ -118,15 +117,16 @@ void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& sp
 
 void trace_closest(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
                    const Span& span, const Cut& cut, Hit* hits) {
-  if (tree.empty() || cut.cuts(dag.levels)) return trace_closest(dag, rays, count, span, cut, hits);
-  walk_all(tree, rays, count, span,
-           [&](size_t i, const Walk64& walk) { hits[i] = walk.hit(tree); });
+  const auto done = [&](size_t i, const Walk64& walk) { hits[i] = walk.hit(tree); };
+  if (cut.cuts(dag.levels) || !walk_all(tree, rays, count, span, done))
+    trace_closest(dag, rays, count, span, cut, hits);
 }
 
 void trace_any(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
                const Span& span, const Cut& cut, uint8_t* found) {
-  if (tree.empty() || cut.cuts(dag.levels)) return trace_any(dag, rays, count, span, cut, found);
-  walk_all(tree, rays, count, span, [&](size_t i, const Walk64& walk) { found[i] = walk.found(); });
+  const auto done = [&](size_t i, const Walk64& walk) { found[i] = walk.found(); };
+  if (cut.cuts(dag.levels) || !walk_all(tree, rays, count, span, done))
+    trace_any(dag, rays, count, span, cut, found);
 }
 
 }  // namespace svdag

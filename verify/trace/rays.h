@@ -15,8 +15,8 @@ void trace_closest(const DagView& dag, const Ray* rays, size_t count, const Span
 void trace_any(const DagView& dag, const Ray* rays, size_t count, const Span& span, const Cut& cut,
                uint8_t* found);
 
-// The same, by the DAG's 64-tree if that is not the one of nothing and rays are not cut: 2 to 4
-// times as fast. The more rays at once, the better; 64 will do.
+// The same, by the DAG's 64-tree unless that is the one of nothing, rays are cut, or the processor
+// has no AVX2. The more rays at once, the better; 64 will do.
 void trace_closest(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,
                    const Span& span, const Cut& cut, Hit* hits);
 void trace_any(const DagView& dag, const Tree64View& tree, const Ray* rays, size_t count,

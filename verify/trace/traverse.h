@@ -57,14 +57,6 @@ class Ahead {
   uint64_t children_;
 };
 
-SVDAG_HD inline uint32_t highest_bit(uint32_t v) {
-#if defined(__CUDA_ARCH__)
-  return 31U - uint32_t(__clz(int(v)));
-#else
-  return 31U - uint32_t(__builtin_clz(v));
-#endif
-}
-
 // Traces rays through one DAG, one after the other.
 class Tracer {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "streaming/counts.h"
+#include "verify/trace/processor.h"
 
 namespace svdag {
 namespace {
@@ -149,7 +150,7 @@ Tree64::Tree64(const DagView& dag, uint64_t bytes) {
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
   uint64_t nodes = dag.brick_count;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
-  if (dag.empty() || rays <= nodes) return {};
+  if (!has_fast_target() || rays <= nodes) return {};
   uint64_t room = 0;  // of the maker
   for (uint32_t level = 1; level < dag.brick_level(); ++level) {
     if (kept(dag, level)) room += dag.word_count[level] * sizeof(uint32_t);

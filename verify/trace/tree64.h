@@ -33,7 +33,7 @@ class Tree64 {
 };
 
 // The tree, or the one of nothing where it does not pay: for fewer than one of `rays` (each
-// thread's) per node, or where making it takes more than `memory` bytes.
+// thread's) per node, where making it takes more than `memory` bytes, or without AVX2.
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory);
 
 }  // namespace svdag

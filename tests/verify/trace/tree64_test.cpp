@@ -193,6 +193,7 @@ TEST(Tree64, SharesWhatTheDagShares) {
 }
 
 TEST(Tree64, IsMadeWhereItPaysAndFits) {
+  if (!has_fast_target()) GTEST_SKIP() << "no AVX2";
   const RawFile file(raw_dag(test_grid(9), clustered_voxels(9, 3, 12)));
   const DagView dag = file.view();
   const uint64_t many = uint64_t(1) << 40, bytes = Tree64::bytes(dag);
