@@ -22,7 +22,8 @@ LIGHT = "0,7,0,0.1,0.5,2"  # its position and its radii
 NAMES = {"soft shadow 0": "soft shadow, light of 0.1 m", "soft shadow 1": "soft shadow, light of 0.5 m",
          "soft shadow 2": "soft shadow, light of 2 m", "ao 0": "AO, as far as the scene",
          "ao 1": "AO, 5 % of the scene"}
-OURS = {"svdag": "svdag", "svdag, without beams": "without beams", "svdag, plain": "plain", "svdag, from the root": "from the root",
+OURS = {"svdag": "svdag", "svdag, without beams": "without beams", "svdag, the file": "the file",
+        "svdag, the file, without beams": "the file, without beams", "svdag, plain": "plain", "svdag, from the root": "from the root",
         "svdag, from the root, old instructions": "from the root, x86-64 of 2003", "svdag, huge pages": "huge pages", "svdag, cut": "cone of 9°",
         "svdag, depth-first": "depth-first", "svdag, depth-first, one section": "depth-first, one section"}
 TARGETS = {"primary": 0.5, "ao 0": 1.0, "ao 1": 1.0}

@@ -20,14 +20,15 @@
 #include "verify/trace/beam.h"
 #include "verify/trace/processor.h"
 #include "verify/trace/rays.h"
+#include "verify/trace/tree64.h"
 #include "verify/trace/triangle.h"
 
 namespace svdag::bench {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr size_t kBundle = kTile * kTile;  // rays of one beam
-constexpr double kReaches[] = {1, 0.05};   // of ambient occlusion, of the scene's diagonal
+constexpr size_t kBundle = kTile * kTile;           // rays of one beam
+constexpr double kReaches[] = {1, 0.05};            // of ambient occlusion, of the scene's diagonal
 constexpr double kConeSpread = 0.3167688806490681;  // 2 tan(9 degrees): 0.077 sr, the paper's cone
 
 using Method = std::function<RayRun(const RayBatch&)>;
@@ -37,18 +38,18 @@ struct Contestant {
   Method trace;
 };
 
-// As the program traces them.
-Method in_batches(const DagView& dag, const Cut& cut = {}) {
-  return [&dag, cut](const RayBatch& batch) {
+// As the program traces them. `tree` may be that of nothing: then by the DAG itself.
+Method in_batches(const DagView& dag, const Tree64View& tree = {}, const Cut& cut = {}) {
+  return [&dag, tree, cut](const RayBatch& batch) {
     const size_t count = batch.rays.size();
     std::vector<uint8_t> found(batch.any ? count : 0);
     std::vector<Hit> hits(batch.any ? 0 : count);
     RayRun run;
     const double start = thread_seconds();
     if (batch.any) {
-      trace_any(dag, batch.rays.data(), count, batch.span, cut, found.data());
+      trace_any(dag, tree, batch.rays.data(), count, batch.span, cut, found.data());
     } else {
-      trace_closest(dag, batch.rays.data(), count, batch.span, cut, hits.data());
+      trace_closest(dag, tree, batch.rays.data(), count, batch.span, cut, hits.data());
     }
     run.seconds = thread_seconds() - start;
     for (const uint8_t one : found) run.hits += one;
@@ -59,23 +60,31 @@ Method in_batches(const DagView& dag, const Cut& cut = {}) {
 
 // The same, each bundle of kBundle rays within the span of its beam: a tile of pixels, or the rays
 // from one pixel to a light. The rays of ambient occlusion have no direction in common.
-Method in_beams(const DagView& dag) {
-  const Method without = in_batches(dag);
-  return [&dag, without](const RayBatch& batch) {
+Method in_beams(const DagView& dag, const Tree64View& tree = {}) {
+  const Method without = in_batches(dag, tree);
+  return [&dag, tree, without](const RayBatch& batch) {
     if (batch.name.starts_with("ao")) return without(batch);
     RayRun run;
+    Hit hits[kBundle];
+    uint8_t found[kBundle];
     const double start = thread_seconds();
-    run_fast([&] {
-      Tracer tracer(dag);
-      for (size_t i = 0; i < batch.rays.size(); i += kBundle) {
-        const size_t end = std::min(i + kBundle, batch.rays.size());
+    for (size_t i = 0; i < batch.rays.size(); i += kBundle) {
+      const Ray* rays = &batch.rays[i];
+      const size_t count = std::min(kBundle, batch.rays.size() - i);
+      Span span;
+      run_fast([&] {
         Beam beam;
-        for (size_t k = i; k < end; ++k) beam.add(batch.rays[k]);
-        const Span span = beam.reach(dag, batch.span, {}, batch.any);
-        for (size_t k = i; k < end && span.begin < span.end; ++k)
-          run.hits += tracer.closest(batch.rays[k], span).found;
+        for (size_t k = 0; k < count; ++k) beam.add(rays[k]);
+        span = beam.reach(dag, batch.span, {}, batch.any);
+      });
+      if (!(span.begin < span.end)) continue;
+      if (batch.any) {
+        trace_any(dag, tree, rays, count, span, {}, found);
+      } else {
+        trace_closest(dag, tree, rays, count, span, {}, hits);
       }
-    });
+      for (size_t k = 0; k < count; ++k) run.hits += batch.any ? found[k] : hits[k].found;
+    }
     run.seconds = thread_seconds() - start;
     return run;
   };
@@ -100,21 +109,24 @@ Method one_by_one(const TraceOne& trace_one, bool fast) {
   };
 }
 
-std::vector<Contestant> ours(const DagView& dag, const RelaidDag& as_in_file,
-                             const RelaidDag& levels, const RelaidDag& one) {
+std::vector<Contestant> ours(const DagView& dag, const Tree64View& tree,
+                             const RelaidDag& as_in_file, const RelaidDag& levels,
+                             const RelaidDag& one) {
   const auto plain = [&dag](const Ray& ray, const Span& span) {
     return plain_closest(dag, ray, span).found;
   };
   const auto from_root = [&dag](const Ray& ray, const Span& span) {
     return Tracer(dag).closest(ray, span).found;
   };
-  return {{"svdag", in_beams(dag)},
-          {"svdag, without beams", in_batches(dag)},
+  return {{"svdag", in_beams(dag, tree)},
+          {"svdag, without beams", in_batches(dag, tree)},
+          {"svdag, the file", in_beams(dag)},
+          {"svdag, the file, without beams", in_batches(dag)},
           {"svdag, plain", one_by_one(plain, true)},
           {"svdag, from the root", one_by_one(from_root, true)},
           {"svdag, from the root, old instructions", one_by_one(from_root, false)},
           {"svdag, huge pages", in_batches(as_in_file.view())},
-          {"svdag, cut", in_batches(dag, {0xffffffffU, kConeSpread})},
+          {"svdag, cut", in_batches(dag, {}, {0xffffffffU, kConeSpread})},
           {"svdag, depth-first", in_batches(levels.view())},
           {"svdag, depth-first, one section", in_batches(one.view())}};
 }
@@ -213,10 +225,11 @@ int run(int argc, char** argv) {
   const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
   const EmbreePeer peer(triangles);
   const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
+  const Tree64 tree(dag);
   const RelaidDag as_in_file(dag, RelaidDag::Layout::kAsInFile);
   const RelaidDag levels(dag, RelaidDag::Layout::kDepthFirst);
   const RelaidDag one(dag, RelaidDag::Layout::kDepthFirstOneSection);
-  std::vector<Contestant> contestants = ours(dag, as_in_file, levels, one);
+  std::vector<Contestant> contestants = ours(dag, tree.view(), as_in_file, levels, one);
   for (const Contestant& contestant : embree(peer)) contestants.push_back(contestant);
   std::printf("workload,rays,method,mrays,hits\n");
   for (const RayBatch& batch : make_batches(dag, config, middle)) measure(batch, contestants);

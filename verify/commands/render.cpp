@@ -8,7 +8,9 @@
 #include "io/dag/dag_file.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
+#include "streaming/memory_budget.h"
 #include "verify/trace/presets.h"
+#include "verify/trace/tree64.h"
 
 namespace svdag {
 namespace {
@@ -130,13 +132,19 @@ int run(const RenderCommandConfig& config) {
   const Light light = make_shading(mode, first, int(up), box).light;
   ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
   Progress progress(config.common.progress);
-  for (int frame = 0; frame < std::max(config.fly, 1); ++frame) {
+  const int frames = std::max(config.fly, 1);
+  Tree64 tree;
+  for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = config.fly > 0 ? turned(first, box, int(up), frame, config.fly) : first;
     Shading shading = make_shading(mode, camera, int(up), box);
     shading.light = light;
     apply(config, file.grid(), camera, box, picture.height, &shading);
+    if (frame == 0 && mode != ShadeMode::kSteps)  // those of the DAG are to be seen
+      tree = tree_if_it_pays(file.view(),
+                             rays_of(shading, picture) * uint64_t(frames) / executor.workers(),
+                             default_memory_limit());
     const std::string name = config.fly > 0 ? frame_name(config.output, frame + 1) : config.output;
-    write_png(render(file.view(), camera, shading, picture, executor, progress), name);
+    write_png(render(file.view(), tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)
       std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,
                   config.mode.c_str());

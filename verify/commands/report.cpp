@@ -47,7 +47,7 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
     shading.secondary.reach = 0.05 * length(box.max - box.min);
     if (wanted.mode == ShadeMode::kLevel)
       shading.primary.spread = 2 * camera.slope / picture.height;
-    const Image image = render(dag, camera, shading, picture, executor, progress);
+    const Image image = render(dag, {}, camera, shading, picture, executor, progress);
     pictures.push_back({wanted.caption, encode_png(image, config.output)});
   }
   return pictures;

@@ -8,11 +8,19 @@
 namespace svdag {
 namespace {
 
+// Rays to the light, or the sky, from what a camera ray shows.
+uint32_t secondary_per_ray(const Shading& shading) {
+  if (shading.mode == ShadeMode::kShadow) return 1;
+  const bool many = shading.mode == ShadeMode::kSoft || shading.mode == ShadeMode::kAo;
+  return many ? shading.secondary.samples : 0;
+}
+
 // The rays of one tile; the room is used again for the next.
 class Tile {
  public:
-  Tile(const DagView& dag, const Camera& camera, const Shading& shading, const RenderConfig& config)
-      : dag_(dag), camera_(camera), shading_(shading), config_(config) {}
+  Tile(const DagView& dag, const Tree64View& tree, const Camera& camera, const Shading& shading,
+       const RenderConfig& config)
+      : dag_(dag), tree_(tree), camera_(camera), shading_(shading), config_(config) {}
 
   void render(int left, int top, Image* image) {
     left_ = left, top_ = top;
@@ -43,7 +51,7 @@ class Tile {
   void look() {
     hits_.resize(rays_.size());
     const Span span = config_.beams ? reach(rays_, {}, shading_.primary, false) : Span{};
-    trace_closest(dag_, rays_.data(), rays_.size(), span, shading_.primary, hits_.data());
+    trace_closest(dag_, tree_, rays_.data(), rays_.size(), span, shading_.primary, hits_.data());
     surfels_.clear();
     const bool wanted = shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
     for (size_t i = 0; i < rays_.size(); ++i)
@@ -60,8 +68,8 @@ class Tile {
   void ask_light() {
     seen_.assign(rays_.size(), 1);
     const bool ao = shading_.mode == ShadeMode::kAo;
-    if (!ao && shading_.mode != ShadeMode::kShadow && shading_.mode != ShadeMode::kSoft) return;
-    const uint32_t n = shading_.mode == ShadeMode::kShadow ? 1 : shading_.secondary.samples;
+    const uint32_t n = secondary_per_ray(shading_);
+    if (n == 0) return;
     secondary_.clear();
     for (size_t i = 0; i < rays_.size(); ++i) {
       for (uint32_t k = 0; surfels_[i].found && k < n; ++k) secondary_.push_back(ray(i, k, n));
@@ -70,7 +78,7 @@ class Tile {
     if (!ao && config_.beams && !secondary_.empty())
       span = reach(secondary_, span, shading_.secondary.cut, true);
     blocked_.resize(secondary_.size());
-    trace_any(dag_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
+    trace_any(dag_, tree_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
               blocked_.data());
     size_t at = 0;
     for (size_t i = 0; i < rays_.size(); ++i) {
@@ -104,6 +112,7 @@ class Tile {
   }
 
   const DagView& dag_;
+  const Tree64View& tree_;
   const Camera& camera_;
   const Shading& shading_;
   const RenderConfig& config_;
@@ -117,13 +126,20 @@ class Tile {
 
 }  // namespace
 
-Image render(const DagView& dag, const Camera& camera, const Shading& shading,
-             const RenderConfig& config, Executor& executor, Progress& progress) {
+uint64_t rays_of(const Shading& shading, const RenderConfig& config) {
+  const uint64_t per_pixel = uint64_t(config.supersample) * uint64_t(config.supersample);
+  return uint64_t(config.width) * uint64_t(config.height) * per_pixel *
+         (1 + secondary_per_ray(shading));
+}
+
+Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,
+             const Shading& shading, const RenderConfig& config, Executor& executor,
+             Progress& progress) {
   Image image(config.width, config.height);
   const size_t rows = (size_t(config.height) + kTile - 1) / kTile;
   progress.phase("rendering", rows);
   executor.for_each(rows, [&](size_t, size_t row) {
-    Tile tile(dag, camera, shading, config);
+    Tile tile(dag, tree, camera, shading, config);
     for (int x = 0; x < config.width; x += int(kTile)) tile.render(x, int(row * kTile), &image);
     progress.advance();
   });

@@ -5,6 +5,7 @@
 #include "streaming/progress.h"
 #include "verify/trace/image.h"
 #include "verify/trace/shade.h"
+#include "verify/trace/tree64_view.h"
 
 namespace svdag {
 
@@ -15,7 +16,12 @@ struct RenderConfig {
   bool beams = true;    // false: every ray starts at the camera (same picture)
 };
 
-Image render(const DagView& dag, const Camera& camera, const Shading& shading,
-             const RenderConfig& config, Executor& executor, Progress& progress);
+// The rays of a picture, at most.
+uint64_t rays_of(const Shading& shading, const RenderConfig& config);
+
+// `tree`: of the DAG, or of nothing; the picture is the same.
+Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,
+             const Shading& shading, const RenderConfig& config, Executor& executor,
+             Progress& progress);
 
 }  // namespace svdag

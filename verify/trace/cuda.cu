@@ -85,7 +85,8 @@ __global__ void secondary_kernel(const __grid_constant__ DagView dag,
   if (pixel >= uint64_t(work.picture.width) * work.picture.height) return;
   if (!surfels[pixel].found) return;
   Tracer tracer(dag);
-  if (blocked_ray(&tracer, work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel)))
+  const Ray asked = secondary_ray(work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel));
+  if (tracer.closest(asked, secondary_span(work, kind), secondary_cut(work, kind)).found)
     atomicAdd(&blocked[pixel], 1U);
 }
 

@@ -5,7 +5,10 @@
 #include <chrono>
 #include <thread>
 
+#include "streaming/memory_budget.h"
 #include "verify/trace/processor.h"
+#include "verify/trace/rays.h"
+#include "verify/trace/tree64.h"
 
 namespace svdag {
 namespace {
@@ -21,9 +24,7 @@ void for_each_row(const Workload& work, const Body& body) {
   const uint32_t rows = (work.picture.height + kTile - 1) / kTile;
   std::atomic<uint32_t> next{0};
   const auto loop = [&] {
-    run_fast([&] {
-      for (uint32_t row = next++; row < rows; row = next++) body(row);
-    });
+    for (uint32_t row = next++; row < rows; row = next++) body(row);
   };
   std::vector<std::thread> threads;
   for (unsigned i = 1; i < work.threads; ++i) threads.emplace_back(loop);
@@ -43,31 +44,50 @@ double least(uint32_t rounds, const Run& run) {
   return best;
 }
 
-void trace_tile(const DagView& dag, const Workload& work, uint32_t left, uint32_t top,
-                std::vector<Hit>* hits) {
+void trace_tile(const DagView& dag, const Tree64View& tree, const Workload& work, uint32_t left,
+                uint32_t top, std::vector<Hit>* hits) {
   const Picture& picture = work.picture;
-  const Span span = work.beams ? tile_span(dag, picture, left, top) : Span{};
-  Tracer tracer(dag);
+  Ray rays[kTile * kTile];
+  Hit found[kTile * kTile];
+  for (uint32_t i = 0; i < kTile * kTile; ++i)
+    rays[i] = picture.ray(left + i % kTile, top + i / kTile);
+  Span span;
+  if (work.beams) run_fast([&] { span = tile_span(dag, picture, left, top); });
+  trace_closest(dag, tree, rays, kTile * kTile, span, {}, found);
   for (uint32_t i = 0; i < kTile * kTile; ++i) {
     const uint32_t x = left + i % kTile, y = top + i / kTile;
-    if (x < picture.width && y < picture.height)
-      (*hits)[size_t(y) * picture.width + x] = tracer.closest(picture.ray(x, y), span);
+    if (x < picture.width && y < picture.height) (*hits)[size_t(y) * picture.width + x] = found[i];
   }
 }
 
-// One of the secondary workloads, for the pixels of one row of tiles.
-void trace_row(const DagView& dag, const Workload& work, int kind, uint32_t row,
-               const std::vector<Surfel>& surfels, std::vector<uint32_t>* blocked) {
+// One of the secondary workloads, for the pixels of one row of tiles; some hundred rays at once.
+void trace_row(const DagView& dag, const Tree64View& tree, const Workload& work, int kind,
+               uint32_t row, const std::vector<Surfel>& surfels, std::vector<uint32_t>* blocked) {
+  constexpr size_t kEnough = 512;
   const size_t width = work.picture.width;
   const size_t end = std::min<size_t>((row + 1) * kTile, work.picture.height) * width;
-  Tracer tracer(dag);
+  std::vector<Ray> rays;
+  std::vector<size_t> pixels;  // of the rays
+  std::vector<uint8_t> found;
   for (size_t pixel = row * kTile * width; pixel < end; ++pixel) {
-    if (!surfels[pixel].found) continue;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < rays_per_pixel(work, kind); ++i)
-      count += blocked_ray(&tracer, work, kind, surfels[pixel], pixel, i);
-    (*blocked)[pixel] = count;
+    for (uint32_t i = 0; surfels[pixel].found && i < rays_per_pixel(work, kind); ++i) {
+      rays.push_back(secondary_ray(work, kind, surfels[pixel], pixel, i));
+      pixels.push_back(pixel);
+    }
+    if (rays.size() < kEnough && pixel + 1 < end) continue;
+    found.resize(rays.size());
+    trace_any(dag, tree, rays.data(), rays.size(), secondary_span(work, kind),
+              secondary_cut(work, kind), found.data());
+    for (size_t i = 0; i < rays.size(); ++i) (*blocked)[pixels[i]] += found[i];
+    rays.clear();
+    pixels.clear();
   }
+}
+
+uint64_t rays_of(const Workload& work) {
+  uint64_t per_pixel = 0;
+  for (int kind = 0; kind < kWorkloads; ++kind) per_pixel += rays_per_pixel(work, kind);
+  return per_pixel * work.picture.width * work.picture.height * work.rounds;
 }
 
 }  // namespace
@@ -81,13 +101,15 @@ Answers trace_on_cpu(const PlainFile& file, const Workload& asked) {
   Answers answers;
   answers.device =
       "CPU, " + std::to_string(work.threads) + (work.threads == 1 ? " thread" : " threads");
+  const Tree64 made = tree_if_it_pays(dag, rays_of(work) / work.threads, default_memory_limit());
+  const Tree64View& tree = made.view();
   answers.hits.resize(pixels);
   answers.surfels.resize(pixels);
   answers.rays[kPrimaryRays] = pixels;
   answers.seconds[kPrimaryRays] = least(work.rounds, [&] {
     for_each_row(work, [&](uint32_t row) {
       for (uint32_t x = 0; x < picture.width; x += kTile)
-        trace_tile(dag, work, x, row * kTile, &answers.hits);
+        trace_tile(dag, tree, work, x, row * kTile, &answers.hits);
     });
   });
   uint64_t found = 0;
@@ -97,11 +119,11 @@ Answers trace_on_cpu(const PlainFile& file, const Workload& asked) {
     found += answers.hits[i].found;
   }
   for (int kind = kShadowRays; kind < kWorkloads; ++kind) {
-    answers.blocked[kind].assign(pixels, 0);
     answers.rays[kind] = found * rays_per_pixel(work, kind);
     answers.seconds[kind] = least(work.rounds, [&] {
+      answers.blocked[kind].assign(pixels, 0);
       for_each_row(work, [&](uint32_t row) {
-        trace_row(dag, work, kind, row, answers.surfels, &answers.blocked[kind]);
+        trace_row(dag, tree, work, kind, row, answers.surfels, &answers.blocked[kind]);
       });
     });
   }

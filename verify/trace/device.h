@@ -37,15 +37,21 @@ Answers trace_on_cpu(const PlainFile& file, const Workload& work);
 // No device, a program without CUDA, or too little memory there is an Error.
 Answers trace_on_cuda(const PlainFile& file, const Workload& work);
 
-// Secondary ray i of n of `kind` from a surfel, and its span.
-SVDAG_HD inline bool blocked_ray(Tracer* tracer, const Workload& work, int kind,
-                                 const Surfel& surfel, uint64_t pixel, uint32_t i) {
+// Secondary ray i of `kind` from a surfel, ...
+SVDAG_HD inline Ray secondary_ray(const Workload& work, int kind, const Surfel& surfel,
+                                  uint64_t pixel, uint32_t i) {
   const uint32_t n = work.secondary.samples;
-  if (kind == kShadowRays) return tracer->closest(shadow_ray(surfel, work.light), {0, 1}).found;
-  if (kind == kSoftRays)
-    return tracer->closest(soft_ray(surfel, work.light, pixel, i, n), {0, 1}).found;
-  const Ray ray = occlusion_ray(surfel, pixel, i, n);
-  return tracer->closest(ray, {0, work.secondary.reach}, work.secondary.cut).found;
+  if (kind == kShadowRays) return shadow_ray(surfel, work.light);
+  return kind == kSoftRays ? soft_ray(surfel, work.light, pixel, i, n)
+                           : occlusion_ray(surfel, pixel, i, n);
+}
+
+// ... its span and its cut.
+SVDAG_HD inline Span secondary_span(const Workload& work, int kind) {
+  return {0, kind == kOcclusionRays ? work.secondary.reach : 1};
+}
+SVDAG_HD inline Cut secondary_cut(const Workload& work, int kind) {
+  return kind == kOcclusionRays ? work.secondary.cut : Cut{};
 }
 
 SVDAG_HD inline uint32_t rays_per_pixel(const Workload& work, int kind) {

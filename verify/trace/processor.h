@@ -10,8 +10,22 @@
 namespace svdag {
 
 #if defined(__x86_64__)
+#define SVDAG_FAST_TARGET "avx2,fma,bmi,bmi2,lzcnt,popcnt"
+#endif
+
+inline bool has_fast_target() {
+#if defined(__x86_64__)
+  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                          __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
+  return has;
+#else
+  return false;
+#endif
+}
+
+#if defined(__x86_64__)
 template <typename Loop>
-[[gnu::target("avx2,bmi,bmi2,lzcnt,popcnt"), gnu::flatten]] void run_with_avx2(const Loop& loop) {
+[[gnu::target(SVDAG_FAST_TARGET), gnu::flatten]] void run_with_avx2(const Loop& loop) {
   loop();
 }
 #endif
@@ -19,9 +33,7 @@ template <typename Loop>
 template <typename Loop>
 void run_fast(const Loop& loop) {
 #if defined(__x86_64__)
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") &&
-                          __builtin_cpu_supports("popcnt");
-  if (has) return run_with_avx2(loop);
+  if (has_fast_target()) return run_with_avx2(loop);
 #endif
   loop();
 }

@@ -35,6 +35,15 @@ SVDAG_HD inline double square_root(double v) {
 #endif
 }
 
+// v must not be 0.
+SVDAG_HD inline uint32_t highest_bit(uint32_t v) {
+#if defined(__CUDA_ARCH__)
+  return 31U - uint32_t(__clz(int(v)));
+#else
+  return 31U - uint32_t(__builtin_clz(v));
+#endif
+}
+
 struct Vec3 {
   double v[3];
   SVDAG_HD double operator[](int a) const { return v[a]; }
@@ -58,6 +67,8 @@ struct Cut {
   // A cube does that is no larger than spread * t * |direction| where it is entered: the width of a
   // cone of that many units per unit of length (2 * tangent of half its angle). 0: no cone.
   double spread = 0;
+
+  SVDAG_HD bool cuts(uint32_t levels) const { return level < levels || spread > 0; }
 };
 
 struct Hit {

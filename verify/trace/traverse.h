@@ -57,14 +57,6 @@ class Ahead {
   uint64_t children_;
 };
 
-SVDAG_HD inline uint32_t highest_bit(uint32_t v) {
-#if defined(__CUDA_ARCH__)
-  return 31U - uint32_t(__clz(int(v)));
-#else
-  return 31U - uint32_t(__builtin_clz(v));
-#endif
-}
-
 // Traces rays through one DAG, one after the other.
 class Tracer {
  public:
@@ -265,9 +257,8 @@ class Tracer::Walk {
 };
 
 SVDAG_HD inline Hit Tracer::closest(const Ray& ray, const Span& span, const Cut& cut) {
-  const bool whole = cut.level >= dag_.levels && !(cut.spread > 0);
-  return whole ? Walk<false>(this, ray, cut).closest(span)
-               : Walk<true>(this, ray, cut).closest(span);
+  return cut.cuts(dag_.levels) ? Walk<true>(this, ray, cut).closest(span)
+                               : Walk<false>(this, ray, cut).closest(span);
 }
 
 SVDAG_HD inline Hit trace_closest(const DagView& dag, const Ray& ray, const Span& span = {},

@@ -26,10 +26,10 @@ TEST_P(PictureOf, NeitherBeamsNorThreadsShow) {
   Progress progress(Progress::Mode::kOff);
   RenderConfig config{83, 50, 2, true};  // tiles are cut at the right and below
   ParallelExecutor one(1), two(2);
-  const Image with = render(dag, camera, shading, config, one, progress);
-  const Image parallel = render(dag, camera, shading, config, two, progress);
+  const Image with = render(dag, {}, camera, shading, config, one, progress);
+  const Image parallel = render(dag, {}, camera, shading, config, two, progress);
   config.beams = false;
-  const Image without = render(dag, camera, shading, config, one, progress);
+  const Image without = render(dag, {}, camera, shading, config, one, progress);
   EXPECT_EQ(with.rgb, without.rgb);
   EXPECT_EQ(with.rgb, parallel.rgb);
   const std::set<uint8_t> values(with.rgb.begin(), with.rgb.end());
