@@ -20,6 +20,8 @@ class Tree64 {
 
   Tree64() = default;  // of nothing
   explicit Tree64(const DagView& dag);
+  Tree64(Tree64&&) = default;  // no copies: the view looks at these words
+  Tree64& operator=(Tree64&&) = default;
   const Tree64View& view() const { return view_; }
   uint64_t bytes() const { return words_.size() * sizeof(uint64_t); }
 
