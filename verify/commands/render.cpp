@@ -140,9 +140,10 @@ int run(const RenderCommandConfig& config) {
     shading.light = light;
     apply(config, file.grid(), camera, box, picture.height, &shading);
     if (frame == 0 && mode != ShadeMode::kSteps)  // those of the DAG are to be seen
-      tree = tree_if_it_pays(file.view(),
-                             rays_of(shading, picture) * uint64_t(frames) / executor.workers(),
-                             default_memory_limit());
+      tree = tree_if_it_pays(
+          file.view(),
+          uncut_rays(file.view(), shading, picture) * uint64_t(frames) / executor.workers(),
+          default_memory_limit());
     const std::string name = config.fly > 0 ? frame_name(config.output, frame + 1) : config.output;
     write_png(render(file.view(), tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)

@@ -126,10 +126,12 @@ class Tile {
 
 }  // namespace
 
-uint64_t rays_of(const Shading& shading, const RenderConfig& config) {
+uint64_t uncut_rays(const DagView& dag, const Shading& shading, const RenderConfig& config) {
   const uint64_t per_pixel = uint64_t(config.supersample) * uint64_t(config.supersample);
-  return uint64_t(config.width) * uint64_t(config.height) * per_pixel *
-         (1 + secondary_per_ray(shading));
+  const uint64_t primary = shading.primary.cuts(dag.levels) ? 0 : 1;
+  const uint64_t secondary =
+      shading.secondary.cut.cuts(dag.levels) ? 0 : secondary_per_ray(shading);
+  return uint64_t(config.width) * uint64_t(config.height) * per_pixel * (primary + secondary);
 }
 
 Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,

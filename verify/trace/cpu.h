@@ -16,8 +16,8 @@ struct RenderConfig {
   bool beams = true;    // false: every ray starts at the camera (same picture)
 };
 
-// The rays of a picture, at most.
-uint64_t rays_of(const Shading& shading, const RenderConfig& config);
+// The rays of a picture that no cut ends, at most: what a 64-tree can trace.
+uint64_t uncut_rays(const DagView& dag, const Shading& shading, const RenderConfig& config);
 
 // `tree`: of the DAG, or of nothing; the picture is the same.
 Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,

@@ -84,9 +84,12 @@ void trace_row(const DagView& dag, const Tree64View& tree, const Workload& work,
   }
 }
 
-uint64_t rays_of(const Workload& work) {
+// Those that no cut ends, at most.
+uint64_t uncut_rays(const DagView& dag, const Workload& work) {
   uint64_t per_pixel = 0;
-  for (int kind = 0; kind < kWorkloads; ++kind) per_pixel += rays_per_pixel(work, kind);
+  for (int kind = 0; kind < kWorkloads; ++kind) {
+    if (!secondary_cut(work, kind).cuts(dag.levels)) per_pixel += rays_per_pixel(work, kind);
+  }
   return per_pixel * work.picture.width * work.picture.height * work.rounds;
 }
 
@@ -101,7 +104,8 @@ Answers trace_on_cpu(const PlainFile& file, const Workload& asked) {
   Answers answers;
   answers.device =
       "CPU, " + std::to_string(work.threads) + (work.threads == 1 ? " thread" : " threads");
-  const Tree64 made = tree_if_it_pays(dag, rays_of(work) / work.threads, default_memory_limit());
+  const Tree64 made =
+      tree_if_it_pays(dag, uncut_rays(dag, work) / work.threads, default_memory_limit());
   const Tree64View& tree = made.view();
   answers.hits.resize(pixels);
   answers.surfels.resize(pixels);

@@ -8,6 +8,7 @@
 namespace svdag {
 namespace {
 
+constexpr uint64_t kRaysPerNode = 8;  // from here on time is gained, and not all rays hit
 constexpr uint64_t kMostBytes = sizeof(uint64_t) << 32;  // places are u32
 
 // A node's cells: the DAG's node (or brick) in each, or kNoChild.
@@ -150,7 +151,7 @@ Tree64::Tree64(const DagView& dag, uint64_t bytes) {
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
   uint64_t nodes = dag.brick_count;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
-  if (!has_fast_target() || rays <= nodes) return {};
+  if (!has_fast_target() || rays / kRaysPerNode <= nodes) return {};
   uint64_t room = 0;  // of the maker
   for (uint32_t level = 1; level < dag.brick_level(); ++level) {
     if (kept(dag, level)) room += dag.word_count[level] * sizeof(uint32_t);

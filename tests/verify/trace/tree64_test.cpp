@@ -28,7 +28,7 @@ bool same(const Hit& a, const Hit& b) {
   return equal;
 }
 
-// A full node of `levels` levels of cells, somewhere in a grid of 2^20.
+// A full node with cells of side 4^depth, somewhere in a grid of 2^20.
 struct SomeNode {
   SomeNode(RayFamilies& random, uint32_t depth) : side(double(uint64_t(1) << 2 * depth)) {
     for (int a = 0; a < 3; ++a)
