@@ -21,10 +21,7 @@ class RecordWriter {
  public:
   template <class T>
   requires std::is_trivially_copyable_v<T>
-  void put(const T& value) {
-    const auto* from = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), from, from + sizeof value);
-  }
+  void put(const T& value) { append(&value, sizeof value); }
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void put(const std::vector<T>& values) {
@@ -37,7 +34,13 @@ class RecordWriter {
  private:
   void put_list(std::span<const std::byte> bytes, uint64_t count) {
     put(count);
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    append(bytes.data(), bytes.size());
+  }
+  void append(const void* from, size_t size) {
+    if (size == 0) return;
+    const size_t at = bytes_.size();
+    bytes_.resize(at + size);
+    std::memcpy(bytes_.data() + at, from, size);
   }
 
   std::vector<std::byte> bytes_;
