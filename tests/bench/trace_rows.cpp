@@ -59,11 +59,12 @@ Method in_batches(const DagView& dag, const Tree64View& tree = {}, const Cut& cu
 }
 
 // The same, each bundle of kBundle rays within the span of its beam: a tile of pixels, or the rays
-// from one pixel to a light. The rays of ambient occlusion have no direction in common.
+// from one pixel to a light (which the 64-tree answers sooner than such a small beam). The rays of
+// ambient occlusion have no direction in common.
 Method in_beams(const DagView& dag, const Tree64View& tree = {}) {
   const Method without = in_batches(dag, tree);
   return [&dag, tree, without](const RayBatch& batch) {
-    if (batch.name.starts_with("ao")) return without(batch);
+    if (batch.name.starts_with("ao") || (batch.any && !tree.empty())) return without(batch);
     RayRun run;
     Hit hits[kBundle];
     uint8_t found[kBundle];
