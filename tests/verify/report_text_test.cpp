@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 namespace svdag {
 namespace {
 
 std::string base64_of(const std::string& text) {
-  std::vector<std::byte> bytes(text.size());
-  std::memcpy(bytes.data(), text.data(), text.size());
+  std::vector<std::byte> bytes;
+  for (const char c : text) bytes.push_back(std::byte(c));
   return base64(bytes);
 }
 
