@@ -2,10 +2,10 @@
 """coverage.py [--seconds N] [TARGET ...]: how much of each reader its fuzzer reaches.
 
 Builds the preset `coverage` (the fuzzers with clang's source-based coverage), runs each for N seconds from its seeds
-(default 60), and prints the lines reached of the files that it is for, after all that is in its corpus.
+(default 60), and prints the lines reached of the files that it is for, after all that is in its corpus; functions that
+were never entered (writers, ways through a second file) are named instead of counted.
 """
 import argparse
-import json
 import os
 import pathlib
 import shutil
@@ -69,14 +69,32 @@ def run(binary, target, seconds, profile):
 
 
 def lines(binary, profile, files):
-    """{file: (lines reached, lines)}"""
+    """{file: (lines reached, lines, names of functions that were never entered)}; lines are those of functions entered,
+    since what writes a format stands in the file that reads it."""
     merged = profile.with_suffix(".profdata")
     llvm = lambda tool: shutil.which(tool) or shutil.which(f"{tool}-14") or sys.exit(f"{tool} is missing: install llvm")
     subprocess.run([llvm("llvm-profdata"), "merge", "-sparse", profile, "-o", merged], check=True)
-    report = subprocess.run([llvm("llvm-cov"), "export", "-summary-only", binary, f"-instr-profile={merged}",
+    report = subprocess.run([llvm("llvm-cov"), "report", "-show-functions", binary, f"-instr-profile={merged}",
                              *[str(ROOT / f) for f in files]], check=True, capture_output=True, text=True).stdout
-    return {str(pathlib.Path(f["filename"]).relative_to(ROOT)): (f["summary"]["lines"]["covered"], f["summary"]["lines"]["count"])
-            for f in json.loads(report)["data"][0]["files"]}
+    found, file = {}, None
+    for row in report.splitlines():
+        words = row.split()
+        if row.startswith("File '"):
+            file = found[str(pathlib.Path(row[6:-2]).relative_to(ROOT))] = [0, 0, set()]
+        elif len(words) >= 7 and words[0] not in ("Name", "TOTAL"):
+            count, missed = int(words[4]), int(words[5])
+            if missed == count:
+                file[2].add(words[0].rpartition(":")[2])
+            else:
+                file[0] += count - missed
+                file[1] += count
+    return found
+
+
+def readable(names):
+    text = subprocess.run(["c++filt", *sorted(names)], capture_output=True, text=True).stdout if names else ""
+    short = {line.partition("(anonymous namespace)::")[2] or line for line in text.splitlines()}
+    return ", ".join(sorted({name.replace("svdag::", "").partition("(")[0] for name in short if "lambda" not in name}))
 
 
 def main():
@@ -89,13 +107,14 @@ def main():
     BUILD.mkdir(parents=True, exist_ok=True)
     if not arguments.binaries:
         build(targets)
-    print("| fuzzer | executions | file | lines reached | of | % |\n|---|---|---|---|---|---|")
+    print("| fuzzer | executions | file | lines reached | of | % | functions never entered |\n|---|---|---|---|---|---|---|")
     for target in targets:
         binary = (arguments.binaries or BUILD / "tests").resolve() / f"{target}_fuzz"
         profile = BUILD / f"{target}.profraw"
         executions = run(binary, target, arguments.seconds, profile)
-        for file, (reached, count) in lines(binary, profile, READERS[target]).items():
-            print(f"| {target} | {executions:,} | `{file}` | {reached} | {count} | {100 * reached / count:.1f} |", flush=True)
+        for file, (reached, count, never) in lines(binary, profile, READERS[target]).items():
+            share = 100 * reached / max(1, count)
+            print(f"| {target} | {executions:,} | `{file}` | {reached} | {count} | {share:.1f} | {readable(never)} |", flush=True)
 
 
 if __name__ == "__main__":
