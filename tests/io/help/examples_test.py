@@ -53,6 +53,53 @@ class Examples(unittest.TestCase):
         self.assertEqual(run("svdag build city.glb -o city.svdag --rule thick").returncode, USAGE)
 
 
+# A command line for each command that has options with named values, in a folder with a small scene and its DAG. No
+# plan is there, so that none is handed to a farm.
+LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
+         "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.npz", "svdag import": "city.npz -o in.svdag",
+         "svdag-verify mesh": "city.svdag city.ply", "svdag-verify render": "city.svdag -o city.png --size 16x16",
+         "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
+         "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
+BY_MACHINE = ["--vectors"]  # which there are depends on the processor
+
+
+class Choices(unittest.TestCase):
+    """The values that completion offers are those that the program takes."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="svdag-choices-")
+        for line in ("svdag-scene city -n 2K -q -o city.ply", "svdag build city.ply -q -o city.svdag -r 64 --report city.json",
+                     "svdag export city.svdag -q -o city.npz"):
+            assert cls.run_line(line).returncode == 0, line
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def run_line(cls, line):
+        return subprocess.run(line.split(), cwd=cls.folder.name, capture_output=True, text=True,
+                              env=dict(os.environ, PATH=f"{PROGRAMS}:/usr/bin:/bin"))
+
+    def refused(self, command, option, value):
+        done = self.run_line(f"{command} {LINES[command]} {option.names[-1]} {value}")
+        return done.returncode == USAGE and f"{option.names[-1]}: " in done.stderr
+
+    def test_every_choice_is_understood_and_nothing_else(self):
+        asked = 0
+        for command in told.commands(PROGRAMS).values():
+            for option in command.options:
+                if not option.choices or option.names[-1] in BY_MACHINE:
+                    continue
+                self.assertTrue(self.refused(command.name, option, "nonsense"), f"{command.name} {option.names}")
+                for value in option.choices:
+                    self.assertFalse(self.refused(command.name, option, value), f"{command.name} {option.names} {value}")
+                    self.assertIn(value, option.text, command.name)
+                    asked += 1
+        self.assertGreater(asked, 40)
+
+
 class Topics(unittest.TestCase):
     def test_fit_a_page_of_a_terminal(self):
         for topic in TOPICS.glob("*.txt"):
