@@ -50,9 +50,11 @@ struct BuildConfig {
 
 // A file of the scene, buffers of glTF included.
 struct SceneFile {
-  std::string name;  // without its folder
+  std::string path;
   uint64_t bytes = 0;
   std::string hash;  // XXH3-128 of its content, 32 hex digits
+
+  std::string name() const { return path.substr(path.find_last_of('/') + 1); }
 };
 
 struct BuildReport {
@@ -69,6 +71,7 @@ struct BuildReport {
   uint64_t cache_hits = 0;        // of the cells
   std::string cache_complaint;    // why cells were not kept; empty if all were
   bool resumed = false;
+  uint64_t voxels_kept = 0;  // of `voxels`, by the processes before this one
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
   uint64_t file_bytes = 0;

@@ -34,13 +34,12 @@ std::string list(const std::vector<std::string>& items) {
 std::vector<SceneFile> scene_files(const Scene& scene) {
   std::vector<SceneFile> files;
   scene.visit_files([&](const File& file) {
-    const std::string name = file.path().substr(file.path().find_last_of('/') + 1);
-    files.push_back({name, file.size(), hash_of(file)});
+    files.push_back({file.path(), file.size(), hash_of(file)});
   });
   return files;
 }
 
-std::string describe(const BuildConfig& config, const Scene& scene) {
+std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files) {
   std::ostringstream out;
   out.exceptions(std::ios::badbit);  // a lack of memory must not shorten the text
   if (config.part)
@@ -64,8 +63,8 @@ std::string describe(const BuildConfig& config, const Scene& scene) {
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
-  for (const SceneFile& file : scene_files(scene))
-    out << "content of " << file.name << ": " << file.hash << '\n';
+  for (const SceneFile& file : files)
+    out << "content of " << file.name() << ": " << file.hash << '\n';
   return out.str();
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "builder/build.h"
 
@@ -13,8 +14,8 @@ namespace svdag {
 // The files that a scene is made of. Reads all of them once, for their hashes.
 std::vector<SceneFile> scene_files(const Scene& scene);
 
-// Reads all files of the scene, which is that of `config`, too.
-std::string describe(const BuildConfig& config, const Scene& scene);
+// `files`: of the scene; a bake that is `ready` needs none, for its plan has described them.
+std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
 // What differs first between two descriptions, for people; empty if nothing does.
 std::string difference(const std::string& saved, const std::string& now);

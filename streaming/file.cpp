@@ -51,12 +51,15 @@ bool is_of_server(int error) {
   return error == ESTALE || error == ETIMEDOUT;
 }
 
+bool is_same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 // Whether `path` names the open file `fd`: what a rename has done that was sent to a file server
 // twice, and is said to have failed the second time.
 bool names(const std::string& path, int fd) {
   struct stat own, named;
-  return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 &&
-         own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+  return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 && is_same(own, named);
 }
 
 // From direct transfers back to those through the page cache; false if they were that already.
@@ -235,10 +238,19 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+bool name_exists(const std::string& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) == 0) return true;
+  // To open the folder is to ask (the close-to-open rule of NFS).
+  const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  ::close(folder);
+  return ::stat(path.c_str(), &status) == 0;
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   struct stat left, right;
-  return ::stat(a.c_str(), &left) == 0 && ::stat(b.c_str(), &right) == 0 &&
-         left.st_dev == right.st_dev && left.st_ino == right.st_ino;
+  return ::stat(a.c_str(), &left) == 0 && ::stat(b.c_str(), &right) == 0 && is_same(left, right);
 }
 
 }  // namespace svdag

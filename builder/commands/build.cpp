@@ -26,7 +26,7 @@ Json grid_json(const Grid& g) {
 Json files_json(const std::vector<SceneFile>& files) {
   Json list = Json::array();
   for (const SceneFile& file : files)
-    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"hash", file.hash}});
+    list.push_back({{"name", file.name()}, {"bytes", file.bytes}, {"hash", file.hash}});
   return list;
 }
 
@@ -97,6 +97,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"cpu", s.cpu}}},
                {"runs", r.runs},
                {"resumed", r.resumed},
+               {"voxels_kept", r.voxels_kept},
                {"scratch",
                 {{"estimated", r.scratch.estimated},
                  {"peak", r.scratch.peak},

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "builder/choose_grid.h"
 #include "builder/description.h"
@@ -110,15 +109,10 @@ void Planner::read_scene() {
 }
 
 void Planner::describe_inputs() {
-  plan_.description = describe(config_.build, scene_);
-  std::istringstream lines(plan_.description);
-  std::string line;
-  scene_.visit_files([&](const File& file) {
-    while (std::getline(lines, line) && !line.starts_with("content of ")) {
-    }
-    plan_.inputs.push_back(
-        {absolute_path(file.path()), file.size(), line.substr(line.find_last_of(' ') + 1)});
-  });
+  const std::vector<SceneFile> files = scene_files(scene_);
+  plan_.description = describe(config_.build, files);
+  for (const SceneFile& file : files)
+    plan_.inputs.push_back({absolute_path(file.path), file.bytes, file.hash});
 }
 
 void Planner::survey() {

@@ -1,9 +1,5 @@
 #include "builder/farm/receipt.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
 
 #include "builder/bake_output.h"
@@ -21,17 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr uint64_t kLargestReceipt = 1 << 16;
 constexpr uint64_t kCheckMemory = uint64_t(64) << 20;
-
-// A client of a file server remembers for a while that there was no such file. To open the folder
-// makes it ask again (the close-to-open rule of NFS).
-bool exists(const std::string& path) {
-  struct stat status;
-  if (::stat(path.c_str(), &status) == 0) return true;
-  const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return false;
-  ::close(folder);
-  return ::stat(path.c_str(), &status) == 0;
-}
 
 std::string content_of_run(const std::string& path, bool thorough) {
   MemoryBudget budget;
@@ -74,7 +59,7 @@ void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receip
 
 std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   const std::string path = receipt_path(plan, step);
-  if (!exists(path)) return {};
+  if (!name_exists(path)) return {};
   const File file = File::open_read(path);
   std::string text(std::min(file.size(), kLargestReceipt), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
@@ -96,7 +81,7 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
 
 OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
                      bool thorough) {
-  if (!exists(path)) return OutputState::kMissing;
+  if (!name_exists(path)) return OutputState::kMissing;
   const std::optional<Receipt> receipt = read_receipt(plan, step);
   if (!receipt) return OutputState::kInvalid;
   try {

@@ -1,7 +1,5 @@
 #include "io/help/help_text.h"
 
-#include <algorithm>
-
 namespace svdag {
 namespace {
 
@@ -100,16 +98,10 @@ std::string entry(const std::string& title, const std::string& text, size_t widt
   return out + fill(text, column, indentation(column), width) + "\n";
 }
 
-// Options by their headings, in the order in which those appear first; those of none come last but
-// before groups that follow them.
+// Options by their headings; those of none are just options.
 std::string options_text(const std::vector<ManualOption>& options, size_t width) {
-  std::vector<std::string> groups;
-  for (const ManualOption& option : options) {
-    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
-      groups.push_back(option.group);
-  }
   std::string out;
-  for (const std::string& group : groups) {
+  for (const std::string& group : groups_of(options)) {
     out += "\n" + (group.empty() ? std::string("Options") : group) + ":\n";
     for (const ManualOption& option : options) {
       if (option.group == group) out += entry(title_of(option), option.text, width);

@@ -15,6 +15,15 @@ bool is_heading(const std::string& line) {
 
 }  // namespace
 
+std::vector<std::string> groups_of(const std::vector<ManualOption>& options) {
+  std::vector<std::string> groups;
+  for (const ManualOption& option : options) {
+    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
+      groups.push_back(option.group);
+  }
+  return groups;
+}
+
 std::string page_of(const std::string& command) {
   std::string page = command;
   std::replace(page.begin(), page.end(), ' ', '-');

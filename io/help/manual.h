@@ -41,6 +41,9 @@ struct Manual {
   std::vector<Manual> commands;  // what the program is split into
 };
 
+// The headings of options, in the order in which they appear first.
+std::vector<std::string> groups_of(const std::vector<ManualOption>& options);
+
 // "svdag-build": the name of a command's page.
 std::string page_of(const std::string& command);
 

@@ -17,7 +17,7 @@ void write(const std::string& path, const std::string& bytes) {
 
 std::string described(const BuildConfig& config) {
   MemoryBudget budget(uint64_t(64) << 20);
-  return describe(config, Scene(config.scene, &budget));
+  return describe(config, scene_files(Scene(config.scene, &budget)));
 }
 
 TEST(Description, HoldsTheGridTheRuleAndTheParts) {

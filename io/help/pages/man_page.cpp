@@ -78,14 +78,11 @@ std::string entry(const ManualOption& option) {
 }
 
 std::string options(const std::vector<ManualOption>& all) {
-  std::vector<std::string> groups;
   std::string out;
-  for (const ManualOption& option : all) {
-    if (std::find(groups.begin(), groups.end(), option.group) != groups.end()) continue;
-    groups.push_back(option.group);
-    out += heading(option.group.empty() ? "Options" : option.group);
-    for (const ManualOption& each : all) {
-      if (each.group == option.group) out += entry(each);
+  for (const std::string& group : groups_of(all)) {
+    out += heading(group.empty() ? "Options" : group);
+    for (const ManualOption& option : all) {
+      if (option.group == group) out += entry(option);
     }
   }
   return out;

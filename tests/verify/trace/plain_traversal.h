@@ -2,6 +2,8 @@
 // time, children by the planes in their middle, and no position but what the planes say.
 #pragma once
 
+#include <cstring>
+
 #include "verify/trace/ray.h"
 
 namespace svdag {
@@ -98,6 +100,14 @@ class PlainTraversal {
 inline Hit plain_closest(const DagView& dag, const Ray& ray, const Span& span = {},
                          const Cut& cut = {}) {
   return PlainTraversal(dag, ray, cut).closest(span);
+}
+
+// Bit by bit, but for the steps.
+inline bool same(const Hit& a, const Hit& b) {
+  bool equal = a.found == b.found && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
+               a.level == b.level && a.axis == b.axis;
+  for (int i = 0; i < 3; ++i) equal = equal && a.voxel[i] == b.voxel[i];
+  return equal;
 }
 
 }  // namespace svdag

@@ -1,6 +1,7 @@
 // Rays that are hard for a traversal: each family has its own way to hit planes, edges and corners.
 #pragma once
 
+#include <cstdlib>
 #include <random>
 
 #include "tests/verify/raw_dag.h"
@@ -9,6 +10,11 @@
 namespace svdag {
 
 constexpr int kRayFamilies = 10;
+
+// SVDAG_LONG=1: a hundred times as many rays.
+inline int rays_per_family() {
+  return std::getenv("SVDAG_LONG") != nullptr ? 400000 : 4000;
+}
 
 class RayFamilies {
  public:

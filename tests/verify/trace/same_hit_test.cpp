@@ -1,9 +1,6 @@
 // The fast traversal, beams and batches against the plain traversal, ray by ray, bit by bit.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <cstring>
-
 #include "tests/verify/trace/plain_traversal.h"
 #include "tests/verify/trace/ray_families.h"
 #include "verify/trace/beam.h"
@@ -12,18 +9,6 @@
 
 namespace svdag {
 namespace {
-
-// SVDAG_LONG=1: a hundred times as many rays.
-int rays_per_family() {
-  return std::getenv("SVDAG_LONG") != nullptr ? 400000 : 4000;
-}
-
-bool same(const Hit& a, const Hit& b) {
-  bool equal = a.found == b.found && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
-               a.level == b.level && a.axis == b.axis;
-  for (int i = 0; i < 3; ++i) equal = equal && a.voxel[i] == b.voxel[i];
-  return equal;
-}
 
 ::testing::AssertionResult same_hits(const Hit& a, const Hit& b, const Ray& ray) {
   if (same(a, b)) return ::testing::AssertionSuccess();

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstdlib>
-#include <cstring>
 
 #include "tests/verify/trace/plain_traversal.h"
 #include "tests/verify/trace/ray_families.h"
@@ -15,18 +13,6 @@
 
 namespace svdag {
 namespace {
-
-// SVDAG_LONG=1: a hundred times as many rays.
-int rays_per_family() {
-  return std::getenv("SVDAG_LONG") != nullptr ? 400000 : 4000;
-}
-
-bool same(const Hit& a, const Hit& b) {
-  bool equal = a.found == b.found && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
-               a.level == b.level && a.axis == b.axis;
-  for (int i = 0; i < 3; ++i) equal = equal && a.voxel[i] == b.voxel[i];
-  return equal;
-}
 
 // A full node with cells of side 4^depth, somewhere in a grid of 2^20.
 struct SomeNode {
