@@ -1,7 +1,6 @@
 #include "builder/farm/pilot.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -107,19 +106,6 @@ double ratio(double fine, double coarse) {
 
 }  // namespace
 
-double PowerLaw::operator()(double x) const {
-  return x > 0 ? fine * std::pow(x / coarse, exponent) : 0;
-}
-
-PowerLaw power_law(double quarter_x, double quarter_y, double x, double y) {
-  constexpr double kApart = 1.2;
-  if (x <= 0 || y <= 0) return {};
-  PowerLaw law = {x, y, 1};
-  if (quarter_x > 0 && quarter_y > 0 && x > kApart * quarter_x)
-    law.exponent = std::clamp(std::log(y / quarter_y) / std::log(x / quarter_x), 0.0, 1.0);
-  return law;
-}
-
 Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
                 const PilotConfig& config, MemoryBudget* budget) {
   Pilot pilot;
@@ -144,22 +130,21 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   const Sample same =
       survey_sample(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level), coarse,
                     drawn, budget);
-  // Drawn in proportion to cost: the mean of the ratios is that of the whole.
-  double sum = 0, times = 0;
-  for (const auto& [cell, work] : fine.cells) {
-    sum += drawn.at(cell) * ratio(cpu_of(work), cpu_of(coarse.cells.at(cell)));
-    times += drawn.at(cell);
-  }
-  const double growth = times > 0 ? sum / times : 1;
-  pilot.work_growth = growth;
+  // Drawn in proportion to cost: the mean of the ratios is that of what lies between.
+  std::vector<Growth::Drawn> growths;
+  for (const auto& [cell, work] : fine.cells)
+    growths.push_back({cell, ratio(cpu_of(work), cpu_of(coarse.cells.at(cell))), drawn.at(cell)});
+  pilot.growth = Growth(growths);
   pilot.nodes = power_law(same.found_in_part.nodes, fine.found_in_part.nodes, same.found.nodes,
                           fine.found.nodes);
   pilot.bricks = power_law(same.found_in_part.bricks, fine.found_in_part.bricks, same.found.bricks,
                            fine.found.bricks);
-  pilot.work = coarse.work * growth;
   pilot.found = {pilot.nodes(coarse.found.nodes), pilot.bricks(coarse.found.bricks)};
-  for (const auto& [cell, work] : coarse.cells)
-    pilot.cells.push_back({cell, cpu_of(work) * growth});
+  for (const auto& [cell, work] : coarse.cells) {
+    const Work fine_work = work * pilot.growth.at(cell);
+    pilot.cells.push_back({cell, cpu_of(fine_work)});
+    pilot.work += fine_work;
+  }
   for (const size_t b : coarse.heavy) {
     const uint64_t cell = bins[b].range.begin >> 3 * (grid.levels - pilot.cell_level);
     pilot.cells.push_back({cell, kUnsurveyed * double(bins[b].triangles)});
@@ -176,17 +161,15 @@ std::vector<ShardWork> survey_shards(const Grid& grid, const std::vector<Triangl
   for (const CellRange& cells : shards) {
     Survey survey(grid, survey_config(config, pilot.level, pilot.cell_level), budget);
     ShardWork shard;
-    Work coarse;
     for (const TriangleBin& bin : bins_of(bins, cells, grid.levels)) {
       shard.triangles += bin.triangles;
       shard.heaviest_bin = std::max(shard.heaviest_bin, bin.triangles);
       survey.count(
           file, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
-          [&](uint64_t, const Work& work) { coarse += work; });
+          [&](uint64_t cell, const Work& work) { shard.work += work * pilot.growth.at(cell); });
     }
     const NodeCounts found = counts_of(&survey);
     shard.found = {pilot.nodes(found.nodes), pilot.bricks(found.bricks)};
-    shard.work = coarse * pilot.work_growth;
     works.push_back(shard);
   }
   return works;

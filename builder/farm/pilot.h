@@ -4,7 +4,9 @@
 // tells how work is spread. Then a few cells, drawn with probability in proportion to their coarse
 // cost, are surveyed as finely as they will be baked: this tells how much it grows. Growth cannot
 // be extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its
-// triangles are smaller than voxels, and more than 3 times when they are not.
+// triangles are smaller than voxels, and more than 3 times when they are not. Nor is it the same
+// all over a scene (floors are answered by the plane memo, curtains are not): a cell grows as the
+// drawn cells nearest to it do, along the Morton curve.
 //
 // Work adds up, unique nodes do not: a larger part of a scene repeats itself more, and finer voxels
 // otherwise than coarse ones. So the sample is looked at in two sizes, all of it and a quarter, at
@@ -17,6 +19,7 @@
 #pragma once
 
 #include "builder/farm/balance.h"
+#include "builder/farm/growth.h"
 #include "builder/farm/predict.h"
 
 namespace svdag {
@@ -28,26 +31,14 @@ struct PilotConfig {
   uint64_t triangle_bytes = UINT64_MAX;
 };
 
-// y = fine (x / coarse)^exponent
-struct PowerLaw {
-  double coarse = 1, fine = 1, exponent = 1;
-
-  double operator()(double x) const;
-};
-
-// Through (quarter_x, quarter_y) and (x, y). The exponent is between 0 and 1, for finer voxels
-// repeat themselves no less; 1 where the points are too near to each other to tell. Without a
-// sample: y = x.
-PowerLaw power_law(double quarter_x, double quarter_y, double x, double y);
-
 struct Pilot {
   int cell_level = 0;
   std::vector<CellCost> cells;  // CPU seconds at the grid's own level
   Work work;                    // of the whole scene, at the grid's own level
   NodeCounts found;             // unique, of the whole scene
-  // From the coarse survey to the grid's level.
-  int level = 0;  // of the coarse survey
-  double work_growth = 1;
+  int level = 0;                // of the coarse survey
+  // From there to the grid's level.
+  Growth growth;
   PowerLaw nodes, bricks;  // unique ones
 };
 

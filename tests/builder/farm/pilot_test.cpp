@@ -8,24 +8,6 @@
 namespace svdag {
 namespace {
 
-TEST(PowerLaw, GoesThroughBothSamplesAndOnFromThere) {
-  const PowerLaw law = power_law(100, 1000, 400, 2000);
-  EXPECT_DOUBLE_EQ(law(100), 1000);
-  EXPECT_DOUBLE_EQ(law(400), 2000);
-  EXPECT_DOUBLE_EQ(law(1600), 4000);
-  EXPECT_EQ(law(0), 0);
-}
-
-TEST(PowerLaw, NeverGrowsFasterThanTheCoarseCount) {
-  EXPECT_DOUBLE_EQ(power_law(100, 100, 400, 1000)(800), 2000);
-}
-
-TEST(PowerLaw, IsAProportionWhereSamplesTellNothing) {
-  EXPECT_DOUBLE_EQ(power_law(390, 10, 400, 2000)(800), 4000);
-  EXPECT_DOUBLE_EQ(power_law(0, 0, 400, 2000)(800), 4000);
-  EXPECT_DOUBLE_EQ(power_law(0, 0, 0, 0)(800), 800);
-}
-
 // The scene is finer than its coarse survey by two levels, so the counts are not known beforehand.
 class Pilots : public ::testing::Test {
  protected:
