@@ -24,23 +24,51 @@ BrickReduction::BrickReduction(int levels, const BrickReductionConfig& config)
       table_(levels, config.budget, batch_of(config.table_bytes)),
       path_(size_t(levels - 2)) {}
 
-void BrickReduction::add(uint64_t code, Brick brick) {
+// Completes the cubes of the path in which brick `code` does not lie.
+void BrickReduction::leave_for(uint64_t code) {
   const int brick_level = table_.brick_level();
-  SVDAG_ASSERT(brick != 0 && (!any_ || code > code_));
+  SVDAG_ASSERT(!any_ || code > code_);
   for (int level = brick_level - 1; any_ && level > 0; --level) {
     if (code >> (3 * (brick_level - level)) == code_at(level)) break;
     close(level);
   }
-  code_ = code;
   any_ = true;
+}
+
+void BrickReduction::add(uint64_t code, Brick brick) {
+  SVDAG_ASSERT(brick != 0);
+  leave_for(code);
+  code_ = code;
   path_.back().children[code & 7] = table_.add_brick(brick);
+  settle_if_full();
+}
+
+void BrickReduction::add_full(uint64_t code, int level) {
+  const int brick_level = table_.brick_level();
+  SVDAG_ASSERT(level >= 0 && level < brick_level);
+  if (level == 0) {  // the path begins at the root, so its parts are put in
+    for (uint64_t c = 0; c < 8; ++c) brick_level == 1 ? add(c, ~Brick(0)) : add_full(c, 1);
+    return;
+  }
+  leave_for(code << 3 * (brick_level - level));
+  code_ = ((code + 1) << 3 * (brick_level - level)) - 1;  // its last brick
+  uint32_t handle = table_.add_brick(~Brick(0));
+  for (int k = brick_level - 1; k >= level; --k) {
+    NodeKey children;
+    children.fill(handle);
+    handle = table_.add_node(k, children);
+  }
+  path_[size_t(level) - 1].children[code & 7] = handle;
+  settle_if_full();
+}
+
+void BrickReduction::settle_if_full() {
   if (!table_.full()) return;
   flush();
   check_interrupt();
-  if (freeze_bytes(table_) >= config_.table_bytes) {
-    for (int level = 0; level < brick_level; ++level) make_parts(level);
-    freeze(true);
-  }
+  if (freeze_bytes(table_) < config_.table_bytes) return;
+  for (int level = 0; level < table_.brick_level(); ++level) make_parts(level);
+  freeze(true);
 }
 
 void BrickReduction::finish() {
@@ -49,12 +77,12 @@ void BrickReduction::finish() {
   freeze(spilled_);
 }
 
-// The cube of the path at `level` is complete.
+// The cube of the path at `level` is complete. There is none below a cube that was put in whole.
 void BrickReduction::close(int level) {
   Step& step = path_[size_t(level)];
   if (step.divided) {
     make_parts(level);
-  } else {
+  } else if (step.children != NodeKey{}) {
     const uint32_t handle = table_.add_node(level, step.children);
     if (level == 0) {
       parts_.push_back({0, 0, handle});

@@ -29,6 +29,9 @@ class BrickReduction {
 
   // A brick that is not zero; `code`: the Morton code of its place in bricks, each above the last.
   void add(uint64_t code, Brick brick);
+  // A cube of `level` < levels - 2 that is set as a whole; `code`: the Morton code of its place
+  // among cubes of its level. It follows what was added and precedes what will be.
+  void add_full(uint64_t code, int level);
   // No more is added. Afterwards runs and roots are complete.
   void finish();
 
@@ -50,6 +53,8 @@ class BrickReduction {
   };
 
   uint64_t code_at(int level) const { return code_ >> (3 * (table_.brick_level() - level)); }
+  void leave_for(uint64_t code);
+  void settle_if_full();
   void close(int level);
   void make_parts(int level);
   void flush();

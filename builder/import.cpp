@@ -9,6 +9,7 @@
 #include "builder/brick_reduction.h"
 #include "builder/cell.h"
 #include "builder/checkpoint.h"
+#include "builder/full_cubes.h"
 #include "builder/graph_reduction.h"
 #include "builder/merge.h"
 #include "io/units.h"
@@ -24,6 +25,61 @@ struct CodeWord {
   uint32_t operator()(uint64_t code, size_t i) const { return uint32_t(code >> (i == 0 ? 32 : 0)); }
 };
 using VoxelSort = ExternalSort<uint64_t, CodeWord>;
+
+// Puts sorted voxels, as bricks, and the cubes between them into a reduction.
+class Reducer {
+ public:
+  Reducer(int levels, const FullCubes& cubes, BrickReduction* out)
+      : levels_(levels), cubes_(cubes), out_(out) {}
+
+  // Returns how many voxels there are, without repetitions.
+  uint64_t run(VoxelSort* sort) {
+    sort->finish([this](const auto& codes) {
+      for (const uint64_t voxel : codes) add(voxel);
+    });
+    put_cubes(UINT64_MAX);
+    put_brick();
+    out_->finish();
+    return voxels_;
+  }
+
+ private:
+  void add(uint64_t voxel) {
+    put_cubes(voxel);
+    if (voxel < covered_) return;
+    if (voxel >> 6 != code_) {
+      put_brick();
+      code_ = voxel >> 6;
+    }
+    brick_ |= Brick(1) << (voxel & 63);
+  }
+
+  void put_brick() {
+    if (brick_ != 0) out_->add(code_, brick_);
+    voxels_ += uint64_t(std::popcount(brick_));
+    brick_ = 0;
+  }
+
+  // Those that begin at `last` or before.
+  void put_cubes(uint64_t last) {
+    for (; next_ < cubes_.size() && cubes_[next_].begin <= last; ++next_) {
+      const FullCubes::Range cube = cubes_[next_];
+      put_brick();
+      out_->add_full(cube.begin >> 3 * cube.log2_side, levels_ - cube.log2_side);
+      covered_ = cube.end();
+      voxels_ += cube.end() - cube.begin;
+    }
+  }
+
+  const int levels_;
+  const FullCubes& cubes_;
+  BrickReduction* out_;
+  size_t next_ = 0;       // of the cubes
+  uint64_t covered_ = 0;  // voxels before this are those of cubes, or were added
+  uint64_t code_ = 0;     // of the brick that is being put together
+  Brick brick_ = 0;
+  uint64_t voxels_ = 0;
+};
 
 class Import {
  public:
@@ -54,19 +110,27 @@ class Import {
   ImportReport run(const VoxelSource& source) {
     std::optional<VoxelSort> sort;
     sort.emplace(sort_room(), 2, CodeWord());
+    FullCubes cubes(&budget_);
     uint32_t highest = 0;  // all coordinates, one over the other
-    const VoxelPlace place = source([&](std::span<const Voxel> voxels) {
-      check_interrupt();
-      for (const auto& [x, y, z] : voxels) {
-        highest |= x | y | z;
-        sort->push(morton(LatticePoint(x, y, z)));
-      }
-    });
+    const VoxelPlace place = source(
+        [&](std::span<const Voxel> voxels) {
+          check_interrupt();
+          for (const auto& [x, y, z] : voxels) {
+            highest |= x | y | z;
+            sort->push(morton(LatticePoint(x, y, z)));
+          }
+        },
+        [&](const FullCube& cube) {
+          const auto& [x, y, z] = cube.origin;
+          highest |= x | y | z | ((uint32_t(1) << cube.log2_side) - 1);
+          cubes.add(cube);
+        });
+    cubes.sort();
     const Grid grid = choose_grid(place, highest);
     DagOutput output(config_.output, grid, Rule::kConservative);
     Scratch scratch(&folder_, &budget_);
     BrickReduction bricks(grid.levels, {&budget_, &scratch, budget_.limit() / 4});
-    const uint64_t voxels = reduce(&*sort, &bricks);
+    const uint64_t voxels = Reducer(grid.levels, cubes, &bricks).run(&*sort);
     sort.reset();  // the merge needs the room
     MergeConfig merging;
     merging.budget = &budget_;
@@ -86,30 +150,6 @@ class Import {
     const uint64_t least = 2 * executor_->workers() * ExternalSortRoom::kLeast;
     return {&budget_, std::max(budget_.limit() / 4, least), executor_,
             [this] { return new_file(); }};
-  }
-
-  // The bricks of the sorted voxels; returns how many voxels there are without repetitions.
-  static uint64_t reduce(VoxelSort* sort, BrickReduction* bricks) {
-    uint64_t code = 0, voxels = 0;
-    Brick brick = 0;
-    const auto add = [&] {
-      if (brick == 0) return;
-      voxels += uint64_t(std::popcount(brick));
-      bricks->add(code, brick);
-    };
-    sort->finish([&](const auto& codes) {
-      for (const uint64_t voxel : codes) {
-        if (voxel >> 6 != code) {
-          add();
-          code = voxel >> 6;
-          brick = 0;
-        }
-        brick |= Brick(1) << (voxel & 63);
-      }
-    });
-    add();
-    bricks->finish();
-    return voxels;
   }
 
   Grid choose_grid(const VoxelPlace& place, uint32_t highest) const {

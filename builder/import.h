@@ -2,7 +2,8 @@
 // voxels would give.
 //
 // DAGs are reduced as graphs (builder/graph_reduction.h). Lists of voxels are sorted by Morton
-// code, out of core, and reduced brick by brick (builder/brick_reduction.h, builder/merge.h).
+// code, out of core, and reduced brick by brick (builder/brick_reduction.h, builder/merge.h); cubes
+// that are set as a whole are put between them, each in one piece (builder/full_cubes.h).
 #pragma once
 
 #include <functional>
@@ -29,8 +30,8 @@ struct ImportReport {
   std::string content_hash;  // 32 hex digits
 };
 
-// Hands all voxels to the sink and says where they stand.
-using VoxelSource = std::function<VoxelPlace(const VoxelSink&)>;
+// Hands all voxels to the sinks and says where they stand.
+using VoxelSource = std::function<VoxelPlace(const VoxelSink&, const FullCubeSink&)>;
 
 ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
 // Voxels outside of a grid of config.levels are an Error (kUsage).

@@ -1,7 +1,8 @@
-// Set voxels of another program, one by one.
+// Set voxels of another program, one by one or as cubes.
 //
 // A file that lists voxels (npz, binvox, vox) hands them to a sink in batches, in its own order,
-// repetitions included; where they stand is known when it is through.
+// repetitions included; where they stand is known when it is through. A sparse volume (vdb) has
+// cubes besides that are set as a whole.
 #pragma once
 
 #include <array>
@@ -16,6 +17,13 @@ namespace svdag {
 
 using Voxel = std::array<uint32_t, 3>;  // x, y, z, below 2^20 each
 using VoxelSink = std::function<void(std::span<const Voxel>)>;
+
+// A cube of voxels that are all set; its origin is a multiple of its side.
+struct FullCube {
+  Voxel origin;
+  int log2_side;  // 3 .. 20
+};
+using FullCubeSink = std::function<void(const FullCube&)>;
 
 // Where voxel (0, 0, 0) has its corner, how large a voxel is, and how many there are per axis. What
 // a file does not say is 0, 1 and 0.

@@ -44,18 +44,16 @@ std::vector<std::pair<uint64_t, Brick>> in_morton_order(const BrickMap& bricks) 
   return {sorted.begin(), sorted.end()};
 }
 
-// A DAG file of bricks, by way of a table that is spilled whenever it has `table_bytes`.
-std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_bytes, size_t* runs) {
+// A DAG file of what fill(reduction) adds, by way of a table that is spilled whenever it has
+// `table_bytes`; fill() returns the number of voxels.
+template <class Fill>
+std::string reduce(int levels, uint64_t table_bytes, size_t* runs, const Fill& fill) {
   const TempFolder folder;
   MemoryBudget budget;
   ScratchDir scratch_dir(folder.file("scratch"));
   Scratch scratch(&scratch_dir, &budget);
   BrickReduction reduction(levels, {&budget, &scratch, table_bytes});
-  uint64_t voxels = 0;
-  for (const auto& [code, brick] : in_morton_order(bricks)) {
-    reduction.add(code, brick);
-    voxels += uint64_t(std::popcount(brick));
-  }
+  const uint64_t voxels = fill(&reduction);
   reduction.finish();
   *runs = reduction.runs().size();
   DagOutput output(folder.file("a.svdag"), unit_grid(levels), Rule::kConservative);
@@ -69,6 +67,17 @@ std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_byt
       merge(reduction.runs(), reduction.roots(), Part::whole(levels), config, &output, &executor),
       voxels, 0);
   return folder.read("a.svdag");
+}
+
+std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_bytes, size_t* runs) {
+  return reduce(levels, table_bytes, runs, [&](BrickReduction* reduction) {
+    uint64_t voxels = 0;
+    for (const auto& [code, brick] : in_morton_order(bricks)) {
+      reduction->add(code, brick);
+      voxels += uint64_t(std::popcount(brick));
+    }
+    return voxels;
+  });
 }
 
 std::vector<uint64_t> node_counts(const DagFile& file) {
@@ -104,6 +113,34 @@ TEST(BrickReduction, OneBrickAndNone) {
     const DagFile none =
         DagFile::open(folder.write("b.svdag", reduce_bricks({}, levels, 1, &runs)));
     EXPECT_TRUE(none.view().empty());
+  }
+}
+
+// Every third cube of a level is full, and put in as one or as its bricks; others have a brick.
+TEST(BrickReduction, ACubeInOnePieceIsItsBricksWhereverTheTableWasSpilled) {
+  const int levels = 9;
+  for (const int level : {1, 2, 4, 6}) {
+    const uint64_t in_cube = uint64_t(1) << 3 * (levels - 2 - level);
+    const auto fill = [&](BrickReduction* out, bool whole) {
+      const uint64_t cubes = std::min<uint64_t>(uint64_t(1) << 3 * level, 2000);
+      for (uint64_t cube = 0; cube < cubes; ++cube) {
+        if (cube % 3 != 0) {
+          out->add(cube * in_cube + cube % in_cube, 1 + cube % 100);
+        } else if (whole) {
+          out->add_full(cube, level);
+        } else {
+          for (uint64_t i = 0; i < in_cube; ++i) out->add(cube * in_cube + i, ~Brick(0));
+        }
+      }
+      return uint64_t(0);
+    };
+    size_t runs = 0, spilled_runs = 0;
+    const auto bricks = [&](BrickReduction* out) { return fill(out, false); };
+    const auto whole = [&](BrickReduction* out) { return fill(out, true); };
+    const std::string expected = reduce(levels, UINT64_MAX, &runs, bricks);
+    EXPECT_EQ(reduce(levels, UINT64_MAX, &runs, whole), expected);
+    EXPECT_EQ(reduce(levels, 1, &spilled_runs, whole), expected);
+    EXPECT_EQ(runs, 1U);
   }
 }
 
@@ -203,14 +240,17 @@ TEST(GraphReduction, TimeFollowsTheNodesAndNotTheVoxels) {
 }
 
 ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& output, int levels,
-                         VoxelPlace place = {}) {
+                         VoxelPlace place = {}, const std::vector<FullCube>& cubes = {},
+                         uint64_t memory = 0) {
   ImportConfig config;
   config.output = output;
   config.levels = levels;
+  config.memory = memory;
   SequentialExecutor executor;
   return import_voxels(
-      [&](const VoxelSink& sink) {
+      [&](const VoxelSink& sink, const FullCubeSink& cube_sink) {
         sink(voxels);
+        for (const FullCube& cube : cubes) cube_sink(cube);
         return place;
       },
       config, &executor);
@@ -236,6 +276,46 @@ TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
                      "impossible place");
   EXPECT_EQ(folder.read("a.svdag"), "old");
   EXPECT_EQ(folder.entries(), 1U);
+}
+
+// Cubes of all sides in clumps, so that some hold others, and voxels within and beside them.
+TEST(ImportVoxels, ACubeGivesTheBytesOfItsVoxels) {
+  std::mt19937 random(3);
+  const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
+  for (int run = 0; run < 20; ++run) {
+    const int levels = 5 + run % 4;
+    const uint32_t side = 1U << levels;
+    std::vector<Voxel> voxels;
+    for (int i = 0; i < 3000; ++i) voxels.push_back({below(side), below(side), below(side / 4)});
+    std::vector<FullCube> cubes;
+    std::vector<Voxel> all = voxels;
+    for (int i = 0; i < 12; ++i) {
+      const int log2_side = 3 + int(below(uint32_t(std::min(levels - 3, 3))));
+      const uint32_t s = 1U << log2_side;
+      const FullCube cube = {{below(side / s) * s, below(side / s) * s, below(2) * s % side},
+                             log2_side};
+      cubes.push_back(cube);
+      for (uint32_t j = 0; j < s * s * s; ++j)
+        all.push_back(
+            {cube.origin[0] + j % s, cube.origin[1] + j / s % s, cube.origin[2] + j / s / s});
+    }
+    const TempFolder folder;
+    const ImportReport whole = import_list(voxels, folder.file("cubes.svdag"), levels, {}, cubes);
+    const ImportReport one_by_one = import_list(all, folder.file("voxels.svdag"), levels);
+    EXPECT_EQ(whole.voxels, one_by_one.voxels);
+    EXPECT_EQ(folder.read("cubes.svdag"), folder.read("voxels.svdag"));
+  }
+}
+
+TEST(ImportVoxels, ACubeAsLargeAsTheGridIsFull) {
+  for (const int levels : {3, 4, 5, 20}) {
+    const TempFolder folder;
+    const ImportReport report =
+        import_list({{1, 2, 3}}, folder.file("a.svdag"), 0, {}, {{{0, 0, 0}, levels}});
+    EXPECT_EQ(report.grid.levels, levels);
+    EXPECT_EQ(report.voxels, uint64_t(1) << 3 * levels);
+    EXPECT_EQ(report.nodes, uint64_t(levels) - 1);
+  }
 }
 
 TEST(ImportVoxels, AnUnfinishedBakeOfThatNameIsNotDiscarded) {

@@ -102,11 +102,14 @@ int run(const ImportCommandConfig& config) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
     report = import_graph(graph.get(), config.import, &executor);
   } else if (row.voxels != nullptr) {
-    report = import_voxels([&](const VoxelSink& sink) { return row.voxels(file, sink); },
-                           config.import, &executor);
+    report = import_voxels(
+        [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); },
+        config.import, &executor);
   } else {
     report = import_voxels(
-        [&](const VoxelSink& sink) { return read_vdb_voxels(config.file, config.grid, sink); },
+        [&](const VoxelSink& voxels, const FullCubeSink& cubes) {
+          return read_vdb_voxels(config.file, config.grid, voxels, cubes);
+        },
         config.import, &executor);
   }
   if (!config.quiet)

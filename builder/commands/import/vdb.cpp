@@ -1,5 +1,6 @@
 #include "builder/commands/import/vdb.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -26,14 +27,17 @@ VoxelPlace place_of(const std::string& path, const IndexToWorld& centres,
   return place;
 }
 
-// The voxels of a cube, from `first` on.
-void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
+// A cube, in voxels from `first` on.
+void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch,
+              const FullCubeSink& cubes) {
   const LatticePoint at = cube.origin - first;
+  if (cube.side > kBlockSide || cube.block == Block::full())
+    return cubes(
+        {{uint32_t(at.x), uint32_t(at.y), uint32_t(at.z)}, std::countr_zero(uint64_t(cube.side))});
   for (int64_t x = 0; x < cube.side; ++x)
     for (int64_t y = 0; y < cube.side; ++y)
       for (int64_t z = 0; z < cube.side; ++z) {
-        if (cube.side == kBlockSide && !cube.block.get(unsigned(x), unsigned(y), unsigned(z)))
-          continue;
+        if (!cube.block.get(unsigned(x), unsigned(y), unsigned(z))) continue;
         batch->add({uint32_t(at.x + x), uint32_t(at.y + y), uint32_t(at.z + z)});
       }
 }
@@ -41,21 +45,26 @@ void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
 }  // namespace
 
 VoxelPlace read_vdb_voxels(const std::string& path, const std::string& name,
-                           const VoxelSink& sink) {
+                           const VoxelSink& voxels, const FullCubeSink& cubes) {
   const auto grid = read_vdb(path, name, {});
+  int64_t side = kBlockSide;  // of the largest cube
+  grid->visit([&](const Cube& cube) {
+    side = std::max(side, cube.side);
+    return true;
+  });
   const VoxelBox box = grid->bounds();
   LatticePoint first(0);
   for (int a = 0; a < 3 && !box.empty(); ++a) {
-    // A multiple of 8, so that blocks stay blocks.
+    // A multiple of the sides, so that cubes stay cubes.
     if (box.min[a] < 0 || box.max[a] > int64_t(1) << kMaxLevels)
-      first[a] = box.min[a] & ~(kBlockSide - 1);
+      first[a] = box.min[a] & ~(side - 1);
     if (box.max[a] - first[a] > int64_t(1) << kMaxLevels)
       fail_input(path, "its voxels span more than 1M on an axis");
   }
-  VoxelBatch batch(sink);
+  VoxelBatch batch(voxels);
   grid->visit([&](const Cube& cube) {
     check_interrupt();
-    add_cube(cube, first, &batch);
+    add_cube(cube, first, &batch, cubes);
     return true;
   });
   batch.flush();
