@@ -1,0 +1,8 @@
+# Files of format version 1, kept: whatever comes later reads them, to the same voxels.
+svdag info "$TESTS/files/version1.svdag" | sed "s|$TESTS/||"
+svdag-verify check "$TESTS/files/version1.svdag" | sed "s|$TESTS/||"
+svdag export "$TESTS/files/version1.svdag" -q -o voxels.ply
+sha256sum voxels.ply
+svdag info "$TESTS/files/version1_half1.run" | sed "s|$TESTS/||"
+svdag merge "$TESTS/files/version1_half1.run" "$TESTS/files/version1_half2.run" -q -o merged.svdag
+cmp merged.svdag "$TESTS/files/version1.svdag" && echo "the runs make the file"
