@@ -105,9 +105,9 @@ int run(const ImportCommandConfig& config) {
     report = import_voxels([&](const VoxelSink& sink) { return row.voxels(file, sink); },
                            config.import, &executor);
   } else {
-    report = import_voxels(
-        [&](const VoxelSink& sink) { return read_vdb_voxels(config.file, config.grid, sink); },
-        config.import, &executor);
+    const VdbVoxels voxels(config.file, config.grid, config.sandbox);
+    report = import_voxels([&](const VoxelSink& sink) { return voxels.read(sink); }, config.import,
+                           &executor, voxels.count());
   }
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",

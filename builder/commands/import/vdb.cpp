@@ -1,9 +1,7 @@
 #include "builder/commands/import/vdb.h"
 
-#include <bit>
 #include <cmath>
 
-#include "io/formats/vdb.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -40,26 +38,32 @@ void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
 
 }  // namespace
 
-VoxelPlace read_vdb_voxels(const std::string& path, const std::string& name,
-                           const VoxelSink& sink) {
-  const auto grid = read_vdb(path, name, {});
-  const VoxelBox box = grid->bounds();
-  LatticePoint first(0);
+VdbVoxels::VdbVoxels(const std::string& path, const std::string& name, bool sandbox)
+    : grid_(read_vdb(path, name, {}, sandbox)) {
+  const VoxelBox box = grid_->bounds();
   for (int a = 0; a < 3 && !box.empty(); ++a) {
     // A multiple of 8, so that blocks stay blocks.
     if (box.min[a] < 0 || box.max[a] > int64_t(1) << kMaxLevels)
-      first[a] = box.min[a] & ~(kBlockSide - 1);
-    if (box.max[a] - first[a] > int64_t(1) << kMaxLevels)
+      first_[a] = box.min[a] & ~(kBlockSide - 1);
+    if (box.max[a] - first_[a] > int64_t(1) << kMaxLevels)
       fail_input(path, "its voxels span more than 1M on an axis");
   }
+  grid_->visit([&](const Cube& cube) {
+    count_ += cube.count();  // 2^60 at most, since no two cubes overlap
+    return true;
+  });
+  place_ = place_of(path, grid_->centres(), first_);
+}
+
+VoxelPlace VdbVoxels::read(const VoxelSink& sink) const {
   VoxelBatch batch(sink);
-  grid->visit([&](const Cube& cube) {
+  grid_->visit([&](const Cube& cube) {
     check_interrupt();
-    add_cube(cube, first, &batch);
+    add_cube(cube, first_, &batch);
     return true;
   });
   batch.flush();
-  return place_of(path, grid->centres(), first);
+  return place_;
 }
 
 }  // namespace svdag
