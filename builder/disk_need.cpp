@@ -12,9 +12,9 @@ constexpr double kEarliest = 0.2;           // share of the work that tells abou
 
 }  // namespace
 
-void DiskNeed::check(uint64_t more, const char* purpose) const {
+void DiskNeed::check(uint64_t certain, uint64_t more, const char* purpose) const {
   const uint64_t free = scratch_->folder()->free_bytes();
-  if (more / 2 <= free) return;
+  if (certain <= free) return;
   throw Error(ExitCode::kOutput,
               std::string("spilling the ") + purpose + " takes about " + format_bytes(more) +
                   " more, but the disk has only " + format_bytes(free) +
@@ -25,13 +25,19 @@ void DiskNeed::check(uint64_t more, const char* purpose) const {
 void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
   if (count <= triangle_bytes / sizeof(LatticeTriangle)) return;
   triangles_ = count * kBytesPerTriangle;
-  check(triangles_, "triangles");
+  check(triangles_ / 2, triangles_, "triangles");
+}
+
+void DiskNeed::expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose) {
+  if (bytes <= in_memory) return;
+  records_ = bytes;
+  check(records_, records_, purpose);
 }
 
 void DiskNeed::expect_runs(uint64_t bytes, double share) {
   if (share < kEarliest) return;
   runs_ = uint64_t(double(bytes) / share);
-  if (runs_ > bytes) check(runs_ - bytes, "nodes");
+  if (runs_ > bytes) check((runs_ - bytes) / 2, runs_ - bytes, "nodes");
 }
 
 }  // namespace svdag

@@ -9,6 +9,7 @@
 #include "builder/brick_reduction.h"
 #include "builder/cell.h"
 #include "builder/checkpoint.h"
+#include "builder/disk_need.h"
 #include "builder/full_cubes.h"
 #include "builder/graph_reduction.h"
 #include "builder/merge.h"
@@ -107,9 +108,11 @@ class Import {
     return describe(grid, output);
   }
 
-  ImportReport run(const VoxelSource& source) {
+  ImportReport run(const VoxelSource& source, uint64_t count) {
+    Scratch scratch(&folder_, &budget_);
     std::optional<VoxelSort> sort;
     sort.emplace(sort_room(), 2, CodeWord());
+    DiskNeed(&scratch).expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
     FullCubes cubes(&budget_);
     uint32_t highest = 0;  // all coordinates, one over the other
     const VoxelPlace place = source(
@@ -128,7 +131,6 @@ class Import {
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
     DagOutput output(config_.output, grid, Rule::kConservative);
-    Scratch scratch(&folder_, &budget_);
     BrickReduction bricks(grid.levels, {&budget_, &scratch, budget_.limit() / 4});
     const uint64_t voxels = Reducer(grid.levels, cubes, &bricks).run(&*sort);
     sort.reset();  // the merge needs the room
@@ -193,8 +195,8 @@ ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor
 }
 
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
-                           Executor* executor) {
-  return Import(config, executor).run(source);
+                           Executor* executor, uint64_t count) {
+  return Import(config, executor).run(source, count);
 }
 
 }  // namespace svdag

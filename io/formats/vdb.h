@@ -21,6 +21,7 @@
 #include <string>
 
 #include "io/dag/cube.h"
+#include "io/formats/value_range.h"
 
 namespace svdag {
 
@@ -66,10 +67,6 @@ std::unique_ptr<VdbWriter> make_vdb_writer();
 // Upper bound on the bytes that a VdbWriter needs for so many leaves and nodes, writing included.
 uint64_t vdb_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096);
 
-struct ValueRange {
-  double low, high;
-};
-
 // A grid that was read. A voxel is set iff it is active (mask), active and true (bool), or has a
 // value in the range, active or not (float).
 class VdbGrid {
@@ -79,15 +76,17 @@ class VdbGrid {
   virtual std::string type() const = 0;  // "mask", "bool", "float"
   virtual const IndexToWorld& centres() const = 0;
   virtual VoxelBox bounds() const = 0;  // of set voxels
-  // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, until the sink returns
-  // false.
+  // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, each voxel in one of them,
+  // until the sink returns false.
   virtual bool visit(const CubeSink& sink) const = 0;
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
 
-// Reads grid `name`, or the only one if that is empty. Broken files, other types and transforms
-// that are not linear are an Error (kBadInput); a float grid without a range is one (kUsage).
+// Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and
+// time (streaming/limited_child.h); `sandbox`: in one that can only compute. Broken files, other
+// types and transforms that are not linear are an Error (kBadInput); a float grid without a range
+// is one (kUsage).
 std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& name,
-                                  const std::optional<ValueRange>& range);
+                                  const std::optional<ValueRange>& range, bool sandbox = false);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// What vdb.cpp, vdb_write.cpp and nvdb.cpp share: OpenVDB's types and their errors as ours.
+// What vdb_read.cpp, vdb_write.cpp and nvdb.cpp share: OpenVDB's types and their errors as ours.
 #pragma once
 
 #include <openvdb/openvdb.h>

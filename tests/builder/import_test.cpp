@@ -318,6 +318,26 @@ TEST(ImportVoxels, ACubeAsLargeAsTheGridIsFull) {
   }
 }
 
+TEST(ImportVoxels, MoreVoxelsThanTheDiskCanSortAreRefusedBeforeTheFirst) {
+  const TempFolder folder;
+  ImportConfig config;
+  config.output = folder.file("a.svdag");
+  config.memory = uint64_t(64) << 20;
+  SequentialExecutor executor;
+  const VoxelSource never = [](const VoxelSink&, const FullCubeSink&) -> VoxelPlace {
+    ADD_FAILURE() << "a voxel was asked for";
+    return {};
+  };
+  EXPECT_SVDAG_ERROR(import_voxels(never, config, &executor, uint64_t(1) << 60), ExitCode::kOutput,
+                     "spilling the voxels takes about");
+  EXPECT_EQ(folder.entries(), 0U);
+  const VoxelSource one = [](const VoxelSink& sink, const FullCubeSink&) {
+    sink(std::vector<Voxel>{{1, 2, 3}});
+    return VoxelPlace();
+  };
+  EXPECT_EQ(import_voxels(one, config, &executor, 1).voxels, 1U);
+}
+
 TEST(ImportVoxels, AnUnfinishedBakeOfThatNameIsNotDiscarded) {
   const TempFolder folder;
   const std::string out = folder.file("a.svdag");

@@ -294,6 +294,12 @@ TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   need.expect_triangles(100'000, kMiB);
   EXPECT_GT(need.estimate(), 100'000U * 30);
   EXPECT_SVDAG_ERROR(need.expect_triangles(free, kMiB), ExitCode::kOutput, "only");
+  DiskNeed records(&scratch);
+  records.expect_records(kMiB, kMiB, "voxels");  // they stay in memory
+  EXPECT_EQ(records.estimate(), 0U);
+  records.expect_records(free / 2, kMiB, "voxels");
+  EXPECT_EQ(records.estimate(), free / 2);
+  EXPECT_SVDAG_ERROR(records.expect_records(2 * free, kMiB, "voxels"), ExitCode::kOutput, "voxels");
   DiskNeed runs(&scratch);
   runs.expect_runs(free, 0.1);  // too early to tell
   runs.expect_runs(free / 4, 0.5);
@@ -316,7 +322,7 @@ TEST(DoneSet, KnowsNoneSomeAndAllOfARange) {
     for (int k = 0; k < 100; ++k) {
       const uint64_t begin = random() % 190, end = begin + 1 + random() % 10;
       const auto count = std::count(done.begin() + long(begin), done.begin() + long(end), true);
-      const auto expected = count == 0                      ? DoneSet::State::kNone
+      const auto expected = count == 0                       ? DoneSet::State::kNone
                             : uint64_t(count) == end - begin ? DoneSet::State::kAll
                                                              : DoneSet::State::kPart;
       EXPECT_EQ(set.state({begin, end}), expected);

@@ -106,11 +106,11 @@ int run(const ImportCommandConfig& config) {
         [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); },
         config.import, &executor);
   } else {
+    const VdbVoxels voxels(read_vdb(config.file, config.grid, config.iso, config.sandbox),
+                           config.file);
     report = import_voxels(
-        [&](const VoxelSink& voxels, const FullCubeSink& cubes) {
-          return read_vdb_voxels(config.file, config.grid, voxels, cubes);
-        },
-        config.import, &executor);
+        [&](const VoxelSink& sink, const FullCubeSink& cubes) { return voxels.read(sink, cubes); },
+        config.import, &executor, voxels.count());
   }
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",

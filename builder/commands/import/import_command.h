@@ -4,17 +4,21 @@
 // formats cost memory that a bake shall not pay. A format is recognised by what is in the file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "builder/import.h"
+#include "io/formats/value_range.h"
 
 namespace svdag {
 
 struct ImportCommandConfig {
   std::string file;
-  std::string format;  // a name of import_formats(); empty: by the file's contents
-  std::string grid;    // vdb: which grid; empty: the only one
+  std::string format;             // a name of import_formats(); empty: by the file's contents
+  std::string grid;               // vdb: which grid; empty: the only one
+  std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
+  bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
   size_t threads = 0;  // 0: all processors
   bool quiet = false;

@@ -33,6 +33,12 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");
   app->add_option_function<std::string>(
+         "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
+         "vdb: the values of a float grid that are set, for example --iso=-inf,0")
+      ->type_name("LOW,HIGH");
+  app->add_flag("--sandbox", config->sandbox,
+                "Decode OpenVDB data in a limited process: for files of strangers");
+  app->add_option_function<std::string>(
          "-m,--memory",
          [import](const std::string& s) { import->memory = parse_count(s, "--memory"); },
          "Memory budget in bytes, for example 4G (default: half of the machine)")
@@ -47,7 +53,8 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,
                {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",
-                "svdag import points.npz -o points.svdag -r 1K"},
+                "svdag import points.npz -o points.svdag -r 1K",
+                "svdag import levelset.vdb --iso=-inf,0 -o solid.svdag"},
                "svdag help formats tells more.");
 }
 

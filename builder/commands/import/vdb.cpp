@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "io/formats/vdb.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -27,48 +26,56 @@ VoxelPlace place_of(const std::string& path, const IndexToWorld& centres,
   return place;
 }
 
-// A cube, in voxels from `first` on.
-void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch,
-              const FullCubeSink& cubes) {
+bool is_full(const Cube& cube) {
+  return cube.side > kBlockSide || cube.block == Block::full();
+}
+
+// The voxels of a block, from `first` on.
+void add_block(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
   const LatticePoint at = cube.origin - first;
-  if (cube.side > kBlockSide || cube.block == Block::full())
-    return cubes(
-        {{uint32_t(at.x), uint32_t(at.y), uint32_t(at.z)}, std::countr_zero(uint64_t(cube.side))});
-  for (int64_t x = 0; x < cube.side; ++x)
-    for (int64_t y = 0; y < cube.side; ++y)
-      for (int64_t z = 0; z < cube.side; ++z) {
-        if (!cube.block.get(unsigned(x), unsigned(y), unsigned(z))) continue;
-        batch->add({uint32_t(at.x + x), uint32_t(at.y + y), uint32_t(at.z + z)});
+  for (int64_t x = 0; x < kBlockSide; ++x)
+    for (int64_t y = 0; y < kBlockSide; ++y)
+      for (int64_t z = 0; z < kBlockSide; ++z) {
+        if (cube.block.get(unsigned(x), unsigned(y), unsigned(z)))
+          batch->add({uint32_t(at.x + x), uint32_t(at.y + y), uint32_t(at.z + z)});
       }
 }
 
 }  // namespace
 
-VoxelPlace read_vdb_voxels(const std::string& path, const std::string& name,
-                           const VoxelSink& voxels, const FullCubeSink& cubes) {
-  const auto grid = read_vdb(path, name, {});
+VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
+    : grid_(std::move(grid)) {
   int64_t side = kBlockSide;  // of the largest cube
-  grid->visit([&](const Cube& cube) {
+  grid_->visit([&](const Cube& cube) {
     side = std::max(side, cube.side);
+    if (!is_full(cube)) count_ += cube.count();
     return true;
   });
-  const VoxelBox box = grid->bounds();
-  LatticePoint first(0);
+  const VoxelBox box = grid_->bounds();
   for (int a = 0; a < 3 && !box.empty(); ++a) {
     // A multiple of the sides, so that cubes stay cubes.
     if (box.min[a] < 0 || box.max[a] > int64_t(1) << kMaxLevels)
-      first[a] = box.min[a] & ~(side - 1);
-    if (box.max[a] - first[a] > int64_t(1) << kMaxLevels)
+      first_[a] = box.min[a] & ~(side - 1);
+    if (box.max[a] - first_[a] > int64_t(1) << kMaxLevels)
       fail_input(path, "its voxels span more than 1M on an axis");
   }
+  place_ = place_of(path, grid_->centres(), first_);
+}
+
+VoxelPlace VdbVoxels::read(const VoxelSink& voxels, const FullCubeSink& cubes) const {
   VoxelBatch batch(voxels);
-  grid->visit([&](const Cube& cube) {
+  grid_->visit([&](const Cube& cube) {
     check_interrupt();
-    add_cube(cube, first, &batch, cubes);
+    const LatticePoint at = cube.origin - first_;
+    if (is_full(cube))
+      cubes({{uint32_t(at.x), uint32_t(at.y), uint32_t(at.z)},
+             std::countr_zero(uint64_t(cube.side))});
+    else
+      add_block(cube, first_, &batch);
     return true;
   });
   batch.flush();
-  return place_of(path, grid->centres(), first);
+  return place_;
 }
 
 }  // namespace svdag

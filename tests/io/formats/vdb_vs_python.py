@@ -6,6 +6,7 @@ swapped axes or two shifts by half a voxel cannot cancel out. Skipped (77) witho
 """
 import itertools
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -195,6 +196,21 @@ class VdbVsPython(unittest.TestCase):
             else:
                 self.assertEqual((result["missing"], result["first_missing"]), (count, [[60, 1, 2]]))
 
+    def test_a_tree_that_two_grids_share_is_read_for_both(self):
+        grid = self.foreign(self.voxels, self.matrix())
+        shifted = grid.copy()  # with the same tree
+        shifted.name = "shifted"
+        shifted.transform = pyopenvdb.createLinearTransform(self.matrix(origin=(0, 0, 1)))
+        path = self.at / "shared.vdb"
+        pyopenvdb.write(str(path), [grid, shifted])
+        alone = self.at / "alone.vdb"
+        pyopenvdb.write(str(alone), [grid])
+        self.assertLess(path.stat().st_size, alone.stat().st_size + 2000)
+        for name, code in [("foreign", 0), ("shifted", 1)]:
+            text = run("svdag-verify", "vdb", self.dag, path, "--grid", name, "--sandbox", "--json", code=code)
+            both = json.loads(text)["both"]
+            (self.assertEqual if code == 0 else self.assertLess)(both, len(self.voxels))
+
     def test_values_of_a_float_grid_are_chosen_by_a_range(self):
         grid = self.foreign(self.voxels, self.matrix(), pyopenvdb.FloatGrid, 0.25)
         self.assertNotIn([60, 1, 2], self.voxels.tolist())
@@ -213,6 +229,44 @@ class VdbVsPython(unittest.TestCase):
         grid.name = "foreign"
         grid.transform = pyopenvdb.createFrustumTransform((0, 0, 0), (10, 10, 10), 0.5, 10.0)
         self.assertIn("not linear", self.verify(grid, code=3))
+
+
+class VdbImports(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="svdag-vdb-")
+        self.addCleanup(folder.cleanup)
+        self.at = pathlib.Path(folder.name)
+
+    def imported(self, grid, *options):
+        """(report of svdag info, path of the grid, path of the DAG)"""
+        path, dag = self.at / "theirs.vdb", self.at / "ours.svdag"
+        pyopenvdb.write(str(path), [grid])
+        run("svdag-import", path, "-o", dag, "-q", "-m", "64M", *options)
+        return json.loads(run("svdag", "info", "--json", dag)), path, dag
+
+    def test_a_level_set_becomes_its_inside(self):
+        sphere = pyopenvdb.createLevelSetSphere(radius=30, center=(3, -5, 7), voxelSize=0.5)
+        array = numpy.empty((140, 140, 140))
+        sphere.copyToArray(array, ijk=(-64, -80, -56))
+        info, path, dag = self.imported(sphere, "--iso=-inf,0")
+        self.assertEqual(info["voxels"], int((array <= 0).sum()))
+        self.assertTrue(json.loads(run("svdag-verify", "vdb", dag, path, "--iso=-inf,0", "--json"))["same"])
+
+    def test_a_float_grid_needs_a_range(self):
+        sphere = pyopenvdb.createLevelSetSphere(radius=3)
+        path = self.at / "theirs.vdb"
+        pyopenvdb.write(str(path), [sphere])
+        self.assertIn("--iso", run("svdag-import", path, "-o", self.at / "ours.svdag", code=2))
+
+    def test_tiles_cost_nodes_and_not_voxels(self):
+        low, high = (-300, -100, 7), (5000, 300, 400)
+        solid = pyopenvdb.BoolGrid()
+        solid.fill(low, high, True)
+        solid.prune()
+        info, path, dag = self.imported(solid)
+        self.assertEqual(info["voxels"], math.prod(h - l + 1 for l, h in zip(low, high)))
+        self.assertLess(sum(info["nodes"]), 1000)
+        self.assertTrue(json.loads(run("svdag-verify", "vdb", dag, path, "--json"))["same"])
 
 
 if __name__ == "__main__":
