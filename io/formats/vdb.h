@@ -79,15 +79,17 @@ class VdbGrid {
   virtual std::string type() const = 0;  // "mask", "bool", "float"
   virtual const IndexToWorld& centres() const = 0;
   virtual VoxelBox bounds() const = 0;  // of set voxels
-  // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, until the sink returns
-  // false.
+  // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, each voxel in one of them,
+  // until the sink returns false.
   virtual bool visit(const CubeSink& sink) const = 0;
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
 
-// Reads grid `name`, or the only one if that is empty. Broken files, other types and transforms
-// that are not linear are an Error (kBadInput); a float grid without a range is one (kUsage).
+// Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and
+// time (streaming/limited_child.h); `sandbox`: in one that can only compute. Broken files, other
+// types and transforms that are not linear are an Error (kBadInput); a float grid without a range
+// is one (kUsage).
 std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& name,
-                                  const std::optional<ValueRange>& range);
+                                  const std::optional<ValueRange>& range, bool sandbox = false);
 
 }  // namespace svdag

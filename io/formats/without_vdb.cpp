@@ -18,7 +18,7 @@ std::unique_ptr<VdbWriter> make_vdb_writer() {
 }
 
 std::unique_ptr<VdbGrid> read_vdb(const std::string&, const std::string&,
-                                  const std::optional<ValueRange>&) {
+                                  const std::optional<ValueRange>&, bool) {
   lacking();
 }
 

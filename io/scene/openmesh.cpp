@@ -40,9 +40,11 @@ Header read_header(const File& file) {
   };
   if (b[0] != 'O' || b[1] != 'M') fail_input(file.path(), "is not an OpenMesh file");
   const Header header{u32(4), u32(8)};
-  // A vertex takes 12 bytes or more, a face 3 or more.
-  if (header.vertices > file.size() / 12 || header.faces > file.size() / 3) {
-    fail_input(file.path(), "is cut off: fewer bytes than its vertices and faces need");
+  // A vertex takes 12 bytes or more, a face 3 or more, an edge one or more: OpenMesh makes room for
+  // as many as are said here.
+  if (header.vertices > file.size() / 12 || header.faces > file.size() / 3 ||
+      u32(12) > file.size()) {
+    fail_input(file.path(), "is cut off: fewer bytes than its vertices, faces and edges need");
   }
   return header;
 }
@@ -62,6 +64,25 @@ void load(const File& file, std::span<const std::byte> bytes, Mesh* mesh) {
   if (!read) fail_input(file.path(), "is a broken OpenMesh file");
 }
 
+// Calls `use` with the corners of a face. OpenMesh takes the links of halfedges from the file as
+// they are: they may lead nowhere, or round and round beside where they began. `left`: corners that
+// the mesh can still have, one per halfedge.
+template <class Use>
+void each_corner(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint64_t* left,
+                 const Use& use) {
+  const auto first = mesh.halfedge_handle(face);
+  auto halfedge = first;
+  do {
+    if (!mesh.is_valid_handle(halfedge) || (*left)-- == 0)
+      fail_input(file.path(), "is a broken OpenMesh file");
+    const auto vertex = mesh.to_vertex_handle(halfedge);
+    if (!mesh.is_valid_handle(vertex)) fail_input(file.path(), "is a broken OpenMesh file");
+    const OpenMesh::Vec3d& p = mesh.point(vertex);
+    use(Point(p[0], p[1], p[2]));
+    halfedge = mesh.next_halfedge_handle(halfedge);
+  } while (halfedge != first);
+}
+
 void decode(const File& file, std::span<const std::byte> bytes, const Header& header,
             const TriangleSink& sink) {
   Mesh mesh;
@@ -72,19 +93,16 @@ void decode(const File& file, std::span<const std::byte> bytes, const Header& he
                                 std::to_string(mesh.n_faces()));
   }
   BatchWriter out(sink);
-  const auto point = [&](Mesh::VertexHandle v) {
-    const OpenMesh::Vec3d& p = mesh.point(v);
-    return Point(p[0], p[1], p[2]);
-  };
+  uint64_t left = mesh.n_halfedges();
   for (const auto face : mesh.faces()) {
-    auto corner = mesh.cfv_iter(face);
-    const Point first = point(*corner++);
-    Point before = point(*corner++);
-    for (; corner.is_valid(); ++corner) {  // a fan around the first corner
-      const Point p = point(*corner);
-      out.add(first, before, p);
+    Point first(0), before(0);
+    uint64_t corners = 0;
+    each_corner(file, mesh, face, &left, [&](const Point& p) {  // a fan around the first corner
+      if (corners == 0) first = p;
+      if (corners > 1) out.add(first, before, p);
       before = p;
-    }
+      ++corners;
+    });
   }
   out.flush();
 }

@@ -169,6 +169,71 @@ def scenes():
         yield f"{name}.drc", drc, fields + ([word(drc, at, 4) for at in range(11, len(drc) - 3)] if LONG else [])
 
 
+def openmesh():
+    """Behind the header with the numbers of vertices, faces and edges, chunks: of 5 points, of the halfedges that
+    lead to each other, of vertices and of faces, each behind two bytes that say what it is."""
+    om = (CORPUS / "openmesh_fuzz" / "double.om").read_bytes()
+    halfedges = 18 + 5 * 24
+    return om, words(om, [4, 8, 12, *range(halfedges + 2, 176, 4)]) + words(om, [16, halfedges, 176, 184], 2)
+
+
+class Vdb:
+    """A walk through a .vdb of one mask grid, which notes the places of its counts, lengths and offsets."""
+
+    def __init__(self, data):
+        self.data, self.at, self.places, self.types = data, 0, [], set()
+        self.skip(8)                             # magic number
+        for _ in range(3):                       # versions of the format and of the library
+            self.number()
+        self.skip(1 + 36)                        # whether there are offsets, unique name
+        self.metadata()
+        self.number()                            # grids
+        for _ in range(3):                       # name, type, whose tree it has
+            self.skip(self.number())
+        assert self.number(8) == self.at + 16, "the grid begins behind its offsets"
+        for _ in range(2):
+            self.number(8)
+        self.number()                            # compression
+        self.metadata()
+        self.skip(self.number())                 # the transform's type,
+        self.skip(15 * 8)                        # and its numbers
+        self.number()                            # buffers
+        self.skip(1)                             # background
+        for _ in range(2 + 3):                   # tiles and nodes of the root, the first node's place
+            self.number()
+        for _ in range(2):                       # its masks: of nodes, of tiles
+            self.number(8)
+            self.skip(32**3 // 8 - 8)
+        for back in (12, 8, 4):                  # the place of the last leaf
+            self.places.append((len(data) - back, 4))
+
+    def number(self, width=4):
+        self.places.append((self.at, width))
+        self.at += width
+        return int.from_bytes(self.data[self.at - width:self.at], "little")
+
+    def skip(self, count):
+        self.at += count
+
+    def text(self):
+        length = self.number()
+        self.skip(length)
+        return self.data[self.at - length:self.at]
+
+    def metadata(self):
+        for _ in range(self.number()):
+            known = len(self.places)
+            self.text()
+            kind = self.text()
+            self.skip(self.number())
+            if kind in self.types:               # one of each type is enough
+                del self.places[known:]
+            self.types.add(kind)
+
+    def fields(self):
+        return [word(self.data, at, width) for at, width in self.places]
+
+
 def foreign():
     data = write_foreign.hashdag(VOXELS, 3)
     yield "a.basic_dag.dag.bin", data, words(data, [48, *range(60, len(data) - 3, 4)]) + words(data, [52], 8)
@@ -288,6 +353,27 @@ class HostileCounts(unittest.TestCase):
         for name, data, fields in foreign():
             path = self.folder / name
             self.judge(path, data, fields, [PROGRAMS / "svdag", "import", path, "-o", "imported.svdag", "-q"])
+
+    def test_openmesh(self):
+        data, fields = openmesh()
+        path = self.folder / "a.om"
+        path.write_bytes(data)
+        command = [PROGRAMS / "svdag", "build", path, "-o", "out.svdag", "-r", "8", "-q", "-j", "1", "--restart"]
+        self.skip_if_refused("cannot read", command)
+        self.judge(path, data, fields, command)
+
+    def test_vdb(self):
+        self.svdag("build", "scene.stl", "-o", "grid.svdag", "-r", "16", "-q")
+        path = self.folder / "a.vdb"
+        self.skip_if_refused("built without OpenVDB", [PROGRAMS / "svdag", "export", "grid.svdag", "-o", path, "-q"])
+        data = path.read_bytes()
+        fields = words(data, []) if LONG else Vdb(data).fields()
+        self.judge(path, data, fields, [PROGRAMS / "svdag", "import", path, "-o", "imported.svdag", "-q"])
+
+    def skip_if_refused(self, sentence, command):
+        answer = run(command, self.folder)
+        if sentence in answer.text:
+            self.skipTest(answer.text)
 
     def test_dags(self):
         self.svdag("build", "scene.stl", "-o", "own.svdag", "-r", "16", "-q")

@@ -41,7 +41,9 @@ void print_json(const VdbConfig& config, const VdbGrid& theirs, const Grid& grid
                                {"extra", c.extra},
                                {"first_missing", list(c.first_missing)},
                                {"first_extra", list(c.first_extra)}};
-  std::printf("%s\n", json.dump().c_str());
+  // A grid's name may be no UTF-8.
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+  std::printf("%s\n", json.dump(-1, ' ', false, kReplace).c_str());
 }
 
 void print_voxels(const char* what, const Grid& grid, const std::vector<LatticePoint>& voxels) {
@@ -97,7 +99,8 @@ int run(const VdbConfig& config) {
   progress.phase("checksums", 0);
   const DagFile file = DagFile::open(config.file);
   progress.phase("reading the grid", 0);
-  const std::unique_ptr<VdbGrid> theirs = read_vdb(config.vdb, config.grid, config.iso);
+  const std::unique_ptr<VdbGrid> theirs =
+      read_vdb(config.vdb, config.grid, config.iso, config.sandbox);
   const GridFit fit = fit_grid(*theirs, file.grid(), config.vdb);
   Grid grid = level_grid(file.grid(), fit.levels);
   if (config.bounds) grid = select_bounds(grid, *config.bounds);

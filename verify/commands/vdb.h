@@ -13,6 +13,7 @@ struct VdbConfig {
   std::string file, vdb;
   std::string grid;                  // name of the grid; empty: the only one
   std::optional<ValueRange> iso;     // values of a float grid that are set
+  bool sandbox = false;              // OpenVDB runs in a process that can only compute
   std::optional<Box> bounds;         // compare this part alone
   uint64_t show = 10;                // differing voxels to list, of each kind
   std::string write_diff;            // a .vdb with the grids "missing" and "extra"; empty: none

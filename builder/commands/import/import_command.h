@@ -13,8 +13,9 @@ namespace svdag {
 
 struct ImportCommandConfig {
   std::string file;
-  std::string format;  // a name of import_formats(); empty: by the file's contents
-  std::string grid;    // vdb: which grid; empty: the only one
+  std::string format;    // a name of import_formats(); empty: by the file's contents
+  std::string grid;      // vdb: which grid; empty: the only one
+  bool sandbox = false;  // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
   size_t threads = 0;  // 0: all processors
   bool quiet = false;

@@ -32,6 +32,8 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
       ->type_name("N");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");
+  app->add_flag("--sandbox", config->sandbox,
+                "Decode OpenVDB data in a limited process: for files of strangers");
   app->add_option_function<std::string>(
          "-m,--memory",
          [import](const std::string& s) { import->memory = parse_count(s, "--memory"); },

@@ -149,7 +149,7 @@ TEST_F(Vdb, DamagedFilesAreReadOrRefused) {
     }
     std::ofstream(path("broken.vdb"), std::ios::binary) << broken;
     try {
-      voxels_of(*read_vdb(path("broken.vdb"), "", {}));
+      voxels_of(*read_vdb(path("broken.vdb"), "", {}, run % 4 < 2));
     } catch (const Error& error) {
       EXPECT_TRUE(error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage)
           << error.what();
@@ -157,6 +157,52 @@ TEST_F(Vdb, DamagedFilesAreReadOrRefused) {
     }
   }
   EXPECT_GT(refused, 60);
+}
+
+TEST_F(Vdb, TheSandboxDecidesNothing) {
+  write("a.vdb", blocks_of(bodies(6, 2)), VdbFormat::kBool);
+  EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {}, true)), bodies(6, 2));
+  EXPECT_SVDAG_ERROR(read_vdb(path("a.vdb"), "c", {}, true), ExitCode::kUsage, "has no grid c");
+  std::filesystem::resize_file(path("a.vdb"), std::filesystem::file_size(path("a.vdb")) / 2);
+  EXPECT_SVDAG_ERROR(read_vdb(path("a.vdb"), "", {}, true), ExitCode::kBadInput, "is cut off");
+}
+
+TEST_F(Vdb, ScatteredVoxelsAreNotTooMuch) {
+  // The most that OpenVDB takes for what is in a file: a node of every size for each of them.
+  std::vector<Cube> cubes;
+  for (int64_t i = 0; i < 700; ++i)
+    cubes.push_back({{i % 10 * 4096, i / 10 % 10 * 4096, i / 100 * 4096}, 8, {}});
+  for (Cube& cube : cubes) cube.block.set(1, 2, 3);
+  write("a.vdb", cubes, VdbFormat::kMask);
+  EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {})).size(), 700U);
+}
+
+TEST_F(Vdb, ManyTilesAreNotTooMuch) {
+  // Each is one bit of a mask in the file.
+  std::vector<Cube> cubes;
+  for (int64_t x = 0; x < 64; ++x)
+    for (int64_t y = 0; y < 32; ++y)
+      for (int64_t z = 0; z < 32; ++z)
+        cubes.push_back({LatticePoint(x, y, z) * int64_t(128), 128, {}});
+  write("a.vdb", cubes, VdbFormat::kMask);
+  EXPECT_LT(std::filesystem::file_size(path("a.vdb")), 30'000U);
+  uint64_t found = 0;
+  read_vdb(path("a.vdb"), "", {})->visit([&](const Cube& cube) { return found += cube.count(); });
+  EXPECT_EQ(found, cubes.size() << 21);
+}
+
+TEST_F(Vdb, ACountThatIsTooLargeIsASentence) {
+  write("whole.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);
+  std::ifstream file(path("whole.vdb"), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  for (const size_t at : {65U, 78U, 97U}) {  // the lengths of a name, of a type, of a parent's name
+    std::string broken = whole;
+    broken.replace(at, 4, "\xff\xff\xff\xff");
+    std::ofstream(path("broken.vdb"), std::ios::binary) << broken;
+    for (const bool sandbox : {false, true})
+      EXPECT_SVDAG_ERROR(read_vdb(path("broken.vdb"), "", {}, sandbox), ExitCode::kBadInput,
+                         "OpenVDB needs more than");
+  }
 }
 
 TEST_F(Vdb, AFolderThatIsNotThereIsASentence) {

@@ -195,6 +195,21 @@ class VdbVsPython(unittest.TestCase):
             else:
                 self.assertEqual((result["missing"], result["first_missing"]), (count, [[60, 1, 2]]))
 
+    def test_a_tree_that_two_grids_share_is_read_for_both(self):
+        grid = self.foreign(self.voxels, self.matrix())
+        shifted = grid.copy()  # with the same tree
+        shifted.name = "shifted"
+        shifted.transform = pyopenvdb.createLinearTransform(self.matrix(origin=(0, 0, 1)))
+        path = self.at / "shared.vdb"
+        pyopenvdb.write(str(path), [grid, shifted])
+        alone = self.at / "alone.vdb"
+        pyopenvdb.write(str(alone), [grid])
+        self.assertLess(path.stat().st_size, alone.stat().st_size + 2000)
+        for name, code in [("foreign", 0), ("shifted", 1)]:
+            text = run("svdag-verify", "vdb", self.dag, path, "--grid", name, "--sandbox", "--json", code=code)
+            both = json.loads(text)["both"]
+            (self.assertEqual if code == 0 else self.assertLess)(both, len(self.voxels))
+
     def test_values_of_a_float_grid_are_chosen_by_a_range(self):
         grid = self.foreign(self.voxels, self.matrix(), pyopenvdb.FloatGrid, 0.25)
         self.assertNotIn([60, 1, 2], self.voxels.tolist())
