@@ -108,7 +108,7 @@ int run(const ImportCommandConfig& config) {
   } else {
     report = import_voxels(
         [&](const VoxelSink& voxels, const FullCubeSink& cubes) {
-          return read_vdb_voxels(config.file, config.grid, voxels, cubes);
+          return read_vdb_voxels(config.file, config.grid, config.sandbox, voxels, cubes);
         },
         config.import, &executor);
   }

@@ -44,9 +44,9 @@ void add_cube(const Cube& cube, const LatticePoint& first, VoxelBatch* batch,
 
 }  // namespace
 
-VoxelPlace read_vdb_voxels(const std::string& path, const std::string& name,
+VoxelPlace read_vdb_voxels(const std::string& path, const std::string& name, bool sandbox,
                            const VoxelSink& voxels, const FullCubeSink& cubes) {
-  const auto grid = read_vdb(path, name, {});
+  const auto grid = read_vdb(path, name, {}, sandbox);
   int64_t side = kBlockSide;  // of the largest cube
   grid->visit([&](const Cube& cube) {
     side = std::max(side, cube.side);
