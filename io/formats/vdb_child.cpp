@@ -2,6 +2,7 @@
 // allocate what the count says, and it checks few of them; under --sandbox, in one that can only
 // compute.
 #include <algorithm>
+#include <new>
 #include <vector>
 
 #include "io/formats/sent_cubes.h"
@@ -26,9 +27,8 @@ constexpr uint64_t kKeptPerByte = 64;
 constexpr uint64_t kKeptAtLeast = uint64_t(1) << 20;
 
 // As decoders of scenes have it (io/scene/limited_decoder.h): a second for every 64 KiB.
-ChildLimits limits_for(uint64_t bytes, bool sandbox) {
-  const uint64_t memory = kMemoryAtLeast + std::min(bytes * kMemoryPerByte, default_memory_limit());
-  return {memory, 30 + bytes / 65536, sandbox};
+ChildLimits limits_for(uint64_t bytes, uint64_t machine, bool sandbox) {
+  return {kMemoryAtLeast + std::min(bytes * kMemoryPerByte, machine), 30 + bytes / 65536, sandbox};
 }
 
 }  // namespace
@@ -38,7 +38,12 @@ std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& na
   const File file = File::open_read(path);
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
-  const ChildLimits limits = limits_for(bytes.size(), sandbox);
+  const uint64_t machine = default_memory_limit();
+  const ChildLimits limits = limits_for(bytes.size(), machine, sandbox);
+  const bool enough = bytes.size() * kMemoryPerByte <= machine;
+  const std::string too_little =
+      "OpenVDB needs more than " + format_bytes(limits.memory) +
+      " for it: " + (enough ? "its counts are wrong" : "this machine has too little");
   auto grid = std::make_unique<SentCubes>(path, kKeptAtLeast + bytes.size() * kKeptPerByte);
   run_limited(
       limits, path,
@@ -46,9 +51,7 @@ std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& na
         try {
           decode_vdb(path, bytes, name, range, send);
         } catch (const std::bad_alloc&) {
-          const bool enough = bytes.size() * kMemoryPerByte <= default_memory_limit();
-          fail_input(path, "OpenVDB needs more than " + format_bytes(limits.memory) + " for it: " +
-                               (enough ? "its counts are wrong" : "this machine has too little"));
+          fail_input(path, too_little);
         }
       },
       [&](std::span<const std::byte> block) { grid->take(block); });

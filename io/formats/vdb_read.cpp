@@ -1,7 +1,3 @@
-#include <openvdb/io/Archive.h>
-#include <openvdb/io/GridDescriptor.h>
-#include <openvdb/io/io.h>
-
 #include <algorithm>
 #include <new>
 #include <vector>

@@ -1,6 +1,9 @@
 // What vdb_read.cpp, vdb_write.cpp and nvdb.cpp share: OpenVDB's types and their errors as ours.
 #pragma once
 
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/io.h>
 #include <openvdb/openvdb.h>
 
 #include "io/formats/vdb.h"

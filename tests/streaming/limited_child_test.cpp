@@ -14,12 +14,7 @@
 #include <vector>
 
 #include "tests/expect_error.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // the runtime asks the system for more than a decoder does
-#else
-constexpr bool kSanitized = false;
-#endif
+#include "tests/sanitized.h"
 
 namespace svdag {
 namespace {
