@@ -21,8 +21,10 @@ struct Filled {
   InfoConfig info;
 };
 
-// All commands. To make them takes a hundred times as long as to understand a line, so they are
-// made once; the library forgets the line before with the next one.
+// All commands. To make them takes ten times as long as to understand a line, so they are made
+// once; the library forgets the line before with the next one, but not what that line made
+// unnecessary
+// (--batch needs no grid): it is required again.
 class Program {
  public:
   Program() : app_("", "svdag") {
@@ -33,10 +35,13 @@ class Program {
     add_submit(&app_, &filled_.submit);
     add_info(&app_, &filled_.info);
     unfilled_ = filled_;
+    note_required(&app_);
   }
 
   void parse(std::vector<std::string> words) {
     filled_ = unfilled_;
+    for (CLI::Option* option : required_) option->required();
+    for (const auto& [group, options] : groups_) group->require_option(int(options));
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     try {
@@ -50,7 +55,18 @@ class Program {
   }
 
  private:
+  void note_required(CLI::App* app) {
+    for (CLI::Option* option : app->get_options()) {
+      if (option->get_required()) required_.push_back(option);
+    }
+    if (app->get_require_option_min() > 0) groups_.emplace_back(app, app->get_require_option_min());
+    for (CLI::App* inner : app->get_subcommands([](CLI::App*) { return true; }))
+      note_required(inner);
+  }
+
   CLI::App app_;
+  std::vector<CLI::Option*> required_;
+  std::vector<std::pair<CLI::App*, size_t>> groups_;  // with how many of their options are required
   Filled filled_, unfilled_;
 };
 
