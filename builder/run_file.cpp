@@ -144,7 +144,10 @@ std::unique_ptr<BlockSource> RunFile::read(int level, MemoryBudget* budget) cons
 RunReader::RunReader(const File& file, const RunHeader& header, const RunSection& section,
                      MemoryBudget* budget)
     : file_(file), run_(header.run), payload_(RunLayout(header).payload), left_(section) {
-  if (left_.bytes() > 0) block_ = SpillBlock(budget, kRunBlockBytes);
+  if (left_.bytes() == 0) return;
+  const uint64_t largest =
+      std::min(kRunPayload, payload_ - left_.begin / kRunPayload * kRunPayload);
+  block_ = SpillBlock(budget, kSpillHeader + largest);
 }
 
 std::span<std::byte> RunReader::next() {

@@ -48,6 +48,9 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   std::string best;
   size_t least = word.size() / 3 + 1;
   for (const std::string& candidate : candidates) {
+    // Every letter that one of the two has more is an edit.
+    const size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) >= least) continue;
     const size_t distance = edit_distance(word, candidate);
     if (distance < least) {
       least = distance;

@@ -36,7 +36,7 @@ struct VoxelPlace {
 // Collects voxels into batches.
 class VoxelBatch {
  public:
-  explicit VoxelBatch(const VoxelSink& sink) : sink_(sink) { voxels_.reserve(kBatch); }
+  explicit VoxelBatch(const VoxelSink& sink) : sink_(sink) {}
   void add(const Voxel& voxel) {
     if (voxels_.size() == kBatch) flush();
     voxels_.push_back(voxel);

@@ -11,7 +11,7 @@ ByteStream::ByteStream(const File& file, uint64_t begin, uint64_t end, size_t wi
     : file_(&file),
       end_(std::min(end, file.size())),
       base_(std::min(begin, end_)),
-      window_(window) {}
+      window_(size_t(std::clamp<uint64_t>(end_ - base_, 1, window))) {}
 
 void ByteStream::fill(size_t at_least) {
   const size_t kept = filled_ - position_;

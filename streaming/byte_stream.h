@@ -1,4 +1,4 @@
-// Sequential reading of a part of a file through one small window.
+// Sequential reading of a part of a file through one small window, never larger than that part.
 //
 // The readers of scene files see contiguous bytes without ever holding the file: peek(n) makes at
 // least n bytes visible (fewer only at the end), skip(n) moves on. Offsets are those of the file,

@@ -41,7 +41,7 @@ uint64_t PackBlockWriter::finish() {
 
 void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t payload,
                uint64_t begin, uint64_t end, const std::function<void(std::span<std::byte>)>& use) {
-  std::vector<std::byte> memory(kPackBlock);
+  std::vector<std::byte> memory(std::min(kPackBlock, payload));
   for (uint64_t at = begin; at < end;) {
     check_interrupt();
     const uint64_t index = at / kPackBlock, first = index * kPackBlock;

@@ -205,7 +205,8 @@ Header check_dag(const File& file) {
   check_layout(file, h);
   const std::vector<uint64_t> table = read_table(file, h);
   StructureScan scan(file, h);
-  std::vector<std::byte> block(kChecksumBlock);
+  std::vector<std::byte> block(
+      size_t(std::min<uint64_t>(kChecksumBlock, h.checksum_offset - sizeof(Header))));
   for (size_t i = 0; i < table.size(); ++i) {
     const uint64_t offset = sizeof(Header) + i * kChecksumBlock;
     const auto bytes = std::span(block).first(

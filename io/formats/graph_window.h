@@ -1,4 +1,4 @@
-// Looking at nodes of a foreign file by offset, through one small window.
+// Looking at nodes of a foreign file by offset, through one small window, never larger than it.
 //
 // An import asks for the nodes of a level in ascending order (io/dag/node_graph.h), so the window
 // moves forward; what lies elsewhere is read as well, only slower.
@@ -19,7 +19,8 @@ namespace svdag {
 class GraphWindow {
  public:
   // `file` must outlive this.
-  explicit GraphWindow(const File& file) : file_(&file), bytes_(kWindow) {}
+  explicit GraphWindow(const File& file)
+      : file_(&file), bytes_(size_t(std::min<uint64_t>(kWindow, file.size()))) {}
 
   const std::string& path() const { return file_->path(); }
   uint32_t u32(uint64_t offset) { return at<uint32_t>(offset); }

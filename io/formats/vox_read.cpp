@@ -20,6 +20,7 @@ struct Model {
 struct Node {
   Offset place{};
   std::vector<uint32_t> children, models;
+  size_t visits = 0;  // of nodes, from this one on; 0: not counted
 };
 
 // Reads the numbers of one chunk; all that reach beyond it are errors.
@@ -82,6 +83,7 @@ class VoxReader {
     if (nodes_.empty()) {
       for (uint32_t i = 0; i < models_.size(); ++i) place_model(i, middle_of(i));
     } else {
+      count_visits(0, 0);
       place_node(0, {}, 0);
     }
     Offset low{};  // what lies below 0
@@ -139,7 +141,7 @@ class VoxReader {
     } else if (name == "nTRN") {
       const uint32_t id = chunk->number();
       chunk->dictionary();
-      Node node{{}, {chunk->number()}, {}};
+      Node node{{}, {chunk->number()}, {}, 0};
       for (int i = 0; i < 2; ++i) chunk->number();  // reserved, layer
       if (chunk->count() > 0) read_frame(chunk->dictionary(), &node);
       nodes_[id] = std::move(node);
@@ -168,19 +170,38 @@ class VoxReader {
     }
   }
 
-  void place_node(uint32_t id, const Offset& from, int depth) {
+  Node& node_of(uint32_t id, int depth) {
     const auto found = nodes_.find(id);
-    if (found == nodes_.end() || depth > kDeepest || ++visits_ > kMostVisits)
-      fail_input(file_.path(), "damaged .vox file: broken scene graph");
+    if (found == nodes_.end() || depth > kDeepest) fail_graph();
+    return found->second;
+  }
+  [[noreturn]] void fail_graph() const {
+    fail_input(file_.path(), "damaged .vox file: broken scene graph");
+  }
+
+  // Looks at each node once, before place_node() visits it once for every way that leads to it.
+  size_t count_visits(uint32_t id, int depth) {
+    Node& node = node_of(id, depth);
+    if (node.visits != 0) return node.visits;
+    size_t visits = 1;
+    for (const uint32_t child : node.children) {
+      visits += count_visits(child, depth + 1);
+      if (visits > kMostVisits) fail_graph();
+    }
+    return node.visits = visits;
+  }
+
+  void place_node(uint32_t id, const Offset& from, int depth) {
+    const Node& node = node_of(id, depth);
     Offset at;
-    for (size_t a = 0; a < 3; ++a) at[a] = from[a] + found->second.place[a];
-    for (const uint32_t child : found->second.children) place_node(child, at, depth + 1);
-    for (const uint32_t model : found->second.models) place_model(model, at);
+    for (size_t a = 0; a < 3; ++a) at[a] = from[a] + node.place[a];
+    for (const uint32_t child : node.children) place_node(child, at, depth + 1);
+    for (const uint32_t model : node.models) place_model(model, at);
   }
 
   // With voxel size/2 of it at `middle`.
   void place_model(uint32_t model, const Offset& middle) {
-    if (model >= models_.size()) fail_input(file_.path(), "damaged .vox file: broken scene graph");
+    if (model >= models_.size()) fail_graph();
     voxels_ += models_[model].count;
     if (placed_.size() >= kMostVisits || voxels_ > kMostVoxels)
       fail_input(file_.path(), "repeats its models too often");
@@ -210,7 +231,6 @@ class VoxReader {
   std::vector<Model> models_;
   std::map<uint32_t, Node> nodes_;
   std::vector<std::pair<uint32_t, Offset>> placed_;  // models and their corners
-  size_t visits_ = 0;                                // of nodes
   uint64_t voxels_ = 0;                              // of placed_
 };
 

@@ -122,7 +122,8 @@ class GltfReader {
                       InstanceStream instances) {
     const bool single = accessor.base.type == ComponentType::kFloat;
     Positions positions(options_,
-                        single ? Positions::Precision::kSingle : Positions::Precision::kDouble);
+                        single ? Positions::Precision::kSingle : Positions::Precision::kDouble,
+                        accessor.count());
     ElementStream stream(accessor);
     std::array<Point, 1024> window;
     while (const size_t n = stream.read(as_numbers(window)))

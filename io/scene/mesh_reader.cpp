@@ -35,6 +35,15 @@ void BatchWriter::quantisation(double step) {
   quantisation_ = step;
 }
 
+// Batches are full but for the last of a mesh: until then the memory grows.
+void BatchWriter::make_room() {
+  if (room_ == kBatch) return flush();
+  auto larger = std::make_unique_for_overwrite<Triangle[]>(kBatch);
+  std::copy_n(batch_.get(), size_, larger.get());
+  batch_ = std::move(larger);
+  room_ = kBatch;
+}
+
 void BatchWriter::flush() {
   if (size_ == 0) return;
   sink_({mesh_, first_, {batch_.get(), size_}, quantisation_});

@@ -94,7 +94,7 @@ class BatchWriter {
   static constexpr size_t kBatch = 4096;
 
   explicit BatchWriter(const TriangleSink& sink)
-      : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kBatch)) {}
+      : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kFirst)) {}
   // Starts the next mesh: flushes, and counts triangles from 0 again.
   void mesh(std::string_view name);
   // The quantisation step of the triangles from here on.
@@ -106,17 +106,21 @@ class BatchWriter {
     t.v[0] = a;
     t.v[1] = b;
     t.v[2] = c;
-    if (++size_ == kBatch) flush();
+    if (++size_ == room_) make_room();
   }
   void flush();
 
  private:
+  static constexpr size_t kFirst = 64;  // a small scene pays for few
+
+  void make_room();
+
   const TriangleSink& sink_;
   std::string mesh_;
   uint64_t first_ = 0;
   double quantisation_ = 0;
   std::unique_ptr<Triangle[]> batch_;
-  size_t size_ = 0;
+  size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and for how many it has memory
 };
 
 }  // namespace svdag

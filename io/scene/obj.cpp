@@ -189,7 +189,7 @@ class ObjLines {
 }  // namespace
 
 void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  Positions positions(options, Positions::Precision::kDouble);
+  Positions positions(options, Positions::Precision::kDouble, file.size());
   BatchWriter writer(sink);
   ObjPlace from;
   read_corners(&positions, writer, [&](auto& corners, BatchWriter& out) {

@@ -58,7 +58,7 @@ class OffReader {
       : options_(options),
         stream_(file),
         scanner_(&stream_, kSyntax),
-        positions_(options, Positions::Precision::kDouble) {}
+        positions_(options, Positions::Precision::kDouble, file.size()) {}
 
   void read(const TriangleSink& sink) {
     read_keyword();

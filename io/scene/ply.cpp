@@ -74,7 +74,8 @@ class PlyBody {
     // A float property holds floats; text declared as a short integer may hold any number.
     if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
     positions_.emplace(options_,
-                       single ? Positions::Precision::kSingle : Positions::Precision::kDouble);
+                       single ? Positions::Precision::kSingle : Positions::Precision::kDouble,
+                       element.count);
     uint64_t row = 0;
     if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
       if (const auto offset = plain_vertices(values, element))

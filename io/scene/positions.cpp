@@ -1,17 +1,23 @@
 #include "io/scene/positions.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "streaming/error.h"
 
 namespace svdag {
 
 void Positions::grow() {
   if (spilled()) return hand_over();
-  const uint64_t bytes = reservation_.bytes() + bytes_of(kChunk);
+  SVDAG_ASSERT(size_ < most_);
+  const uint64_t chunk = std::bit_ceil(std::min(kChunk, most_));
+  const uint64_t bytes = reservation_.bytes() + bytes_of(chunk);
   const SpillSpace* space = options_.spill;
   // An eighth of the share is kept for the blocks on their way out.
   if (space != nullptr && bytes > space->share - space->share / 8) return spill();
   reservation_.resize(bytes, kPurpose);
-  append_chunk(kChunk);
+  append_chunk(chunk);
+  chunk_mask_ = chunk - 1;
 }
 
 void Positions::append_chunk(uint64_t count) {

@@ -1,7 +1,8 @@
 // The vertex positions of one mesh: the only thing that a reader holds in memory.
 //
 // They grow in chunks, each reserved in the budget before it is allocated, so a header cannot ask
-// for more memory than the file has vertices, and growing never copies. Positions that the file
+// for more memory than the file has vertices, and growing never copies. The first chunk is no
+// larger than what the reader says there can be: small meshes take little. Positions that the file
 // stores as float are kept as float: half the memory, the same values. Positions beyond the share
 // that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
 // (io/scene/corners.h).
@@ -23,9 +24,11 @@ class Positions {
  public:
   enum class Precision { kSingle, kDouble };
 
-  Positions(const ReadOptions& options, Precision precision)
+  // There are `most` positions at most; more than that are a defect of the reader.
+  Positions(const ReadOptions& options, Precision precision, uint64_t most)
       : single_(precision == Precision::kSingle),
         options_(options),
+        most_(most),
         reservation_(options.budget->reserve(0, kPurpose)) {}
 
   uint64_t size() const { return size_; }
@@ -77,8 +80,9 @@ class Positions {
 
   bool single_;
   const ReadOptions& options_;
+  uint64_t most_;
   uint64_t size_ = 0;
-  uint64_t chunk_mask_ = kChunk - 1;
+  uint64_t chunk_mask_ = 0;  // of the chunk that is filled: its size less one
   MemoryBudget::Reservation reservation_;
   std::vector<std::unique_ptr<float[]>> singles_;
   std::vector<std::unique_ptr<double[]>> doubles_;

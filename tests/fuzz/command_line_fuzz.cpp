@@ -11,31 +11,64 @@ namespace {
 
 constexpr size_t kMostWords = 64;
 
-void parse(std::vector<std::string> words) {
-  CLI::App app("", "svdag");
+// What a command line fills.
+struct Filled {
   BuildCommandConfig build;
   MergeCommandConfig merge;
   PlanCommandConfig plan;
   RunCommandConfig run;
   SubmitConfig submit;
   InfoConfig info;
-  add_build(&app, &build);
-  add_merge(&app, &merge);
-  add_plan(&app, &plan);
-  add_run(&app, &run);
-  add_submit(&app, &submit);
-  add_info(&app, &info);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  try {
-    app.parse(int(argv.size()), argv.data());
-  } catch (const CLI::Success&) {
-  } catch (const CLI::ParseError& error) {
-    fail_usage(explain(app, int(argv.size()), argv.data(), error));
+};
+
+// All commands. To make them takes ten times as long as to understand a line, so they are made
+// once; the library forgets the line before with the next one, but not what that line made
+// unnecessary
+// (--batch needs no grid): it is required again.
+class Program {
+ public:
+  Program() : app_("", "svdag") {
+    add_build(&app_, &filled_.build);
+    add_merge(&app_, &filled_.merge);
+    add_plan(&app_, &filled_.plan);
+    add_run(&app_, &filled_.run);
+    add_submit(&app_, &filled_.submit);
+    add_info(&app_, &filled_.info);
+    unfilled_ = filled_;
+    note_required(&app_);
   }
-  const bool many_threads = build.threads > 1024 || merge.threads > 1024;
-  if (many_threads || build.build.levels > kMaxLevels) std::abort();
-}
+
+  void parse(std::vector<std::string> words) {
+    filled_ = unfilled_;
+    for (CLI::Option* option : required_) option->required();
+    for (const auto& [group, options] : groups_) group->require_option(int(options));
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    try {
+      app_.parse(int(argv.size()), argv.data());
+    } catch (const CLI::Success&) {
+    } catch (const CLI::ParseError& error) {
+      fail_usage(explain(app_, int(argv.size()), argv.data(), error));
+    }
+    const bool many_threads = filled_.build.threads > 1024 || filled_.merge.threads > 1024;
+    if (many_threads || filled_.build.build.levels > kMaxLevels) std::abort();
+  }
+
+ private:
+  void note_required(CLI::App* app) {
+    for (CLI::Option* option : app->get_options()) {
+      if (option->get_required()) required_.push_back(option);
+    }
+    if (app->get_require_option_min() > 0) groups_.emplace_back(app, app->get_require_option_min());
+    for (CLI::App* inner : app->get_subcommands([](CLI::App*) { return true; }))
+      note_required(inner);
+  }
+
+  CLI::App app_;
+  std::vector<CLI::Option*> required_;
+  std::vector<std::pair<CLI::App*, size_t>> groups_;  // with how many of their options are required
+  Filled filled_, unfilled_;
+};
 
 }  // namespace
 }  // namespace svdag
@@ -46,6 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (i == 0 || data[i] == '\n') words.emplace_back();
     if (data[i] != '\n' && data[i] != 0) words.back() += char(data[i]);
   }
-  svdag::expect_only_errors([&] { svdag::parse(std::move(words)); }, svdag::ExitCode::kUsage);
+  static svdag::Program program;
+  svdag::expect_only_errors([&] { program.parse(std::move(words)); }, svdag::ExitCode::kUsage);
   return 0;
 }

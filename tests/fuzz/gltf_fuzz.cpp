@@ -1,7 +1,5 @@
-// Arbitrary bytes as a glTF or GLB file: an Error or triangles, within a small budget.
-#include "tests/fuzz/memory_scene.h"
+#include "tests/fuzz/reader_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  svdag::read_from_memory(svdag::read_gltf, data, size);
-  return 0;
+  return svdag::fuzz_reader(svdag::read_gltf, data, size, svdag::kDecoderMemory);
 }

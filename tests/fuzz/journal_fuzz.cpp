@@ -2,7 +2,6 @@
 // whole of it is read, and makes sense or is an Error; what makes sense can be written and read
 // again.
 #include "builder/saved_bake.h"
-#include "streaming/file_folder.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
 #include "tests/repair_files.h"
@@ -30,11 +29,10 @@ void write_and_read_again(const SavedBake& saved) noexcept {
 }
 
 void try_journal(const std::string& bytes) {
-  static const OwnFolder temp;
-  static const Folder folder = Folder::open_private(temp.path());
-  temp.write("journal", bytes);
+  static OwnFolder folder;
+  folder.write("journal", bytes);
   std::vector<JournalRecord> records;
-  Journal journal(folder.open("journal"), &records);
+  Journal journal(folder.folder().open("journal"), &records);
   expect_only_errors(
       [&] {
         const SavedBake saved = read_saved(records, "journal");

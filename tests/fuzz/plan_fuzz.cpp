@@ -34,7 +34,7 @@ std::string hash_of(const std::string& bytes) {
   return to_hex(hasher.digest());
 }
 
-void try_plan(const OwnFolder& folder, std::string_view rest) {
+void try_plan(OwnFolder& folder, std::string_view rest) {
   std::string json = next_part(&rest);
   const std::string index = next_part(&rest);
   put_hash("index_hash", hash_of(index), &json);
@@ -57,8 +57,9 @@ void try_plan(const OwnFolder& folder, std::string_view rest) {
 }  // namespace svdag
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const svdag::OwnFolder folder;
-  std::filesystem::create_directory(folder.path() + "/runs");
+  static svdag::OwnFolder folder;
+  static const bool made = std::filesystem::create_directory(folder.path() + "/runs");
+  if (!made) std::abort();
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   svdag::expect_only_errors([&] { svdag::try_plan(folder, bytes); });
   return 0;

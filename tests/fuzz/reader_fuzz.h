@@ -10,10 +10,13 @@
 
 namespace svdag {
 
+constexpr uint64_t kReaderMemory = uint64_t(64) << 20;
+constexpr uint64_t kDecoderMemory = uint64_t(256) << 20;  // of formats that are decoded as a whole
+
 inline int fuzz_reader(void (*reader)(const File&, const ReadOptions&, const TriangleSink&),
-                       const uint8_t* data, size_t size) {
+                       const uint8_t* data, size_t size, uint64_t limit = kReaderMemory) {
   const MemoryFile memory(std::as_bytes(std::span(data, size)));
-  MemoryBudget budget(uint64_t(64) << 20);
+  MemoryBudget budget(limit);
   const NameFilter names;
   try {
     reader(memory.file(), {&names, false, &budget}, [](const TriangleBatch& batch) {

@@ -1,8 +1,7 @@
 // Arbitrary bytes as a .svdag, as they are and with their checksums repaired: an Error, or a file
 // whose every node can be walked.
+#include <algorithm>
 #include <cstdlib>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "io/dag/check.h"
@@ -14,25 +13,24 @@
 namespace svdag {
 namespace {
 
-// Visits each node once; the sanitizers watch the reads.
+// Visits each node once, level by level; the sanitizers watch the reads.
 uint64_t walk(const DagView& dag) {
   uint64_t bricks = 0;
-  std::set<std::pair<uint32_t, uint32_t>> seen;
-  std::vector<std::pair<uint32_t, uint32_t>> open;  // (level, node)
-  if (!dag.empty()) open.emplace_back(0, 0);
-  while (!open.empty()) {
-    const auto [level, node] = open.back();
-    open.pop_back();
-    if (!seen.emplace(level, node).second) continue;
-    if (level == dag.brick_level()) {
-      bricks += dag.bricks[node] != 0;
-      continue;
+  std::vector<uint32_t> nodes;
+  if (!dag.empty()) nodes.push_back(0);
+  for (uint32_t level = 0; level < dag.brick_level(); ++level) {
+    std::vector<uint32_t> below;
+    for (const uint32_t node : nodes) {
+      for (unsigned c = 0; c < 8; ++c) {
+        const uint32_t child = dag_child(dag, level, node, c);
+        if (child != kNoChild) below.push_back(child);
+      }
     }
-    for (unsigned c = 0; c < 8; ++c) {
-      const uint32_t child = dag_child(dag, level, node, c);
-      if (child != kNoChild) open.emplace_back(level + 1, child);
-    }
+    std::sort(below.begin(), below.end());
+    below.erase(std::unique(below.begin(), below.end()), below.end());
+    nodes = std::move(below);
   }
+  for (const uint32_t brick : nodes) bricks += dag.bricks[brick] != 0;
   return bricks;
 }
 
