@@ -73,8 +73,6 @@ class Bake {
   void take_from_store();
   void save(BakedRun baked);
   void add(BakedRun baked);
-  const std::vector<SceneFile>& files();
-  std::string description();
   void end_phase(double* seconds, uint64_t* peak) {
     *seconds = phase_.lap();
     *peak = budget_.lap_peak();
@@ -91,7 +89,7 @@ class Bake {
   Scene scene_;
   Checkpoint checkpoint_;
   DiskNeed disk_need_{&scratch_};
-  std::vector<SceneFile> files_;    // once they were asked for
+  Description description_{config_, scene_};
   std::optional<SavedBake> saved_;  // by an earlier process
   BuildReport report_;
   std::optional<Part> part_;          // of the grid, that is baked
@@ -108,16 +106,6 @@ class Bake {
   Stopwatch phase_;
 };
 
-// Hashes cost a reading of the whole scene, so they are made when needed, and once.
-const std::vector<SceneFile>& Bake::files() {
-  if (files_.empty()) files_ = scene_files(scene_);
-  return files_;
-}
-
-std::string Bake::description() {
-  return describe(config_, config_.ready != nullptr ? std::vector<SceneFile>() : files());
-}
-
 // An earlier process may have left work behind: it is resumed, discarded, or in the way.
 void Bake::find_unfinished() {
   if (!Checkpoint::exists(folder_)) return folder_.clear();
@@ -132,7 +120,7 @@ void Bake::find_unfinished() {
   if (config_.unfinished == Unfinished::kRefuse)
     fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
                ": continue it with --resume or discard it with --restart");
-  const std::string other = difference(saved_->description, description());
+  const std::string other = difference(saved_->description, description_.text());
   if (!other.empty())
     fail_usage(config_.output + ": the unfinished bake is another one: " + other +
                "; discard it with --restart");
@@ -174,7 +162,7 @@ void Bake::split() {
     if (split_.counts.scene.triangles == 0)
       fail_input(config_.scene.paths.front(), "the scene has no triangles to bake");
     if (!split_.tree) {
-      checkpoint_.begin(description(), report_.grid);
+      checkpoint_.begin(description_.text(), report_.grid);
       checkpoint_.save_split(split_);
       keep_scratch();
     }
@@ -259,7 +247,7 @@ void Bake::describe_work(const Voxelizer& voxelizer) {
 void Bake::save(BakedRun baked) {
   if (store_) store_->keep(baked, scratch_.runs());
   const std::lock_guard lock(runs_mutex_);
-  if (!checkpoint_.begun()) checkpoint_.begin(description(), report_.grid);
+  if (!checkpoint_.begun()) checkpoint_.begin(description_.text(), report_.grid);
   checkpoint_.save_run(baked);
   keep_scratch();
   add(std::move(baked));
@@ -344,7 +332,7 @@ BuildReport Bake::run() {
   report_.seconds.cpu = cpu_seconds();
   report_.peak_counted = budget_.peak();
   report_.peak_resident = peak_resident_bytes();
-  if (config_.name_files) report_.files = files();
+  if (config_.name_files) report_.files = description_.files();
   return std::move(report_);
 }
 

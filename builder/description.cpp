@@ -68,6 +68,15 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   return out.str();
 }
 
+const std::vector<SceneFile>& Description::files() {
+  if (files_.empty()) files_ = scene_files(scene_);
+  return files_;
+}
+
+std::string Description::text() {
+  return describe(config_, config_.ready != nullptr ? std::vector<SceneFile>() : files());
+}
+
 std::string difference(const std::string& saved, const std::string& now) {
   std::istringstream a(saved), b(now);
   a.exceptions(std::ios::badbit);

@@ -17,6 +17,20 @@ std::vector<SceneFile> scene_files(const Scene& scene);
 // `files`: of the scene; a bake that is `ready` needs none, for its plan has described them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
+// Both, of one bake. Hashes cost a reading of the whole scene: they are made when needed, and once.
+class Description {
+ public:
+  Description(const BuildConfig& config, const Scene& scene) : config_(config), scene_(scene) {}
+
+  const std::vector<SceneFile>& files();
+  std::string text();
+
+ private:
+  const BuildConfig& config_;
+  const Scene& scene_;
+  std::vector<SceneFile> files_;
+};
+
 // What differs first between two descriptions, for people; empty if nothing does.
 std::string difference(const std::string& saved, const std::string& now);
 
