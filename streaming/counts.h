@@ -1,12 +1,17 @@
-// Counts that become 32-bit numbers: what does not fit is an Error, never another number.
+// Limits of counts. One that becomes a 32-bit number and does not fit is an Error, never another
+// number.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "streaming/error.h"
 
 namespace svdag {
+
+// More threads than this are taken for a slip of the pen.
+constexpr size_t kMostThreads = 1024;
 
 // `count`, or Error (kMemory) "more than 2^32 - 1 WHAT: ...".
 inline uint32_t as_u32(uint64_t count, const char* what) {

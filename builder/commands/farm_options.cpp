@@ -3,6 +3,7 @@
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "streaming/counts.h"
 
 namespace svdag {
 
@@ -69,7 +70,7 @@ CLI::App* add_run(CLI::App* program, RunCommandConfig* config) {
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   from_to(app->add_option("-j,--jobs", config->processes,
                           "Steps at once (default: as many as there are processors)"),
-          1, 1024)
+          1, kMostThreads)
       ->type_name("N");
   takes_folder(
       app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory"))

@@ -5,6 +5,7 @@
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -44,7 +45,8 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
          "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
          "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
-  from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1, 1024)
+  from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1,
+          kMostThreads)
       ->type_name("N");
   takes_folder(app->add_option("--scratch", *scratch,
                                "Folder for what does not fit in memory (default: OUT.scratch)"))

@@ -1,7 +1,5 @@
 #include "builder/farm/plan.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,7 +7,9 @@
 #include "builder/farm/plan_index.h"
 #include "streaming/atomic_file.h"
 #include "streaming/checksum.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
+#include "streaming/file.h"
 #include "streaming/file_folder.h"
 
 namespace svdag {
@@ -19,7 +19,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
 constexpr int kFormat = 2;
-constexpr size_t kMostThreads = 1024;
 constexpr std::string_view kShard = "shard-";
 
 template <class Vector>
@@ -190,8 +189,7 @@ std::vector<std::string> Plan::command(const PlanStep& step) const {
 }
 
 bool is_plan(const std::string& path) {
-  struct stat status;
-  return ::stat((path + "/" + kPlanJson).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  return name_exists(path + "/" + kPlanJson);
 }
 
 std::string plan_json(const Plan& plan, const std::string& index_hash) {

@@ -3,6 +3,7 @@
 
 #include "io/help/command_line.h"
 #include "io/units.h"
+#include "streaming/counts.h"
 #include "verify/commands/options.h"
 
 namespace svdag {
@@ -21,7 +22,7 @@ void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
 
 void add_threads(CLI::App* command, CommonConfig* config) {
   from_to(command->add_option("-j,--threads", config->threads, "Threads (default: all processors)"),
-          1, 1024)
+          1, kMostThreads)
       ->type_name("N");
 }
 

@@ -5,6 +5,7 @@
 #include "builder/commands/import/import_command.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
+#include "streaming/counts.h"
 #include "streaming/interrupt.h"
 #include "streaming/program.h"
 
@@ -44,7 +45,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "Memory budget in bytes, for example 4G (default: half of the machine)")
       ->type_name("SIZE");
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
-          1024)
+          kMostThreads)
       ->type_name("N");
   takes_folder(
       app->add_option("--scratch", import->scratch,
