@@ -24,9 +24,8 @@ class DiskNeed {
   // Runs of `bytes` were spilled for `share` of the work.
   void expect_runs(uint64_t bytes, double share);
 
-  uint64_t estimate() const {
-    return triangles_ + records_ + runs_;
-  }  // bytes; 0: nothing was spilled
+  // In bytes; 0: nothing was spilled.
+  uint64_t estimate() const { return triangles_ + records_ + runs_; }
 
  private:
   // `certain` of the `more` bytes must fit.

@@ -3,8 +3,8 @@
 
 What is repeated is the CPU time of the killed and of the resumed bake beyond that of an undisturbed one that runs
 right after them, as a share of it. The CPU time of one and the same bake differs by a third on a machine that others
-share, so that only the median over the kills of the long form is judged. Decisions are counted and judged in both
-forms: a resumed bake makes none for what was kept, which after the voxelization is everything.
+share, so that the median over all kills is judged, and less strictly in the short form. Decisions are counted, which no
+machine disturbs: a resumed bake makes none for what was kept, which after the voxelization is everything.
 """
 import json
 import os
@@ -24,7 +24,7 @@ PHASES = ["split", "voxelize", "merge", "write"]
 AFTER_VOXELIZE = ["merge", "write"]  # what was voxelized is all on disk by then
 KILLS = 10 if bakes.LONG else 2  # of each phase
 TRIES = 5  # a short phase may be over before the signal arrives
-MOST_REPEATED = 0.10  # median over all kills
+MOST_REPEATED = 0.10 if bakes.LONG else 0.25  # median over all kills
 SLACK = 1.1  # of the decisions that are left by right
 REPORT = ["--report", "report.json"]
 BAKE = bakes.Bake("some seconds", ["hairball", "-n", "500K"], ["-r", "8K", "-m", "64M", "-j", "2"])
@@ -135,8 +135,7 @@ def main():
             report.judge(f"{phase}: kills come in time", ["none did"] * (not own))
     median = statistics.median(shares)
     print(f"all        {'':>7} {len(shares):>5} {median:>15.1%} {max(shares):>6.1%}")
-    if bakes.LONG:
-        report.judge(f"at most {MOST_REPEATED:.0%} of the work is repeated", [f"{median:.1%}"] * (median > MOST_REPEATED))
+    report.judge(f"at most {MOST_REPEATED:.0%} of the work is repeated", [f"{median:.1%}"] * (median > MOST_REPEATED))
     report.finish()
 
 
