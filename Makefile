@@ -9,6 +9,8 @@
 #              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
 #           page in Chromium, fuzzers
+#   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
+#              it can be stopped at any time and goes on where it was
 #   bench   the tables and plots of docs/performance.md
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
@@ -36,8 +38,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-farm stress bench bench-giants bench-sort bench-out-of-core \
-  bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda \
+.PHONY: all deps build demo test test-farm stress fuzz-long bench bench-giants bench-sort \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda \
   cuda-packages pictures clean
 all: build
 
@@ -78,6 +80,12 @@ test-farm: build
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
 	@sh tests/stress/stress.sh
+
+fuzz-long: deps
+	$(call install,$(STRESS_PACKAGES))
+	@cmake --preset fuzz --log-level=WARNING >/dev/null
+	@cmake --build --preset fuzz --target fuzzers
+	@$(PYTHON) tests/fuzz/long_run.py $(FUZZERS)
 
 bench: build
 	$(call install,$(BENCH_PACKAGES))

@@ -37,6 +37,7 @@ READERS = {
     "npz": ["io/formats/npz.cpp", "io/formats/zip.cpp"],
     "binvox": ["io/formats/binvox.cpp"],
     "vox": ["io/formats/vox_read.cpp"],
+    "vdb": ["io/formats/vdb_child.cpp", "io/formats/vdb_read.cpp", "io/formats/sent_cubes.cpp"],
 }
 
 

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 
+import pyopenvdb
 import xxhash
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "io"))
@@ -102,6 +103,24 @@ def plys():
             yield f"types_{name}_{first}.ply", head.encode() + body + face
 
 
+def vdbs(folder):
+    """Grids as OpenVDB writes them: of one leaf, of a tile, of values, and two in a file."""
+    bools = pyopenvdb.BoolGrid()
+    bools.name = "b"
+    bools.fill((0, 0, 0), (2, 1, 0), True, True)
+    values = pyopenvdb.FloatGrid()
+    values.name, values.background = "f", 3.0
+    accessor = values.getAccessor()
+    for x in range(5):
+        accessor.setValueOn((x, 2, 3), x - 2.0)
+    tile = pyopenvdb.FloatGrid()
+    tile.name, tile.background = "t", 1.0
+    tile.fill((0, 0, 0), (127, 127, 127), 0.25, True)
+    for name, grids in (("bool", [bools]), ("float", [values]), ("tile", [tile]), ("two", [bools, values])):
+        pyopenvdb.write(str(folder / "a.vdb"), grids=grids)
+        yield name + ".vdb", (folder / "a.vdb").read_bytes()
+
+
 def main(programs, corpus):
     programs, corpus = pathlib.Path(programs).resolve(), pathlib.Path(corpus).resolve()
     with tempfile.TemporaryDirectory(prefix="svdag-seeds-") as name:
@@ -136,6 +155,11 @@ def main(programs, corpus):
                                                      for part in parts))
         for name, data in scenes(corpus):
             keep("gltf", name, data)
+        svdag("build", "one.stl", "-o", "a.svdag", "-r", "16")
+        svdag("export", "a.svdag", "-o", "mask.vdb")
+        keep("vdb", "mask.vdb", (folder / "mask.vdb").read_bytes())
+        for name, data in vdbs(folder):
+            keep("vdb", name, data)
         for name, data in plys():
             keep("ply", name, data)
         keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"

@@ -35,7 +35,7 @@ sh tests/stress/deb_test.sh build/release build/deb
 
 echo "Fuzzers, $seconds s each"
 cmake --preset fuzz --log-level=WARNING >/dev/null
-cmake --build --preset fuzz
+cmake --build --preset fuzz --target fuzzers
 for fuzzer in build/fuzz/tests/*_fuzz; do
   [ -x "$fuzzer" ] || continue
   name=$(basename "$fuzzer")

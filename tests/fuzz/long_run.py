@@ -1,0 +1,116 @@
+"""make fuzz-long: 10^8 executions of every fuzzer, in pieces that a night can be made of.
+
+A piece is five minutes of one fuzzer on one core; its executions are added to build/fuzz/long/NAME.json
+when it has ended well, so the run can be stopped at any time and goes on with the next call, from the
+corpus it had. What was counted belongs to the bytes of one program: another build begins at nothing.
+
+Usage: long_run.py [--executions N] [--jobs N] [--minutes N] [FUZZER...]"""
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import threading
+import time
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BUILD = SOURCE / "build" / "fuzz"
+KEPT = BUILD / "long"
+PIECE_SECONDS = 300
+LIMITS = ["-rss_limit_mb=2048", "-timeout=20"]
+
+
+class Fuzzer:
+    def __init__(self, name):
+        self.name = name
+        self.program = BUILD / "tests" / (name + "_fuzz")
+        self.corpus = BUILD / "corpus" / (name + "_fuzz")
+        self.corpus.mkdir(parents=True, exist_ok=True)
+        digest = hashlib.sha256(self.program.read_bytes()).hexdigest()
+        self.kept = {"program": digest, "executions": 0, "seconds": 0, "edges": 0}
+        path = KEPT / (name + ".json")
+        if path.exists():
+            kept = json.loads(path.read_text())
+            if kept["program"] == digest:
+                self.kept = kept
+
+    def piece(self, executions, seconds):
+        """Runs one piece. Returns what it found: "" or its last lines."""
+        seeds = SOURCE / "tests" / "fuzz" / "corpus" / (self.name + "_fuzz")
+        words = SOURCE / "tests" / "fuzz" / (self.name + "_fuzz.dict")
+        command = [self.program, self.corpus, seeds, *LIMITS, f"-artifact_prefix={KEPT}/{self.name}-",
+                   f"-runs={executions}", f"-max_total_time={seconds}", "-print_final_stats=1"]
+        if words.exists():
+            command.append(f"-dict={words}")
+        began = time.monotonic()
+        run = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        text = run.stderr.decode(errors="replace")
+        done = re.search(r"^stat::number_of_executed_units: (\d+)", text, re.MULTILINE)
+        if run.returncode != 0 or not done:
+            return "\n".join(text.splitlines()[-40:]) or f"exit code {run.returncode}"
+        self.kept["executions"] += int(done.group(1))
+        self.kept["seconds"] += round(time.monotonic() - began)
+        self.kept["edges"] = int(re.findall(r" cov: (\d+) ", text)[-1])
+        self.keep()
+        return ""
+
+    def keep(self):
+        path = KEPT / (self.name + ".json")
+        path.with_suffix(".new").write_text(json.dumps(self.kept) + "\n")
+        os.replace(path.with_suffix(".new"), path)
+
+
+def run_all(waiting, executions, jobs, until):
+    """Every core takes the next fuzzer that is not done. Returns (name, finding) of those that found."""
+    found = []
+    lock = threading.Lock()
+
+    def work():
+        while True:
+            with lock:
+                if not waiting:
+                    return
+                fuzzer = waiting.pop(0)
+            while fuzzer.kept["executions"] < executions and time.monotonic() < until:
+                seconds = int(min(PIECE_SECONDS, until - time.monotonic())) + 1
+                finding = fuzzer.piece(executions - fuzzer.kept["executions"], seconds)
+                if finding:
+                    found.append((fuzzer.name, finding))
+                    break
+
+    threads = [threading.Thread(target=work) for _ in range(jobs)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--executions", type=int, default=10**8, help="of each fuzzer (10^8)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="fuzzers at a time (a core each)")
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="stop after so many")
+    parser.add_argument("fuzzers", nargs="*", metavar="FUZZER", help="their names (all)")
+    arguments = parser.parse_args()
+    KEPT.mkdir(parents=True, exist_ok=True)
+    built = sorted(path.name[:-5] for path in (BUILD / "tests").glob("*_fuzz"))
+    fuzzers = [Fuzzer(name) for name in arguments.fuzzers or built]
+    until = time.monotonic() + 60 * arguments.minutes
+    found = run_all(list(fuzzers), arguments.executions, arguments.jobs, until)
+    print(f"{'fuzzer':15} {'executions':>12} {'per second':>11} {'edges':>6}")
+    for fuzzer in fuzzers:
+        kept = fuzzer.kept
+        print(f"{fuzzer.name:15} {kept['executions']:12,} {kept['executions'] // max(1, kept['seconds']):11,} "
+              f"{kept['edges']:6}" + ("" if kept["executions"] >= arguments.executions else "  not all yet"))
+    for name, finding in found:
+        print(f"\n{name} found:\n{finding}")
+    print(f"{len(found)} findings")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
