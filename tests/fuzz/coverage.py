@@ -44,7 +44,8 @@ READERS = {
 def build(targets):
     for command in (["cmake", "--preset", "coverage", "--log-level=WARNING"],
                     ["cmake", "--build", "--preset", "coverage", "--target", *[f"{t}_fuzz" for t in targets]]):
-        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "CCACHE_DISABLE": "1"})  # it would name files as the build did that filled it
 
 
 def run(binary, target, seconds, profile):

@@ -104,7 +104,7 @@ def plys():
 
 
 def vdbs(folder):
-    """Grids as OpenVDB writes them: of one leaf, of a tile, of values, and two in a file."""
+    """Grids as OpenVDB writes them: of one leaf, of a tile, of values, of vectors; two in a file, two of one tree."""
     bools = pyopenvdb.BoolGrid()
     bools.name = "b"
     bools.fill((0, 0, 0), (2, 1, 0), True, True)
@@ -116,9 +116,19 @@ def vdbs(folder):
     tile = pyopenvdb.FloatGrid()
     tile.name, tile.background = "t", 1.0
     tile.fill((0, 0, 0), (127, 127, 127), 0.25, True)
-    for name, grids in (("bool", [bools]), ("float", [values]), ("tile", [tile]), ("two", [bools, values])):
+    full = pyopenvdb.BoolGrid()
+    full.fill((0, 0, 0), (127, 127, 127), True, True)
+    instance = bools.copy()
+    instance.name = "i"
+    for name, grids in (("bool", [bools]), ("float", [values]), ("tile", [tile]), ("bool_tile", [full]), ("two", [bools, values]),
+                        ("instance", [instance, bools]), ("vectors", [pyopenvdb.Vec3SGrid()])):
         pyopenvdb.write(str(folder / "a.vdb"), grids=grids)
-        yield name + ".vdb", (folder / "a.vdb").read_bytes()
+        data = (folder / "a.vdb").read_bytes()
+        yield name + ".vdb", data + bytes(len(data) % 2)
+        if name in ("two", "instance"):  # an odd number of bytes asks for grid "b"
+            yield name + "_named.vdb", data + bytes(1 - len(data) % 2)
+        if name == "bool":               # as a stream writes it
+            yield name + "_streamed.vdb", data[:20] + b"\0" + data[21:]
 
 
 def main(programs, corpus):
