@@ -1,5 +1,6 @@
 #include "streaming/error.h"
 
+#include <algorithm>
 #include <new>
 #include <system_error>
 
@@ -10,6 +11,8 @@ std::string compose(const std::string& sentence, const std::string& path,
                     std::optional<uint64_t> offset) {
   std::string text = path.empty() ? sentence : path + ": " + sentence;
   if (offset) text += " (at byte " + std::to_string(*offset) + ")";
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;
 }
 

@@ -27,7 +27,7 @@ enum class ExitCode : int {
 
 class Error : public std::runtime_error {
  public:
-  // `sentence` without a full stop; `path` and the byte `offset` in it are put in front and behind.
+  // what(): `path`, `sentence` (without a full stop), byte `offset`; '?' for control characters.
   Error(ExitCode code, const std::string& sentence, const std::string& path = {},
         std::optional<uint64_t> offset = {});
 

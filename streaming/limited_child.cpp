@@ -192,13 +192,6 @@ class Child {
   int pipe_ = -1;
 };
 
-std::string printable(std::span<const std::byte> bytes) {
-  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
 }  // namespace
 
 void run_limited(const ChildLimits& limits, const std::string& path,
@@ -225,7 +218,8 @@ void run_limited(const ChildLimits& limits, const std::string& path,
     if (bytes.empty()) stopped("it needs more memory than it may have");
     const ExitCode code = ExitCode(frame.code);
     const bool known = code == ExitCode::kMemory || code == ExitCode::kUsage;
-    throw Error(known ? code : ExitCode::kBadInput, printable(bytes));
+    const std::string sentence(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    throw Error(known ? code : ExitCode::kBadInput, sentence);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "io/scene/gltf_uri.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
@@ -13,12 +12,9 @@
 namespace svdag {
 namespace {
 
-// A URI may be a megabyte of anything: errors show its beginning, without control characters.
+// A URI may be a megabyte: errors show its beginning.
 std::string shown(std::string_view uri) {
-  std::string text(uri.substr(0, 60));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return "\"" + text + (uri.size() > 60 ? "...\"" : "\"");
+  return "\"" + std::string(uri.substr(0, 60)) + (uri.size() > 60 ? "...\"" : "\"");
 }
 
 int hex_digit(char c) {

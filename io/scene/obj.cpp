@@ -110,10 +110,8 @@ class ObjLines {
   }
 
   [[noreturn]] void refuse(std::string_view statement) const {
-    std::string name(statement.substr(0, 40));
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c < ' '; }, '?');
-    scanner_.fail("has a statement \"" + name + "\", which svdag does not read");
+    scanner_.fail("has a statement \"" + std::string(statement.substr(0, 40)) +
+                  "\", which svdag does not read");
   }
 
   // What follows x, y, z (a weight, colours) is skipped.

@@ -16,6 +16,12 @@ TEST(Error, SentenceStandsAloneWithoutPathAndOffset) {
   EXPECT_STREQ(Error(ExitCode::kUsage, "give a number").what(), "give a number");
 }
 
+TEST(Error, NamesOfStrangersReachNoTerminalAsTheyAre) {
+  const Error error(ExitCode::kBadInput, "has no grid \x1b[2J\n\x7f", "red\x1b[31m.vdb");
+  EXPECT_STREQ(error.what(), "red?[31m.vdb: has no grid ?[2J??");
+  EXPECT_EQ(error.path(), "red\x1b[31m.vdb");
+}
+
 TEST(Error, ShorthandsCarryTheirExitCodes) {
   EXPECT_SVDAG_ERROR(fail_input("b.obj", "is broken", 3), ExitCode::kBadInput, "b.obj: is broken");
   EXPECT_SVDAG_ERROR(fail_usage("no such rule"), ExitCode::kUsage, "no such rule");
