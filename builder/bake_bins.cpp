@@ -7,9 +7,9 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kBatch = 4096;         // triangles read at once
-constexpr int kCellsBelow = 2;          // levels from a bin's cube to its cells: work to share out
-constexpr int kSmallestCellLog2 = 6;    // of the side of such a cell in voxels
+constexpr size_t kBatch = 4096;       // triangles read at once
+constexpr int kCellsBelow = 2;        // levels from a bin's cube to its cells: work to share out
+constexpr int kSmallestCellLog2 = 6;  // of the side of such a cell in voxels
 
 }  // namespace
 
@@ -54,8 +54,8 @@ std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin
   if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return nullptr;
   const int finest = std::max(grid_.levels - kSmallestCellLog2, bin.cube.level);
   const int cell_level = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
-  auto tree = std::make_unique<CellTree>(
-      grid_, bin.cube, std::min({cell_level, finest, grid_.levels - 2}), budget_);
+  auto tree = std::make_unique<CellTree>(grid_, bin.cube,
+                                         std::min({cell_level, finest, grid_.levels - 2}), budget_);
   const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
     for (const LatticeTriangle& triangle : triangles) tree->add(triangle);
     return tree->bytes(split_.workers) <= split_.triangle_bytes;
@@ -94,7 +94,13 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
     return true;
   });
   uint64_t at = bin.range.begin;
-  for (const TriangleBin& part : bins.finish()) {
+  const std::vector<TriangleBin> parts = bins.finish();
+  double triangles = 0, done_triangles = 0;
+  for (const TriangleBin& part : parts) triangles += double(part.triangles);
+  for (const TriangleBin& part : parts) {
+    const double begin = done_triangles / triangles;
+    done_triangles += double(part.triangles);
+    const Progress::Part of_bin(progress_, begin, done_triangles / triangles);
     voxelizer_->note_empty({at, part.range.begin});
     bake(passing, part);
     passing->free(part.stream);

@@ -100,9 +100,8 @@ class Bake {
   std::vector<Run> runs_;
   std::vector<CellRoot> roots_;
   bool spilled_ = false;
-  uint64_t spilled_bytes_ = 0;            // of runs_
-  double bins_done_ = 0, bin_share_ = 1;  // of the triangles: bins that are done, the current one
-  std::atomic<bool> saves_{false};        // something can be resumed
+  uint64_t spilled_bytes_ = 0;      // of runs_
+  std::atomic<bool> saves_{false};  // something can be resumed
   Stopwatch phase_;
 };
 
@@ -193,13 +192,13 @@ void Bake::voxelize() {
                    executor_, progress_);
     SpillFile* const file =
         config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
-    uint64_t triangles = 0, done_triangles = 0;
-    for (const TriangleBin& bin : split_.bins) triangles += bin.triangles;
+    double triangles = 0, done_triangles = 0;
+    for (const TriangleBin& bin : split_.bins) triangles += double(bin.triangles);
     for (const TriangleBin& bin : split_.bins) {
-      bins_done_ = double(done_triangles) / double(triangles);
-      bin_share_ = double(bin.triangles) / double(triangles);
+      const double begin = done_triangles / triangles;
+      done_triangles += double(bin.triangles);
+      const Progress::Part part(progress_, begin, done_triangles / triangles);
       baker.bake(file, bin);
-      done_triangles += bin.triangles;
     }
   }
   describe_work(voxelizer);
@@ -251,7 +250,7 @@ void Bake::save(BakedRun baked) {
   checkpoint_.save_run(baked);
   keep_scratch();
   add(std::move(baked));
-  disk_need_.expect_runs(spilled_bytes_, bins_done_ + bin_share_ * progress_->share());
+  disk_need_.expect_runs(spilled_bytes_, progress_->share());
 }
 
 void Bake::add(BakedRun baked) {

@@ -110,7 +110,6 @@ class ExternalSort {
   void for_parts(std::span<const Bucket> buckets, size_t parts, const Task& task) {
     const std::vector<size_t> begin = even_parts(buckets, parts);
     room_.executor->for_each(parts, [&](size_t, size_t part) {
-      check_interrupt();
       task(part, buckets.subspan(begin[part], begin[part + 1] - begin[part]));
     });
   }
@@ -121,6 +120,7 @@ class ExternalSort {
     std::vector<Stream> streams(workers());
     const uint64_t number = new_streams(workers());
     for_parts(buckets, workers(), [&](size_t part, std::span<const Bucket> own) {
+      check_interrupt();
       Writer writer(file_.get(), number + part, &own_);
       for (const Bucket& bucket : own) writer.append(sort(bucket));
       streams[part] = writer.finish();
@@ -136,7 +136,8 @@ class ExternalSort {
     const std::vector<Bucket> buckets = split();
     Turns turns;
     for_parts(buckets, 16 * workers(), [&](size_t part, std::span<const Bucket> own) {
-      try {
+      try {  // whatever ends a part must end those that wait for their turn behind it
+        check_interrupt();
         std::vector<std::span<const Record>> sorted;
         for (const Bucket& bucket : own) sorted.push_back(sort(bucket));
         turns.take(part, [&] {

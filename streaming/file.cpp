@@ -29,6 +29,8 @@ std::string reason(int error) {
       return "the disk quota is used up";
     case EROFS:
       return "the file system is read-only";
+    case EMFILE:
+      return "this process has too many open files (ulimit -n)";
     case ESTALE:
       return "the file server has replaced or forgotten it";
     case ETIMEDOUT:
@@ -46,9 +48,21 @@ std::string random_suffix() {
   return text;
 }
 
-// What only a file server says: it may be well again a moment later, whatever was asked of it.
-bool is_of_server(int error) {
-  return error == ESTALE || error == ETIMEDOUT;
+// What may be well again a moment later, or with more of something, whatever was asked of a file:
+// it is no fault of what is in it.
+ExitCode code_of(int error, ExitCode otherwise) {
+  switch (error) {
+    case EIO:
+    case ESTALE:  // of a file server
+    case ETIMEDOUT:
+      return ExitCode::kOutput;
+    case EMFILE:
+    case ENFILE:
+    case ENOMEM:
+      return ExitCode::kMemory;
+    default:
+      return otherwise;
+  }
 }
 
 bool is_same(const struct stat& a, const struct stat& b) {
@@ -62,6 +76,11 @@ bool names(const std::string& path, int fd) {
   return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 && is_same(own, named);
 }
 
+// Whether link_as() can name a file that has no name: the kernel must tell what is open.
+bool can_be_named() {
+  return ::access("/proc/self/fd", X_OK) == 0;
+}
+
 // From direct transfers back to those through the page cache; false if they were that already.
 bool leave_direct(int fd) {
   const int flags = ::fcntl(fd, F_GETFL);
@@ -71,8 +90,7 @@ bool leave_direct(int fd) {
 }  // namespace
 
 void fail_call(ExitCode code, const char* what, const std::string& path, int error) {
-  throw Error(is_of_server(error) ? ExitCode::kOutput : code,
-              std::string(what) + ": " + reason(error), path);
+  throw Error(code_of(error, code), std::string(what) + ": " + reason(error), path);
 }
 
 File File::open_read(const std::string& path) {
@@ -91,9 +109,12 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   const std::string& shown = shown_as.empty() ? folder : shown_as;
   int fd = retry_interrupted(
       [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
-  if (fd >= 0) return File(fd, shown, ExitCode::kOutput);
-  if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)
+  if (fd >= 0 && can_be_named()) return File(fd, shown, ExitCode::kOutput);
+  if (fd >= 0) {
+    ::close(fd);
+  } else if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT) {
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  }
   if (::access(folder.c_str(), F_OK) != 0)
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   const std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 
+#include "streaming/cgroup.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -54,14 +54,8 @@ void MemoryBudget::Reservation::release() noexcept {
 }
 
 uint64_t default_memory_limit() {
-  uint64_t allowed = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
-  // cgroup v2, then v1; "max" does not parse and leaves the machine's memory.
-  for (const char* path :
-       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    uint64_t limit = 0;
-    if (std::ifstream(path) >> limit && limit > 0) allowed = std::min(allowed, limit);
-  }
-  return allowed / 2;
+  const uint64_t machine = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
+  return std::min(machine, cgroup_memory_limit()) / 2;
 }
 
 uint64_t peak_resident_bytes() {

@@ -1,5 +1,9 @@
 #include "streaming/program.h"
 
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <cstdio>
 
 #include "streaming/interrupt.h"
@@ -12,9 +16,21 @@ int tell(const ProgramWords& words, const char* sentence, int code) {
   return code;
 }
 
+// What whoever started the program has left: ignored ends of children, of which none could then be
+// waited for, and few open files where a merge has thousands of runs.
+void settle_inheritance() {
+  constexpr rlim_t kOpenFiles = 65536;
+  ::signal(SIGCHLD, SIG_DFL);
+  rlimit files;
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= kOpenFiles) return;
+  files.rlim_cur = std::min(files.rlim_max, kOpenFiles);
+  ::setrlimit(RLIMIT_NOFILE, &files);
+}
+
 }  // namespace
 
 int run_program(const ProgramWords& words, const std::function<int()>& work) {
+  settle_inheritance();
   try {
     const int result = work();
     if (std::fflush(stdout) != 0)

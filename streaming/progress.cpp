@@ -36,7 +36,7 @@ void Progress::advance(uint64_t steps) {
 void Progress::draw(uint64_t done) {
   char count[32] = "";
   if (total_ > 0)
-    std::snprintf(count, sizeof count, " %3.0f %%", 100.0 * double(done) / double(total_));
+    std::snprintf(count, sizeof count, " %3.0f %%", 100.0 * share(done));
   else if (done > 0)
     std::snprintf(count, sizeof count, " %llu", static_cast<unsigned long long>(done));
   // The last column stays free, since some terminals wrap when it is written. What is counted

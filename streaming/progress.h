@@ -25,10 +25,34 @@ class Progress {
   // Counts steps; safe to call from any thread.
   void advance(uint64_t steps = 1);
   void finish();
-  // The share of the phase that is done; 0 if its length is unknown.
-  double share() const { return total_ == 0 ? 0 : double(done_.load()) / double(total_); }
+  // The share of the phase that is done, or of what it is a Part of; 0 if its length is unknown.
+  double share() const { return share(done_.load()); }
+
+  // While it lives, every phase is the part from `begin` to `end` of the whole, 0 to 1; or of the
+  // Part around it. So what is done in many phases of one kind is counted once.
+  class Part {
+   public:
+    Part(Progress* progress, double begin, double end)
+        : progress_(progress), begin_(progress->begin_), size_(progress->size_) {
+      progress->begin_ = begin_ + size_ * begin;
+      progress->size_ = size_ * (end - begin);
+    }
+    ~Part() {
+      progress_->begin_ = begin_;
+      progress_->size_ = size_;
+    }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    Progress* progress_;
+    double begin_, size_;  // of what is around it
+  };
 
  private:
+  double share(uint64_t done) const {
+    return begin_ + (total_ == 0 ? 0 : size_ * double(done) / double(total_));
+  }
   void draw(uint64_t done);
   void show(std::string line);
 
@@ -36,6 +60,7 @@ class Progress {
   size_t drawn_ = 0;  // columns of the line that stands there
   std::string name_;
   uint64_t total_ = 0;
+  double begin_ = 0, size_ = 1;  // of the Part
   std::atomic<uint64_t> done_{0};
   std::atomic<int64_t> next_draw_{0};  // milliseconds since start_
   std::chrono::steady_clock::time_point start_;

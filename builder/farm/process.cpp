@@ -55,10 +55,11 @@ int code_of(int status) {
 }
 
 int wait_for(pid_t process) {
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  for (;;) {
+    int status = 0;
+    if (::waitpid(process, &status, 0) == process) return code_of(status);
+    if (errno != EINTR) return int(ExitCode::kInternal);  // nobody knows how it ended
   }
-  return code_of(status);
 }
 
 }  // namespace
@@ -73,8 +74,9 @@ pid_t start_process(const std::vector<std::string>& command, const std::string& 
 
 bool has_ended(pid_t process, int* code) {
   int status = 0;
-  if (::waitpid(process, &status, WNOHANG) != process) return false;
-  *code = code_of(status);
+  const pid_t ended = ::waitpid(process, &status, WNOHANG);
+  if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
+  *code = ended == process ? code_of(status) : int(ExitCode::kInternal);  // nobody knows how
   return true;
 }
 

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
+#include <thread>
 
 #include "streaming/file_folder.h"
+#include "streaming/interrupt.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
@@ -126,6 +129,26 @@ TEST(ExternalSort, AnErrorOfTheTakerEndsTheSort) {
     };
     EXPECT_SVDAG_ERROR(sorter.sort.finish(fail_soon), ExitCode::kOutput, "no more");
   }
+}
+
+// Nor for that of one that a signal stopped before it had begun.
+TEST(ExternalSort, AnInterruptEndsTheSort) {
+  std::atomic<bool> finishing{false};
+  ParallelExecutor executor(2, [&](size_t index) {
+    if (!finishing || index != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // others wait for this one
+    pretend_interrupt(2);
+  });
+  TempFolder temp;
+  const Folder folder = Folder::open_private(temp.path());
+  MemoryBudget budget;
+  ExternalSort<Key, uint32_t (*)(const Key&, size_t)> sort(
+      {&budget, 8 << 20, &executor, [&] { return folder.create("spill"); }}, 8,
+      [](const Key& k, size_t i) { return k[i]; });
+  for (const Key& key : make_keys(Kind::kRandom, 10000, 8)) sort.push(key);
+  finishing = true;
+  EXPECT_THROW(sort.finish([](std::span<const Key>) {}), Interrupted);
+  pretend_interrupt(0);
 }
 
 }  // namespace

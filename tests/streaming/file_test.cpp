@@ -1,5 +1,6 @@
 #include "streaming/file.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "tests/expect_error.h"
@@ -143,6 +144,22 @@ TEST(File, SameFileSeesThroughNames) {
   EXPECT_TRUE(same_file(a, folder.file("link")));
   EXPECT_FALSE(same_file(a, b));
   EXPECT_FALSE(same_file(folder.file("none"), folder.file("none")));
+}
+
+// What the system lacks is no fault of the file: a farm tries 4 and 5 again, and never 3.
+TEST(File, TooManyOpenFilesAreNoBadInput) {
+  const TempFolder folder;
+  const std::string path = folder.write("a", "a");
+  rlimit before;
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit few = {4, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  const auto open_some = [&] {
+    std::vector<File> files;
+    for (int i = 0; i < 8; ++i) files.push_back(File::open_read(path));
+  };
+  EXPECT_SVDAG_ERROR(open_some(), ExitCode::kMemory, "too many open files (ulimit -n)");
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
 }
 
 }  // namespace

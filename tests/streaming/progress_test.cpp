@@ -25,6 +25,23 @@ TEST(Progress, CountsStepsOrTheirShare) {
   EXPECT_NE(drawn(Progress::Mode::kOn, 4, 1).find("\rsplit  25 %"), std::string::npos);
 }
 
+TEST(Progress, PhasesOfPartsCountOnceAndNeverGoBack) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(Progress::Mode::kOn);
+    const Progress::Part second(&progress, 0.5, 1);
+    for (const double begin : {0.0, 0.5}) {
+      const Progress::Part quarter(&progress, begin, begin + 0.5);
+      progress.phase("bin", 4);
+      progress.advance(2);
+      EXPECT_EQ(progress.share(), 0.5 + begin / 2 + 0.125);
+    }
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("\rbin  50 %\rbin  62 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("\rbin  75 %\rbin  88 %"), std::string::npos) << text;
+}
+
 TEST(Progress, NeedsNoEscapeSequence) {
   EXPECT_EQ(drawn(Progress::Mode::kOn, 4, 1).find('\033'), std::string::npos);
 }
