@@ -1,8 +1,7 @@
-// Drawing the bricks of a sample: from the DAG, and along the triangles.
-#include <algorithm>
+// Drawing bricks of a DAG, and both sides of a sample together.
 #include <bit>
-#include <cmath>
 
+#include "streaming/error.h"
 #include "verify/node_index.h"
 #include "verify/sample.h"
 
@@ -40,34 +39,6 @@ class BrickCounts {
   std::vector<Level> levels_;
 };
 
-double area(const LatticeTriangle& t) {
-  const Point a(t.v[1] - t.v[0]), b(t.v[2] - t.v[0]);
-  const Point n(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-  return std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-}
-
-// The brick of a random point of the triangle, moved by up to a voxel on each axis; false if that
-// is outside the selection.
-bool draw_brick(const LatticeTriangle& t, const Grid& grid, Random& random, uint64_t* code) {
-  double a = random.unit(), b = random.unit();
-  if (a + b > 1) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  const double side = double(int64_t(1) << grid.fraction());
-  LatticePoint brick;
-  for (int i = 0; i < 3; ++i) {
-    const double q =
-        double(t.v[0][i]) + a * double(t.v[1][i] - t.v[0][i]) + b * double(t.v[2][i] - t.v[0][i]);
-    const double voxel = std::floor(q / side + 2 * random.unit() - 1);
-    if (!(voxel >= double(grid.selection.min[i]) && voxel < double(grid.selection.max[i])))
-      return false;
-    brick[i] = int64_t(voxel) / kBrickSide;
-  }
-  *code = cell_code(brick);
-  return true;
-}
-
 }  // namespace
 
 std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& random) {
@@ -95,32 +66,25 @@ std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& ran
   return codes;
 }
 
-std::vector<uint64_t> sample_scene(const Scene& scene, const Grid& grid, uint64_t count,
-                                   Random& random) {
-  double total_area = 0;
-  uint64_t triangles = 0;
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    triangles += batch.size();
-    for (const LatticeTriangle& t : batch) total_area += area(t);
-  });
-  std::vector<double> targets(count);
-  for (double& target : targets) target = random.unit();
-  std::sort(targets.begin(), targets.end());
-  // Triangle after triangle takes the targets that its share of the unit interval covers.
-  std::vector<uint64_t> codes;
-  double covered = 0;
-  size_t next = 0;
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    for (const LatticeTriangle& t : batch) {
-      const double by_area = total_area > 0 ? area(t) / total_area : 1 / double(triangles);
-      covered += 0.5 * by_area + 0.5 / double(triangles);
-      for (; next < count && targets[next] < covered; ++next) {
-        uint64_t code;
-        if (draw_brick(t, grid, random, &code)) codes.push_back(code);
-      }
-    }
-  });
-  return codes;
+std::vector<uint64_t> BrickDraw::all() const {
+  std::vector<uint64_t> all = scene.all();
+  all.insert(all.end(), file.begin(), file.end());
+  return all;
+}
+
+BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
+                      uint64_t seed) {
+  Random random(seed);
+  BrickDraw draw;
+  draw.scene = draw_scene(scene, grid, count - count / 2, random);
+  draw.file = sample_dag(dag, count - draw.scene.all().size(), random);
+  return draw;
+}
+
+void fail_untested() {
+  fail_usage(
+      "--sample: nothing could be drawn, so nothing was tested: the file has no voxel, and no "
+      "triangle was found in its grid; leave --sample out to compare all");
 }
 
 }  // namespace svdag

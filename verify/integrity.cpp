@@ -150,6 +150,23 @@ bool outside(const DagView& dag, const Header& h, uint32_t level, uint32_t node,
   return false;
 }
 
+// The corner of a lattice is a plane of the world, from which cells of up to 1024 voxels keep their
+// content; a box has no such planes.
+void check_lattice(const Header& header, std::vector<std::string>* defects) {
+  const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
+  for (const int64_t k0 : header.k0) {
+    if (lattice && k0 % 1024 != 0)
+      defects->push_back("the lattice plane k0 of the grid's corner is " + std::to_string(k0) +
+                         ", not a multiple of 1024");
+    if (!lattice && k0 != 0)
+      defects->push_back("the grid is a box, but has a lattice plane k0 = " + std::to_string(k0));
+  }
+  for (int a = 0; lattice && a < 3; ++a) {
+    if (header.corner[a] != (double(header.k0[a]) + 0.5) * header.voxel_size)
+      defects->push_back("the grid's corner is not at the lattice plane of its number k0");
+  }
+}
+
 }  // namespace
 
 IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata) {
@@ -162,12 +179,7 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
   if (report.voxels != header.voxels)
     report.defects.push_back("the header counts " + std::to_string(header.voxels) +
                              " voxels, the DAG holds " + std::to_string(report.voxels));
-  if (header.grid_kind == uint32_t(Grid::Kind::kLattice)) {
-    for (int a = 0; a < 3; ++a) {
-      if (header.corner[a] != (double(header.k0[a]) + 0.5) * header.voxel_size)
-        report.defects.push_back("the grid's corner is not at the lattice plane of its number k0");
-    }
-  }
+  check_lattice(header, &report.defects);
   // A move is less than half a lattice step, plus the rounding of the move itself.
   if (!(header.largest_snap >= 0 && header.largest_snap <= std::ldexp(0.5, -int(header.fraction))))
     report.defects.push_back("the largest snap is more than half a lattice step");

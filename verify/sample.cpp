@@ -76,25 +76,35 @@ void BrickSample::fill(const LatticeTriangle& triangle, Judge& judge, size_t ind
   if (brick != 0) std::atomic_ref(bricks_[index]).fetch_or(brick, std::memory_order_relaxed);
 }
 
+Brick BrickSample::in_file(const DagView& dag, size_t index) const {
+  const LatticePoint brick = cell_of_code(codes_[index]);
+  return dag_brick(dag, uint32_t(brick.x), uint32_t(brick.y), uint32_t(brick.z));
+}
+
 Comparison BrickSample::compare(const DagView& dag) const {
   Comparison result;
-  for (size_t i = 0; i < codes_.size(); ++i) {
-    const LatticePoint brick = cell_of_code(codes_[i]);
-    const Brick file = dag_brick(dag, uint32_t(brick.x), uint32_t(brick.y), uint32_t(brick.z));
-    result.add(bricks_[i], file, brick * int64_t(kBrickSide));
-  }
+  for (size_t i = 0; i < codes_.size(); ++i)
+    result.add(bricks_[i], in_file(dag, i), cell_of_code(codes_[i]) * int64_t(kBrickSide));
   return result;
 }
 
-Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
-                          uint64_t seed, const JudgeChoice& choice, Executor& executor,
-                          Progress& progress) {
+uint64_t BrickSample::count_wrong(const DagView& dag, const std::vector<uint64_t>& draws) const {
+  uint64_t wrong = 0;
+  for (const uint64_t code : draws) {
+    const auto at = std::lower_bound(codes_.begin(), codes_.end(), code);
+    const size_t index = size_t(at - codes_.begin());
+    wrong += bricks_[index] != in_file(dag, index);
+  }
+  return wrong;
+}
+
+SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid,
+                                uint64_t count, uint64_t seed, const JudgeChoice& choice,
+                                Executor& executor, Progress& progress) {
   const std::vector<std::unique_ptr<Judge>> judges = make_judges(choice, executor.workers());
-  Random random(seed);
   progress.phase("drawing bricks", 0);
-  std::vector<uint64_t> codes = sample_dag(dag, count - count / 2, random);
-  const std::vector<uint64_t> along = sample_scene(scene, grid, count / 2, random);
-  codes.insert(codes.end(), along.begin(), along.end());
+  const BrickDraw draw = draw_bricks(scene, dag, grid, count, seed);
+  std::vector<uint64_t> codes = draw.all();
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
 
@@ -115,7 +125,16 @@ Comparison compare_sample(const Scene& scene, const DagView& dag, const Grid& gr
   });
   flush();
   progress.finish();
-  return sample.compare(dag);
+  SampleComparison result;
+  result.comparison = sample.compare(dag);
+  result.file = {draw.file.size(), sample.count_wrong(dag, draw.file)};
+  for (size_t m = 0; m < kMeasures; ++m) {
+    const std::vector<uint64_t>& drawn = draw.scene.codes[m];
+    result.scene[m] = {drawn.size(), sample.count_wrong(dag, drawn)};
+  }
+  result.both_empty = draw.both_empty();
+  result.untested = draw.untested();
+  return result;
 }
 
 }  // namespace svdag

@@ -5,8 +5,6 @@
 namespace svdag {
 namespace {
 
-using Polygon = std::vector<Point>;
-
 // What of `polygon` lies on the side of x_axis = at to which `sign` points.
 Polygon cut(const Polygon& polygon, int axis, double sign, double at) {
   Polygon kept;
@@ -23,6 +21,14 @@ Polygon cut(const Polygon& polygon, int axis, double sign, double at) {
 }
 
 }  // namespace
+
+Polygon cut_to_box(Polygon polygon, const Point& low, const Point& high) {
+  for (int a = 0; a < 3; ++a) {
+    polygon = cut(polygon, a, 1, low[a]);
+    polygon = cut(polygon, a, -1, high[a]);
+  }
+  return polygon;
+}
 
 bool is_near(const LatticeTriangle& t, const VoxelBox& window, int fraction) {
   for (int a = 0; a < 3; ++a) {
@@ -48,10 +54,9 @@ void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, i
     }
     polygon.push_back(p);
   }
-  for (int a = 0; far && a < 3; ++a) {
-    polygon = cut(polygon, a, 1, double(-kCutMargin));
-    polygon = cut(polygon, a, -1, double(window.max[a] - window.min[a] + kCutMargin));
-  }
+  if (far)
+    polygon = cut_to_box(std::move(polygon), Point(double(-kCutMargin)),
+                         Point(window.max - window.min + kCutMargin));
   for (size_t i = 2; i < polygon.size(); ++i)
     out->push_back({{polygon[0], polygon[i - 1], polygon[i]}});
 }

@@ -16,6 +16,10 @@ namespace svdag {
 
 constexpr int64_t kCutMargin = 4;
 
+// The part of a convex polygon in the closed box; it may be a segment or a point, or empty.
+using Polygon = std::vector<Point>;
+Polygon cut_to_box(Polygon polygon, const Point& low, const Point& high);
+
 // Whether the triangle's box meets the window and a voxel around it: else it is nearer than a voxel
 // to no centre in the window.
 bool is_near(const LatticeTriangle& triangle, const VoxelBox& window, int fraction);

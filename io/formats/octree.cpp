@@ -99,9 +99,14 @@ void write_data(const std::string& path) {
 
 }  // namespace
 
+std::vector<std::string> octree_files(const std::string& path) {
+  return {path, path + "nodes", path + "data"};
+}
+
 void write_octree(const LevelDag& dag, const std::string& path) {
   const Places places(dag);
-  Output nodes(path + "nodes");
+  const std::vector<std::string> files = octree_files(path);
+  Output nodes(files[1]);
   put_node(kVoxelData, 0, 0, false, &nodes);
   put_blocks(dag, &nodes);
   for (uint32_t k = dag.brick_level(); k-- > 0;) put_children(dag, k, places, &nodes);
@@ -111,11 +116,11 @@ void write_octree(const LevelDag& dag, const std::string& path) {
            false, &nodes);
   SVDAG_ASSERT(nodes.size() == 24 * (places.root() + 1));
 
-  Output header(path);
+  Output header(files[0]);
   header.put("#octreeheader 1\ngridlength " + std::to_string(uint64_t(1) << dag.levels()) +
              "\nn_nodes " + std::to_string(places.root() + 1) + "\nn_data 2\nEND\n");
   nodes.commit();
-  write_data(path + "data");
+  write_data(files[2]);
   header.commit();
 }
 

@@ -9,12 +9,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "io/formats/level_dag.h"
 
 namespace svdag {
 
-// Writes the three files; `path` ends in .octree.
+// The three files that `path`, which ends in .octree, stands for.
+std::vector<std::string> octree_files(const std::string& path);
+
+// Writes them.
 void write_octree(const LevelDag& dag, const std::string& path);
 
 }  // namespace svdag

@@ -141,7 +141,7 @@ def rays(programs, tables_only):
     if "SVDAG_SCENES" in os.environ:
         fill(PAGE, {"rays": accuracy_rays.rays_table(rows)})
         accuracy_plots.rays_plot(rows, "accuracy_rays")
-    return any(row["late"] + row["far"] for row in rows)
+    return any(row["late"] + row["far"] + row.get("uncovered", 0) for row in rows)
 
 
 def main():

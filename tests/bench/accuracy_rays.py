@@ -29,7 +29,7 @@ def measure(programs, folder):
             free = [answer["one_side"][kind] for kind in FREE]
             rows.append({"scene": scene, "rule": rule, "grid": label(log2), "log2": log2,
                          **{k: answer[k] for k in ("rays", "both", "triangle_only", "dag_only", "judged", "late", "voxels",
-                                                   "far", "doubtful", "points", "scene_to_voxels", "voxels_to_scene")},
+                                                   "far", "doubtful", "points", "uncovered", "scene_to_voxels", "voxels_to_scene")},
                          "free_rays": sum(kind["rays"] for kind in free), "free_hits": sum(kind["hits"] for kind in free),
                          **{f"nearer {name}": answer["nearer"][name] for name in BINS}})
             print(f"{scene:>9} {rule:>12} {label(log2):>4} {answer['late']} late, {answer['far']} far, "

@@ -9,3 +9,12 @@ svdag export a.svdag -o a.svdag --format vdb || echo "exit $?"
 svdag export a.svdag || echo "exit $?"
 svdag export none.svdag -o a.vdb || echo "exit $?"
 ls
+# Every file that a format writes is looked at, not only the one that was named.
+cp a.svdag x.octreenodes
+cp a.svdag y.svdag
+ln -s y.svdag y.octreedata
+svdag export x.octreenodes --format octree -o x.octree || echo "exit $?"
+svdag export y.svdag -o y.octree || echo "exit $?"
+cmp a.svdag x.octreenodes
+cmp a.svdag y.svdag
+ls

@@ -150,6 +150,24 @@ TEST(Integrity, VoxelOutsideTheSelection) {
   EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
 }
 
+TEST(Integrity, LatticePlaneOfTheCorner) {
+  RawDag raw = good_dag();
+  raw.grid.kind = Grid::Kind::kLattice;
+  raw.grid.k0 = {-1024, 0, 3072};
+  EXPECT_TRUE(inspect_raw(raw).sound());
+  for (const int64_t k0 : {1, -1, 512, 1025}) {
+    raw.grid.k0.y = k0;
+    EXPECT_TRUE(names(inspect_raw(raw), "k0 of the grid's corner is " + std::to_string(k0) +
+                                            ", not a multiple of 1024"));
+  }
+}
+
+TEST(Integrity, LatticePlaneOfABox) {
+  RawDag raw = good_dag();
+  raw.grid.k0.z = 1024;
+  EXPECT_TRUE(names(inspect_raw(raw), "the grid is a box, but has a lattice plane k0 = 1024"));
+}
+
 TEST(Integrity, SnapLargerThanHalfALatticeStep) {
   RawDag raw = good_dag();
   raw.largest_snap = 0.25;

@@ -1,6 +1,5 @@
 #include "verify/commands/diff.h"
 
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -8,8 +7,10 @@
 #include "io/dag/dag_file.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file.h"
 #include "verify/diff.h"
 #include "verify/difference_points.h"
+#include "verify/same_place.h"
 
 namespace svdag {
 namespace {
@@ -19,16 +20,8 @@ struct Offender {
   bool in_a;
 };
 
-// Grids of one place and of voxels that divide each other; half voxels are how grids of different
-// resolution lie to each other (io/grid.h).
 void refuse_other_places(const DagFile& a, const DagFile& b) {
-  const Header &ha = a.header(), &hb = b.header();
-  const double size = std::max(ha.voxel_size, hb.voxel_size);
-  const double ratio = std::ldexp(hb.voxel_size / ha.voxel_size, int(hb.levels) - int(ha.levels));
-  bool same = std::abs(ratio - 1) <= 1.0 / double(std::min(1U << ha.levels, 1U << hb.levels));
-  for (int axis = 0; axis < 3; ++axis)
-    same = same && std::abs(ha.corner[axis] - hb.corner[axis]) <= size;
-  if (!same)
+  if (!same_place(a.grid(), b.grid()))
     fail_usage(a.path() + " and " + b.path() +
                " have grids in different places: to compare them by voxel index add --by-index");
 }
@@ -40,8 +33,8 @@ std::vector<Offender> first_offenders(DagDiff* diff, uint64_t most) {
     for (unsigned bit = 0; bit < 64 && offenders.size() < most; ++bit) {
       if (((a ^ b) >> bit & 1) == 0) continue;
       const auto [x, y, z] = brick_voxel(bit);
-      offenders.push_back({LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z),
-                           (a >> bit & 1) != 0});
+      offenders.push_back(
+          {LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z), (a >> bit & 1) != 0});
     }
     return offenders.size() < most;
   });
@@ -80,6 +73,10 @@ void print_text(const DagDiff& diff, const DiffCounts& counts,
 
 int run(const DiffConfig& config) {
   const Stopwatch stopwatch(config.common);
+  for (const std::string& input : {config.a, config.b}) {
+    if (same_file(input, config.write_diff))
+      fail_usage(config.write_diff + ": is an input; choose another name for the difference");
+  }
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);

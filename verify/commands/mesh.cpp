@@ -20,7 +20,7 @@ struct Judgement {
   SceneCounts counts;
   Comparison comparison;
   bool sampled = false;
-  double rate_bound = 0;  // of wrong bricks, 95 %; only if sampled
+  SampleComparison sample;  // only if sampled
 
   bool ok() const { return grid.defects.empty() && comparison.agrees(); }
 };
@@ -63,13 +63,41 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
   result.sampled = config.sample > 0;
   if (result.sampled) {
-    result.comparison = compare_sample(scene, file.view(), grid, config.sample, config.seed, choice,
-                                       executor, progress);
-    result.rate_bound = rate_upper_bound(result.comparison.wrong_bricks, result.comparison.bricks);
+    result.sample = compare_sample(scene, file.view(), grid, config.sample, config.seed, choice,
+                                   executor, progress);
+    result.comparison = result.sample.comparison;
+    if (result.sample.untested && result.grid.defects.empty()) fail_untested();
   } else {
     compare_whole(scene, file, choice, budget, executor, progress, &result);
   }
   return result;
+}
+
+// What each kind of draw found, and what that bounds: the share of what it draws from uniformly.
+void print_draws(const SampleComparison& sample) {
+  const auto print = [](const char* name, const DrawnBricks& d, const char* what, const char* wrong,
+                        const char* bounded) {
+    std::printf("%-11s%s %s, %s %s", name, format_count(d.draws).c_str(), what,
+                format_count(d.wrong).c_str(), wrong);
+    if (bounded != nullptr && d.draws > 0)
+      std::printf(": at most %.3g %% of %s", 100 * rate_upper_bound(d.wrong, d.draws), bounded);
+    std::printf("\n");
+  };
+  const auto& [area, edge, triangle] = sample.scene;
+  constexpr const char* kInside = "in wrong bricks";
+  print("drawn", sample.file, "bricks of the file", "wrong", "its bricks are");
+  print("", area, "points by area", kInside, "the area is");
+  print("", edge, "points by longest edge", kInside, "that length is");
+  print("", triangle, "places beside triangles", kInside, nullptr);
+  std::printf(
+      "bounds     each at 95 %% confidence; of the number of missing bricks there is none\n");
+}
+
+const char* verdict(const Judgement& j) {
+  if (!j.ok()) return "not ok: file and scene differ";
+  if (!j.sampled) return "ok: every voxel agrees with the scene";
+  if (j.sample.both_empty) return "ok: the file has no voxel, and its grid no triangle";
+  return "ok: no sampled voxel differs";
 }
 
 void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
@@ -89,13 +117,22 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   std::printf("missing    %s\nextra      %s\n", format_count(c.missing).c_str(),
               format_count(c.extra).c_str());
   for (const WrongVoxel& w : c.first) print_wrong_voxel(file.grid(), w.voxel, w.missing);
-  if (j.sampled)
-    std::printf(
-        "rate       at most %.3g of all bricks are wrong (95 %% confidence, %s voxels tested)\n",
-        j.rate_bound, format_count(64 * c.bricks).c_str());
-  std::printf("%s\n", j.ok() ? (j.sampled ? "ok: no sampled voxel differs"
-                                          : "ok: every voxel agrees with the scene")
-                             : "not ok: file and scene differ");
+  if (j.sampled) print_draws(j.sample);
+  std::printf("%s\n", verdict(j));
+}
+
+// Where nothing was drawn, and of the draws beside triangles, there is no bound.
+nlohmann::json draws_json(const SampleComparison& sample) {
+  const auto one = [](const DrawnBricks& d, const char* bounded) {
+    nlohmann::json json = {{"draws", d.draws}, {"wrong", d.wrong}};
+    if (bounded != nullptr && d.draws > 0) json[bounded] = rate_upper_bound(d.wrong, d.draws);
+    return json;
+  };
+  const auto& [area, edge, triangle] = sample.scene;
+  return {{"file_bricks", one(sample.file, "wrong_file_bricks_bound_95")},
+          {"scene_area", one(area, "area_in_wrong_bricks_bound_95")},
+          {"scene_longest_edges", one(edge, "length_in_wrong_bricks_bound_95")},
+          {"beside_triangles", one(triangle, nullptr)}};
 }
 
 void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
@@ -120,7 +157,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
                          {"missing", c.missing},
                          {"extra", c.extra},
                          {"first_wrong", wrong}};
-  if (j.sampled) json["wrong_brick_rate_bound_95"] = j.rate_bound;
+  if (j.sampled) json["sample"] = draws_json(j.sample);
   std::printf("%s\n", json.dump().c_str());
 }
 

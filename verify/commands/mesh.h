@@ -16,7 +16,8 @@ struct MeshConfig {
   uint64_t memory = 0;  // 0: half of what the machine allows
 };
 
-// kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene.
+// kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene. An Error
+// (kUsage) if a sample could draw nothing, though there may be something.
 int run(const MeshConfig& config);
 
 // The same by OpenVDB, which gives two bounds and no exact set (verify/sandwich.h).

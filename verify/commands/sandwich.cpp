@@ -21,19 +21,19 @@ struct Judgement {
   GridJudgement grid;
   SceneCounts counts;
   Sandwich sandwich;
+  bool both_empty = false;  // sampled, and there is nothing to draw from
 
   bool ok() const { return grid.defects.empty() && sandwich.holds(); }
 };
 
-// Windows around bricks drawn from the file and along the triangles, as for a sample of bricks.
-std::vector<VoxelBox> draw_windows(const Scene& scene, const DagFile& file, uint64_t count,
-                                   uint64_t seed) {
-  Random random(seed);
-  std::vector<uint64_t> codes = sample_dag(file.view(), count - count / 2, random);
-  const std::vector<uint64_t> along = sample_scene(scene, file.grid(), count / 2, random);
-  codes.insert(codes.end(), along.begin(), along.end());
+// Windows around bricks drawn from the file and from the scene, as for a sample of bricks.
+std::vector<VoxelBox> draw_windows(const MeshConfig& config, const Scene& scene,
+                                   const DagFile& file, Judgement* result) {
+  const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), config.sample, config.seed);
+  if (draw.untested() && result->grid.defects.empty()) fail_untested();
+  result->both_empty = draw.both_empty();
   std::vector<VoxelBox> windows;
-  for (const uint64_t code : codes)
+  for (const uint64_t code : draw.all())
     windows.push_back(
         window_around(cell_of_code(code) * int64_t(kBrickSide), file.grid(), kSandwichWindow));
   return windows;
@@ -81,7 +81,7 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   result.grid = judge_grid(grid, bounds);
   progress.phase("reading the scene", 0);
   const std::vector<VoxelBox> windows =
-      config.sample > 0 ? draw_windows(scene, file, config.sample, config.seed) : all_windows(grid);
+      config.sample > 0 ? draw_windows(config, scene, file, &result) : all_windows(grid);
   auto held = budget.reserve(0, "snapped triangles");
   const std::vector<LatticeTriangle> triangles =
       load_near(scene, grid, windows, config.sample == 0, &held);
@@ -119,8 +119,9 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
   if (s.vdb_errors > 0)
     std::printf("openvdb    %s distances of its own were too large, proven in integers\n",
                 format_count(s.vdb_errors).c_str());
-  std::printf("%s\n", j.ok() ? "ok: every voxel tested lies between the bounds"
-                             : "not ok: file and scene differ");
+  std::printf("%s\n", !j.ok()        ? "not ok: file and scene differ"
+                      : j.both_empty ? "ok: the file has no voxel, and its grid no triangle"
+                                     : "ok: every voxel tested lies between the bounds");
 }
 
 void print_json(const DagFile& file, const Judgement& j, bool sampled) {

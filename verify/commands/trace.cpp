@@ -68,11 +68,11 @@ Traced trace(const TraceConfig& config, const DagFile& file) {
 
   const RayJudge judge(file.view(), tracer, {file.rule(), grid.selection, config.rays, config.seed},
                        &budget);
-  const uint64_t points = config.rays / kRaysPerPoint;
+  const uint64_t points = (config.rays + kRaysPerPoint - 1) / kRaysPerPoint;
   const std::vector<LatticePoint> voxels = draw_voxels(file.view(), points, config.seed);
   traced.result = judge.judge_rays(executor, progress);
   traced.result.append(judge.judge_voxels(voxels, executor, progress));
-  traced.result.append(judge.measure_surface(points, executor, progress));
+  traced.result.append(judge.judge_surface(points, executor, progress));
   progress.finish();
   traced.float_error = tracer.float_error();
   traced.doubt = tracer.doubt();
@@ -104,6 +104,15 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
                 std::floor(offender.point[2]), world(0), world(1), world(2), offender.by);
     return;
   }
+  if (offender.what == RayOffender::What::kUncovered) {
+    std::printf("  point (%.9g, %.9g, %.9g) of the surface ", world(0), world(1), world(2));
+    if (std::isinf(offender.by)) {
+      std::printf("has no voxel anywhere\n");
+    } else {
+      std::printf("is %.6g voxels from the nearest voxel\n", offender.by);
+    }
+    return;
+  }
   std::printf("  ray %llu hits a triangle at (%.9g, %.9g, %.9g), ",
               static_cast<unsigned long long>(offender.ray), world(0), world(1), world(2));
   if (std::isinf(offender.by)) {
@@ -133,6 +142,10 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
               t.doubt);
   std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
               count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
+  if (file.rule() == Rule::kConservative)
+    std::printf(
+        "uncovered  %s of %s points of the surface are more than %.4f voxels from a voxel\n",
+        count(r.uncovered).c_str(), count(r.points_judged).c_str(), t.largest_distance);
   for (const RayOffender& offender : r.first) print_offender(file.grid(), offender);
   std::printf("nearer     the voxel's hit is nearer than the triangle's by ... voxels:\n");
   for (size_t bin = 0; bin < r.depth.size(); ++bin)
@@ -142,7 +155,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
       " %s points, %s voxels)\n",
       r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
   if (r.ok()) {
-    std::printf("ok: voxels and triangles agree along every ray judged\n");
+    std::printf("ok: voxels and triangles agree wherever they were judged\n");
   } else {
     std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
                 static_cast<unsigned long long>(config.seed));
@@ -152,8 +165,8 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
 nlohmann::json first_json(const RayJudgement& result) {
   nlohmann::json first = nlohmann::json::array();
   for (const RayOffender& o : result.first) {
-    const bool far = o.what == RayOffender::What::kFar;
-    first.push_back({{"what", far ? "far" : "late"},
+    constexpr const char* kNames[] = {"late", "far", "uncovered"};
+    first.push_back({{"what", kNames[size_t(o.what)]},
                      {"ray", o.ray},
                      {"point", {o.point[0], o.point[1], o.point[2]}},
                      {"by", std::isinf(o.by) ? nlohmann::json() : nlohmann::json(o.by)}});
@@ -192,6 +205,8 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                {"far", r.far},
                                {"largest_distance", t.largest_distance},
                                {"points", r.points},
+                               {"points_judged", r.points_judged},
+                               {"uncovered", r.uncovered},
                                {"nearer", depth},
                                {"scene_to_voxels", r.scene_to_voxels},
                                {"voxels_to_scene", r.voxels_to_scene},

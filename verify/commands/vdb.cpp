@@ -70,8 +70,6 @@ void print_text(const VdbGrid& theirs, const Grid& grid, const IndexMap& map,
 
 void write_difference(const VdbConfig& config, const VdbComparison& comparison,
                       VdbComparer* comparer) {
-  if (same_file(config.write_diff, config.file) || same_file(config.write_diff, config.vdb))
-    fail_usage(config.write_diff + ": is an input; choose another name for the difference");
   if (comparison.extra > config.write_most)
     throw Error(ExitCode::kOutput,
                 "would get " + std::to_string(comparison.extra) + " voxels, more than " +
@@ -86,6 +84,8 @@ void write_difference(const VdbConfig& config, const VdbComparison& comparison,
 
 int run(const VdbConfig& config) {
   const Stopwatch stopwatch(config.common);
+  if (same_file(config.write_diff, config.file) || same_file(config.write_diff, config.vdb))
+    fail_usage(config.write_diff + ": is an input; choose another name for the difference");
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile file = DagFile::open(config.file);

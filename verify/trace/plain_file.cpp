@@ -1,10 +1,9 @@
 #include "verify/trace/plain_file.h"
 
-#include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <span>
 
-#include "streaming/error.h"
+#include "streaming/file.h"
 
 namespace svdag {
 namespace {
@@ -14,16 +13,12 @@ void require(bool condition, const std::string& path, const char* sentence) {
 }
 
 std::vector<uint64_t> read_whole(const std::string& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in) fail_input(path, std::string("cannot be opened (") + std::strerror(errno) + ")");
-  const auto size = in.tellg();
-  if (size < std::streamoff(sizeof(Header)))
-    fail_input(path, "is not a svdag file (shorter than a header)");
-  std::vector<uint64_t> words((size_t(size) + 7) / 8);
-  in.seekg(0);
-  if (!in.read(reinterpret_cast<char*>(words.data()), size))
-    fail_input(path, "cannot be read to its end");
-  require(reinterpret_cast<const Header*>(words.data())->file_bytes == uint64_t(size), path,
+  const File file = File::open_read(path);
+  const uint64_t size = file.size();
+  if (size < sizeof(Header)) fail_input(path, "is not a svdag file (shorter than a header)");
+  std::vector<uint64_t> words((size + 7) / 8);
+  file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
+  require(reinterpret_cast<const Header*>(words.data())->file_bytes == size, path,
           "its size is not the one in its header");
   return words;
 }

@@ -1,4 +1,4 @@
-// A `.svdag` in memory, read with nothing but the standard library.
+// A `.svdag` in memory, read without any third-party library.
 //
 // For svdag-trace alone. Sizes and every pointer are proven in one pass over the sections, as
 // docs/format.md says them, so a tracer may trust the view; checksums are not looked at (they need

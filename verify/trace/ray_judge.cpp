@@ -46,6 +46,16 @@ std::pair<double, double> inside(const VoxelBox& selection, const Ray& ray, doub
   return {begin, end};
 }
 
+// Whether the point is in the selection, `margin` voxels or more from its border.
+bool is_inside(const VoxelBox& selection, const Vec3& point, double margin) {
+  for (int a = 0; a < 3; ++a) {
+    if (point[a] < double(selection.min[a]) + margin ||
+        point[a] > double(selection.max[a]) - margin)
+      return false;
+  }
+  return true;
+}
+
 // Runs `judge(index, &result)` for every index, chunk by chunk; offenders stay in order.
 template <class JudgeOne>
 RayJudgement judge_all(uint64_t count, Executor& executor, Progress& progress,
@@ -80,6 +90,8 @@ void RayJudgement::append(const RayJudgement& later) {
   voxels += later.voxels;
   far += later.far;
   points += later.points;
+  points_judged += later.points_judged;
+  uncovered += later.uncovered;
   for (size_t i = 0; i < depth.size(); ++i) depth[i] += later.depth[i];
   voxels_to_scene = std::max(voxels_to_scene, later.voxels_to_scene);
   scene_to_voxels = std::max(scene_to_voxels, later.scene_to_voxels);
@@ -117,21 +129,13 @@ RayJudgement RayJudge::judge_voxels(std::span<const LatticePoint> voxels, Execut
   });
 }
 
-RayJudgement RayJudge::measure_surface(uint64_t count, Executor& executor,
-                                       Progress& progress) const {
-  progress.phase("measuring the surface", count);
+RayJudgement RayJudge::judge_surface(uint64_t count, Executor& executor, Progress& progress) const {
+  progress.phase("judging the surface", count);
   if (tracer_.triangles().empty()) return {};
   return judge_all(count, executor, progress, [&](uint64_t i, RayJudgement* result) {
     RayRandom random(~config_.seed, i);
     const Vec3 point = sampler_.draw(random).point;
-    for (int a = 0; a < 3; ++a) {
-      if (point[a] < double(config_.selection.min[a]) ||
-          point[a] > double(config_.selection.max[a]))
-        return;
-    }
-    ++result->points;
-    const double d = nearest_voxel(dag_, point, kInfinite).distance;
-    result->scene_to_voxels = std::max(result->scene_to_voxels, d);
+    if (is_inside(config_.selection, point, 0)) judge_point(i, point, result);
   });
 }
 
@@ -180,6 +184,17 @@ void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* re
   if (d <= largest_distance()) return;
   ++result->far;
   show(result, {RayOffender::What::kFar, number, centre, d});
+}
+
+void RayJudge::judge_point(uint64_t number, const Vec3& point, RayJudgement* result) const {
+  ++result->points;
+  const double d = nearest_voxel(dag_, point, kInfinite).distance;
+  result->scene_to_voxels = std::max(result->scene_to_voxels, d);
+  if (config_.rule == Rule::kThin || !is_inside(config_.selection, point, tracer_.doubt())) return;
+  ++result->points_judged;
+  if (d <= largest_distance()) return;
+  ++result->uncovered;
+  show(result, {RayOffender::What::kUncovered, number, point, d});
 }
 
 }  // namespace svdag

@@ -1,6 +1,6 @@
 // What rays through the triangles say about rays through the DAG.
 //
-// Two claims follow from the rules of occupancy (docs/accuracy.md) and are judged:
+// Three claims follow from the rules of occupancy (docs/accuracy.md) and are judged:
 //
 //   (a) no triangle is hit without a voxel at or before it. Conservative: a point of a triangle
 //   lies
@@ -10,10 +10,15 @@
 //       voxels of a slanted wall, so they are counted and not judged.
 //   (b) no voxel is far from the scene: its centre is within half a diagonal (conservative: a
 //       triangle meets the cube) or half a side (thin: one meets a centre segment).
+//   (c) no point of the surface is far from the voxels. Conservative only: it lies in a set voxel's
+//       closed cube, whose centre is within half a diagonal. A point nearer than doubt() to the
+//       border of the selection may by its rounding lie outside, where nothing is set, and is not
+//       judged. Thin: a triangle that crosses no centre segment sets nothing, so there is no bound.
+//
+// Rays see no triangle of zero area; (c) asks of its points, too.
 //
 // What is only measured: hits of one side alone, how much nearer the DAG's hit is, and the distance
-// between surface and centres of voxels both ways (Hausdorff; the conservative bound is half a
-// diagonal for both).
+// between surface and centres of voxels both ways (Hausdorff).
 //
 // A hit that passes within doubt() of an edge is no proof that the ray does hit: it is counted
 // apart.
@@ -39,11 +44,11 @@ struct RayJudgeConfig {
 };
 
 struct RayOffender {
-  enum class What { kLate, kFar };
+  enum class What { kLate, kFar, kUncovered };
   What what;
-  uint64_t ray;  // its number; of kFar that are no ray's: the voxel's
-  Vec3 point;    // of the triangle that was hit; of kFar the voxel's centre
-  double by;     // kLate: voxels between the hits (infinite: no voxel); kFar: the distance
+  uint64_t ray;  // its number; of kFar that are no ray's: the voxel's; of kUncovered: the point's
+  Vec3 point;    // of the triangle that was hit, or of the surface; of kFar the voxel's centre
+  double by;     // kLate: voxels between the hits; else the distance (infinite: no voxel)
 };
 
 // Upper ends of the bins of depth errors, in voxels: how much nearer the DAG's hit is.
@@ -60,12 +65,14 @@ struct RayJudgement {
   uint64_t voxels = 0;                         // asked for (b)
   uint64_t far = 0;                            // of these, against (b)
   uint64_t points = 0;                         // of the surface
+  uint64_t points_judged = 0;                  // of these, about which (c) says something
+  uint64_t uncovered = 0;                      // of these, against (c)
   std::array<uint64_t, kDepthBins.size() + 1> depth{};
   double voxels_to_scene = 0;  // the largest distance
   double scene_to_voxels = 0;
   std::vector<RayOffender> first;
 
-  bool ok() const { return late == 0 && far == 0; }
+  bool ok() const { return late == 0 && far == 0 && uncovered == 0; }
   void append(const RayJudgement& later);
 };
 
@@ -79,8 +86,9 @@ class RayJudge {
   // (b) of voxels that were drawn without rays.
   RayJudgement judge_voxels(std::span<const LatticePoint> voxels, Executor& executor,
                             Progress& progress) const;
-  // From `count` points of the surface inside the selection to the nearest voxel.
-  RayJudgement measure_surface(uint64_t count, Executor& executor, Progress& progress) const;
+  // (c), and the distance to the nearest voxel, of those of `count` points of the surface that lie
+  // inside the selection.
+  RayJudgement judge_surface(uint64_t count, Executor& executor, Progress& progress) const;
 
   // What (b) allows, in voxels.
   double largest_distance() const;
@@ -90,6 +98,7 @@ class RayJudge {
   void compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
                     const std::optional<TriangleHit>& triangle, RayJudgement* result) const;
   void judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const;
+  void judge_point(uint64_t number, const Vec3& point, RayJudgement* result) const;
   bool is_judged(uint64_t index) const;
 
   DagView dag_;

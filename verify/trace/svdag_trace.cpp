@@ -1,9 +1,9 @@
 // svdag-trace: the tracer alone, on the processor or a GPU; needs no third-party library.
 #include <cstdio>
-#include <fstream>
 #include <new>
 
 #include "io/help/help_text.h"
+#include "streaming/atomic_file.h"
 #include "streaming/program.h"
 #include "streaming/terminal.h"
 #include "verify/trace/device.h"
@@ -67,10 +67,9 @@ void print(const Answers& answers) {
 }
 
 void write_file(const std::string& path, const std::string& bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(bytes.data(), std::streamsize(bytes.size()));
-  out.close();
-  if (!out) throw Error(ExitCode::kOutput, "cannot be written", path);
+  AtomicFile file(path);
+  file.append(bytes);
+  file.commit();
 }
 
 void write_dump(const Answers& answers, const std::string& path) {
@@ -121,8 +120,10 @@ int run(const TraceOptions& options) {
     std::fputs(text.c_str(), stdout);
     return 0;
   }
-  if (options.dump == options.file || options.picture == options.file)
-    fail_usage(options.file + ": is the input; choose another name for the output");
+  for (const std::string& output : {options.dump, options.picture}) {
+    if (same_file(options.file, output))
+      fail_usage(output + ": is the input; choose another name for the output");
+  }
   const PlainFile file = read_plain_file(options.file);
   const Workload work = make_workload(options, file);
   int result = 0;

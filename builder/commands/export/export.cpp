@@ -5,6 +5,7 @@
 #include "builder/commands/export/selection.h"
 #include "io/dag/dag_level.h"
 #include "io/formats/hashdag.h"
+#include "io/formats/octree.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -15,6 +16,7 @@ struct Row {
   ExportFormat format;
   uint64_t (*write)(Selection*, const ExportConfig&, MemoryBudget*);
   std::string (*path)(const std::string& output, int levels) = nullptr;  // null: the output itself
+  std::vector<std::string> (*files)(const std::string& path) = nullptr;  // null: that path alone
 };
 
 // The one table of formats.
@@ -24,7 +26,7 @@ constexpr Row kFormats[] = {
     {{"hashdag", "dag.bin", "HashDAG, -o DIR/NAME"}, export_hashdag, hashdag_path},
     {{"symvox", "svdag", "SymVox, another .svdag than ours"}, export_symvox},
     {{"transform-dag", "svo", "transform-DAG tools"}, export_transform_dag},
-    {{"octree", "octree", "ooc_svo_builder, three files"}, export_octree},
+    {{"octree", "octree", "ooc_svo_builder, three files"}, export_octree, nullptr, octree_files},
     {{"npz", "npz", "NumPy, coordinates of voxels"}, export_npz},
     {{"binvox", "binvox", "a dense cube"}, export_binvox},
     {{"vox", "vox", "MagicaVoxel"}, export_vox},
@@ -57,6 +59,14 @@ int checked_level(const DagFile& file, int level) {
   return level;
 }
 
+void refuse_own_input(const Row& row, const ExportConfig& config) {
+  const auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
+  for (const std::string& file : files) {
+    if (same_file(config.file, file))
+      fail_usage(file + ": is the input; choose another name for the output");
+  }
+}
+
 }  // namespace
 
 Selection::Selection(const DagFile& dag_file, const ExportConfig& config)
@@ -78,8 +88,7 @@ int run(const ExportConfig& asked) {
   Selection selection(file, asked);
   ExportConfig config = asked;
   if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
-  if (same_file(config.file, config.output))
-    fail_usage(config.output + ": is the input; choose another name for the output");
+  refuse_own_input(row, config);
   MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)

@@ -2,6 +2,7 @@
 #include "verify/trace/plain_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 
@@ -51,6 +52,12 @@ TEST_F(PlainFileTest, EveryCutIsRefused) {
     write({raw.bytes().begin(), raw.bytes().begin() + std::ptrdiff_t(size)});
     EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "");
   }
+}
+
+TEST_F(PlainFileTest, RefusesWhatIsNoRegularFile) {
+  EXPECT_SVDAG_ERROR(read_plain_file(folder_.path()), ExitCode::kBadInput, "is not a regular file");
+  ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "is not a regular file");
 }
 
 // A damaged word is refused, or leads to other voxels, but never out of the file (as the

@@ -42,7 +42,7 @@ RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays
   std::vector<LatticePoint> all;
   for (const auto& [x, y, z] : voxels) all.emplace_back(x, y, z);
   result.append(judge.judge_voxels(all, executor, progress));
-  result.append(judge.measure_surface(kRays / 10, executor, progress));
+  result.append(judge.judge_surface(kRays / 10, executor, progress));
   return result;
 }
 
@@ -55,6 +55,8 @@ TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
         const RayJudgement r = judged(c, c.voxels());
         EXPECT_EQ(r.late, 0U) << levels << ", " << side;
         EXPECT_EQ(r.far, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.uncovered, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.points_judged > 0, rule == Rule::kConservative) << levels << ", " << side;
         // Triangles of one lattice step are points to floats: no ray is said to hit them.
         if (side > 1) {
           EXPECT_GT(r.judged, kRays / 100) << levels << ", " << side;
@@ -144,6 +146,57 @@ TEST(RayJudge, VoxelsWithoutAnyTriangleAreFar) {
   EXPECT_GT(r.far, 1U);
   EXPECT_EQ(r.far, r.voxels);
   EXPECT_EQ(r.both, 0U);
+}
+
+// Rays pass triangles of zero area; their points do not.
+TEST(RayJudge, SegmentsWithoutVoxelsAreUncovered) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const Case c{grid, Rule::kConservative, {{{from, to, to}}}};
+  const RayJudgement right = judged(c, c.voxels());
+  EXPECT_TRUE(right.ok());
+  EXPECT_EQ(right.points_judged, kRays / 10);
+  const RayJudgement none = judged(c, {});
+  EXPECT_EQ(none.judged, 0U);
+  EXPECT_EQ(none.uncovered, kRays / 10);
+  EXPECT_FALSE(none.ok());
+  ASSERT_FALSE(none.first.empty());
+  EXPECT_EQ(none.first[0].what, RayOffender::What::kUncovered);
+  EXPECT_TRUE(std::isinf(none.first[0].by));
+  // One brick's worth of voxels missing in its middle.
+  VoxelSet voxels = c.voxels();
+  const size_t all = voxels.size();
+  std::erase_if(voxels, [](const auto& v) { return std::get<0>(v) / 4 == 2; });
+  ASSERT_LT(voxels.size(), all);
+  EXPECT_GT(judged(c, voxels).uncovered, 0U);
+}
+
+// A triangle that crosses no segment between centres sets nothing, so no distance accuses the file.
+TEST(RayJudge, ThinLeavesSegmentsUncovered) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const RayJudgement r = judged({grid, Rule::kThin, {{{from, to, to}}}}, {});
+  EXPECT_TRUE(r.ok());
+  EXPECT_EQ(r.points, kRays / 10);
+  EXPECT_EQ(r.points_judged, 0U);
+}
+
+// A wall on the border of the bounds belongs to the voxels inside; one beyond to none.
+TEST(RayJudge, WallsAtTheBoundsAreNotUncovered) {
+  Grid grid = test_grid(5);
+  grid.bounded = true;
+  grid.selection = {LatticePoint(4, 5, 6), LatticePoint(20, 21, 22)};
+  const int64_t s = int64_t(1) << grid.fraction(), w = 32 * s;
+  for (const int64_t x : {4 * s - 1, 4 * s, 4 * s + 1, 20 * s - 1, 20 * s, 20 * s + 1}) {
+    const Case c{grid,
+                 Rule::kConservative,
+                 {{{LatticePoint(x, 0, 0), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}}}};
+    const VoxelSet voxels = c.voxels();
+    EXPECT_EQ(voxels.empty(), x < 4 * s || x > 20 * s) << x;
+    EXPECT_EQ(judged(c, voxels).uncovered, 0U) << x;
+  }
 }
 
 TEST(RayJudge, ThreadsDoNotReachTheAnswer) {

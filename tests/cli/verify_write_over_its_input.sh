@@ -1,0 +1,15 @@
+# Inputs are never overwritten, whatever they are called; this is said before anything is compared.
+svdag-scene speck -n 8 -q -o s.ply
+svdag build s.ply -r 16 -o a.svdag -q
+cp a.svdag b.svdag
+svdag export a.svdag -o a.vdb -q
+ln -s b.svdag soft.svdag
+ln b.svdag hard.svdag
+cp b.svdag kept.svdag
+for name in a.svdag b.svdag ./b.svdag soft.svdag hard.svdag; do
+  svdag-verify diff a.svdag b.svdag -q --write-diff $name || echo "exit $?"
+done
+svdag-verify vdb a.svdag a.vdb -q --write-diff ./a.vdb || echo "exit $?"
+cmp a.svdag kept.svdag
+cmp b.svdag kept.svdag
+ls
