@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "builder/overlap.h"
 #include "streaming/error.h"
@@ -20,7 +21,8 @@ CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBud
       cell_level_(cell_level),
       root_(std::make_unique<Node>()),
       triangles_(budget, "triangles"),
-      reservation_(budget->reserve(0, "triangles")) {
+      reservation_(budget->reserve(0, "triangles")),
+      heaviest_inner_(size_t(cell_level)) {
   SVDAG_ASSERT(cell_level >= root.level && cell_level <= grid.levels - 2);
 }
 
@@ -57,6 +59,8 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
       heaviest_ = std::max<uint64_t>(heaviest_, node->triangles.size());
     } else {
       ++inner_;
+      uint64_t& heaviest = heaviest_inner_[size_t(cube.level)];
+      heaviest = std::max<uint64_t>(heaviest, node->triangles.size());
     }
     return;
   }
@@ -73,10 +77,15 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Tri
 }
 
 uint64_t CellTree::bytes(size_t workers) const {
-  // Lists divided on the way down hold a triangle a few times, mostly in cubes ever smaller.
+  // Lists divided on the way down hold a triangle of a cell a few times, mostly in cubes ever
+  // smaller. One of an inner node may stand in the list of a cube on every level down to bricks,
+  // and in those of 7 of its children: as many as a plane meets.
   constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(Entry);
-  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) +
-         (inner_ + workers * (heaviest_ + inner_ / 8)) * kPrepared;
+  const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
+  const uint64_t on_a_path =
+      std::accumulate(heaviest_inner_.begin(), heaviest_inner_.end(), uint64_t(0));
+  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) + inner_ * kPrepared +
+         workers * (heaviest_ * kPrepared + on_a_path * levels * 8 * sizeof(Entry));
 }
 
 void CellTree::seal() {
