@@ -138,9 +138,10 @@ class Import(unittest.TestCase):
 
     def test_a_place_that_is_not_understood_is_refused(self):
         x = numpy.array(self.few, "<i4")
-        for name, array in (("voxel_size", numpy.float16(1)), ("voxel_size", numpy.array([1.0, 2, 3])), ("voxel_size", numpy.True_),
+        for name, array in (("voxel_size", numpy.float16(1)), ("voxel_size", numpy.array([1.0, 2, 3])),
+                            ("voxel_size", numpy.True_), ("resolution", numpy.float32(64.5)),
                             ("corner", numpy.array([1.0, 2])), ("corner", numpy.array([1, 2, 3], "<f2")),
-                            ("resolution", numpy.array([], "<i8")), ("resolution", numpy.int32(0)), ("resolution", numpy.float32(64.5)),
+                            ("resolution", numpy.array([], "<i8")), ("resolution", numpy.int32(0)),
                             ("resolution", numpy.int64(2**20 + 1)), ("resolution", numpy.int8(-1))):
             with self.subTest(name=name, array=array):
                 (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(x=x, **{name: array}))
