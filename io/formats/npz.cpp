@@ -103,13 +103,23 @@ Array read_header(const File& file, uint64_t offset, uint64_t end) {
   return array;
 }
 
-bool is_coordinates(const Array& a) {
+bool is_integer(const Array& a) {
   const bool size = a.bytes == 1 || a.bytes == 2 || a.bytes == 4 || a.bytes == 8;
-  return (a.kind == 'i' || a.kind == 'u') && size && a.shape.size() == 2 && a.shape[1] == 3 &&
-         !a.fortran_order;
+  return (a.kind == 'i' || a.kind == 'u') && size;
+}
+bool is_coordinates(const Array& a) {
+  return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3 && !a.fortran_order;
 }
 bool is_dense(const Array& a) {
   return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
+}
+
+// The next integer of the array; a negative one becomes a large number, whatever its width.
+uint64_t read_integer(ByteStream* stream, const Array& array) {
+  uint64_t bits = 0;
+  stream->read(std::as_writable_bytes(std::span(&bits, 1)).first(array.bytes));
+  const int unused = 64 - 8 * int(array.bytes);
+  return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
 void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
@@ -118,8 +128,7 @@ void read_coordinates(const File& file, const Array& array, const VoxelSink& sin
   for (uint64_t row = 0; row < array.shape[0]; ++row) {
     Voxel voxel;
     for (uint32_t& out : voxel) {
-      uint64_t value = 0;
-      stream.read(std::as_writable_bytes(std::span(&value, 1)).first(array.bytes));
+      const uint64_t value = read_integer(&stream, array);
       if (value >> kMaxLevels != 0)
         fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
       out = uint32_t(value);
@@ -158,24 +167,37 @@ void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
   batch.flush();
 }
 
-// Element i of a small array as a number, if there is such an array of floats or integers.
-std::optional<double> element(const File& file, const Array& array, uint64_t i) {
-  if (i >= array.elements() || array.bytes != 8) return {};
-  uint64_t bits;
-  file.read_at(array.offset + 8 * i, std::as_writable_bytes(std::span(&bits, 1)));
+// The next number of an array of integers or floats.
+double read_number(ByteStream* stream, const Array& array) {
+  if (array.kind == 'f' && array.bytes == 4) {
+    float number = 0;
+    stream->read(std::as_writable_bytes(std::span(&number, 1)));
+    return double(number);
+  }
+  const uint64_t bits = read_integer(stream, array);
   if (array.kind == 'f') return std::bit_cast<double>(bits);
-  return double(int64_t(bits));
+  return array.kind == 'i' ? double(int64_t(bits)) : double(bits);
 }
 
-// The arrays that say where the voxels stand.
-void read_place(const File& file, const std::string& name, const Array& array, VoxelPlace* place) {
-  if (name == "resolution.npy") {
-    const double n = element(file, array, 0).value_or(0);
-    if (n >= 1 && n <= 0x1p20) place->resolution = uint64_t(n);
-  } else if (name == "voxel_size.npy") {
-    place->voxel_size = element(file, array, 0).value_or(1);
-  } else if (name == "corner.npy") {
-    for (int a = 0; a < 3; ++a) place->corner[a] = element(file, array, uint64_t(a)).value_or(0);
+// The arrays that say where the voxels stand. What is there is read or refused, never passed over.
+void read_place(const File& file, std::string_view name, const Array& array, VoxelPlace* place) {
+  const uint64_t count = name == "corner" ? 3 : 1;
+  if (name != "corner" && name != "resolution" && name != "voxel_size") return;
+  const bool is_float = array.kind == 'f' && (array.bytes == 4 || array.bytes == 8);
+  if (!(is_float || is_integer(array)) || array.elements() != count)
+    fail_input(file.path(), "has an array \"" + std::string(name) + "\" that is not " +
+                                (count == 3 ? "three numbers" : "one number") +
+                                " (float32, float64 or integer)");
+  ByteStream stream(file, array.offset, array.end);
+  if (name == "corner") {
+    for (int a = 0; a < 3; ++a) place->corner[a] = read_number(&stream, array);
+  } else if (name == "voxel_size") {
+    place->voxel_size = read_number(&stream, array);
+  } else {
+    const double n = read_number(&stream, array);
+    if (!(n >= 1 && n <= 0x1p20 && n == std::floor(n)))
+      fail_input(file.path(), "has a resolution that is not 1 ... 1M", array.offset);
+    place->resolution = uint64_t(n);
   }
 }
 
@@ -214,7 +236,8 @@ VoxelPlace read_npz(const File& file, const VoxelSink& sink) {
   for (const ZipEntry& entry : entries) {
     if (!entry.name.ends_with(".npy")) continue;
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
-    read_place(file, entry.name, array, &place);
+    const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
+    read_place(file, name, array, &place);
     if (!is_coordinates(array) && !is_dense(array)) continue;
     if (voxels) fail_input(file.path(), "has more than one array that may be the voxels");
     voxels = array;

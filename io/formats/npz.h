@@ -4,7 +4,9 @@
 // int32: x, y, z from the corner of the grid, in no order that matters), `resolution` (int64),
 // `corner` (3 x float64, world position of voxel (0, 0, 0)) and `voxel_size` (float64).
 // Read: the same, or any archive (or lone `.npy`) with one array of N x 3 integers, or of three
-// dimensions of bool or uint8, set where it is not 0. Compressed archives are refused.
+// dimensions of bool or uint8, set where it is not 0; `resolution` and `voxel_size` of one number,
+// `corner` of three, as float32, float64 or integers of 1 to 8 bytes. What else stands under these
+// names is refused, and so are compressed archives.
 #pragma once
 
 #include <string>

@@ -3,9 +3,9 @@
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
 // triangles. Only the positions of an indexed primitive are held (or joined: corners.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
-// windows. Skinned meshes come as stored (bind pose under the node's transform); morph targets,
-// points and lines are ignored. A Draco primitive that also has plain data is read from the plain
-// data, which is exact.
+// windows. Skins are ignored: a skinned mesh comes as stored, under its node's transform (joints
+// alone would place it, 3.7.3.2). So are morph targets, whatever their weights, points and lines. A
+// Draco primitive that also has plain data is read from the plain data, which is exact.
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "io/scene/gltf_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "io/scene/gltf_uri.h"
@@ -24,8 +25,19 @@ uint64_t component_bytes(ComponentType type) {
   return 0;
 }
 
+// 0 for a type that glTF does not have.
 uint32_t component_count(const std::string& type) {
-  return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4;
+  constexpr std::array<std::pair<const char*, uint32_t>, 7> kTypes = {{{"SCALAR", 1},
+                                                                       {"VEC2", 2},
+                                                                       {"VEC3", 3},
+                                                                       {"VEC4", 4},
+                                                                       {"MAT2", 4},
+                                                                       {"MAT3", 9},
+                                                                       {"MAT4", 16}}};
+  for (const auto& [name, components] : kTypes) {
+    if (type == name) return components;
+  }
+  return 0;
 }
 
 ComponentType component_type(const JsonObject& object) {
@@ -147,7 +159,8 @@ void GltfBuffers::place(ElementArray* array, uint64_t view_index, uint64_t offse
 
 Accessor GltfBuffers::accessor(uint64_t index, const std::string& type) {
   const JsonObject object = document_.element("accessors", index);
-  if (object.text("type") != type) {
+  const std::string& own_type = object.text("type");
+  if (type != kAnyType && own_type != type) {
     fail_input(object.path(),
                "has accessors[" + std::to_string(index) + "], which must be of type " + type);
   }
@@ -155,7 +168,9 @@ Accessor GltfBuffers::accessor(uint64_t index, const std::string& type) {
   accessor.path = &document_.file->path();
   accessor.base.count = object.count("count");
   accessor.base.type = component_type(object);
-  accessor.base.components = component_count(type);
+  accessor.base.components = component_count(own_type);
+  if (accessor.base.components == 0)
+    fail_input(object.path(), "has accessors[" + std::to_string(index) + "] of an unknown type");
   accessor.base.normalized = object.flag("normalized");
   if (object.has("bufferView")) {
     place(&accessor.base, object.count("bufferView"), object.count("byteOffset", 0));

@@ -81,7 +81,10 @@ class GltfBuffers {
   GltfBuffers(const GltfDocument& document, MemoryBudget* budget)
       : document_(document), budget_(budget) {}
 
-  // Accessor `index`, which must be of `type` ("SCALAR", "VEC3", "VEC4") and inside its buffer.
+  static constexpr const char* kAnyType = "";
+
+  // Accessor `index`, which must be of `type` ("SCALAR", "VEC3", "VEC4"; kAnyType: whichever) and
+  // inside its buffer.
   Accessor accessor(uint64_t index, const std::string& type);
   // The files that the buffers are in, beside the scene's own; none for one that cannot be opened.
   std::vector<File> files() const;

@@ -84,6 +84,12 @@ JsonObject::JsonObject(const json& value, const std::string& path) : value_(&val
   if (!value.is_object()) fail_input(path, "has something else where its JSON needs an object");
 }
 
+std::vector<std::string> JsonObject::names() const {
+  std::vector<std::string> names;
+  for (const auto& member : value_->items()) names.push_back(member.key());
+  return names;
+}
+
 const json* JsonObject::find(const char* key) const {
   const auto found = value_->find(key);
   return found == value_->end() ? nullptr : &*found;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "streaming/file.h"
 #include "streaming/memory_budget.h"
@@ -24,6 +25,7 @@ class JsonObject {
   JsonObject(const nlohmann::json& value, const std::string& path);
 
   bool has(const char* key) const { return find(key) != nullptr; }
+  std::vector<std::string> names() const;  // of all members, in alphabetical order
   // A whole number; without it `fallback`, and without that an Error.
   uint64_t count(const char* key, std::optional<uint64_t> fallback = {}) const;
   bool flag(const char* key) const;                // false if absent

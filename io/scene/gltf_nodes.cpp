@@ -117,28 +117,25 @@ InstanceStream::InstanceStream(const JsonObject& node, const Affine& world, Gltf
   const auto extension = node.extension("EXT_mesh_gpu_instancing");
   if (!extension) return;
   instanced_ = true;
+  count_ = 0;  // without any attribute nothing says how many
   const JsonObject attributes = extension->object("attributes");
-  translation_ = attribute(attributes, "TRANSLATION", "VEC3", buffers);
-  rotation_ = attribute(attributes, "ROTATION", "VEC4", buffers);
-  scale_ = attribute(attributes, "SCALE", "VEC3", buffers);
-  if (!counted_) count_ = 0;  // nothing says how many
-}
-
-std::optional<ElementStream> InstanceStream::attribute(const JsonObject& attributes,
-                                                       const char* name, const char* type,
-                                                       GltfBuffers* buffers) {
-  if (!attributes.has(name)) return {};
-  const Accessor accessor = buffers->accessor(attributes.count(name), type);
-  // Instances multiply triangles, so each must have bytes in the file.
-  if (accessor.base.blob == nullptr) {
-    fail_input(*path_, "has instances without data");
+  bool counted = false;
+  for (const std::string& name : attributes.names()) {
+    const bool vector = name == "TRANSLATION" || name == "SCALE";
+    const Accessor accessor = buffers->accessor(attributes.count(name.c_str()),
+                                                vector               ? "VEC3"
+                                                : name == "ROTATION" ? "VEC4"
+                                                                     : GltfBuffers::kAnyType);
+    // Instances multiply triangles, so each must have bytes in the file.
+    if (accessor.base.blob == nullptr) fail_input(*path_, "has instances without data");
+    if (counted && accessor.count() != count_)
+      fail_input(*path_, "has instances with attributes of different numbers of elements");
+    counted = true;
+    count_ = accessor.count();
+    if (name == "TRANSLATION") translation_.emplace(accessor);
+    if (name == "ROTATION") rotation_.emplace(accessor);
+    if (name == "SCALE") scale_.emplace(accessor);
   }
-  if (counted_ && accessor.count() != count_) {
-    fail_input(*path_, "has instances with different numbers of translations, rotations or scales");
-  }
-  counted_ = true;
-  count_ = accessor.count();
-  return ElementStream(accessor);
 }
 
 Affine InstanceStream::next() {

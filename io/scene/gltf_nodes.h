@@ -21,7 +21,9 @@ using NodeVisitor =
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 
-// The instances of one node: itself, or those of EXT_mesh_gpu_instancing.
+// The instances of one node: itself, or those of EXT_mesh_gpu_instancing, as many as each of its
+// attributes has elements, those of an application's own (_ID) included. What they say nothing of
+// (TRANSLATION, ROTATION, SCALE) is identity.
 class InstanceStream {
  public:
   InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers);
@@ -31,12 +33,8 @@ class InstanceStream {
   Affine next();
 
  private:
-  std::optional<ElementStream> attribute(const JsonObject& attributes, const char* name,
-                                         const char* type, GltfBuffers* buffers);
-
   Affine world_;
   uint64_t count_ = 1;
-  bool counted_ = false;
   bool instanced_ = false;
   const std::string* path_;
   std::optional<ElementStream> translation_, rotation_, scale_;

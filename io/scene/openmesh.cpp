@@ -13,6 +13,7 @@
 
 #include "io/scene/limited_decoder.h"
 #include "io/scene/mesh_reader.h"
+#include "io/scene/triangulate.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -93,16 +94,12 @@ void decode(const File& file, std::span<const std::byte> bytes, const Header& he
                                 std::to_string(mesh.n_faces()));
   }
   BatchWriter out(sink);
+  MemoryBudget without_limit;  // the process of its own has one
+  Triangulator polygon(&without_limit);
   uint64_t left = mesh.n_halfedges();
   for (const auto face : mesh.faces()) {
-    Point first(0), before(0);
-    uint64_t corners = 0;
-    each_corner(file, mesh, face, &left, [&](const Point& p) {  // a fan around the first corner
-      if (corners == 0) first = p;
-      if (corners > 1) out.add(first, before, p);
-      before = p;
-      ++corners;
-    });
+    each_corner(file, mesh, face, &left, [&](const Point& p) { polygon.corner(p); });
+    polygon.finish(out);
   }
   out.flush();
 }

@@ -101,11 +101,28 @@ bool Triangulator::is_convex() const {
   return changes == 2;
 }
 
-// Whether the closed triangle a, b, c holds a point that is none of its corners.
-bool Triangulator::holds(size_t a, size_t b, size_t c, size_t point) const {
-  const glm::dvec2& p = flat_[point];
-  if (p == flat_[a] || p == flat_[b] || p == flat_[c]) return false;
-  return turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0;
+// Whether the way from corner `from` to corner `to` of the ring leads into the triangle at once;
+// left and right: the other two corners of the triangle, as seen from `from`.
+bool Triangulator::leads_inside(size_t from, size_t right, size_t left, size_t to) const {
+  return turn(from, right, to) > 0 && turn(from, to, left) > 0;
+}
+
+// Whether corner i of the ring forbids the ear a, b, c: it lies in the closed triangle, and if it
+// only touches the outline there (one of its corners, the edge a-b or b-c), one of its own edges
+// leads inside. In a simple polygon no corner touches anything.
+bool Triangulator::forbids(uint32_t i, size_t a, size_t b, size_t c) const {
+  const double ab = turn(a, b, i);
+  if (!(ab >= 0)) return false;
+  const double bc = turn(b, c, i);
+  if (!(bc >= 0 && turn(c, a, i) >= 0)) return false;
+  const auto either = [&](const auto& leads) { return leads(prev_[i]) || leads(next_[i]); };
+  const glm::dvec2& p = flat_[i];
+  if (p == flat_[a]) return either([&](size_t to) { return leads_inside(a, b, c, to); });
+  if (p == flat_[b]) return either([&](size_t to) { return leads_inside(b, c, a, to); });
+  if (p == flat_[c]) return either([&](size_t to) { return leads_inside(c, a, b, to); });
+  if (ab == 0) return either([&](size_t to) { return turn(a, b, to) > 0; });
+  if (bc == 0) return either([&](size_t to) { return turn(b, c, to) > 0; });
+  return true;
 }
 
 bool Triangulator::is_ear(uint32_t ear, uint64_t& work) const {
@@ -114,12 +131,12 @@ bool Triangulator::is_ear(uint32_t ear, uint64_t& work) const {
   for (uint32_t i = next_[c]; i != a; i = next_[i]) {
     if (work == 0) return false;
     --work;
-    if (holds(a, ear, c, i)) return false;
+    if (forbids(i, a, ear, c)) return false;
   }
   return true;
 }
 
-void Triangulator::clip_ears(BatchWriter& writer) {
+void Triangulator::make_ring() {
   const uint32_t n = uint32_t(corners_.size());
   prev_.resize(n);
   next_.resize(n);
@@ -127,16 +144,43 @@ void Triangulator::clip_ears(BatchWriter& writer) {
     prev_[i] = i == 0 ? n - 1 : i - 1;
     next_[i] = i + 1 == n ? 0 : i + 1;
   }
-  uint64_t work = kWorkPerCorner * n;
-  uint32_t here = 0, left = n, tried = 0;
-  while (left > 3 && tried < left && work > 0) {
-    if (is_ear(here, work)) {
-      const uint32_t a = prev_[here], c = next_[here];
-      writer.add(corners_[a], corners_[here], corners_[c]);
-      next_[a] = c;
-      prev_[c] = a;
+  left_ = n;
+}
+
+// Takes a corner out of the ring, as the triangle with its neighbours; returns the one before it.
+uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
+  const uint32_t a = prev_[corner], c = next_[corner];
+  writer.add(corners_[a], corners_[corner], corners_[c]);
+  next_[a] = c;
+  prev_[c] = a;
+  --left_;
+  return a;
+}
+
+// Where `corner` is the tip of a slit (the ring comes to it and leaves it on the same way), takes
+// the slit out, a triangle without area for each of its corners. Returns what is left at its foot,
+// else `corner`. An ear must not be cut beside a slit: on a zero width nothing tells inside from
+// outside.
+uint32_t Triangulator::clip_slit(uint32_t corner, BatchWriter& writer) {
+  while (left_ > 3 && flat_[prev_[corner]] == flat_[next_[corner]]) {
+    corner = clip(corner, writer);
+    if (left_ > 3) clip(next_[corner], writer);  // the same point once more
+  }
+  return corner;
+}
+
+void Triangulator::clip_ears(BatchWriter& writer) {
+  make_ring();
+  uint64_t work = kWorkPerCorner * left_;
+  uint32_t here = 0;
+  for (uint32_t i = left_; i > 0; --i) here = next_[clip_slit(here, writer)];
+  // Without an ear all around, a corner that repeats the one before it goes; without that, the end.
+  uint64_t tried = 0;
+  while (left_ > 3 && tried < 2 * uint64_t(left_) && work > 0) {
+    if (tried < left_ ? is_ear(here, work) : flat_[here] == flat_[prev_[here]]) {
+      const uint32_t a = clip_slit(clip(here, writer), writer);
+      const uint32_t c = clip_slit(next_[a], writer);
       here = next_[c];  // not c: the ears of a round shape would all share one corner
-      --left;
       tried = 0;
     } else {
       here = next_[here];

@@ -114,6 +114,39 @@ class Import(unittest.TestCase):
         numpy.save(BAKERY.folder / "lone.npy", numpy.array(rows, "<i4"))
         self.assertEqual(nodes_of(self.imported("lone.npy", "-r", "32")), nodes_of(self.small))
 
+    def test_negative_coordinates_of_every_width_are_refused(self):
+        for width in ("i1", "<i2", "<i4", "<i8"):
+            with self.subTest(width=width):
+                (BAKERY.folder / "n.npz").write_bytes(write_foreign.npz(x=numpy.array([[0, 0, 0], [-1, 2, 3]], width)))
+                self.assertIn("0 ... 1M - 1", BAKERY.run("svdag", "import", "n.npz", "-o", "n.svdag", code=3))
+        for width, highest in (("i1", 127), ("u1", 255), ("<i2", 32767), ("<u2", 65535)):
+            with self.subTest(width=width):
+                dag = self.read(write_foreign.npz(x=numpy.array([[highest, 0, 0]], width)), "h.npz")
+                self.assertEqual((2**dag.L, dag.voxel_count), (highest + 1, 1))
+
+    def test_the_place_of_an_array_in_every_type(self):
+        x = numpy.array(self.few, "<i4")
+        for kind in ("<f4", "<f8", "i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"):
+            with self.subTest(kind=kind):
+                low = -3 if numpy.dtype(kind).kind != "u" else 3
+                places = {"corner": numpy.array([low, 20, 30], kind), "voxel_size": numpy.array(2, kind),
+                          "resolution": numpy.array([64], kind)}
+                dag = self.read(write_foreign.npz(x=x, **places), "p.npz")
+                self.assertEqual((dag.L, dag.voxel_size, dag.corner), (6, 2, [low, 20, 30]))
+        dag = self.read(write_foreign.npz(x=x, voxel_size=numpy.float32(0.1)), "p.npz")
+        self.assertEqual(dag.voxel_size, float(numpy.float32(0.1)))
+
+    def test_a_place_that_is_not_understood_is_refused(self):
+        x = numpy.array(self.few, "<i4")
+        for name, array in (("voxel_size", numpy.float16(1)), ("voxel_size", numpy.array([1.0, 2, 3])),
+                            ("voxel_size", numpy.True_), ("resolution", numpy.float32(64.5)),
+                            ("corner", numpy.array([1.0, 2])), ("corner", numpy.array([1, 2, 3], "<f2")),
+                            ("resolution", numpy.array([], "<i8")), ("resolution", numpy.int32(0)),
+                            ("resolution", numpy.int64(2**20 + 1)), ("resolution", numpy.int8(-1))):
+            with self.subTest(name=name, array=array):
+                (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(x=x, **{name: array}))
+                self.assertIn(name, BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
     def test_a_binvox_that_is_no_cube(self):
         high = self.few.max(0) + 1
         dense = numpy.zeros(high, bool)

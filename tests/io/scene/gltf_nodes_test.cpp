@@ -112,6 +112,42 @@ TEST(GltfNodes, InstancesAreDrawnAtTheirTransforms) {
   }
 }
 
+// A triangle with EXT_mesh_gpu_instancing.
+GltfBuilder instanced(GltfBuilder gltf, const json& attributes) {
+  gltf.show(gltf.mesh(gltf.accessor(kTriangle, "VEC3")));
+  gltf.json["nodes"][0]["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}};
+  return gltf;
+}
+
+TEST(GltfNodes, AnyAttributeSaysHowManyInstancesThereAre) {
+  GltfBuilder gltf;
+  const int ids = gltf.accessor(std::vector<uint16_t>{7, 8, 9}, "SCALAR");
+  const int pairs = gltf.append("accessors", {{"bufferView", gltf.view(std::vector<float>(6))},
+                                              {"componentType", 5126},
+                                              {"count", 3},
+                                              {"type", "VEC2"}});
+  const Corners one = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  Corners three;
+  for (int i = 0; i < 3; ++i) three.insert(three.end(), one.begin(), one.end());
+  EXPECT_EQ(read_corners(instanced(gltf, {{"_ID", ids}})), three);
+  EXPECT_EQ(read_corners(instanced(gltf, {{"_ID", ids}, {"_WIND", pairs}})), three);
+  EXPECT_TRUE(read_corners(instanced(gltf, json::object())).empty());
+}
+
+TEST(GltfNodes, AttributesOfInstancesThatDisagreeAreAnError) {
+  GltfBuilder gltf;
+  const int ids = gltf.accessor(std::vector<uint16_t>{7, 8, 9}, "SCALAR");
+  const int two = gltf.accessor(std::vector<float>{1, 0, 0, 2, 0, 0}, "VEC3");
+  EXPECT_THAT(failure(instanced(gltf, {{"_ID", ids}, {"TRANSLATION", two}})),
+              HasSubstr("different numbers"));
+  EXPECT_THAT(failure(instanced(gltf, {{"SCALE", ids}})), HasSubstr("VEC3"));
+  const json claimed = {{"componentType", 5121}, {"count", 1000}, {"type", "SCALAR"}};
+  const int unbacked = gltf.append("accessors", claimed);
+  EXPECT_THAT(failure(instanced(gltf, {{"_ID", unbacked}})), HasSubstr("without data"));
+  gltf.json["accessors"][size_t(ids)]["type"] = "VEC9";
+  EXPECT_THAT(failure(instanced(gltf, {{"_ID", ids}})), HasSubstr("unknown type"));
+}
+
 TEST(GltfNodes, CyclesAndSharedChildrenAreErrors) {
   GltfBuilder gltf = one_triangle();
   gltf.json["nodes"][0]["children"] = {0};

@@ -78,6 +78,23 @@ TEST(OpenMesh, PolygonsComeAsFansOfTheirExactDoubles) {
   EXPECT_NEAR(area, 2 * 5.0 / 9, 1e-12);
 }
 
+TEST(OpenMesh, ConcavePolygonsAreFilledInsideOfTheirOutline) {
+  Mesh mesh;
+  std::vector<Mesh::VertexHandle> dart;
+  for (const auto& [x, y] : {std::pair(4, 0), {0, 1}, {-4, 0}, {0, 4}})
+    dart.push_back(mesh.add_vertex({double(x), double(y), 0}));
+  mesh.add_face(dart);
+  const TestFolder folder;
+  const Corners corners = read_om(save(folder, mesh));
+  ASSERT_EQ(corners.size(), 6u);
+  double area = 0;
+  for (size_t i = 0; i < 6; i += 3) {
+    area += std::abs((corners[i + 1][0] - corners[i][0]) * (corners[i + 2][1] - corners[i][1]) -
+                     (corners[i + 1][1] - corners[i][1]) * (corners[i + 2][0] - corners[i][0]));
+  }
+  EXPECT_EQ(area, 2 * 12);
+}
+
 TEST(OpenMesh, ALimitedChildReadsTheSame) {
   const TestFolder folder;
   const std::string path = save(folder, sheet(100, true));

@@ -1,5 +1,3 @@
-#include "io/scene/triangulate.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -7,43 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "tests/io/scene/triangulated.h"
+
 namespace svdag {
 namespace {
 
-std::vector<Triangle> triangulate(const std::vector<Point>& polygon) {
-  std::vector<Triangle> triangles;
-  const TriangleSink sink = [&](const TriangleBatch& batch) {
-    triangles.insert(triangles.end(), batch.triangles.begin(), batch.triangles.end());
-  };
-  BatchWriter writer(sink);
-  MemoryBudget budget;
-  Triangulator triangulator(&budget);
-  for (const Point& p : polygon) triangulator.corner(p);
-  triangulator.finish(writer);
-  writer.flush();
-  return triangles;
-}
-
-// Twice the signed area in the plane z = 0.
-double area(const Point& a, const Point& b, const Point& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-void expect_partition(const std::vector<Point>& polygon) {
-  double whole = 0, sum = 0;
-  for (size_t i = 2; i < polygon.size(); ++i) whole += area(polygon[0], polygon[i - 1], polygon[i]);
-  const auto triangles = triangulate(polygon);
-  ASSERT_EQ(triangles.size(), polygon.size() - 2);
-  for (const Triangle& t : triangles) {
-    EXPECT_GE(area(t.v[0], t.v[1], t.v[2]) * whole, 0) << "turned over";
-    sum += area(t.v[0], t.v[1], t.v[2]);
-  }
-  EXPECT_DOUBLE_EQ(sum, whole);
-}
-
 TEST(Triangulate, ConvexPolygonsAreFansFromTheFirstCorner) {
   const std::vector<Point> hexagon = {{2, 0, 0}, {4, 0, 0.5}, {6, 2, 0},
-                                      {4, 4, 0}, {2, 4, 1}, {0, 2, 0}};
+                                      {4, 4, 0}, {2, 4, 1},   {0, 2, 0}};
   const auto triangles = triangulate(hexagon);
   ASSERT_EQ(triangles.size(), 4U);
   for (size_t i = 0; i < 4; ++i) {
