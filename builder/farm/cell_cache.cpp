@@ -1,11 +1,14 @@
 #include "builder/farm/cell_cache.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <random>
 
 #include "builder/farm/cell_key.h"
+#include "builder/farm/pack_blocks.h"
 
 namespace svdag {
 namespace {
@@ -21,6 +24,17 @@ std::string random_name() {
   return std::string(name) + kEnding;
 }
 
+// A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
+size_t packs_to_keep_open() {
+  struct rlimit files;
+  return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
+}
+
+// What is no fault of the pack and passes: the bake goes on without it.
+void require_passing(const Error& error) {
+  if (error.code() == ExitCode::kInternal) throw error;
+}
+
 }  // namespace
 
 CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
@@ -30,6 +44,7 @@ CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
       rule_(rule),
       budget_(budget),
       folder_(Folder::open_private(config.folder)) {
+  if (config_.most_open == 0) config_.most_open = packs_to_keep_open();
   open_packs();
 }
 
@@ -50,8 +65,10 @@ void CellCache::open_packs() {
     try {
       packs_.push_back({Pack(config_.folder + "/" + name, budget_), {}});
       entries += packs_.back().pack.entries().size();
+    } catch (const DamagedPack&) {
+      discard(name);
     } catch (const Error& error) {
-      discard(name, error);
+      require_passing(error);
     }
   }
   counted_ = budget_->reserve(entries * kPerPlace, "the cell cache");
@@ -66,25 +83,28 @@ CellKey CellCache::key(const Cube& cube, const EntryList& list) const {
   return cell_key(grid_, rule_, cube, list);
 }
 
-// What to do about a pack that cannot be used. One that a file server cannot give just now may be
-// good another time.
-void CellCache::discard(const std::string& name, const Error& error) const {
-  if (error.code() == ExitCode::kOutput) return;
-  if (error.code() != ExitCode::kBadInput) throw error;
-  folder_.remove(name);
+void CellCache::discard(const std::string& name) const {
+  try {
+    folder_.remove(name);
+  } catch (const Error&) {  // a cache that cannot be written to serves all the same
+  }
 }
 
 // Proves a pack before its first use; its file is marked as used.
-bool CellCache::usable(Open* open) const {
-  if (open->proven || open->broken) return open->proven;
+bool CellCache::usable(Open* open) {
+  if (open->proven || open->unusable) return open->proven;
+  if (open_ >= config_.most_open) return false;
+  open->unusable = true;
   try {
     open->pack.prove();
     open->proven = true;
+    ++open_;
     std::error_code ignored;  // a cache that cannot be written to serves all the same
     fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
+  } catch (const DamagedPack&) {
+    discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
-    open->broken = true;
-    discard(fs::path(open->pack.path()).filename().string(), error);
+    require_passing(error);
   }
   return open->proven;
 }

@@ -92,7 +92,7 @@ class Ascending {
  public:
   explicit Ascending(const std::string& path) : path_(path) {}
   void add(const Key& key) {
-    if (!(last_ < key)) fail_input(path_, "is damaged: its nodes do not ascend");
+    if (!(last_ < key)) throw DamagedPack(path_, "is damaged: its nodes do not ascend");
     last_ = key;
   }
 
@@ -205,16 +205,17 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
 
 Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
   const File file = File::open_read(path_);
-  file.read_at(0, std::as_writable_bytes(std::span(&header_, 1)));
+  const size_t read = file.read_some_at(0, std::as_writable_bytes(std::span(&header_, 1)));
   const uint64_t size = file.size();
-  bool sound = std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0 &&
+  bool sound = read == sizeof header_ &&
+               std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0 &&
                header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
                header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
   const uint64_t payload = sound ? payload_of(header_) : 0;
   const uint64_t blocks = (payload + kPackBlock - 1) / kPackBlock;
   if (!sound || kPackBegin + payload + blocks * sizeof(uint64_t) != size)
-    fail_input(path_, "is no pack of a cell cache, or damaged");
+    throw DamagedPack(path_, "is no pack of a cell cache, or damaged");
   counted_ = budget->reserve(header_.entries * sizeof(PackEntry) + blocks * sizeof(uint64_t),
                              "entries of the cell cache");
   checksums_.resize(blocks);
@@ -229,7 +230,7 @@ Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
   for (const PackEntry& entry : entries_) {
     if (entry.rank != kNoNode && (entry.height < kBrickHeight || entry.height >= kHeights ||
                                   entry.rank >= header_.keys[entry.height]))
-      fail_input(path_, "is damaged: an entry has no node");
+      throw DamagedPack(path_, "is damaged: an entry has no node");
   }
 }
 
@@ -251,7 +252,7 @@ void Pack::prove() {
       for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
         nodes.add(key);
         if (*std::max_element(key.begin(), key.end()) > header_.keys[h - 1])
-          fail_input(path_, "is damaged: a child is outside of the pack");
+          throw DamagedPack(path_, "is damaged: a child is outside of the pack");
       }
     });
   }

@@ -52,14 +52,14 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
 
 class Pack {
  public:
-  // Reads header and entries. An Error (kBadInput) if they are not sound.
+  // Reads header and entries. A DamagedPack (builder/farm/pack_blocks.h) if they are not sound.
   Pack(std::string path, MemoryBudget* budget);
 
   const std::string& path() const { return path_; }
   uint64_t bytes() const { return header_.file_bytes; }
   std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file, for good, and reads it once to the end: an Error if it is gone, a byte of it is
-  // not as it was written, or its nodes are none that a run can have.
+  // Opens the file, for good, and reads it once to the end: a DamagedPack if a byte of it is not as
+  // it was written, or its nodes are none that a run can have; an Error if it cannot be read.
   void prove();
 
   struct Taken {

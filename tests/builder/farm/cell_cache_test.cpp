@@ -2,8 +2,12 @@
 // left of it.
 #include "builder/farm/cell_cache.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <set>
 #include <thread>
 
 #include "builder/farm/cell_key.h"
@@ -14,6 +18,13 @@ namespace svdag {
 namespace {
 
 namespace fs = std::filesystem;
+
+Grid grid_of(int levels) {
+  Grid grid;
+  grid.levels = levels;
+  grid.selection = grid.whole();
+  return grid;
+}
 
 class Cache : public ::testing::Test {
  protected:
@@ -108,6 +119,63 @@ TEST_F(Cache, WhatIsDamagedIsBakedAgain) {
   }
 }
 
+// As long as it lives, the process can open nothing.
+class NoDescriptorLeft {
+ public:
+  NoDescriptorLeft() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    struct rlimit few = before_;
+    few.rlim_cur = 64;
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    for (int fd = ::dup(0); fd >= 0; fd = ::dup(0)) taken_.push_back(fd);
+  }
+  ~NoDescriptorLeft() {
+    for (const int fd : taken_) ::close(fd);
+    ::setrlimit(RLIMIT_NOFILE, &before_);
+  }
+
+ private:
+  struct rlimit before_;
+  std::vector<int> taken_;
+};
+
+TEST_F(Cache, APackThatCannotBeOpenedJustNowStays) {
+  bake_as_expected(prepare(random_soup(300, 0.1, 13), 6));
+  const std::vector<fs::path> before = packs();
+  MemoryBudget budget(uint64_t(1) << 30);
+  const CellKey key = Pack(before.at(0), &budget).entries()[0].key;
+  {
+    CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
+    const NoDescriptorLeft none;
+    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}));
+  }
+  EXPECT_EQ(packs(), before);
+  CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}));
+}
+
+TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
+  std::vector<Triangle> all;
+  for (int slice = 0; slice < 5; ++slice) {  // each adds a pack
+    const std::vector<Triangle> more = random_soup(200, 0.05, unsigned(30 + slice));
+    all.insert(all.end(), more.begin(), more.end());
+    bake_as_expected(prepare(all, 7));
+  }
+  // The cells of all packs, in one bake that may open two of them.
+  MemoryBudget budget(uint64_t(1) << 30);
+  cache_.most_open = 2;
+  CellCache cache(cache_, grid_of(7), Rule::kConservative, &budget);
+  std::set<fs::path> used;
+  for (const fs::path& path : packs()) {
+    const Pack pack(path, &budget);
+    for (const PackEntry& entry : pack.entries()) {
+      if (cache.take(entry.key, {3, {0, 0, 0}})) used.insert(path);
+    }
+  }
+  EXPECT_EQ(used.size(), 2U);
+  EXPECT_EQ(packs().size(), 5U);
+}
+
 TEST_F(Cache, ManyBakesShareAFolder) {
   const BuildConfig config = prepare(random_soup(1000, 0.1, 7), 7);
   std::vector<std::thread> threads;
@@ -176,13 +244,6 @@ CellKey key_of(const Grid& grid, Rule rule, const LatticePoint& cube,
   EntryList list;
   for (const TriangleSetup& setup : setups) list.push_back({&setup, setup.edges});
   return cell_key(grid, rule, {grid.levels - 5, cube}, list);
-}
-
-Grid grid_of(int levels) {
-  Grid grid;
-  grid.levels = levels;
-  grid.selection = grid.whole();
-  return grid;
 }
 
 TEST(CellKey, IsThatOfTheContentAndNotOfThePlace) {
