@@ -230,6 +230,7 @@ void Bake::take_from_store() {
   };
   store_->taken(target, [this](BakedRun baked) { hand_on(std::move(baked)); });
   report_.cache_hits = store_->hits();
+  report_.cache_ignored = store_->ignored();
   report_.cache_complaint = store_->complaint();
   store_.reset();
 }

@@ -69,6 +69,7 @@ struct BuildReport {
   uint64_t cells = 0;             // visited
   uint64_t runs = 0;              // merged; those of an earlier process included
   uint64_t cache_hits = 0;        // of the cells
+  uint64_t cache_ignored = 0;     // packs of the cache that the memory had no room for
   std::string cache_complaint;    // why cells were not kept; empty if all were
   bool resumed = false;
   uint64_t voxels_kept = 0;  // of `voxels`, by the processes before this one

@@ -80,6 +80,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"cell_level", r.cell_level},
                {"cells", r.cells},
                {"cache_hits", r.cache_hits},
+               {"cache_packs_ignored", r.cache_ignored},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
                {"file_bytes", r.file_bytes},
@@ -131,6 +132,9 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
   std::printf("  %s cells visited", format_count(r.cells).c_str());
   if (!config.cache.folder.empty())
     std::printf(", %s of them found in the cache", format_count(r.cache_hits).c_str());
+  if (r.cache_ignored != 0)
+    std::printf("; %s of its packs not looked at, for which --memory is too little",
+                format_count(r.cache_ignored).c_str());
   std::printf("\n");
   std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.asked).c_str(), format_count(r.memo.answered).c_str(),

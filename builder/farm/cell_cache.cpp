@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <random>
+#include <tuple>
 
 #include "builder/farm/cell_key.h"
 #include "builder/farm/pack_blocks.h"
+#include "builder/shares.h"
+#include "streaming/counts.h"
 
 namespace svdag {
 namespace {
@@ -55,28 +58,62 @@ CellCache::~CellCache() {
   }
 }
 
-void CellCache::open_packs() {
-  constexpr uint64_t kPerPlace = 96;  // of a hash table's node and its share of the slots
-  uint64_t entries = 0;
-  std::vector<std::string> names = folder_.names();
-  std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
+// All that there are, that used least recently first.
+std::vector<CellCache::Found> CellCache::find_packs() const {
+  std::vector<Found> packs;
+  for (const std::string& name : folder_.names()) {
     if (!name.ends_with(kEnding)) continue;
+    const fs::path path = fs::path(config_.folder) / name;
+    std::error_code gone;  // another bake may trim, too
+    const auto used = fs::last_write_time(path, gone);
+    const uint64_t bytes = gone ? 0 : fs::file_size(path, gone);
+    if (!gone) packs.push_back({used, name, bytes});
+  }
+  std::sort(packs.begin(), packs.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.used, a.name) < std::tie(b.used, b.name);
+  });
+  return packs;
+}
+
+void CellCache::open_packs() {
+  const Shares shares(budget_->limit(), 1);
+  uint64_t left = shares.index, entries = 0;
+  std::vector<Found> found = find_packs();
+  std::reverse(found.begin(), found.end());
+  for (const Found& file : found) {
     try {
-      packs_.push_back({Pack(config_.folder + "/" + name, budget_), {}});
-      entries += packs_.back().pack.entries().size();
+      Pack pack(config_.folder + "/" + file.name);
+      const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(Place);
+      if (bytes > left || pack.marks_bytes() > shares.marks) {
+        ++ignored_;
+        continue;
+      }
+      pack.read_entries(budget_);
+      packs_.push_back({std::move(pack), {}});
+      left -= bytes;
+      entries += packs_.back().pack.entry_count();
     } catch (const DamagedPack&) {
-      discard(name);
+      discard(file.name);
     } catch (const Error& error) {
       require_passing(error);
     }
   }
-  counted_ = budget_->reserve(entries * kPerPlace, "the cell cache");
+  counted_ = budget_->reserve(entries * sizeof(Place), "the cell cache");
   places_.reserve(entries);
-  for (size_t p = 0; p < packs_.size(); ++p) {
-    const auto list = packs_[p].pack.entries();
-    for (size_t e = 0; e < list.size(); ++e) places_.try_emplace(list[e].key, Place{p, e});
+  make_index();
+}
+
+// Of equal keys the one stays whose pack was used last.
+void CellCache::make_index() {
+  for (uint32_t p = 0; p < packs_.size(); ++p) {
+    const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
+    for (uint32_t e = 0; e < count; ++e) places_.push_back({p, e});
   }
+  std::sort(places_.begin(), places_.end(), [this](Place a, Place b) {
+    return std::tie(key_at(a).words, a.pack, a.entry) < std::tie(key_at(b).words, b.pack, b.entry);
+  });
+  const auto same = [this](Place a, Place b) { return key_at(a) == key_at(b); };
+  places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
 }
 
 CellKey CellCache::key(const Cube& cube, const EntryList& list) const {
@@ -110,14 +147,16 @@ bool CellCache::usable(Open* open) {
 }
 
 bool CellCache::take(const CellKey& key, const Cube& cube) {
-  const auto found = places_.find(key);
-  if (found == places_.end()) return false;
+  const auto found = std::lower_bound(
+      places_.begin(), places_.end(), key,
+      [this](Place place, const CellKey& k) { return key_at(place).words < k.words; });
+  if (found == places_.end() || key_at(*found) != key) return false;
   const std::lock_guard lock(mutex_);
-  Open& open = packs_[found->second.pack];
-  const PackEntry& entry = open.pack.entries()[found->second.entry];
+  Open& open = packs_[found->pack];
+  const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !usable(&open)) return false;
-  open.taken.push_back({found->second.entry, cube});
+  open.taken.push_back({found->entry, cube});
   ++hits_;
   return true;
 }
@@ -147,24 +186,9 @@ void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
 }
 
 void CellCache::trim() const {
-  struct Found {
-    fs::file_time_type used;
-    std::string name;
-    uint64_t bytes;
-  };
-  std::vector<Found> packs;
+  const std::vector<Found> packs = find_packs();
   uint64_t all = 0;
-  for (const std::string& name : folder_.names()) {
-    if (!name.ends_with(kEnding)) continue;
-    const fs::path path = fs::path(config_.folder) / name;
-    std::error_code gone;  // another bake may trim, too
-    const Found found{fs::last_write_time(path, gone), name, fs::file_size(path, gone)};
-    if (gone) continue;
-    packs.push_back(found);
-    all += found.bytes;
-  }
-  std::sort(packs.begin(), packs.end(),
-            [](const Found& a, const Found& b) { return a.used < b.used; });
+  for (const Found& pack : packs) all += pack.bytes;
   size_t left = packs.size();
   for (const Found& pack : packs) {
     if (all <= config_.most_bytes && left <= config_.most_packs) return;

@@ -53,6 +53,15 @@ class Cache : public ::testing::Test {
     return packs;
   }
 
+  static std::vector<CellKey> keys_of(const fs::path& path) {
+    MemoryBudget budget;
+    Pack pack(path);
+    pack.read_entries(&budget);
+    std::vector<CellKey> keys;
+    for (const PackEntry& entry : pack.entries()) keys.push_back(entry.key);
+    return keys;
+  }
+
   TemporaryFolder folder_;
   CellCacheConfig cache_{folder_.file("cache")};
   std::string expected_;
@@ -143,7 +152,7 @@ TEST_F(Cache, APackThatCannotBeOpenedJustNowStays) {
   bake_as_expected(prepare(random_soup(300, 0.1, 13), 6));
   const std::vector<fs::path> before = packs();
   MemoryBudget budget(uint64_t(1) << 30);
-  const CellKey key = Pack(before.at(0), &budget).entries()[0].key;
+  const CellKey key = keys_of(before.at(0)).at(0);
   {
     CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
     const NoDescriptorLeft none;
@@ -167,13 +176,41 @@ TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
   CellCache cache(cache_, grid_of(7), Rule::kConservative, &budget);
   std::set<fs::path> used;
   for (const fs::path& path : packs()) {
-    const Pack pack(path, &budget);
-    for (const PackEntry& entry : pack.entries()) {
-      if (cache.take(entry.key, {3, {0, 0, 0}})) used.insert(path);
+    for (const CellKey& key : keys_of(path)) {
+      if (cache.take(key, {3, {0, 0, 0}})) used.insert(path);
     }
   }
   EXPECT_EQ(used.size(), 2U);
   EXPECT_EQ(packs().size(), 5U);
+}
+
+// A pack of `count` cells without voxels that no bake asks for.
+void write_strange_pack(const std::string& path, size_t count) {
+  static std::mt19937_64 random(14);
+  BakedRun baked;
+  baked.run.nodes.resize(4);
+  for (size_t i = 0; i < count; ++i)
+    baked.cells.push_back({{{random(), random(), random(), random()}}, BakedCell::kNoRoot, 0});
+  MemoryBudget budget;
+  write_pack(path, baked, 6, nullptr, &budget);
+}
+
+TEST_F(Cache, ThatHasGrownFitsIntoLittleMemory) {
+  BuildConfig config = prepare(random_soup(20'000, 0.1, 3), 8);
+  config.memory = uint64_t(9) << 20;
+  const BuildReport alone = bake_as_expected(config, 2);
+  EXPECT_EQ(alone.cache_ignored, 0U);
+  const std::vector<fs::path> own = packs();
+  for (int i = 0; i < 30; ++i)  // whose entries take more than twice the budget
+    write_strange_pack(cache_.folder + "/" + std::to_string(i) + ".cells", 16'000);
+  for (const fs::path& pack : own)
+    fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  const BuildReport newest = bake_as_expected(config, 2);
+  EXPECT_GT(newest.cache_hits, newest.cells - 20) << "what was used last is looked at first";
+  EXPECT_GE(newest.cache_ignored, 25U);
+  for (const fs::path& pack : own)
+    fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  bake_as_expected(config, 2);
 }
 
 TEST_F(Cache, ManyBakesShareAFolder) {
@@ -283,9 +320,8 @@ TEST_F(Cache, AKeyThatDiffersInOneByteIsNotFound) {
   const BuildConfig config = prepare(random_soup(300, 0.1, 12), 6);
   bake_as_expected(config);
   MemoryBudget budget(uint64_t(1) << 30);
-  const Pack pack(packs().at(0), &budget);
+  const CellKey key = keys_of(packs().at(0)).at(0);
   CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
-  const CellKey key = pack.entries()[0].key;
   for (size_t byte = 0; byte < sizeof key; ++byte) {
     CellKey other = key;
     reinterpret_cast<unsigned char*>(other.words.data())[byte] ^= 1;
