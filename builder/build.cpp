@@ -110,7 +110,10 @@ class Bake {
 void Bake::find_unfinished() {
   if (!Checkpoint::exists(folder_)) return folder_.clear();
   folder_.keep();  // also if it cannot be read now
-  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume();
+  const auto wanted = [this](const std::string& description) {
+    return config_.unfinished != Unfinished::kResumeSame || description == description_.text();
+  };
+  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume(wanted);
   if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
     saved_.reset();
     checkpoint_.discard();

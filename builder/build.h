@@ -17,8 +17,9 @@
 
 namespace svdag {
 
-// What to do with an unfinished bake of the same output.
-enum class Unfinished { kRefuse, kResume, kRestart };
+// What to do with an unfinished bake of the same output: kResume refuses it if it is another bake,
+// kResumeSame discards it then.
+enum class Unfinished { kRefuse, kResume, kResumeSame, kRestart };
 
 // A split that was made before, by a plan (builder/farm/plan.h).
 struct ReadySplit {
