@@ -188,8 +188,8 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
 }
 
 int run_build(const BuildCommandConfig& config) {
-  if (!config.batch.empty()) return run_batch(config);
   if (config.shard != 0) return run_shard(config);
+  if (!config.batch.empty()) return run_batch(config);
   if (config.dry_run) return run_dry(config);
   bake_scene(config);
   return int(ExitCode::kOk);
