@@ -109,7 +109,10 @@ class Bake {
 void Bake::find_unfinished() {
   if (!Checkpoint::exists(folder_)) return folder_.clear();
   folder_.keep();  // also if it cannot be read now
-  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume();
+  const auto wanted = [this](const std::string& description) {
+    return config_.unfinished != Unfinished::kResumeSame || description == description_.text();
+  };
+  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume(wanted);
   if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
     saved_.reset();
     checkpoint_.discard();
@@ -229,6 +232,7 @@ void Bake::take_from_store() {
   };
   store_->taken(target, [this](BakedRun baked) { hand_on(std::move(baked)); });
   report_.cache_hits = store_->hits();
+  report_.cache_ignored = store_->ignored();
   report_.cache_complaint = store_->complaint();
   store_.reset();
 }

@@ -17,8 +17,9 @@
 
 namespace svdag {
 
-// What to do with an unfinished bake of the same output.
-enum class Unfinished { kRefuse, kResume, kRestart };
+// What to do with an unfinished bake of the same output: kResume refuses it if it is another bake,
+// kResumeSame discards it then.
+enum class Unfinished { kRefuse, kResume, kResumeSame, kRestart };
 
 // A split that was made before, by a plan (builder/farm/plan.h).
 struct ReadySplit {
@@ -69,6 +70,7 @@ struct BuildReport {
   uint64_t cells = 0;             // visited
   uint64_t runs = 0;              // merged; those of an earlier process included
   uint64_t cache_hits = 0;        // of the cells
+  uint64_t cache_ignored = 0;     // packs of the cache that the memory had no room for
   std::string cache_complaint;    // why cells were not kept; empty if all were
   bool resumed = false;
   uint64_t voxels_kept = 0;  // of `voxels`, by the processes before this one

@@ -40,6 +40,8 @@ class CellStore {
   virtual void keep(const BakedRun& baked, SpillFile* runs) = 0;
   // Of the cells that were asked for, how many were known.
   virtual uint64_t hits() const = 0;
+  // How many packs of cells were not looked at, for lack of memory.
+  virtual uint64_t ignored() const = 0;
   // Why cells could not be kept; empty if all could.
   virtual std::string complaint() const = 0;
 };

@@ -12,11 +12,11 @@ bool Checkpoint::exists(const ScratchDir& folder) {
   return folder.has(kName);
 }
 
-std::optional<SavedBake> Checkpoint::resume() {
+std::optional<SavedBake> Checkpoint::resume(const std::function<bool(const std::string&)>& wanted) {
   std::vector<JournalRecord> records;
   Journal journal(scratch_->folder()->open(kName), &records);
   SavedBake saved = read_saved(records, scratch_->folder()->path() + "/" + kName);
-  if (saved.block_bytes == 0) return {};
+  if (saved.block_bytes == 0 || !wanted(saved.description)) return {};
   // Blocks that a killed process left behind carry numbers that are not in the journal: each
   // session has numbers of its own.
   scratch_->resume(size_t(saved.block_bytes), saved.triangle_blocks, saved.run_blocks,

@@ -5,6 +5,7 @@
 // on disk, so a bake that is resumed trusts the journal and nothing else (builder/saved_bake.h).
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,9 +21,10 @@ class Checkpoint {
 
   // Whether the folder holds a bake that can be resumed.
   static bool exists(const ScratchDir& folder);
-  // Reads the journal, takes the files of the scratch over, and goes on with them. None if the
-  // journal has no bake; an Error (kOutput) if it makes no sense.
-  std::optional<SavedBake> resume();
+  // Reads the journal, takes the files of the scratch over, and goes on with them. None, and
+  // nothing is taken over, if the journal has no bake or one whose description is not wanted; an
+  // Error (kOutput) if it makes no sense.
+  std::optional<SavedBake> resume(const std::function<bool(const std::string&)>& wanted);
 
   // Removes the journal, if there is one, for good: no power cut brings it back beside files that
   // were removed or made since.

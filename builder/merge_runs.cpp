@@ -122,7 +122,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   }
 
   ScratchDir folder(ScratchDir::path_for(config.output, config.scratch));
-  if (Checkpoint::exists(folder)) {
+  if (Checkpoint::exists(folder) && !config.discard_unfinished) {
     folder.keep();
     fail_usage(config.output + ": an unfinished bake of it is in " + folder.path() +
                ": finish it, or choose another output");

@@ -18,6 +18,10 @@ namespace svdag {
 
 class RankBitmap {
  public:
+  // What a set of positions below `end` takes at most.
+  static constexpr uint64_t most_bytes(uint64_t end) {
+    return (end + kChunk - 1) / kChunk * sizeof(Chunk);
+  }
   // `purpose`: of the memory, for an Error (kMemory).
   RankBitmap(MemoryBudget* budget, const char* purpose)
       : purpose_(purpose), reservation_(budget->reserve(0, purpose)) {}

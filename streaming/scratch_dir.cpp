@@ -33,6 +33,14 @@ std::string ScratchDir::path_for(const std::string& output, const std::string& u
   return under + "/" + name_of(output) + "-" + hash + ".scratch";
 }
 
+bool ScratchDir::in_use(const std::string& path) {
+  try {
+    return !File::open_read(path + "/" + kOwner).try_lock();
+  } catch (const Error&) {  // there is no such folder, or none that can be owned
+    return false;
+  }
+}
+
 ScratchDir::ScratchDir(const std::string& path) : folder_(own(path, &owner_)) {}
 
 // A lock counts only if the locked file still has its name: between open and lock the former owner
@@ -49,9 +57,7 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
       File file = folder.open_or_create(kOwner);
       if (file.descriptor() < 0) continue;
       if (!file.try_lock()) {
-        if (std::chrono::steady_clock::now() > patience)
-          throw Error(ExitCode::kUsage,
-                      "another bake is using this scratch folder: wait for it, or end it", path);
+        if (std::chrono::steady_clock::now() > patience) throw ScratchInUse(path);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;
       }
@@ -59,8 +65,7 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
       if (folder.made()) folder.sync();  // the lock's name is on the disk before any other's
       *owner = std::move(file);
     } catch (const std::exception& error) {
-      const auto* known = dynamic_cast<const Error*>(&error);
-      const bool in_use = known != nullptr && known->code() == ExitCode::kUsage;
+      const bool in_use = dynamic_cast<const ScratchInUse*>(&error) != nullptr;
       if (folder.made() && !in_use) discard(folder, {});
       throw;
     }

@@ -16,14 +16,26 @@
 
 namespace svdag {
 
+// Another process owns the folder: it may be done later. kUsage, for most people have begun a bake
+// twice by mistake.
+class ScratchInUse : public Error {
+ public:
+  explicit ScratchInUse(const std::string& path)
+      : Error(ExitCode::kUsage, "another bake is using this scratch folder: wait for it, or end it",
+              path) {}
+};
+
 class ScratchDir {
  public:
   // The folder for `output`: OUTPUT.scratch, or, if `under` is not empty, a folder in `under` named
   // after the output and a hash of its absolute path, so that many bakes may share `under`.
   static std::string path_for(const std::string& output, const std::string& under);
 
+  // Whether a process owns the folder `path` now.
+  static bool in_use(const std::string& path);
+
   // Creates the folder, or takes it over with all it holds. A folder that another process owns is
-  // an Error (kUsage) that says so; one that is not ours to use (a link, another user's, no folder,
+  // ScratchInUse; one that is not ours to use (a link, another user's, no folder,
   // one with files but without a lock) and one that cannot be made are Errors (kOutput).
   explicit ScratchDir(const std::string& path);
   ScratchDir(const ScratchDir&) = delete;

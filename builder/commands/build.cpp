@@ -80,6 +80,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"cell_level", r.cell_level},
                {"cells", r.cells},
                {"cache_hits", r.cache_hits},
+               {"cache_packs_ignored", r.cache_ignored},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
                {"file_bytes", r.file_bytes},
@@ -131,6 +132,9 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
   std::printf("  %s cells visited", format_count(r.cells).c_str());
   if (!config.cache.folder.empty())
     std::printf(", %s of them found in the cache", format_count(r.cache_hits).c_str());
+  if (r.cache_ignored != 0)
+    std::printf("; %s of its packs not looked at, for which --memory is too little",
+                format_count(r.cache_ignored).c_str());
   std::printf("\n");
   std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.asked).c_str(), format_count(r.memo.answered).c_str(),
@@ -184,8 +188,8 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
 }
 
 int run_build(const BuildCommandConfig& config) {
-  if (!config.batch.empty()) return run_batch(config);
   if (config.shard != 0) return run_shard(config);
+  if (!config.batch.empty()) return run_batch(config);
   if (config.dry_run) return run_dry(config);
   bake_scene(config);
   return int(ExitCode::kOk);

@@ -64,6 +64,18 @@ void add_cache_options(CLI::App* app, CellCacheConfig* config) {
       ->type_name("SIZE");
 }
 
+// A step of a plan has to know which options it does not heed.
+void remember_options(CLI::App* app, const CLI::App* grid, std::vector<std::string>* given) {
+  app->parse_complete_callback([=] {
+    for (const CLI::App* options : std::initializer_list<const CLI::App*>{app, grid}) {
+      for (const CLI::Option* option : options->get_options()) {
+        if (option->count() > 0 && !option->get_lnames().empty())
+          given->push_back("--" + option->get_lnames().front());
+      }
+    }
+  });
+}
+
 void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   BuildConfig* build = &config->build;
   CLI::Option* scene =
@@ -113,6 +125,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       ->type_name("FILE");
   add_output_options(app, &config->output);
   add_measurement_options(app, &build->descent);
+  remember_options(app, grid, &config->given);
   add_examples(app,
                {"svdag build city.glb -o city.svdag -r 64K",
                 "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",

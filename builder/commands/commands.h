@@ -22,13 +22,14 @@ struct OutputConfig {
 
 struct BuildCommandConfig {
   BuildConfig build;
-  CellCacheConfig cache;    // --cache, --cache-size; no folder: no cache
-  size_t threads = 0;       // 0: all processors
-  std::string report;       // --report: where the JSON report goes, "" for nowhere
-  size_t shard = 0;         // --shard: the scene is a plan, of which this is baked; 0: it is none
-  bool dry_run = false;     // --dry-run: tells what the bake would take
-  std::string batch;        // --batch: a list of bakes instead of a scene
-  bool keep_going = false;  // --keep-going: a bake that fails does not stop those after it
+  CellCacheConfig cache;  // --cache, --cache-size; no folder: no cache
+  size_t threads = 0;     // 0: all processors
+  std::string report;     // --report: where the JSON report goes, "" for nowhere
+  size_t shard = 0;       // --shard: the scene is a plan, of which this is baked; 0: it is none
+  bool dry_run = false;   // --dry-run: tells what the bake would take
+  std::string batch;      // --batch: a list of bakes instead of a scene
+  std::vector<std::string> given;  // the options of the command line, "--rule"
+  bool keep_going = false;         // --keep-going: a bake that fails does not stop those after it
   // What `svdag build` with these arguments would do; an Error (kUsage) if they make no sense.
   std::function<BuildCommandConfig(const std::vector<std::string>&)> parse;
   OutputConfig output;

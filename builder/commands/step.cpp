@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "builder/commands/commands.h"
 #include "builder/farm/run_step.h"
@@ -19,6 +21,8 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
   if (!config.scratch.empty()) words.insert(words.end(), {"--scratch", config.scratch});
   if (config.memory != 0) words.insert(words.end(), {"-m", std::to_string(config.memory)});
   if (threads != 0) words.insert(words.end(), {"-j", std::to_string(threads)});
+  if (config.checkpoint != 0)
+    words.insert(words.end(), {"--checkpoint", format_double(config.checkpoint)});
   return shell_words(words);
 }
 
@@ -56,20 +60,32 @@ void require_one_plan(const std::vector<std::string>& paths, const char* option)
                " is none: svdag plan makes one");
 }
 
+// All else is in the plan. A shard resumes in any case.
+void require_options_of_a_step(const std::vector<std::string>& given) {
+  static const std::set<std::string> kHeeded = {
+      "--shard",   "--output",     "--memory", "--threads", "--scratch",  "--resume",
+      "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
+  for (const std::string& option : given) {
+    if (!kHeeded.contains(option))
+      fail_usage(option + ": a shard is baked as its plan says: leave this option out");
+  }
+}
+
 }  // namespace
 
 int run_shard(const BuildCommandConfig& config) {
   const BuildConfig& build = config.build;
   require_one_plan(build.scene.paths, "--shard");
-  if (build.levels != 0 || build.voxel_size != 0 || build.bounds || build.part ||
-      !config.report.empty() || config.dry_run)
-    fail_usage("--shard: grid, bounds and report are those of the plan: leave them out");
+  require_options_of_a_step(config.given);
   const Plan plan = load_plan(build.scene.paths.front(), true);
   if (config.shard > plan.shards())
     fail_usage("--shard: the plan has shards 1 to " + std::to_string(plan.shards()));
   const PlanStep& step = find_step(plan, "shard-" + std::to_string(config.shard));
-  return run(plan, step, {build.output, build.memory, build.scratch}, config.threads,
-             config.output);
+  StepConfig shard{build.output, build.memory, build.scratch};
+  if (std::find(config.given.begin(), config.given.end(), "--checkpoint") != config.given.end())
+    shard.checkpoint = build.checkpoint;
+  shard.restart = build.unfinished == Unfinished::kRestart;
+  return run(plan, step, shard, config.threads, config.output);
 }
 
 int run_merge_step(const MergeCommandConfig& config) {

@@ -1,11 +1,17 @@
 #include "builder/farm/cell_cache.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <random>
+#include <tuple>
 
 #include "builder/farm/cell_key.h"
+#include "builder/farm/pack_blocks.h"
+#include "builder/shares.h"
+#include "streaming/counts.h"
 
 namespace svdag {
 namespace {
@@ -21,6 +27,17 @@ std::string random_name() {
   return std::string(name) + kEnding;
 }
 
+// A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
+size_t packs_to_keep_open() {
+  struct rlimit files;
+  return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
+}
+
+// What is no fault of the pack and passes: the bake goes on without it.
+void require_passing(const Error& error) {
+  if (error.code() == ExitCode::kInternal) throw error;
+}
+
 }  // namespace
 
 CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
@@ -30,6 +47,7 @@ CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
       rule_(rule),
       budget_(budget),
       folder_(Folder::open_private(config.folder)) {
+  if (config_.most_open == 0) config_.most_open = packs_to_keep_open();
   open_packs();
 }
 
@@ -40,64 +58,105 @@ CellCache::~CellCache() {
   }
 }
 
-void CellCache::open_packs() {
-  constexpr uint64_t kPerPlace = 96;  // of a hash table's node and its share of the slots
-  uint64_t entries = 0;
-  std::vector<std::string> names = folder_.names();
-  std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
+// All that there are, that used least recently first.
+std::vector<CellCache::Found> CellCache::find_packs() const {
+  std::vector<Found> packs;
+  for (const std::string& name : folder_.names()) {
     if (!name.ends_with(kEnding)) continue;
+    const fs::path path = fs::path(config_.folder) / name;
+    std::error_code gone;  // another bake may trim, too
+    const auto used = fs::last_write_time(path, gone);
+    const uint64_t bytes = gone ? 0 : fs::file_size(path, gone);
+    if (!gone) packs.push_back({used, name, bytes});
+  }
+  std::sort(packs.begin(), packs.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.used, a.name) < std::tie(b.used, b.name);
+  });
+  return packs;
+}
+
+void CellCache::open_packs() {
+  const Shares shares(budget_->limit(), 1);
+  uint64_t left = shares.index, entries = 0;
+  std::vector<Found> found = find_packs();
+  std::reverse(found.begin(), found.end());
+  for (const Found& file : found) {
     try {
-      packs_.push_back({Pack(config_.folder + "/" + name, budget_), {}});
-      entries += packs_.back().pack.entries().size();
+      Pack pack(config_.folder + "/" + file.name);
+      const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(Place);
+      if (bytes > left || pack.marks_bytes() > shares.marks) {
+        ++ignored_;
+        continue;
+      }
+      pack.read_entries(budget_);
+      packs_.push_back({std::move(pack), {}});
+      left -= bytes;
+      entries += packs_.back().pack.entry_count();
+    } catch (const DamagedPack&) {
+      discard(file.name);
     } catch (const Error& error) {
-      discard(name, error);
+      require_passing(error);
     }
   }
-  counted_ = budget_->reserve(entries * kPerPlace, "the cell cache");
+  counted_ = budget_->reserve(entries * sizeof(Place), "the cell cache");
   places_.reserve(entries);
-  for (size_t p = 0; p < packs_.size(); ++p) {
-    const auto list = packs_[p].pack.entries();
-    for (size_t e = 0; e < list.size(); ++e) places_.try_emplace(list[e].key, Place{p, e});
+  make_index();
+}
+
+// Of equal keys the one stays whose pack was used last.
+void CellCache::make_index() {
+  for (uint32_t p = 0; p < packs_.size(); ++p) {
+    const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
+    for (uint32_t e = 0; e < count; ++e) places_.push_back({p, e});
   }
+  std::sort(places_.begin(), places_.end(), [this](Place a, Place b) {
+    return std::tie(key_at(a).words, a.pack, a.entry) < std::tie(key_at(b).words, b.pack, b.entry);
+  });
+  const auto same = [this](Place a, Place b) { return key_at(a) == key_at(b); };
+  places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
 }
 
 CellKey CellCache::key(const Cube& cube, const EntryList& list) const {
   return cell_key(grid_, rule_, cube, list);
 }
 
-// What to do about a pack that cannot be used. One that a file server cannot give just now may be
-// good another time.
-void CellCache::discard(const std::string& name, const Error& error) const {
-  if (error.code() == ExitCode::kOutput) return;
-  if (error.code() != ExitCode::kBadInput) throw error;
-  folder_.remove(name);
+void CellCache::discard(const std::string& name) const {
+  try {
+    folder_.remove(name);
+  } catch (const Error&) {  // a cache that cannot be written to serves all the same
+  }
 }
 
 // Proves a pack before its first use; its file is marked as used.
-bool CellCache::usable(Open* open) const {
-  if (open->proven || open->broken) return open->proven;
+bool CellCache::usable(Open* open) {
+  if (open->proven || open->unusable) return open->proven;
+  if (open_ >= config_.most_open) return false;
+  open->unusable = true;
   try {
     open->pack.prove();
     open->proven = true;
+    ++open_;
     std::error_code ignored;  // a cache that cannot be written to serves all the same
     fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
+  } catch (const DamagedPack&) {
+    discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
-    open->broken = true;
-    discard(fs::path(open->pack.path()).filename().string(), error);
+    require_passing(error);
   }
   return open->proven;
 }
 
 bool CellCache::take(const CellKey& key, const Cube& cube) {
-  const auto found = places_.find(key);
-  if (found == places_.end()) return false;
+  const auto found = std::lower_bound(
+      places_.begin(), places_.end(), key,
+      [this](Place place, const CellKey& k) { return key_at(place).words < k.words; });
+  if (found == places_.end() || key_at(*found) != key) return false;
   const std::lock_guard lock(mutex_);
-  Open& open = packs_[found->second.pack];
-  const PackEntry& entry = open.pack.entries()[found->second.entry];
+  Open& open = packs_[found->pack];
+  const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !usable(&open)) return false;
-  open.taken.push_back({found->second.entry, cube});
+  open.taken.push_back({found->entry, cube});
   ++hits_;
   return true;
 }
@@ -127,24 +186,9 @@ void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
 }
 
 void CellCache::trim() const {
-  struct Found {
-    fs::file_time_type used;
-    std::string name;
-    uint64_t bytes;
-  };
-  std::vector<Found> packs;
+  const std::vector<Found> packs = find_packs();
   uint64_t all = 0;
-  for (const std::string& name : folder_.names()) {
-    if (!name.ends_with(kEnding)) continue;
-    const fs::path path = fs::path(config_.folder) / name;
-    std::error_code gone;  // another bake may trim, too
-    const Found found{fs::last_write_time(path, gone), name, fs::file_size(path, gone)};
-    if (gone) continue;
-    packs.push_back(found);
-    all += found.bytes;
-  }
-  std::sort(packs.begin(), packs.end(),
-            [](const Found& a, const Found& b) { return a.used < b.used; });
+  for (const Found& pack : packs) all += pack.bytes;
   size_t left = packs.size();
   for (const Found& pack : packs) {
     if (all <= config_.most_bytes && left <= config_.most_packs) return;

@@ -4,15 +4,18 @@
 // with new cells. A bake reads the entries of all packs when it begins, takes what it meets, and
 // adds packs of its own at its end, each under a random name and complete from the moment that it
 // has the name: any number of bakes may share the folder. A pack is read through before anything of
-// it is taken; one that is damaged, or gone, is as if it had never been, and is removed. Beyond the
+// it is taken, and stays open then, for another bake may remove it. One that is damaged is removed;
+// one that cannot be opened or read just now is left alone; both are as if they had never been, and
+// so are those that are met when as many as may be are open, and those for whose entries the share
+// of the memory (builder/shares.h) has no room beside those that were used since. Beyond the
 // folder's limits the packs that were not used for the longest time go first: one limit is of
 // bytes, the other of packs, for small ones are never joined to larger ones and each costs a bake
 // its reading. Rejected: a file per cell (262,144 at 64K^3), one data base (locks over NFS).
 #pragma once
 
+#include <filesystem>
 #include <mutex>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "builder/farm/cell_pack.h"
@@ -25,6 +28,7 @@ struct CellCacheConfig {
   std::string folder;                        // made if it is not there; private to the user
   uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
   size_t most_packs = 4096;
+  size_t most_open = 0;  // packs of which a bake takes; 0: by what the process may open
 };
 
 class CellCache final : public CellStore {
@@ -40,24 +44,33 @@ class CellCache final : public CellStore {
   // What cannot be written is not kept; complaint() says why.
   void keep(const BakedRun& baked, SpillFile* runs) override;
   uint64_t hits() const override { return hits_; }
+  uint64_t ignored() const override { return ignored_; }
   std::string complaint() const override { return complaint_; }
 
  private:
+  // Entry `entry` of packs_[pack].
   struct Place {
-    size_t pack, entry;
+    uint32_t pack, entry;
+  };
+  struct Found {
+    std::filesystem::file_time_type used;
+    std::string name;
+    uint64_t bytes;
   };
   struct Open {
     Pack pack;
     std::vector<Pack::Taken> taken;
-    bool proven = false, broken = false;
+    bool proven = false, unusable = false;
   };
-  struct Hash {
-    size_t operator()(const CellKey& key) const { return size_t(key.words[0]); }
-  };
+  std::vector<Found> find_packs() const;
   void open_packs();
+  void make_index();
+  const CellKey& key_at(Place place) const {
+    return packs_[place.pack].pack.entries()[place.entry].key;
+  }
   void trim() const;
-  bool usable(Open* open) const;
-  void discard(const std::string& name, const Error& error) const;
+  bool usable(Open* open);
+  void discard(const std::string& name) const;
 
   CellCacheConfig config_;
   Grid grid_;
@@ -65,10 +78,11 @@ class CellCache final : public CellStore {
   MemoryBudget* budget_;
   Folder folder_;
   std::vector<Open> packs_;
+  size_t open_ = 0;                    // of them
   MemoryBudget::Reservation counted_;  // places_
-  std::unordered_map<CellKey, Place, Hash> places_;
+  std::vector<Place> places_;          // of all keys, by key
   std::mutex mutex_;
-  uint64_t hits_ = 0;
+  uint64_t hits_ = 0, ignored_ = 0;
   std::string complaint_;
 };
 

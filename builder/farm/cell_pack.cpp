@@ -33,6 +33,10 @@ uint64_t payload_of(const PackHeader& header) {
   return begin_of(header, kHeights) + header.entries * sizeof(PackEntry);
 }
 
+uint64_t blocks_of(const PackHeader& header) {
+  return (payload_of(header) + kPackBlock - 1) / kPackBlock;
+}
+
 uint64_t checksum_of(const PackHeader& header) {
   return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(PackHeader, checksum)));
 }
@@ -92,7 +96,7 @@ class Ascending {
  public:
   explicit Ascending(const std::string& path) : path_(path) {}
   void add(const Key& key) {
-    if (!(last_ < key)) fail_input(path_, "is damaged: its nodes do not ascend");
+    if (!(last_ < key)) throw DamagedPack(path_, "is damaged: its nodes do not ascend");
     last_ = key;
   }
 
@@ -203,21 +207,34 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
   file.commit();
 }
 
-Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
+Pack::Pack(std::string path) : path_(std::move(path)) {
   const File file = File::open_read(path_);
-  file.read_at(0, std::as_writable_bytes(std::span(&header_, 1)));
+  const size_t read = file.read_some_at(0, std::as_writable_bytes(std::span(&header_, 1)));
   const uint64_t size = file.size();
-  bool sound = std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0 &&
+  bool sound = read == sizeof header_ &&
+               std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0 &&
                header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
                header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
-  const uint64_t payload = sound ? payload_of(header_) : 0;
-  const uint64_t blocks = (payload + kPackBlock - 1) / kPackBlock;
-  if (!sound || kPackBegin + payload + blocks * sizeof(uint64_t) != size)
-    fail_input(path_, "is no pack of a cell cache, or damaged");
-  counted_ = budget->reserve(header_.entries * sizeof(PackEntry) + blocks * sizeof(uint64_t),
-                             "entries of the cell cache");
-  checksums_.resize(blocks);
+  if (!sound || kPackBegin + payload_of(header_) + blocks_of(header_) * sizeof(uint64_t) != size)
+    throw DamagedPack(path_, "is no pack of a cell cache, or damaged");
+}
+
+uint64_t Pack::index_bytes() const {
+  return header_.entries * sizeof(PackEntry) + blocks_of(header_) * sizeof(uint64_t);
+}
+
+uint64_t Pack::marks_bytes() const {
+  uint64_t bytes = 0;
+  for (const uint64_t keys : header_.keys) bytes += RankBitmap::most_bytes(keys);
+  return bytes;
+}
+
+void Pack::read_entries(MemoryBudget* budget) {
+  const File file = File::open_read(path_);
+  const uint64_t payload = payload_of(header_);
+  counted_ = budget->reserve(index_bytes(), "entries of the cell cache");
+  checksums_.resize(blocks_of(header_));
   file.read_at(kPackBegin + payload, std::as_writable_bytes(std::span(checksums_)));
   entries_.resize(header_.entries);
   std::byte* to = reinterpret_cast<std::byte*>(entries_.data());
@@ -229,7 +246,7 @@ Pack::Pack(std::string path, MemoryBudget* budget) : path_(std::move(path)) {
   for (const PackEntry& entry : entries_) {
     if (entry.rank != kNoNode && (entry.height < kBrickHeight || entry.height >= kHeights ||
                                   entry.rank >= header_.keys[entry.height]))
-      fail_input(path_, "is damaged: an entry has no node");
+      throw DamagedPack(path_, "is damaged: an entry has no node");
   }
 }
 
@@ -251,7 +268,7 @@ void Pack::prove() {
       for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
         nodes.add(key);
         if (*std::max_element(key.begin(), key.end()) > header_.keys[h - 1])
-          fail_input(path_, "is damaged: a child is outside of the pack");
+          throw DamagedPack(path_, "is damaged: a child is outside of the pack");
       }
     });
   }

@@ -52,14 +52,22 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
 
 class Pack {
  public:
-  // Reads header and entries. An Error (kBadInput) if they are not sound.
-  Pack(std::string path, MemoryBudget* budget);
+  // Reads the header. A DamagedPack (builder/farm/pack_blocks.h) if it is not sound.
+  explicit Pack(std::string path);
 
   const std::string& path() const { return path_; }
   uint64_t bytes() const { return header_.file_bytes; }
+  // How many entries there are, and the memory that read_entries() takes.
+  uint64_t entry_count() const { return header_.entries; }
+  uint64_t index_bytes() const;
+  // The memory that extract() takes at most, beside that of the run.
+  uint64_t marks_bytes() const;
+
+  // To be called once, before all below. A DamagedPack if they are not sound.
+  void read_entries(MemoryBudget* budget);
   std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file, for good, and reads it once to the end: an Error if it is gone, a byte of it is
-  // not as it was written, or its nodes are none that a run can have.
+  // Opens the file, for good, and reads it once to the end: a DamagedPack if a byte of it is not as
+  // it was written, or its nodes are none that a run can have; an Error if it cannot be read.
   void prove();
 
   struct Taken {

@@ -34,6 +34,9 @@ void LiveTable::tell(size_t step, const StepRow& row) {
                   format_bytes(s.predicted.memory).c_str(),
                   format_bytes(row.receipt->bytes).c_str());
     std::printf("\n");
+  } else if (row.state == StepState::kWaiting && row.others) {
+    clear();
+    std::printf("%-10s is being done by another process: waiting for it\n", s.name.c_str());
   } else {
     clear();
     std::printf("%-10s %s with exit code %d\n", s.name.c_str(),

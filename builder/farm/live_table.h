@@ -17,7 +17,8 @@ enum class StepState { kWaiting, kRunning, kDone, kFailed };
 struct StepRow {
   StepState state = StepState::kWaiting;
   int attempts = 0;
-  int code = 0;  // of the last attempt
+  bool others = false;  // somebody else's process does it, which is waited for
+  int code = 0;         // of the last attempt
   pid_t process = 0;
   std::chrono::steady_clock::time_point begin;
   double seconds = 0;

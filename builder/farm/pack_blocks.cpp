@@ -49,8 +49,8 @@ void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t p
         std::span(memory).first(std::min(kPackBlock, payload - first));
     file.read_at(kPackBegin + first, block);
     if (checksum64(block) != checksums[index])
-      fail_input(file.path(), "is damaged: a block does not match its checksum",
-                 kPackBegin + first);
+      throw DamagedPack(file.path(), "is damaged: a block does not match its checksum",
+                        kPackBegin + first);
     const uint64_t stop = std::min(end, first + block.size());
     use(block.subspan(at - first, stop - at));
     at = stop;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "streaming/atomic_file.h"
+#include "streaming/error.h"
 #include "streaming/file.h"
 
 namespace svdag {
@@ -15,6 +16,15 @@ namespace svdag {
 constexpr uint64_t kPackBegin = 256;  // of the first block in the file
 constexpr uint64_t kPackBlock = 65536;
 constexpr uint64_t kPackAlignment = 64;  // of sections, from kPackBegin on
+
+// The bytes of a pack are not those that were written. Any other Error (no descriptor left, a file
+// server that does not answer) says nothing about the pack.
+class DamagedPack : public Error {
+ public:
+  DamagedPack(const std::string& path, const std::string& sentence,
+              std::optional<uint64_t> offset = {})
+      : Error(ExitCode::kBadInput, sentence, path, offset) {}
+};
 
 constexpr uint64_t align_pack(uint64_t position) {
   return (position + kPackAlignment - 1) / kPackAlignment * kPackAlignment;
@@ -39,8 +49,8 @@ class PackBlockWriter {
 };
 
 // Hands bytes `begin` .. `end` (from kPackBegin on) of `file` to `use`, piece by piece. Pieces
-// begin at multiples of 64 bytes if `begin` does. A block that does not match its checksum is an
-// Error.
+// begin at multiples of 64 bytes if `begin` does. A block that does not match its checksum is a
+// DamagedPack.
 void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t payload,
                uint64_t begin, uint64_t end, const std::function<void(std::span<std::byte>)>& use);
 

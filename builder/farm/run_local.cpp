@@ -7,6 +7,7 @@
 #include "builder/farm/live_table.h"
 #include "builder/farm/process.h"
 #include "builder/farm/receipt.h"
+#include "builder/farm/run_step.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -110,12 +111,24 @@ class Runner {
     if (row.code == 0) {
       row.state = StepState::kDone;
       row.receipt = read_receipt(plan_, plan_.steps[i]);
+    } else if (row.code == int(ExitCode::kOutput) && is_others(i)) {
+      row.state = StepState::kWaiting;
+      --row.attempts;
+      if (row.others) return;  // said before
+      row.others = true;
     } else if (may_pass(row.code) && row.attempts < kAttempts) {
       row.state = StepState::kWaiting;
+      row.others = false;
     } else {
       row.state = StepState::kFailed;
     }
     table_.tell(i, row);
+  }
+
+  bool is_others(size_t i) const {
+    StepConfig step;
+    step.scratch = config_.scratch;
+    return is_being_done(plan_, plan_.steps[i], step);
   }
 
   void fail_if_any_failed() const {

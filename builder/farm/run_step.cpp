@@ -6,6 +6,7 @@
 #include "builder/farm/leaf_bins.h"
 #include "builder/merge_runs.h"
 #include "streaming/error.h"
+#include "streaming/scratch_dir.h"
 
 namespace svdag {
 namespace {
@@ -23,7 +24,8 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
   build.descent.rule = plan.rule;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
-  build.unfinished = Unfinished::kResume;
+  build.unfinished = config.restart ? Unfinished::kRestart : Unfinished::kResumeSame;
+  if (config.checkpoint != 0) build.checkpoint = config.checkpoint;
   const BuildReport report = svdag::build(build, executor, progress);
   return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch.peak};
 }
@@ -55,24 +57,39 @@ Receipt merge_inputs(const Plan& plan, const PlanStep& step, const StepConfig& c
   merge.output = output;
   merge.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   merge.scratch = config.scratch;
+  merge.discard_unfinished = true;
   const MergeRunsReport report = merge_runs(merge, executor, progress);
   return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch_written};
 }
 
+std::string output_of(const Plan& plan, const PlanStep& step, const StepConfig& config) {
+  return config.output.empty() ? plan.path(step.output) : config.output;
+}
+
 }  // namespace
+
+bool is_being_done(const Plan& plan, const PlanStep& step, const StepConfig& config) {
+  return ScratchDir::in_use(ScratchDir::path_for(output_of(plan, step, config), config.scratch));
+}
 
 StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& config,
                     Executor* executor, Progress* progress) {
   const auto begin = std::chrono::steady_clock::now();
   StepReport report;
-  report.output = config.output.empty() ? plan.path(step.output) : config.output;
+  report.output = output_of(plan, step, config);
   if (state_of(plan, step, report.output, true) == OutputState::kValid) {
     report.kept = true;
     report.receipt = *read_receipt(plan, step);
     return report;
   }
   const auto work = step.is_shard() ? bake_shard : merge_inputs;
-  report.receipt = work(plan, step, config, report.output, executor, progress);
+  try {
+    report.receipt = work(plan, step, config, report.output, executor, progress);
+  } catch (const ScratchInUse& in_use) {
+    throw Error(ExitCode::kOutput,
+                "another process is doing " + step.name + " in this scratch folder: wait for it",
+                in_use.path());
+  }
   report.receipt.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   report.receipt.cpu = cpu_seconds();

@@ -2,7 +2,9 @@
 //
 // A step may be asked for any number of times, anywhere, also twice at once: a valid output is
 // kept, any other replaced, and outputs appear whole. What a killed shard had saved is taken up
-// again where its scratch is still to be found.
+// again where its scratch is still to be found; scratch of another plan is discarded. A step that
+// another process does at the moment, in the same scratch folder, is an Error (kOutput): it may
+// pass.
 #pragma once
 
 #include "builder/farm/receipt.h"
@@ -12,9 +14,11 @@
 namespace svdag {
 
 struct StepConfig {
-  std::string output;   // empty: the place in the plan
-  uint64_t memory = 0;  // 0: as planned
-  std::string scratch;  // the folder for scratch folders; empty: the output's
+  std::string output;     // empty: the place in the plan
+  uint64_t memory = 0;    // 0: as planned
+  std::string scratch;    // the folder for scratch folders; empty: the output's
+  double checkpoint = 0;  // of a shard: as in BuildConfig; 0: as there
+  bool restart = false;   // what a killed shard had saved is discarded
 };
 
 struct StepReport {
@@ -22,6 +26,9 @@ struct StepReport {
   bool kept = false;  // it was there
   Receipt receipt;
 };
+
+// Whether a process does this step now, in this scratch folder.
+bool is_being_done(const Plan& plan, const PlanStep& step, const StepConfig& config);
 
 // `plan` must have its bins if the step is a shard. An input that is missing, damaged or not of
 // this plan is an Error (kBadInput).

@@ -13,7 +13,8 @@ void try_pack(const std::string& bytes) {
   expect_only_errors([&] {
     const MemoryFile memory(bytes);
     MemoryBudget budget(uint64_t(64) << 20);
-    Pack pack(memory.file().path(), &budget);
+    Pack pack(memory.file().path());
+    pack.read_entries(&budget);
     pack.prove();
     for (size_t i = 0; i < std::min(pack.entries().size(), kMostTaken); ++i) {
       const PackEntry& entry = pack.entries()[i];

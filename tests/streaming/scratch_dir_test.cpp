@@ -208,6 +208,19 @@ TEST(ScratchDir, ASecondOwnerIsRefusedAndChangesNothing) {
   EXPECT_EQ(text_of(dir.open("spill")), "mine");
 }
 
+TEST(ScratchDir, IsInUseAsLongAsItsOwnerLives) {
+  const TempFolder temp;
+  const std::string path = temp.file("s");
+  EXPECT_FALSE(ScratchDir::in_use(path));
+  {
+    ScratchDir dir(path);
+    EXPECT_TRUE(ScratchDir::in_use(path));
+    dir.keep();
+  }
+  EXPECT_FALSE(ScratchDir::in_use(path));
+  ScratchDir again(path);  // which asking has not changed
+}
+
 TEST(ScratchDir, TheFolderOfAKilledOwnerIsTakenOverWithAllItHolds) {
   const TempFolder temp;
   const pid_t child = start([&] {

@@ -2,8 +2,12 @@
 // left of it.
 #include "builder/farm/cell_cache.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <set>
 #include <thread>
 
 #include "builder/farm/cell_key.h"
@@ -14,6 +18,13 @@ namespace svdag {
 namespace {
 
 namespace fs = std::filesystem;
+
+Grid grid_of(int levels) {
+  Grid grid;
+  grid.levels = levels;
+  grid.selection = grid.whole();
+  return grid;
+}
 
 class Cache : public ::testing::Test {
  protected:
@@ -40,6 +51,15 @@ class Cache : public ::testing::Test {
     std::vector<fs::path> packs;
     for (const auto& entry : fs::directory_iterator(cache_.folder)) packs.push_back(entry.path());
     return packs;
+  }
+
+  static std::vector<CellKey> keys_of(const fs::path& path) {
+    MemoryBudget budget;
+    Pack pack(path);
+    pack.read_entries(&budget);
+    std::vector<CellKey> keys;
+    for (const PackEntry& entry : pack.entries()) keys.push_back(entry.key);
+    return keys;
   }
 
   TemporaryFolder folder_;
@@ -106,6 +126,91 @@ TEST_F(Cache, WhatIsDamagedIsBakedAgain) {
     EXPECT_EQ(report.cache_hits, 0U) << "byte " << at;
     EXPECT_FALSE(fs::exists(fs::path(cache_.folder) / "x.cells")) << "byte " << at;
   }
+}
+
+// As long as it lives, the process can open nothing.
+class NoDescriptorLeft {
+ public:
+  NoDescriptorLeft() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    struct rlimit few = before_;
+    few.rlim_cur = 64;
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    for (int fd = ::dup(0); fd >= 0; fd = ::dup(0)) taken_.push_back(fd);
+  }
+  ~NoDescriptorLeft() {
+    for (const int fd : taken_) ::close(fd);
+    ::setrlimit(RLIMIT_NOFILE, &before_);
+  }
+
+ private:
+  struct rlimit before_;
+  std::vector<int> taken_;
+};
+
+TEST_F(Cache, APackThatCannotBeOpenedJustNowStays) {
+  bake_as_expected(prepare(random_soup(300, 0.1, 13), 6));
+  const std::vector<fs::path> before = packs();
+  MemoryBudget budget(uint64_t(1) << 30);
+  const CellKey key = keys_of(before.at(0)).at(0);
+  {
+    CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
+    const NoDescriptorLeft none;
+    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}));
+  }
+  EXPECT_EQ(packs(), before);
+  CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}));
+}
+
+TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
+  std::vector<Triangle> all;
+  for (int slice = 0; slice < 5; ++slice) {  // each adds a pack
+    const std::vector<Triangle> more = random_soup(200, 0.05, unsigned(30 + slice));
+    all.insert(all.end(), more.begin(), more.end());
+    bake_as_expected(prepare(all, 7));
+  }
+  // The cells of all packs, in one bake that may open two of them.
+  MemoryBudget budget(uint64_t(1) << 30);
+  cache_.most_open = 2;
+  CellCache cache(cache_, grid_of(7), Rule::kConservative, &budget);
+  std::set<fs::path> used;
+  for (const fs::path& path : packs()) {
+    for (const CellKey& key : keys_of(path)) {
+      if (cache.take(key, {3, {0, 0, 0}})) used.insert(path);
+    }
+  }
+  EXPECT_EQ(used.size(), 2U);
+  EXPECT_EQ(packs().size(), 5U);
+}
+
+// A pack of `count` cells without voxels that no bake asks for.
+void write_strange_pack(const std::string& path, size_t count) {
+  static std::mt19937_64 random(14);
+  BakedRun baked;
+  baked.run.nodes.resize(4);
+  for (size_t i = 0; i < count; ++i)
+    baked.cells.push_back({{{random(), random(), random(), random()}}, BakedCell::kNoRoot, 0});
+  MemoryBudget budget;
+  write_pack(path, baked, 6, nullptr, &budget);
+}
+
+TEST_F(Cache, ThatHasGrownFitsIntoLittleMemory) {
+  BuildConfig config = prepare(random_soup(20'000, 0.1, 3), 8);
+  config.memory = uint64_t(9) << 20;
+  const BuildReport alone = bake_as_expected(config, 2);
+  EXPECT_EQ(alone.cache_ignored, 0U);
+  const std::vector<fs::path> own = packs();
+  for (int i = 0; i < 30; ++i)  // whose entries take more than twice the budget
+    write_strange_pack(cache_.folder + "/" + std::to_string(i) + ".cells", 16'000);
+  for (const fs::path& pack : own)
+    fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  const BuildReport newest = bake_as_expected(config, 2);
+  EXPECT_GT(newest.cache_hits, newest.cells - 20) << "what was used last is looked at first";
+  EXPECT_GE(newest.cache_ignored, 25U);
+  for (const fs::path& pack : own)
+    fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  bake_as_expected(config, 2);
 }
 
 TEST_F(Cache, ManyBakesShareAFolder) {
@@ -178,13 +283,6 @@ CellKey key_of(const Grid& grid, Rule rule, const LatticePoint& cube,
   return cell_key(grid, rule, {grid.levels - 5, cube}, list);
 }
 
-Grid grid_of(int levels) {
-  Grid grid;
-  grid.levels = levels;
-  grid.selection = grid.whole();
-  return grid;
-}
-
 TEST(CellKey, IsThatOfTheContentAndNotOfThePlace) {
   const Grid grid = grid_of(10);
   const LatticeTriangle a{{LatticePoint(1, 2, 3), {400, 500, 600}, {7000, 8, 9}}};
@@ -222,9 +320,8 @@ TEST_F(Cache, AKeyThatDiffersInOneByteIsNotFound) {
   const BuildConfig config = prepare(random_soup(300, 0.1, 12), 6);
   bake_as_expected(config);
   MemoryBudget budget(uint64_t(1) << 30);
-  const Pack pack(packs().at(0), &budget);
+  const CellKey key = keys_of(packs().at(0)).at(0);
   CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
-  const CellKey key = pack.entries()[0].key;
   for (size_t byte = 0; byte < sizeof key; ++byte) {
     CellKey other = key;
     reinterpret_cast<unsigned char*>(other.words.data())[byte] ^= 1;

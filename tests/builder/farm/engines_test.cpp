@@ -8,6 +8,7 @@
 #include "builder/farm/shell.h"
 #include "builder/farm/submit_openjd.h"
 #include "builder/farm/submit_slurm.h"
+#include "streaming/scratch_dir.h"
 #include "tests/builder/farm/plans.h"
 
 namespace svdag {
@@ -73,6 +74,13 @@ TEST_F(Engines, TryAgainOnceWhatMayPass) {
   run("[ \"$4\" != 2 ] || [ -e " + flag + " ] || { touch " + flag + "; exit 4; }");
   const std::string lines = asked();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 1);
+}
+
+TEST_F(Engines, WaitForAStepThatAnotherProcessDoes) {
+  const ScratchDir others(plan_.path(plan_.steps[1].output) + ".scratch");
+  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("asked") + ") = 5 ] || exit 4");
+  const std::string lines = asked();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 4);
 }
 
 TEST_F(Engines, LeaveOutWhatCannotBeDoneAndTellWhy) {

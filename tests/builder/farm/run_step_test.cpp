@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "builder/checkpoint.h"
+#include "builder/description.h"
 #include "tests/builder/farm/plans.h"
 
 namespace svdag {
@@ -83,6 +85,65 @@ TEST_F(Steps, AreDoneOnceAndWhatIsNotTheirsIsReplaced) {
     std::filesystem::remove(receipt_path(plan, step));
     EXPECT_FALSE(do_step(plan, step).kept) << "a file that nobody vouches for";
     EXPECT_EQ(read_bytes(path), bytes);
+  }
+}
+
+TEST_F(Steps, ThatAnotherProcessDoesMayBeAskedForAgain) {
+  prepare(bumpy_sphere(40), 8);
+  const Plan plan = plan_of(config("plan", 2));
+  for (const PlanStep& step : plan.steps) {
+    {
+      const ScratchDir others(plan.path(step.output) + ".scratch");
+      EXPECT_TRUE(is_being_done(plan, step, {}));
+      EXPECT_SVDAG_ERROR(do_step(plan, step), ExitCode::kOutput,
+                         "another process is doing " + step.name);
+    }
+    EXPECT_FALSE(is_being_done(plan, step, {}));
+    do_step(plan, step);
+  }
+  EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
+}
+
+// What a killed bake without a triangle leaves behind.
+void leave_unfinished(const std::string& folder, const std::string& description, const Grid& grid) {
+  ScratchDir scratch_folder(folder);
+  MemoryBudget budget;
+  Scratch scratch(&scratch_folder, &budget);
+  Checkpoint checkpoint(&scratch);
+  checkpoint.begin(description, grid);
+  checkpoint.save_split({});
+  scratch_folder.keep();
+}
+
+TEST_F(Steps, DiscardWhatAnotherPlanLeftInTheirScratch) {
+  prepare(bumpy_sphere(40), 8);
+  const Plan plan = plan_of(config("plan", 2));
+  for (const PlanStep& step : plan.steps) {
+    const std::string scratch = plan.path(step.output) + ".scratch";
+    leave_unfinished(scratch, "resolution: 16\n", plan.grid);
+    do_step(plan, step);
+    EXPECT_FALSE(std::filesystem::exists(scratch));
+  }
+  EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
+}
+
+TEST_F(Steps, BeginAnewIfTheyAreToldTo) {
+  prepare(bumpy_sphere(40), 8);
+  const Plan plan = plan_of(config("plan", 2));
+  const PlanStep& shard = plan.steps[0];
+  do_step(plan, shard);
+  const std::string bytes = read_bytes(plan.path(shard.output));
+  const ReadySplit ready{plan.description, plan.grid, {}, {}, nullptr};
+  BuildConfig own;
+  own.ready = &ready;
+  own.part = shard.cells;
+  for (const bool restart : {false, true}) {
+    std::filesystem::remove(plan.path(shard.output));
+    leave_unfinished(plan.path(shard.output) + ".scratch", describe(own, {}), plan.grid);
+    StepConfig config;
+    config.restart = restart;
+    do_step(plan, shard, config);
+    EXPECT_EQ(read_bytes(plan.path(shard.output)) == bytes, restart) << "what was left is trusted";
   }
 }
 
