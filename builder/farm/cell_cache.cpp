@@ -29,7 +29,7 @@ CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
       grid_(grid),
       rule_(rule),
       budget_(budget),
-      folder_(Folder::open_private(config.folder)) {
+      folder_(Folder::open_shared(config.folder)) {
   open_packs();
 }
 
