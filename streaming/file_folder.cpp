@@ -25,7 +25,7 @@ bool same(const struct stat& a, const struct stat& b) {
 
 }  // namespace
 
-Folder Folder::open_private(std::string path) {
+Folder Folder::open_or_make(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();  // "link/" would follow the link
   int fd = -1;
   bool made = false;
@@ -45,14 +45,27 @@ Folder Folder::open_private(std::string path) {
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path, errno);
   Folder folder(fd, std::move(path));
   folder.made_ = made;
-  struct stat status;
-  if (::fstat(fd, &status) != 0)
-    fail_call(ExitCode::kOutput, "cannot be examined", folder.path_, errno);
+  return folder;
+}
+
+Folder Folder::open_private(std::string path) {
+  Folder folder = open_or_make(std::move(path));
+  const struct stat status = folder.status();
   if (status.st_uid != ::geteuid())
     throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
   // A folder that was there may be open to others. Where there are no permissions this fails, and
   // there is nothing to guard.
-  if ((status.st_mode & 0777) != 0700) (void)!::fchmod(fd, 0700);
+  if ((status.st_mode & 0777) != 0700) (void)!::fchmod(folder.fd_, 0700);
+  return folder;
+}
+
+Folder Folder::open_shared(std::string path) {
+  Folder folder = open_or_make(std::move(path));
+  if (!folder.made_ && (folder.status().st_mode & S_IWOTH) != 0)
+    throw Error(ExitCode::kUsage,
+                "everybody may write in this folder, and what lies there would be believed: choose "
+                "one of your own, or of your group",
+                folder.path_);
   return folder;
 }
 
@@ -61,6 +74,12 @@ Folder::Folder(Folder&& other) noexcept
 
 Folder::~Folder() {
   if (fd_ >= 0) ::close(fd_);
+}
+
+struct stat Folder::status() const {
+  struct stat status;
+  if (::fstat(fd_, &status) != 0) fail_call(ExitCode::kOutput, "cannot be examined", path_, errno);
+  return status;
 }
 
 bool Folder::has(const std::string& name) const {

@@ -1,9 +1,11 @@
-// A folder of our own, and the files in it: the other half of the seam of file.h.
+// A folder and the files in it: the other half of the seam of file.h.
 //
 // Everything goes through one descriptor of the folder, so that nobody who may rename or link in
 // the folder above can lead us elsewhere once it is open. All failures are Errors (kOutput) unless
 // said otherwise.
 #pragma once
+
+#include <sys/stat.h>
 
 #include <string>
 #include <vector>
@@ -17,13 +19,16 @@ class Folder {
   // Opens the folder, which is made if there is none, for this user alone (0700). A link, another
   // user's folder and what is no folder are refused.
   static Folder open_private(std::string path);
+  // Opens a folder that others may use, too, as it is, whoever it belongs to; if there is none it
+  // is made (0700). One in which everybody may write is an Error (kUsage); a link is refused.
+  static Folder open_shared(std::string path);
 
   Folder(Folder&& other) noexcept;
   Folder(const Folder&) = delete;
   ~Folder();
 
   const std::string& path() const { return path_; }
-  // True if open_private() has made it: it was empty.
+  // True if it was made when it was opened: it was empty.
   bool made() const { return made_; }
   // True if there is a regular file of this name.
   bool has(const std::string& name) const;
@@ -47,6 +52,8 @@ class Folder {
 
  private:
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+  static Folder open_or_make(std::string path);
+  struct stat status() const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;
 

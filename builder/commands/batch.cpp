@@ -10,6 +10,7 @@
 #include <set>
 
 #include "builder/commands/commands.h"
+#include "io/json_text.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -136,8 +137,9 @@ int run_batch(const BuildCommandConfig& config) {
   }
   if (!config.report.empty()) {
     AtomicFile file(config.report);
-    file.append(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}.dump(2) +
-                "\n");
+    file.append(
+        json_text(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}, 2) +
+        "\n");
     file.commit();
   }
   if (!config.output.quiet)

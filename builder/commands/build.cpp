@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
@@ -105,7 +106,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                  {"written", r.scratch.written},
                  {"read", r.scratch.read}}},
                {"memory", memory_json(r)}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 void print_summary(const BuildCommandConfig& config, const BuildReport& r) {

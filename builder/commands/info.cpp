@@ -7,6 +7,7 @@
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
 #include "io/dag/symvox_header.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -53,7 +54,7 @@ void print_levels(const DagStats& stats) {
 void info_dag(const InfoConfig& config) {
   const DagFile file = DagFile::open(config.paths.front());
   const DagStats stats = compute_stats(file);
-  if (config.json) return void(std::printf("%s\n", dag_json(file, stats).dump(2).c_str()));
+  if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
   const Header& h = file.header();
   const Grid grid = file.grid();
   std::printf("%s: %s^3 voxels, rule %s\n", file.path().c_str(),

@@ -3,6 +3,7 @@
 
 #include "builder/commands/commands.h"
 #include "builder/run_check.h"
+#include "io/json_text.h"
 #include "io/units.h"
 
 namespace svdag {
@@ -38,7 +39,7 @@ void print_json(const RunFile& run) {
   for (const MortonRange& range : run.part().ranges())
     json["ranges"].push_back({range.begin, range.end});
   for (uint32_t k = 0; k + 1 < h.levels; ++k) json["nodes"].push_back(h.keys[k]);
-  std::printf("%s\n", json.dump(2).c_str());
+  std::printf("%s\n", json_text(json, 2).c_str());
 }
 
 void print_text(const RunFile& run) {

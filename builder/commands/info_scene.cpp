@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
+#include "io/json_text.h"
 #include "io/scene/mesh_stats.h"
 #include "io/units.h"
 
@@ -23,7 +24,7 @@ void print_json(const InfoConfig& config, const Box& box, const SceneCounts& cou
                      {"open_edges", stats.open_edges},
                      {"non_manifold_edges", stats.non_manifold_edges},
                      {"components", stats.components}};
-  std::printf("%s\n", json.dump(2).c_str());
+  std::printf("%s\n", json_text(json, 2).c_str());
 }
 
 void print_text(const InfoConfig& config, const Box& box, const SceneCounts& counts,

@@ -46,7 +46,7 @@ CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
       grid_(grid),
       rule_(rule),
       budget_(budget),
-      folder_(Folder::open_private(config.folder)) {
+      folder_(Folder::open_shared(config.folder)) {
   if (config_.most_open == 0) config_.most_open = packs_to_keep_open();
   open_packs();
 }

@@ -25,7 +25,7 @@
 namespace svdag {
 
 struct CellCacheConfig {
-  std::string folder;                        // made if it is not there; private to the user
+  std::string folder;                        // made, for this user alone, if it is not there
   uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
   size_t most_packs = 4096;
   size_t most_open = 0;  // packs of which a bake takes; 0: by what the process may open

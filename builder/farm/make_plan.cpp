@@ -1,6 +1,7 @@
 #include "builder/farm/make_plan.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,21 @@ constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not wor
 constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
 constexpr size_t kSmallestBlock = 1 << 14;
 
-void make_folder(const std::string& path) {
-  if (::mkdir(path.c_str(), 0777) == 0 || errno == EEXIST) return;
+// True if it was not there.
+bool make_folder(const std::string& path) {
+  if (::mkdir(path.c_str(), 0777) == 0) return true;
+  if (errno == EEXIST) return false;
   throw Error(ExitCode::kOutput, "this folder cannot be made", path);
+}
+
+// Names that a plan could not write down are refused before there is work to lose.
+void require_names(const PlanConfig& config) {
+  const SceneConfig& scene = config.build.scene;
+  require_utf8(config.folder);
+  require_utf8(config.output);
+  for (const std::string& path : scene.paths) require_utf8(absolute_path(path));
+  for (const auto& names : {scene.names.include, scene.names.exclude})
+    for (const std::string& name : names) require_utf8(name);
 }
 
 // From a scene to a plan; one function per phase.
@@ -78,6 +91,8 @@ class Planner {
 };
 
 void Planner::read_scene() {
+  if (!config_.folder.empty())
+    scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
   progress_->phase("read bounds", 0);
   const Box box = config_.build.bounds ? Box() : scene_.bounds();
   plan_.folder = config_.folder;
@@ -203,14 +218,21 @@ void Planner::save() {
 
 Plan make_plan(const PlanConfig& config, Progress* progress) {
   PlanConfig own = config;
+  bool made = false;
   if (!own.folder.empty()) {
     while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
     own.folder = absolute_path(own.folder);
     if (is_plan(own.folder))
       fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
-    make_folder(own.folder);
+    require_names(own);
+    made = make_folder(own.folder);
   }
-  return Planner(own, progress).run();
+  try {
+    return Planner(own, progress).run();
+  } catch (...) {
+    if (made) (void)!::rmdir(own.folder.c_str());  // unless there is something in it
+    throw;
+  }
 }
 
 }  // namespace svdag

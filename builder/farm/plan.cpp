@@ -188,6 +188,14 @@ std::vector<std::string> Plan::command(const PlanStep& step) const {
   return {"merge", folder, "--step", step.name};
 }
 
+void require_utf8(const std::string& path) {
+  try {
+    (void)Json(path).dump();
+  } catch (const Json::type_error&) {
+    fail_usage(path + ": its name is no UTF-8, which a plan cannot write down: rename it");
+  }
+}
+
 bool is_plan(const std::string& path) {
   return name_exists(path + "/" + kPlanJson);
 }

@@ -69,6 +69,9 @@ struct Plan {
   std::vector<std::string> command(const PlanStep& step) const;
 };
 
+// What is written into JSON and must lead to a file again: bytes that are no UTF-8, which JSON
+// cannot hold, are an Error (kUsage).
+void require_utf8(const std::string& path);
 // Whether `path` is the folder of a plan.
 bool is_plan(const std::string& path);
 // A plan that is damaged is an Error (kBadInput).

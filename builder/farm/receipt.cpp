@@ -6,6 +6,7 @@
 #include "builder/run_check.h"
 #include "builder/run_file.h"
 #include "io/dag/check.h"
+#include "io/json_text.h"
 #include "streaming/atomic_file.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -53,7 +54,7 @@ void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receip
                      {"memory_bytes", receipt.memory},
                      {"scratch_bytes", receipt.scratch}};
   AtomicFile file(receipt_path(plan, step));
-  file.append(json.dump(1) + "\n");
+  file.append(json_text(json, 1) + "\n");
   file.commit();
 }
 

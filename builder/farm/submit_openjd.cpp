@@ -91,6 +91,8 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 }  // namespace
 
 std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
+  for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
+    require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"},
                {"name", "svdag " + plan.steps.back().output}};
   json["parameterDefinitions"] =

@@ -19,7 +19,7 @@ struct OpenJdConfig {
   std::string path;     // of the template: its default for the plan is relative to its folder
 };
 
-// The template as JSON text.
+// The template as JSON text. Paths that are no UTF-8 are an Error (kUsage).
 std::string openjd_template(const Plan& plan, const OpenJdConfig& config);
 
 }  // namespace svdag

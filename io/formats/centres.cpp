@@ -1,4 +1,5 @@
 #include "io/formats/vdb.h"
+#include "streaming/error.h"
 
 namespace svdag {
 
@@ -7,6 +8,12 @@ IndexToWorld voxel_centres(const Grid& grid) {
   for (int a = 0; a < 3; ++a) centres.axes[size_t(a)][a] = grid.voxel_size;
   centres.origin = grid.corner() + grid.voxel_size * 0.5;
   return centres;
+}
+
+void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range) {
+  if (range && grid.type() != "float")
+    fail_usage("--iso: grid " + grid.name() + " is a " + grid.type() +
+               " grid, which has no values to choose: leave it out");
 }
 
 // A tree takes 114 bytes per leaf and 34 KB and 271 KB per inner node; bools, and masks as NanoVDB,

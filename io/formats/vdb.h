@@ -33,6 +33,7 @@ struct IndexToWorld {
   Point operator()(const Point& p) const {
     return origin + p.x * axes[0] + p.y * axes[1] + p.z * axes[2];
   }
+  bool operator==(const IndexToWorld&) const = default;
 };
 
 // Of the voxels of `grid`.
@@ -81,6 +82,10 @@ class VdbGrid {
   virtual bool visit(const CubeSink& sink) const = 0;
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
+
+// What a user is told who gives a range for a grid that was read and holds no values: Error
+// (kUsage).
+void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
 
 // Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and
 // time (streaming/limited_child.h); `sandbox`: in one that can only compute. Broken files, other

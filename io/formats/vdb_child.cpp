@@ -2,7 +2,9 @@
 // allocate what the count says, and it checks few of them; under --sandbox, in one that can only
 // compute.
 #include <algorithm>
+#include <cstring>
 #include <new>
+#include <string_view>
 #include <vector>
 
 #include "io/formats/sent_cubes.h"
@@ -38,6 +40,11 @@ std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& na
   const File file = File::open_read(path);
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
+  constexpr std::string_view kNano = "NanoVDB";
+  if (bytes.size() >= kNano.size() && std::memcmp(bytes.data(), kNano.data(), kNano.size()) == 0)
+    fail_input(path,
+               "is a NanoVDB file, which is only written: give the .vdb it was made of, or "
+               "make one with nanovdb_convert");
   const uint64_t machine = default_memory_limit();
   const ChildLimits limits = limits_for(bytes.size(), machine, sandbox);
   const bool enough = bytes.size() * kMemoryPerByte <= machine;

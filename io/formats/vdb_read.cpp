@@ -121,12 +121,12 @@ struct InRange {
 CubeHead head_of(const std::string& path, CubeType type, const GridBase& grid) {
   if (!grid.transform().isLinear())
     fail_input(path, "grid " + grid.getName() + " has a transform that is not linear");
-  const openvdb::Mat4R matrix = grid.transform().baseMap()->getAffineMap()->getMat4();
+  const IndexToWorld centres = centres_of(grid.transform());
   CubeHead head{};
   head.type = type;
   for (int a = 0; a < 3; ++a) {
-    for (int row = 0; row < 3; ++row) head.axes[size_t(row)][size_t(a)] = matrix[row][a];
-    head.origin[size_t(a)] = matrix[3][a];
+    for (size_t row = 0; row < 3; ++row) head.axes[row][size_t(a)] = centres.axes[row][a];
+    head.origin[size_t(a)] = centres.origin[a];
   }
   return head;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -19,7 +20,7 @@ void print_json(const DagFile& file, const IntegrityReport& report) {
                                {"ok", report.sound()},    {"defects", report.defects},
                                {"voxels", report.voxels}, {"nodes", report.nodes},
                                {"content_hash", hash},    {"bytes", file.header().file_bytes}};
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 void print_text(const DagFile& file, const IntegrityReport& report) {

@@ -5,6 +5,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
@@ -52,7 +53,7 @@ void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts&
   for (const Offender& o : offenders)
     json["first"].push_back(
         {{"voxel", {o.voxel.x, o.voxel.y, o.voxel.z}}, {"in", o.in_a ? "a" : "b"}});
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 void print_text(const DagDiff& diff, const DiffCounts& counts,

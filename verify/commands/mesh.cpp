@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/memory_budget.h"
@@ -158,7 +159,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
                          {"extra", c.extra},
                          {"first_wrong", wrong}};
   if (j.sampled) json["sample"] = draws_json(j.sample);
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 }  // namespace

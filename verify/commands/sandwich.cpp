@@ -6,6 +6,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/memory_budget.h"
@@ -148,7 +149,7 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
                                {"decided_exactly", s.exact},
                                {"openvdb_errors", s.vdb_errors},
                                {"first_wrong", wrong}};
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 }  // namespace

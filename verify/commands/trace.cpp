@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/sample.h"
@@ -211,7 +212,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                {"scene_to_voxels", r.scene_to_voxels},
                                {"voxels_to_scene", r.voxels_to_scene},
                                {"first", first_json(r)}};
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
 #include "io/dag/dag_stats.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/compare_vdb.h"
@@ -41,9 +42,7 @@ void print_json(const VdbConfig& config, const VdbGrid& theirs, const Grid& grid
                                {"extra", c.extra},
                                {"first_missing", list(c.first_missing)},
                                {"first_extra", list(c.first_extra)}};
-  // A grid's name may be no UTF-8.
-  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  std::printf("%s\n", json.dump(-1, ' ', false, kReplace).c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 void print_voxels(const char* what, const Grid& grid, const std::vector<LatticePoint>& voxels) {
@@ -92,6 +91,7 @@ int run(const VdbConfig& config) {
   progress.phase("reading the grid", 0);
   const std::unique_ptr<VdbGrid> theirs =
       read_vdb(config.vdb, config.grid, config.iso, config.sandbox);
+  refuse_needless_range(*theirs, config.iso);
   const GridFit fit = fit_grid(*theirs, file.grid(), config.vdb);
   Grid grid = level_grid(file.grid(), fit.levels);
   if (config.bounds) grid = select_bounds(grid, *config.bounds);

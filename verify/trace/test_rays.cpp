@@ -89,7 +89,7 @@ Ray TestRays::ray(uint64_t index) const {
 
 Ray TestRays::chord(RayRandom& random) const {
   const Vec3 middle = (box_.min + box_.max) * 0.5, half = (box_.max - box_.min) * 0.5;
-  const double radius = length(half);
+  const double radius = std::max(length(half), 1.0);  // a ray needs a direction around a point, too
   const Vec3 from = middle + random_direction(random) * radius;
   const Vec3 to = middle + random_direction(random) * radius;
   return {from, to - from};

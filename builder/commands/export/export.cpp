@@ -84,6 +84,9 @@ std::vector<ExportFormat> export_formats() {
 
 int run(const ExportConfig& asked) {
   const Row& row = choose(asked);
+  if (asked.as_bool && row.write != export_vdb)
+    fail_usage("--bool: only vdb has grids of type bool, and this is " +
+               std::string(row.format.name));
   const DagFile file = DagFile::open(asked.file);
   Selection selection(file, asked);
   ExportConfig config = asked;

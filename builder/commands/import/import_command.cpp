@@ -83,6 +83,14 @@ const Row& choose(const ImportCommandConfig& config, const File& file) {
   fail_input(config.file, "is no file that svdag import knows: name its --format: " + names);
 }
 
+// Options of OpenVDB's grids are wrong, not void, where there are none.
+void require_no_vdb_options(const ImportCommandConfig& config, const Row& row) {
+  const char* option = !config.grid.empty() ? "--grid" : config.iso ? "--iso" : nullptr;
+  if (option != nullptr)
+    fail_usage(std::string(option) + ": is about the grids of a .vdb, and " + config.file +
+               " is read as " + row.name);
+}
+
 }  // namespace
 
 std::vector<std::string> import_formats() {
@@ -96,6 +104,7 @@ int run(const ImportCommandConfig& config) {
     fail_usage(config.import.output + ": is the input; choose another name for the output");
   const File file = File::open_read(config.file);
   const Row& row = choose(config, file);
+  if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   ImportReport report;
   if (row.graph != nullptr) {
@@ -106,8 +115,9 @@ int run(const ImportCommandConfig& config) {
         [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); },
         config.import, &executor);
   } else {
-    const VdbVoxels voxels(read_vdb(config.file, config.grid, config.iso, config.sandbox),
-                           config.file);
+    std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
+    refuse_needless_range(*grid, config.iso);
+    const VdbVoxels voxels(std::move(grid), config.file);
     report = import_voxels(
         [&](const VoxelSink& sink, const FullCubeSink& cubes) { return voxels.read(sink, cubes); },
         config.import, &executor, voxels.count());

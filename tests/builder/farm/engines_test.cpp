@@ -83,6 +83,14 @@ TEST_F(Engines, WaitForAStepThatAnotherProcessDoes) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 4);
 }
 
+TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {
+  Plan moved = plan_;
+  moved.folder += "/caf\xe9";
+  EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is no UTF-8");
+  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "/scratch/\xff", ""}), ExitCode::kUsage,
+                     "is no UTF-8");
+}
+
 TEST_F(Engines, LeaveOutWhatCannotBeDoneAndTellWhy) {
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 2 ] || { echo 'svdag: it is broken' >&2; exit 3; }"),
                      ExitCode::kBadInput, "shard-2 failed: it is broken");

@@ -2,6 +2,7 @@
 #ifdef SVDAG_HAS_OPENVDB
 
 #include <gtest/gtest.h>
+#include <nanovdb/util/GridChecksum.h>
 #include <nanovdb/util/IO.h>
 
 #include <fstream>
@@ -45,6 +46,37 @@ TEST(Nvdb, HoldsTheVoxelsAndTheirCentres) {
         read->indexToWorld(nanovdb::Vec3d(double(v.x), double(v.y), double(v.z)));
     const Point expected = grid.corner() + (Point(v) + 0.5) * grid.voxel_size;
     for (int a = 0; a < 3; ++a) EXPECT_NEAR(world[a], expected[a], 1e-9);
+  }
+}
+
+// NanoVDB keeps what it is given, and its box of the world and its checksum agree with it.
+TEST(Nvdb, TinyVoxelsAndFarPlacesStayAsTheyAre) {
+  for (const double size : {0.05, 0.0003, 1e-6}) {
+    const TempFolder folder;
+    Grid grid = test_grid(6);
+    grid.voxel_size = size;
+    grid.origin = {1841111.4, -0.7, 191.1};
+    const IndexToWorld centres = voxel_centres(grid);
+    const auto writer = make_vdb_writer();
+    writer->begin("occupancy", centres);
+    writer->add_voxel({1, 2, 3});
+    writer->add_voxel({60, 2, 3});
+    writer->write(folder.file("a.nvdb"), VdbFormat::kNano);
+
+    std::ifstream in(folder.file("a.nvdb"), std::ios::binary);
+    const nanovdb::GridHandle<> handle = nanovdb::io::readGrid(in);
+    const nanovdb::NanoGrid<nanovdb::ValueMask>* read = handle.grid<nanovdb::ValueMask>();
+    ASSERT_NE(read, nullptr);
+    EXPECT_TRUE(nanovdb::validateChecksum(*read));
+    const nanovdb::Vec3d origin = read->indexToWorld(nanovdb::Vec3d(0));
+    const nanovdb::Vec3d back = read->worldToIndexDir(nanovdb::Vec3d(size));
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_EQ(read->voxelSize()[a], size);
+      EXPECT_EQ(origin[a], centres.origin[a]);
+      EXPECT_DOUBLE_EQ(back[a], 1);
+    }
+    EXPECT_DOUBLE_EQ(read->worldBBox().min()[0], centres({1, 2, 3}).x);
+    EXPECT_DOUBLE_EQ(read->worldBBox().max()[0], centres({61, 2, 3}).x);
   }
 }
 

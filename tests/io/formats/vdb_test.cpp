@@ -103,6 +103,30 @@ TEST_F(Vdb, CentresComeBackWithTheirAxes) {
   EXPECT_EQ(grid->centres()({1, 2, 3}), Point(1e6 + 0.75, -2e5 + 0.25, 0.125 - 0.5));
 }
 
+// Voxels and places at which a matrix cannot be inverted, or not without a loss.
+TEST_F(Vdb, CentresComeBackToTheLastBit) {
+  const Point near(0.1, -0.7, 0.3), far(1841111.4, 5176075.3, 191.1);
+  for (const double size : {0.05, 1.0 / 3, 0.0003, 1.4e-5, 1e-6, 1e-30, 1e30}) {
+    for (const Point& corner : {near, far}) {
+      Grid grid = test_grid(6);
+      grid.voxel_size = size;
+      grid.origin = corner;
+      for (const VdbFormat format : {VdbFormat::kMask, VdbFormat::kBool}) {
+        write("a.vdb", blocks_of({{1, 2, 3}}), format, voxel_centres(grid));
+        EXPECT_EQ(read_vdb(path("a.vdb"), "", {})->centres(), voxel_centres(grid)) << size;
+      }
+    }
+  }
+}
+
+TEST_F(Vdb, StretchedAndMirroredAxesComeBackToTheLastBit) {
+  IndexToWorld centres;
+  centres.origin = {1e7, 0.1, -3};
+  centres.axes = {Point(0.1, 0, 0), Point(0, -1e-7, 0), Point(0, 0, 3e-6)};
+  write("a.vdb", blocks_of({{1, 2, 3}}), VdbFormat::kMask, centres);
+  EXPECT_EQ(read_vdb(path("a.vdb"), "", {})->centres(), centres);
+}
+
 TEST_F(Vdb, CentresOfAGridLieHalfAVoxelInside) {
   const Grid grid = test_grid(6);
   const IndexToWorld centres = voxel_centres(grid);
@@ -219,6 +243,7 @@ TEST_F(Vdb, NanoVdbIsWrittenToo) {
   std::string magic(8, ' ');
   file.read(magic.data(), 8);
   EXPECT_EQ(magic.substr(0, 7), "NanoVDB");
+  EXPECT_SVDAG_ERROR(read_vdb(path("a.nvdb"), "", {}), ExitCode::kBadInput, "is a NanoVDB file");
 }
 
 }  // namespace

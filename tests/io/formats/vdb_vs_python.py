@@ -120,6 +120,20 @@ class VdbVsPython(unittest.TestCase):
         self.assertEqual(as_set(found, self.size), as_set(all_centres[meets], self.size))
         self.assertLess(len(found), len(self.voxels))
 
+    def test_a_transform_is_that_of_the_file_to_the_last_bit(self):
+        scene = self.at / "exact.obj"
+        for size, place in [(1e-6, (0.1, 0.2, 0.3)), (0.0003, (1841111.4, 5176075.3, 191.1)), (0.05, (0, 0, 0))]:
+            points = [[p + 20 * size * (a == b) for a, p in enumerate(place)] for b in range(3)]
+            scene.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points) + "f 1 2 3\n")
+            dag, path = self.at / "exact.svdag", self.at / "exact.vdb"
+            run("svdag", "build", scene, "-s", size, "-o", dag, "-q")
+            run("svdag", "export", dag, "-o", path, "--bool", "-q")
+            grid = json.loads(run("svdag", "info", dag, "--json"))["grid"]
+            transform = pyopenvdb.read(str(path), "occupancy").transform
+            self.assertEqual(transform.voxelSize(), (size, size, size))
+            self.assertEqual(transform.indexToWorld((0.0, 0.0, 0.0)),
+                             tuple(c + grid["voxel_size"] * 0.5 for c in grid["corner"]))
+
     def test_metadata_tells_where_a_grid_comes_from(self):
         grid = self.export("--level", "5")
         self.assertEqual((grid["svdag_level"], grid["svdag_levels"], grid["svdag_rule"]), ("5", "6", "conservative"))

@@ -76,6 +76,17 @@ TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
   }
 }
 
+TEST(RayJudge, AScenePointIsAskedFromAllAround) {
+  for (const bool empty : {false, true}) {
+    Grid grid = test_grid(3);
+    const LatticePoint point(int64_t(7) << grid.fraction() >> 1);
+    const Case c{grid, Rule::kThin, {{{point, point, point}}}};
+    const RayJudgement r = judged(c, empty ? VoxelSet() : c.voxels());
+    EXPECT_EQ(r.both + r.neither + r.triangle_only + r.dag_only, kRays);
+    EXPECT_EQ(r.dag_only > 0, !empty && !c.voxels().empty());
+  }
+}
+
 TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
   Grid grid = test_grid(6);
   grid.bounded = true;

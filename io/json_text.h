@@ -1,0 +1,16 @@
+// The text of a JSON value that this program made. Names of files and sentences about what is in
+// them may hold any bytes; those that are no UTF-8 become U+FFFD, for a report with a wrong letter
+// is worth more than none.
+#pragma once
+
+#include <string>
+
+namespace svdag {
+
+// `Json` is one of nlohmann's, which only few files may name.
+template <class Json>
+std::string json_text(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace svdag

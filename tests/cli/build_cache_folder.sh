@@ -1,0 +1,11 @@
+# A folder that is there stays as open as it is; one in which everybody may write is no cache.
+svdag-scene city -n 3K -q -o city.ply
+mkdir group everybody
+chmod 2775 group
+chmod 1777 everybody
+svdag build city.ply -r 256 -q -o a.svdag --cache group
+svdag build city.ply -r 256 -q -o b.svdag --cache everybody || echo "exit $?"
+svdag build city.ply -r 256 -q -o c.svdag --cache new
+stat -c '%a %n' group everybody new
+ls everybody
+ls *.svdag

@@ -1,0 +1,12 @@
+# NanoVDB is written and not read; a grid without values has none to choose.
+svdag-scene city -n 3K -q -o a.ply
+svdag build a.ply -r 64 -o a.svdag -q
+svdag export a.svdag -o a.vdb -q
+svdag export a.svdag -o a.nvdb -q
+svdag import a.nvdb -o b.svdag || echo "exit $?"
+svdag-verify vdb a.svdag a.nvdb || echo "exit $?"
+svdag import a.vdb -o b.svdag --iso=0,1 || echo "exit $?"
+svdag-verify vdb a.svdag a.vdb --iso=0,1 || echo "exit $?"
+svdag export a.svdag -o b.nvdb --bool || echo "exit $?"
+svdag export a.svdag -o b.npz --bool || echo "exit $?"
+ls

@@ -1,0 +1,7 @@
+# Rays need a direction even around a scene that is a single point, and a file without voxels.
+printf 'v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n' > point.obj
+for rule in thin conservative; do
+  svdag build point.obj -s 1 --rule $rule -o point.svdag -q
+  svdag-verify trace point.svdag point.obj --rays 100 > answer || echo "exit $?"
+  grep '^ok\|^not ok' answer
+done
