@@ -2,8 +2,8 @@
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene": a path or several. Each object becomes a command line and is understood as that, all of
-// them before the first is baked. What the command line of the batch says of memory, threads, disk,
-// cache and --sandbox holds for bakes that say nothing of it.
+// them before the first is baked. What the command line of the batch says holds for bakes that do
+// not say otherwise; what cannot hold for several bakes is refused.
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -49,14 +49,19 @@ std::vector<std::string> arguments_of(const Json& job) {
   return options;
 }
 
-void inherit(const BuildCommandConfig& batch, BuildCommandConfig* job) {
-  if (job->build.memory == 0) job->build.memory = batch.build.memory;
-  if (job->build.scratch.empty()) job->build.scratch = batch.build.scratch;
-  if (job->build.unfinished == Unfinished::kRefuse) job->build.unfinished = batch.build.unfinished;
-  job->build.scene.sandbox |= batch.build.scene.sandbox;
-  if (job->threads == 0) job->threads = batch.threads;
-  if (job->cache.folder.empty()) job->cache = batch.cache;
-  job->output = batch.output;
+// What the command line of the batch says of each bake; what it says of none is an Error.
+BuildCommandConfig defaults_of(const BuildCommandConfig& batch) {
+  const BuildConfig& build = batch.build;
+  if (!build.scene.paths.empty())
+    fail_usage("--batch: scenes stand in the list: leave " + build.scene.paths.front() + " out");
+  if (!build.output.empty()) fail_usage("--batch: outputs stand in the list: leave --output out");
+  if (batch.shard != 0) fail_usage("--batch: a list has no shards: leave --shard out");
+  if (build.part) fail_usage("--batch: parts stand in the list: leave --part out");
+  BuildCommandConfig defaults = batch;
+  defaults.batch.clear();
+  defaults.report.clear();
+  defaults.keep_going = defaults.dry_run = false;
+  return defaults;
 }
 
 Json read_list(const std::string& path) {
@@ -73,17 +78,17 @@ Json read_list(const std::string& path) {
 }  // namespace
 
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
+  const BuildCommandConfig defaults = defaults_of(batch);
   std::vector<BuildCommandConfig> jobs;
   std::set<std::string> outputs;
   for (const Json& job : read_list(batch.batch)) {
     const std::string where = batch.batch + ": bake " + std::to_string(jobs.size() + 1) + ": ";
     if (!job.is_object()) fail_usage(where + "is no object");
     try {
-      jobs.push_back(batch.parse(arguments_of(job)));
+      jobs.push_back(batch.parse(arguments_of(job), defaults));
     } catch (const Error& error) {
       fail_usage(where + error.what());
     }
-    inherit(batch, &jobs.back());
     if (!outputs.insert(jobs.back().build.output).second)
       fail_usage(where + "has the output of another one, " + jobs.back().build.output);
   }
@@ -98,10 +103,10 @@ struct Outcome {
   std::string report;
 };
 
-Outcome run(const BuildCommandConfig& job) {
+Outcome run(const BuildCommandConfig& job, bool dry) {
   Outcome outcome;
   try {
-    bake_scene(job, &outcome.report);
+    dry ? void(run_dry(job)) : bake_scene(job, &outcome.report);
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {
@@ -126,7 +131,7 @@ int run_batch(const BuildCommandConfig& config) {
   size_t failed = 0;
   for (const BuildCommandConfig& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
-    const Outcome outcome = run(job);
+    const Outcome outcome = run(job, config.dry_run);
     Json entry = {{"output", job.build.output}, {"exit", int(outcome.code)}};
     if (!outcome.error.empty()) entry["error"] = outcome.error;
     if (!outcome.report.empty()) entry["report"] = Json::parse(outcome.report);
@@ -141,7 +146,8 @@ int run_batch(const BuildCommandConfig& config) {
     file.commit();
   }
   if (!config.output.quiet)
-    std::printf("%zu of %zu baked, %zu failed\n", done.size() - failed, jobs.size(), failed);
+    std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),
+                config.dry_run ? "predicted" : "baked", failed);
   return int(first);
 }
 

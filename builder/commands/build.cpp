@@ -184,6 +184,9 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
 }
 
 int run_build(const BuildCommandConfig& config) {
+  if (config.dry_run && !config.report.empty())
+    fail_usage("--dry-run bakes nothing to report: leave --report out");
+  if (config.keep_going && config.batch.empty()) fail_usage("--keep-going is for --batch");
   if (!config.batch.empty()) return run_batch(config);
   if (config.shard != 0) return run_shard(config);
   if (config.dry_run) return run_dry(config);

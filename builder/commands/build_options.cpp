@@ -77,16 +77,18 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
                             ->required()
                             ->type_name("OUT");
   CLI::Option_group* grid = add_grid_options(app, build);
+  const auto ask_for_no_grid = [grid] { grid->require_option(0, 1); };
+  if (build->levels != 0 || build->voxel_size != 0) ask_for_no_grid();  // the list has one
   takes_files(app->add_option_function<std::string>(
                   "--batch",
                   [=](const std::string& list) {  // each bake of the list has these
                     config->batch = list;
                     scene->required(false);
                     output->required(false);
-                    grid->require_option(0);
+                    ask_for_no_grid();
                   },
                   "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
-                  "--report is of all"),
+                  "options beside it hold for bakes that do not say otherwise; --report is of all"),
               {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
@@ -95,7 +97,7 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
          [=](size_t shard) {  // the plan has a grid, and a place for the run
            config->shard = shard;
            output->required(false);
-           grid->require_option(0);
+           ask_for_no_grid();
          },
          "Bake shard I of a plan, from 1 on; one that is there already is kept")
       ->check(CLI::PositiveNumber.description(""))
@@ -120,9 +122,10 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
                "svdag help grid, rules and memory tell more.");
 }
 
-BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
+BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
+                               const BuildCommandConfig& defaults) {
   CLI::App app("", "svdag build");
-  BuildCommandConfig config;
+  BuildCommandConfig config = defaults;
   set_up_build(&app, &config);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -130,6 +133,9 @@ BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
     fail_usage(error.what());
   }
   if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
+  if (config.shard != 0) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
+  if (config.dry_run) fail_usage("dry-run is of the whole list: give it beside --batch");
+  if (config.keep_going) fail_usage("keep-going is of the whole list: give it beside --batch");
   return config;
 }
 

@@ -29,8 +29,11 @@ struct BuildCommandConfig {
   bool dry_run = false;     // --dry-run: tells what the bake would take
   std::string batch;        // --batch: a list of bakes instead of a scene
   bool keep_going = false;  // --keep-going: a bake that fails does not stop those after it
-  // What `svdag build` with these arguments would do; an Error (kUsage) if they make no sense.
-  std::function<BuildCommandConfig(const std::vector<std::string>&)> parse;
+  // What `svdag build` with these arguments would do, and as `defaults` do where they say nothing;
+  // an Error (kUsage) if they make no sense.
+  std::function<BuildCommandConfig(const std::vector<std::string>& arguments,
+                                   const BuildCommandConfig& defaults)>
+      parse;
   OutputConfig output;
 };
 

@@ -56,11 +56,19 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   CLI::Option_group* grid = app->add_option_group("Grid");
   grid->add_option_function<std::string>(
-          "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
+          "-r,--resolution",
+          [build](const std::string& s) {
+            build->levels = parse_resolution(s);
+            build->voxel_size = 0;
+          },
           "Voxels along the longest side: a power of two, 8 to 1M, for example 64K")
       ->type_name("N");
   grid->add_option_function<double>(
-          "-s,--voxel-size", [build](double s) { build->voxel_size = checked_voxel_size(s); },
+          "-s,--voxel-size",
+          [build](double s) {
+            build->voxel_size = checked_voxel_size(s);
+            build->levels = 0;
+          },
           "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
       ->type_name("S");
   grid->require_option(1);
