@@ -4,11 +4,12 @@
 // "scene": a path or several. Each object becomes a command line and is understood as that, all of
 // them before the first is baked. What the command line of the batch says holds for bakes that do
 // not say otherwise; what cannot hold for several bakes is refused.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
@@ -33,8 +34,10 @@ std::vector<std::string> arguments_of(const Json& job) {
       scene.push_back(text_of(one));
     } else if (one.is_boolean()) {
       if (one.get<bool>()) options.push_back("--" + key);
+    } else if (const std::string text = text_of(one); text.empty()) {
+      options.insert(options.end(), {"--" + key, text});  // behind "=" it would be the next word
     } else {
-      options.push_back("--" + key + "=" + text_of(one));
+      options.push_back("--" + key + "=" + text);
     }
   };
   for (const auto& [key, value] : job.items()) {  // never copied: a copy of a deep one is recursive
@@ -64,6 +67,10 @@ BuildCommandConfig defaults_of(const BuildCommandConfig& batch) {
   return defaults;
 }
 
+std::string place(const BuildCommandConfig& batch, size_t job) {
+  return batch.batch + ": bake " + std::to_string(job + 1) + ": ";
+}
+
 Json read_list(const std::string& path) {
   constexpr uint64_t kMost = uint64_t(64) << 20;
   const File file = File::open_read(path);
@@ -80,22 +87,46 @@ Json read_list(const std::string& path) {
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
   const BuildCommandConfig defaults = defaults_of(batch);
   std::vector<BuildCommandConfig> jobs;
-  std::set<std::string> outputs;
   for (const Json& job : read_list(batch.batch)) {
-    const std::string where = batch.batch + ": bake " + std::to_string(jobs.size() + 1) + ": ";
+    const std::string where = place(batch, jobs.size());
     if (!job.is_object()) fail_usage(where + "is no object");
     try {
       jobs.push_back(batch.parse(arguments_of(job), defaults));
     } catch (const Error& error) {
       fail_usage(where + error.what());
     }
-    if (!outputs.insert(jobs.back().build.output).second)
-      fail_usage(where + "has the output of another one, " + jobs.back().build.output);
   }
   return jobs;
 }
 
 namespace {
+
+// No bake may write what the list, another bake or itself reads or writes, in whatever order.
+void refuse_overwriting(const BuildCommandConfig& batch,
+                        const std::vector<BuildCommandConfig>& jobs) {
+  CommandFiles files;
+  files.read(batch.batch);
+  const auto replaces = [](const BuildCommandConfig& job) {
+    return name_exists(job.build.output) || name_exists(job.report);
+  };
+  const bool buffers = replaces(batch) || std::any_of(jobs.begin(), jobs.end(), replaces);
+  for (const BuildCommandConfig& job : jobs) {
+    files.read(job.build.scene.paths);
+    if (!buffers) continue;
+    try {
+      files.read_buffers(job.build.scene, job.build.memory);
+    } catch (const Error&) {  // the bake will say so
+    }
+  }
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    try {
+      for (const std::string& output : outputs_of(jobs[i])) files.write(output);
+    } catch (const Error& error) {
+      fail_usage(place(batch, i) + error.what());
+    }
+  }
+  if (!batch.report.empty()) files.write(batch.report);
+}
 
 struct Outcome {
   ExitCode code = ExitCode::kOk;
@@ -126,6 +157,7 @@ Outcome run(const BuildCommandConfig& job, bool dry) {
 
 int run_batch(const BuildCommandConfig& config) {
   const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
+  refuse_overwriting(config, jobs);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;

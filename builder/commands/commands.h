@@ -94,6 +94,8 @@ int run_dry(const BuildCommandConfig& config);
 int run_batch(const BuildCommandConfig& config);
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& config);
 void bake_scene(const BuildCommandConfig& config, std::string* json = nullptr);
+// The files that a bake writes; an Error (kUsage) if the first of them has no name.
+std::vector<std::string> outputs_of(const BuildCommandConfig& config);
 // The parts of run_info that look at plans, runs and scenes.
 void info_plan(const InfoConfig& config);
 void info_run(const InfoConfig& config);

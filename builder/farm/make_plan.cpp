@@ -10,6 +10,7 @@
 #include "builder/farm/leaf_bins.h"
 #include "builder/farm/merge_tree.h"
 #include "builder/farm/pilot.h"
+#include "builder/farm/plan_folder.h"
 #include "streaming/error.h"
 #include "streaming/file_folder.h"
 
@@ -208,6 +209,7 @@ Plan make_plan(const PlanConfig& config, Progress* progress) {
     own.folder = absolute_path(own.folder);
     if (is_plan(own.folder))
       fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
+    refuse_strange_files(own.folder, own.output);
     make_folder(own.folder);
   }
   return Planner(own, progress).run();
