@@ -31,9 +31,12 @@ void add_output_options(CLI::App* app, OutputConfig* output) {
 
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
   app->add_option("--include", names->include,
-                  "Only parts whose name matches a pattern (*, ?, [..])")
+                  "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
+      ->allow_extra_args(false)
       ->type_name("PATTERN");
-  app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
+  app->add_option("--exclude", names->exclude,
+                  "No part whose name matches a pattern; may be given again")
+      ->allow_extra_args(false)
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
   app->add_flag("--sandbox", *sandbox,

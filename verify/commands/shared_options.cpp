@@ -32,12 +32,12 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
       ->required();
   command
       ->add_option("--include", scene->names.include,
-                   "Only parts with a name that matches this pattern")
+                   "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   command
       ->add_option("--exclude", scene->names.exclude,
-                   "No parts with a name that matches this pattern")
+                   "No part whose name matches a pattern; may be given again")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   command->add_flag("--skip-invalid", scene->skip_invalid,
