@@ -36,6 +36,8 @@ int run_plan(const PlanCommandConfig& config) {
 
 // A bake is one shard with the threads and the memory of the bake, merged at once.
 int run_dry(const BuildCommandConfig& config) {
+  if (config.build.part)
+    fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();
