@@ -35,6 +35,11 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
       ->group(kGroup);
 }
 
+double checked_seconds(double seconds) {
+  if (!(seconds > 0)) fail_usage("--checkpoint: give more than 0 seconds");
+  return seconds;
+}
+
 void add_resume_options(CLI::App* app, BuildConfig* build) {
   CLI::Option* resume = app->add_flag_callback(
       "--resume", [build] { build->unfinished = Unfinished::kResume; },
@@ -43,9 +48,9 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
          "--restart", [build] { build->unfinished = Unfinished::kRestart; },
          "Discard an unfinished bake of this output")
       ->excludes(resume);
-  app->add_option("--checkpoint", build->checkpoint,
-                  "Save the work of every so many seconds for --resume (default: 30)")
-      ->check(CLI::PositiveNumber.description(""))
+  app->add_option_function<double>(
+         "--checkpoint", [build](double s) { build->checkpoint = checked_seconds(s); },
+         "Save the work of every so many seconds for --resume (default: 30)")
       ->type_name("SECONDS");
 }
 
@@ -95,12 +100,12 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid, and a place for the run
+           if (shard == 0) fail_usage("--shard: 0 is no shard: they are numbered from 1 on");
            config->shard = shard;
            output->required(false);
            ask_for_no_grid();
          },
          "Bake shard I of a plan, from 1 on; one that is there already is kept")
-      ->check(CLI::PositiveNumber.description(""))
       ->type_name("I");
   app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
   app->add_option_function<std::string>(

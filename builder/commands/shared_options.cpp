@@ -44,10 +44,7 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
-  app->add_option_function<std::string>(
-         "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
-         "Memory budget in bytes, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory_budget(app, memory);
   from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");

@@ -56,10 +56,7 @@ void add_count(CLI::App* command, const std::string& option, uint64_t* count, co
 }
 
 void add_memory(CLI::App* command, uint64_t* memory) {
-  add_count(command, "-m,--memory", memory,
-            "Memory budget of the readers and the triangles held, for example 4G (default: half of "
-            "the machine)",
-            "SIZE");
+  add_memory_budget(command, memory, "Memory budget of the readers and the triangles held");
 }
 
 void add_file(CLI::App* command, std::string* file) {
