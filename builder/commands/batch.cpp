@@ -2,13 +2,14 @@
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene": a path or several. Each object becomes a command line and is understood as that, all of
-// them before the first is baked. What the command line of the batch says of memory, threads, disk,
-// cache and --sandbox holds for bakes that say nothing of it.
+// them before the first is baked. What the command line of the batch says holds for bakes that do
+// not say otherwise; what cannot hold for several bakes is refused.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "io/json_text.h"
 #include "streaming/atomic_file.h"
@@ -34,8 +35,10 @@ std::vector<std::string> arguments_of(const Json& job) {
       scene.push_back(text_of(one));
     } else if (one.is_boolean()) {
       if (one.get<bool>()) options.push_back("--" + key);
+    } else if (const std::string text = text_of(one); text.empty()) {
+      options.insert(options.end(), {"--" + key, text});  // behind "=" it would be the next word
     } else {
-      options.push_back("--" + key + "=" + text_of(one));
+      options.push_back("--" + key + "=" + text);
     }
   };
   for (const auto& [key, value] : job.items()) {  // never copied: a copy of a deep one is recursive
@@ -50,14 +53,23 @@ std::vector<std::string> arguments_of(const Json& job) {
   return options;
 }
 
-void inherit(const BuildCommandConfig& batch, BuildCommandConfig* job) {
-  if (job->build.memory == 0) job->build.memory = batch.build.memory;
-  if (job->build.scratch.empty()) job->build.scratch = batch.build.scratch;
-  if (job->build.unfinished == Unfinished::kRefuse) job->build.unfinished = batch.build.unfinished;
-  job->build.scene.sandbox |= batch.build.scene.sandbox;
-  if (job->threads == 0) job->threads = batch.threads;
-  if (job->cache.folder.empty()) job->cache = batch.cache;
-  job->output = batch.output;
+// What the command line of the batch says of each bake; what it says of none is an Error.
+BuildCommandConfig defaults_of(const BuildCommandConfig& batch) {
+  const BuildConfig& build = batch.build;
+  if (!build.scene.paths.empty())
+    fail_usage("--batch: scenes stand in the list: leave " + build.scene.paths.front() + " out");
+  if (!build.output.empty()) fail_usage("--batch: outputs stand in the list: leave --output out");
+  if (batch.shard != 0) fail_usage("--batch: a list has no shards: leave --shard out");
+  if (build.part) fail_usage("--batch: parts stand in the list: leave --part out");
+  BuildCommandConfig defaults = batch;
+  defaults.batch.clear();
+  defaults.report.clear();
+  defaults.keep_going = defaults.dry_run = false;
+  return defaults;
+}
+
+std::string place(const BuildCommandConfig& batch, size_t job) {
+  return batch.batch + ": bake " + std::to_string(job + 1) + ": ";
 }
 
 Json read_list(const std::string& path) {
@@ -74,24 +86,48 @@ Json read_list(const std::string& path) {
 }  // namespace
 
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
+  const BuildCommandConfig defaults = defaults_of(batch);
   std::vector<BuildCommandConfig> jobs;
-  std::set<std::string> outputs;
   for (const Json& job : read_list(batch.batch)) {
-    const std::string where = batch.batch + ": bake " + std::to_string(jobs.size() + 1) + ": ";
+    const std::string where = place(batch, jobs.size());
     if (!job.is_object()) fail_usage(where + "is no object");
     try {
-      jobs.push_back(batch.parse(arguments_of(job)));
+      jobs.push_back(batch.parse(arguments_of(job), defaults));
     } catch (const Error& error) {
       fail_usage(where + error.what());
     }
-    inherit(batch, &jobs.back());
-    if (!outputs.insert(jobs.back().build.output).second)
-      fail_usage(where + "has the output of another one, " + jobs.back().build.output);
   }
   return jobs;
 }
 
 namespace {
+
+// No bake may write what the list, another bake or itself reads or writes, in whatever order.
+void refuse_overwriting(const BuildCommandConfig& batch,
+                        const std::vector<BuildCommandConfig>& jobs) {
+  CommandFiles files;
+  files.read(batch.batch);
+  const auto replaces = [](const BuildCommandConfig& job) {
+    return name_exists(job.build.output) || name_exists(job.report);
+  };
+  const bool buffers = replaces(batch) || std::any_of(jobs.begin(), jobs.end(), replaces);
+  for (const BuildCommandConfig& job : jobs) {
+    files.read(job.build.scene.paths);
+    if (!buffers) continue;
+    try {
+      files.read_buffers(job.build.scene, job.build.memory);
+    } catch (const Error&) {  // the bake will say so
+    }
+  }
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    try {
+      for (const std::string& output : outputs_of(jobs[i])) files.write(output);
+    } catch (const Error& error) {
+      fail_usage(place(batch, i) + error.what());
+    }
+  }
+  if (!batch.report.empty()) files.write(batch.report);
+}
 
 struct Outcome {
   ExitCode code = ExitCode::kOk;
@@ -99,10 +135,10 @@ struct Outcome {
   std::string report;
 };
 
-Outcome run(const BuildCommandConfig& job) {
+Outcome run(const BuildCommandConfig& job, bool dry) {
   Outcome outcome;
   try {
-    bake_scene(job, &outcome.report);
+    dry ? void(run_dry(job)) : bake_scene(job, &outcome.report);
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {
@@ -122,12 +158,13 @@ Outcome run(const BuildCommandConfig& job) {
 
 int run_batch(const BuildCommandConfig& config) {
   const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
+  refuse_overwriting(config, jobs);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;
   for (const BuildCommandConfig& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
-    const Outcome outcome = run(job);
+    const Outcome outcome = run(job, config.dry_run);
     Json entry = {{"output", job.build.output}, {"exit", int(outcome.code)}};
     if (!outcome.error.empty()) entry["error"] = outcome.error;
     if (!outcome.report.empty()) entry["report"] = Json::parse(outcome.report);
@@ -143,7 +180,8 @@ int run_batch(const BuildCommandConfig& config) {
     file.commit();
   }
   if (!config.output.quiet)
-    std::printf("%zu of %zu baked, %zu failed\n", done.size() - failed, jobs.size(), failed);
+    std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),
+                config.dry_run ? "predicted" : "baked", failed);
   return int(first);
 }
 

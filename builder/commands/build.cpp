@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "io/json_text.h"
 #include "io/units.h"
@@ -153,21 +155,30 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               format_bytes(r.peak_resident).c_str());
 }
 
-void refuse_overwriting_inputs(const BuildCommandConfig& config) {
-  for (const std::string& input : config.build.scene.paths) {
-    for (const std::string& output : {config.build.output, config.report}) {
-      if (!output.empty() && same_file(input, output))
-        fail_usage(output + " is also an input, which is never overwritten: choose another output");
-    }
-  }
-  if (config.build.output == config.report)
-    fail_usage("the output and the report have the same name: choose another --report");
+}  // namespace
+
+std::vector<std::string> outputs_of(const BuildCommandConfig& config) {
+  if (config.build.output.empty()) fail_usage("--output: the output has no name");
+  std::vector<std::string> outputs = {config.build.output};
+  if (!config.report.empty()) outputs.push_back(config.report);
+  return outputs;
+}
+
+namespace {
+
+void refuse_overwriting(const BuildCommandConfig& config) {
+  const std::vector<std::string> outputs = outputs_of(config);
+  CommandFiles files;
+  files.read(config.build.scene.paths);
+  // A buffer that a scene needs is there: only outputs that are there can be one.
+  if (std::any_of(outputs.begin(), outputs.end(), name_exists))
+    files.read_buffers(config.build.scene, config.build.memory);
+  for (const std::string& output : outputs) files.write(output);
 }
 
 }  // namespace
 
 void bake_scene(const BuildCommandConfig& config, std::string* json) {
-  refuse_overwriting_inputs(config);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
   BuildConfig build_config = config.build;
@@ -190,7 +201,11 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
 
 int run_build(const BuildCommandConfig& config) {
   if (config.shard != 0) return run_shard(config);
+  if (config.dry_run && !config.report.empty())
+    fail_usage("--dry-run bakes nothing to report: leave --report out");
+  if (config.keep_going && config.batch.empty()) fail_usage("--keep-going is for --batch");
   if (!config.batch.empty()) return run_batch(config);
+  refuse_overwriting(config);
   if (config.dry_run) return run_dry(config);
   bake_scene(config);
   return int(ExitCode::kOk);

@@ -35,6 +35,11 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
       ->group(kGroup);
 }
 
+double checked_seconds(double seconds) {
+  if (!(seconds > 0)) fail_usage("--checkpoint: give more than 0 seconds");
+  return seconds;
+}
+
 void add_resume_options(CLI::App* app, BuildConfig* build) {
   CLI::Option* resume = app->add_flag_callback(
       "--resume", [build] { build->unfinished = Unfinished::kResume; },
@@ -43,9 +48,9 @@ void add_resume_options(CLI::App* app, BuildConfig* build) {
          "--restart", [build] { build->unfinished = Unfinished::kRestart; },
          "Discard an unfinished bake of this output")
       ->excludes(resume);
-  app->add_option("--checkpoint", build->checkpoint,
-                  "Save the work of every so many seconds for --resume (default: 30)")
-      ->check(CLI::PositiveNumber.description(""))
+  app->add_option_function<double>(
+         "--checkpoint", [build](double s) { build->checkpoint = checked_seconds(s); },
+         "Save the work of every so many seconds for --resume (default: 30)")
       ->type_name("SECONDS");
 }
 
@@ -89,28 +94,30 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
                             ->required()
                             ->type_name("OUT");
   CLI::Option_group* grid = add_grid_options(app, build);
+  const auto ask_for_no_grid = [grid] { grid->require_option(0, 1); };
+  if (build->levels != 0 || build->voxel_size != 0) ask_for_no_grid();  // the list has one
   takes_files(app->add_option_function<std::string>(
                   "--batch",
                   [=](const std::string& list) {  // each bake of the list has these
                     config->batch = list;
                     scene->required(false);
                     output->required(false);
-                    grid->require_option(0);
+                    ask_for_no_grid();
                   },
                   "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
-                  "--report is of all"),
+                  "options beside it hold for bakes that do not say otherwise; --report is of all"),
               {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid, and a place for the run
+           if (shard == 0) fail_usage("--shard: 0 is no shard: they are numbered from 1 on");
            config->shard = shard;
            output->required(false);
-           grid->require_option(0);
+           ask_for_no_grid();
          },
          "Bake shard I of a plan, from 1 on; one that is there already is kept")
-      ->check(CLI::PositiveNumber.description(""))
       ->type_name("I");
   app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
   app->add_option_function<std::string>(
@@ -133,9 +140,10 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
                "svdag help grid, rules and memory tell more.");
 }
 
-BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
+BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
+                               const BuildCommandConfig& defaults) {
   CLI::App app("", "svdag build");
-  BuildCommandConfig config;
+  BuildCommandConfig config = defaults;
   set_up_build(&app, &config);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -143,6 +151,9 @@ BuildCommandConfig parse_build(const std::vector<std::string>& arguments) {
     fail_usage(error.what());
   }
   if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
+  if (config.shard != 0) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
+  if (config.dry_run) fail_usage("dry-run is of the whole list: give it beside --batch");
+  if (config.keep_going) fail_usage("keep-going is of the whole list: give it beside --batch");
   return config;
 }
 

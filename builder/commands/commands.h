@@ -30,8 +30,11 @@ struct BuildCommandConfig {
   std::string batch;      // --batch: a list of bakes instead of a scene
   std::vector<std::string> given;  // the options of the command line, "--rule"
   bool keep_going = false;         // --keep-going: a bake that fails does not stop those after it
-  // What `svdag build` with these arguments would do; an Error (kUsage) if they make no sense.
-  std::function<BuildCommandConfig(const std::vector<std::string>&)> parse;
+  // What `svdag build` with these arguments would do, and as `defaults` do where they say nothing;
+  // an Error (kUsage) if they make no sense.
+  std::function<BuildCommandConfig(const std::vector<std::string>& arguments,
+                                   const BuildCommandConfig& defaults)>
+      parse;
   OutputConfig output;
 };
 
@@ -92,6 +95,8 @@ int run_dry(const BuildCommandConfig& config);
 int run_batch(const BuildCommandConfig& config);
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& config);
 void bake_scene(const BuildCommandConfig& config, std::string* json = nullptr);
+// The files that a bake writes; an Error (kUsage) if the first of them has no name.
+std::vector<std::string> outputs_of(const BuildCommandConfig& config);
 // The parts of run_info that look at plans, runs and scenes.
 void info_plan(const InfoConfig& config);
 void info_run(const InfoConfig& config);

@@ -18,11 +18,7 @@ CLI::App* add_info(CLI::App* program, InfoConfig* config) {
   app->add_flag("--json", config->json, "Print JSON");
   app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
   add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
-  app->add_option_function<std::string>(
-         "-m,--memory",
-         [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
-         "Memory budget in bytes, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});
   return app;
 }

@@ -38,6 +38,7 @@ void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
 
 int run_merge(const MergeCommandConfig& config) {
   if (!config.step.empty()) return run_merge_step(config);
+  if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   refuse_overwriting_inputs(config.merge);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);

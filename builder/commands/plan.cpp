@@ -1,6 +1,8 @@
 #include <cstdio>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/farm/plan_folder.h"
 #include "builder/farm/print_plan.h"
 #include "builder/farm/receipt.h"
 #include "io/units.h"
@@ -24,6 +26,9 @@ Plan plan(PlanConfig config, const OutputConfig& output) {
 }  // namespace
 
 int run_plan(const PlanCommandConfig& config) {
+  CommandFiles files;
+  files.read(config.plan.build.scene.paths);
+  for (const std::string& file : own_files(config.plan.folder)) files.write(file);
   const Plan made = plan(config.plan, config.output);
   if (!config.output.quiet) print_plan(made, config.output.verbose);
   return int(ExitCode::kOk);
@@ -31,6 +36,8 @@ int run_plan(const PlanCommandConfig& config) {
 
 // A bake is one shard with the threads and the memory of the bake, merged at once.
 int run_dry(const BuildCommandConfig& config) {
+  if (config.build.part)
+    fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();

@@ -1,6 +1,8 @@
 #include <cstdio>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/farm/plan_folder.h"
 #include "builder/farm/run_local.h"
 #include "builder/farm/shell.h"
 #include "builder/farm/submit_openjd.h"
@@ -34,6 +36,18 @@ int run_run(const RunCommandConfig& config) {
   return int(ExitCode::kOk);
 }
 
+namespace {
+
+// A template may stand in the plan's folder, but not for a file of the plan or of its scene.
+void refuse_overwriting(const Plan& plan, const std::string& path) {
+  CommandFiles files;
+  files.read(files_of(plan));
+  for (const PlanInput& input : plan.inputs) files.read(input.path);
+  files.write(path);
+}
+
+}  // namespace
+
 int run_submit(const SubmitConfig& config) {
   const Plan plan = load_plan(config.plan, false);
   if (config.engine == "slurm") {
@@ -51,6 +65,7 @@ int run_submit(const SubmitConfig& config) {
         "options out");
   const std::string path =
       config.template_path.empty() ? plan.path("openjd.json") : config.template_path;
+  refuse_overwriting(plan, path);
   AtomicFile file(path);
   file.append(openjd_template(plan, {config.program, config.scratch, path}));
   file.commit();

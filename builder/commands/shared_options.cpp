@@ -31,9 +31,12 @@ void add_output_options(CLI::App* app, OutputConfig* output) {
 
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
   app->add_option("--include", names->include,
-                  "Only parts whose name matches a pattern (*, ?, [..])")
+                  "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
+      ->allow_extra_args(false)
       ->type_name("PATTERN");
-  app->add_option("--exclude", names->exclude, "No part whose name matches a pattern")
+  app->add_option("--exclude", names->exclude,
+                  "No part whose name matches a pattern; may be given again")
+      ->allow_extra_args(false)
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
   app->add_flag("--sandbox", *sandbox,
@@ -41,10 +44,7 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
-  app->add_option_function<std::string>(
-         "-m,--memory", [memory](const std::string& s) { *memory = parse_count(s, "--memory"); },
-         "Memory budget in bytes, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory_budget(app, memory);
   from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");
@@ -56,11 +56,19 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   CLI::Option_group* grid = app->add_option_group("Grid");
   grid->add_option_function<std::string>(
-          "-r,--resolution", [build](const std::string& s) { build->levels = parse_resolution(s); },
+          "-r,--resolution",
+          [build](const std::string& s) {
+            build->levels = parse_resolution(s);
+            build->voxel_size = 0;
+          },
           "Voxels along the longest side: a power of two, 8 to 1M, for example 64K")
       ->type_name("N");
   grid->add_option_function<double>(
-          "-s,--voxel-size", [build](double s) { build->voxel_size = checked_voxel_size(s); },
+          "-s,--voxel-size",
+          [build](double s) {
+            build->voxel_size = checked_voxel_size(s);
+            build->levels = 0;
+          },
           "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
       ->type_name("S");
   grid->require_option(1);

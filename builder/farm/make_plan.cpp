@@ -11,6 +11,7 @@
 #include "builder/farm/leaf_bins.h"
 #include "builder/farm/merge_tree.h"
 #include "builder/farm/pilot.h"
+#include "builder/farm/plan_folder.h"
 #include "streaming/error.h"
 #include "streaming/file_folder.h"
 
@@ -225,6 +226,7 @@ Plan make_plan(const PlanConfig& config, Progress* progress) {
     if (is_plan(own.folder))
       fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
     require_names(own);
+    refuse_strange_files(own.folder, own.output);
     made = make_folder(own.folder);
   }
   try {

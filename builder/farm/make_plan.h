@@ -17,7 +17,7 @@ struct PlanConfig {
   std::string output;  // name of the finished file in the plan's folder
 };
 
-// Error (kUsage) if the folder holds a plan already.
+// Error (kUsage) if the folder holds a plan already, or files that are of no plan.
 Plan make_plan(const PlanConfig& config, Progress* progress);
 
 }  // namespace svdag

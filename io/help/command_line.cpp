@@ -6,6 +6,7 @@
 
 #include "io/help/help_text.h"
 #include "io/suggest.h"
+#include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/terminal.h"
 
@@ -182,6 +183,17 @@ CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
   text.insert(end, ", " + std::to_string(least) + " to " + std::to_string(most));
   option->description(text);
   return option->check(CLI::Range(least, most).description(""));
+}
+
+void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& text) {
+  const auto read = [bytes](const std::string& value) {
+    *bytes = parse_count(value, "--memory");
+    if (*bytes == 0) fail_usage("--memory: 0 is not a size");
+  };
+  command
+      ->add_option_function<std::string>("-m,--memory", read,
+                                         text + ", for example 4G (default: half of the machine)")
+      ->type_name("SIZE");
 }
 
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,

@@ -2,6 +2,7 @@
 // manual of its options, errors as one sentence, with what a typo was meant to be.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choic
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
 CLI::Option* takes_folder(CLI::Option* option);
 CLI::Option* from_to(CLI::Option* option, size_t least, size_t most);  // whole numbers
+
+// -m, the memory budget of a command, with the text of its help; 0 bytes are an Error (kUsage).
+void add_memory_budget(CLI::App* command, uint64_t* bytes,
+                       const std::string& text = "Memory budget in bytes");
 
 // The notes of a command: what there is to say, examples, a command each, and the exit codes.
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,

@@ -72,16 +72,16 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   const double cone = config.cone != -1 ? config.cone : ao ? 9 : 0;
   if (!(cone >= 0 && cone < 45)) fail_usage("--cone: give 0 to 45 degrees");
   if (!(config.reach >= 0)) fail_usage("--reach: give a length of 0 or more");
-  if (config.level > uint64_t(grid.levels))
-    fail_usage("--level: the finest level of this DAG, its voxels, is " +
-               std::to_string(grid.levels));
+  const uint64_t level = config.level.value_or(uint64_t(grid.levels));
+  if (level == 0 || level > uint64_t(grid.levels))
+    fail_usage("--level: " + config.file + " has levels 1 to " + std::to_string(grid.levels) +
+               " to trace");
   shading->secondary.samples = uint32_t(config.samples);
   shading->secondary.reach =
       config.reach > 0 ? config.reach / grid.voxel_size : 0.05 * length(box.max - box.min);
   if (ao || shading->mode == ShadeMode::kSoft)
     shading->secondary.cut.spread = 2 * std::tan(cone * kDegree);
-  if (config.level > 0)
-    shading->primary.level = shading->secondary.cut.level = uint32_t(config.level);
+  if (config.level) shading->primary.level = shading->secondary.cut.level = uint32_t(level);
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 

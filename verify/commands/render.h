@@ -1,6 +1,8 @@
 // svdag-verify render FILE -o X.png: a picture of the voxels by ray tracing the DAG.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "verify/commands/common.h"
@@ -23,8 +25,8 @@ struct RenderCommandConfig {
   double reach = 0;           // of ambient occlusion, in world units; 0: a twentieth of the scene
   double cone = -1;           // half the angle of such a ray's cone, in degrees; 0: exact;
                               // default: 9 for ao, 0 for soft
-  uint64_t level = 0;         // cubes of this level are solid; 0: voxels
-  int fly = 0;                // frames of a turn; 0: one picture
+  std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
+  int fly = 0;                    // frames of a turn; 0: one picture
 };
 
 int run(const RenderCommandConfig& config);

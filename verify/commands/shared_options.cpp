@@ -32,12 +32,12 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
       ->required();
   command
       ->add_option("--include", scene->names.include,
-                   "Only parts with a name that matches this pattern")
+                   "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   command
       ->add_option("--exclude", scene->names.exclude,
-                   "No parts with a name that matches this pattern")
+                   "No part whose name matches a pattern; may be given again")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   command->add_flag("--skip-invalid", scene->skip_invalid,
@@ -56,10 +56,7 @@ void add_count(CLI::App* command, const std::string& option, uint64_t* count, co
 }
 
 void add_memory(CLI::App* command, uint64_t* memory) {
-  add_count(command, "-m,--memory", memory,
-            "Memory budget of the readers and the triangles held, for example 4G (default: half of "
-            "the machine)",
-            "SIZE");
+  add_memory_budget(command, memory, "Memory budget of the readers and the triangles held");
 }
 
 void add_file(CLI::App* command, std::string* file) {

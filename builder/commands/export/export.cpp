@@ -50,9 +50,9 @@ const Row& choose(const ExportConfig& config) {
   fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
 }
 
-int checked_level(const DagFile& file, int level) {
+int checked_level(const DagFile& file, std::optional<int> asked) {
   const int finest = int(file.header().levels);
-  if (level == 0) return finest;
+  const int level = asked.value_or(finest);
   if (level < kMinLevels || level > finest)
     fail_usage("--level: " + file.path() + " has levels " + std::to_string(kMinLevels) + " to " +
                std::to_string(finest) + " to export");

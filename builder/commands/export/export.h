@@ -17,7 +17,7 @@ struct ExportConfig {
   std::string file;
   std::string output;
   std::string format;                   // a name of export_formats(); empty: by the output's ending
-  int level = 0;                        // whose nodes become voxels; 0: L, the finest
+  std::optional<int> level;             // whose nodes become voxels; none: L, the finest
   std::optional<Box> bounds;            // only the voxels whose interior meets this box
   uint64_t max_voxels = 1'000'000'000;  // of formats that list or fill voxels; more are refused
   bool as_bool = false;                 // VDB grids of type bool, for readers that know no masks

@@ -40,11 +40,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
       ->type_name("N");
   app->add_flag("--bool", config->as_bool,
                 "vdb: grids of type bool instead of mask, for readers that know no masks");
-  app->add_option_function<std::string>(
-         "-m,--memory",
-         [config](const std::string& s) { config->memory = parse_count(s, "--memory"); },
-         "Memory budget in bytes, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory_budget(app, &config->memory);
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,
                {"svdag export city.svdag -o city.vdb --level 10",

@@ -39,11 +39,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
       ->type_name("LOW,HIGH");
   app->add_flag("--sandbox", config->sandbox,
                 "Decode OpenVDB data in a limited process: for files of strangers");
-  app->add_option_function<std::string>(
-         "-m,--memory",
-         [import](const std::string& s) { import->memory = parse_count(s, "--memory"); },
-         "Memory budget in bytes, for example 4G (default: half of the machine)")
-      ->type_name("SIZE");
+  add_memory_budget(app, &import->memory);
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");

@@ -1,0 +1,50 @@
+#include "builder/farm/plan_folder.h"
+
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "builder/farm/receipt.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_planned(const std::string& folder, const std::string& name, const std::string& output) {
+  static const std::set<std::string> kAtFirst = {"plan.scratch", "runs", "logs"};
+  static const std::set<std::string> kLater = {"index", kPlanTriangles, "openjd.json"};
+  if (name.starts_with('.') || kAtFirst.contains(name)) return true;  // hidden: never overwritten
+  // runs/ is there before the files: without it they are somebody else's.
+  if (!fs::is_directory(folder + "/runs")) return false;
+  return kLater.contains(name) || name == output || name == output + ".scratch";
+}
+
+}  // namespace
+
+std::vector<std::string> own_files(const std::string& folder) {
+  return {folder + "/plan.json", folder + "/index", folder + "/" + kPlanTriangles};
+}
+
+std::vector<std::string> files_of(const Plan& plan) {
+  std::vector<std::string> files = own_files(plan.folder);
+  for (const PlanStep& step : plan.steps) {
+    files.push_back(plan.path(step.output));
+    files.push_back(receipt_path(plan, step));
+  }
+  return files;
+}
+
+void refuse_strange_files(const std::string& folder, const std::string& output) {
+  std::error_code
+      none;  // no folder, or one that cannot be listed: whoever writes there will say so
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
+       entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    if (!is_planned(folder, name, output))
+      fail_usage(folder + " holds " + name + ", which is no part of a plan: choose another folder");
+  }
+}
+
+}  // namespace svdag

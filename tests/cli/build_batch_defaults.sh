@@ -1,0 +1,24 @@
+# Options beside --batch hold for bakes that do not say otherwise; what cannot be of a list is refused.
+svdag-scene city -n 3K -q -o a.ply
+echo '[{"scene": "a.ply", "output": "thin.svdag"},
+       {"scene": "a.ply", "output": "said.svdag", "voxel-size": 4, "rule": "conservative"},
+       {"scene": "a.ply", "output": "half.run", "part": "1/2", "quiet": false},
+       {"scene": "a.ply", "output": "quiet.svdag", "quiet": true}]' > list.json
+svdag build --batch list.json -r 64 --rule thin --bounds=0,0,0,100,100,100 -j 1 --checkpoint 5 | sed 's/:.*//'
+svdag build a.ply -r 64 --rule thin --bounds=0,0,0,100,100,100 -o t.svdag -q
+svdag build a.ply -s 4 --bounds=0,0,0,100,100,100 -o s.svdag -q
+cmp t.svdag thin.svdag
+cmp t.svdag quiet.svdag
+cmp s.svdag said.svdag
+echo '[{"scene": ["a.ply", "a.ply"], "output": "all.svdag", "exclude": ["a.*", "b.*"]},
+       {"scene": "a.ply", "output": "none.svdag"}]' > names.json
+svdag build --batch names.json -r 64 --include '*.ply' --exclude 'a*' --keep-going 2>&1 || echo "exit $?"
+for wrong in a.ply '-o x.svdag' '--shard 1' '--part 1/2' '-r 64 -s 1'; do
+  svdag build --batch list.json $wrong 2>&1 || echo "exit $?"
+done
+for wrong in '"shard": 1' '"keep-going": true' '"batch": "list.json"'; do
+  echo '[{"scene": "a.ply", "output": "x.svdag", "resolution": 64, '"$wrong"'}]' > wrong.json
+  svdag build --batch wrong.json 2>&1 || echo "exit $?"
+done
+svdag build a.ply -o x.svdag -r 64 --keep-going 2>&1 || echo "exit $?"
+ls
