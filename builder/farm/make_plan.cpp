@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "builder/checkpoint.h"
 #include "builder/choose_grid.h"
 #include "builder/description.h"
 #include "builder/farm/leaf_bins.h"
@@ -27,6 +28,13 @@ void make_folder(const std::string& path) {
   throw Error(ExitCode::kOutput, "this folder cannot be made", path);
 }
 
+// Where a plan spills: apart from the bake of the same output, which may have left work to resume.
+std::string scratch_path(const PlanConfig& config) {
+  const std::string name =
+      config.folder.empty() ? config.build.output + ".dry-run" : config.folder + "/plan";
+  return ScratchDir::path_for(name, config.build.scratch);
+}
+
 // From a scene to a plan; one function per phase.
 class Planner {
  public:
@@ -34,14 +42,12 @@ class Planner {
       : config_(config),
         progress_(progress),
         budget_(config.build.memory != 0 ? config.build.memory : default_memory_limit()),
-        folder_(ScratchDir::path_for(
-            config.folder.empty() ? config.build.output : config.folder + "/plan",
-            config.build.scratch)),
+        folder_(scratch_path(config)),
         scratch_(&folder_, &budget_),
         vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
                   [this] { return scratch_.new_streams(); }},
         scene_(config.build.scene, &budget_, &vertices_) {
-    folder_.clear();
+    make_room();
   }
 
   Plan run() {
@@ -54,6 +60,7 @@ class Planner {
   }
 
  private:
+  void make_room();
   void read_scene();
   void describe_inputs();
   void survey();
@@ -76,6 +83,13 @@ class Planner {
   std::vector<CellRange> shards_;
   Plan plan_;
 };
+
+// What a killed plan left behind goes; a bake whose output has the name of this scratch does not.
+void Planner::make_room() {
+  if (!Checkpoint::exists(folder_)) return folder_.clear();
+  folder_.keep();
+  fail_usage(folder_.path() + " holds an unfinished bake: finish it, or choose another --scratch");
+}
 
 void Planner::read_scene() {
   progress_->phase("read bounds", 0);
