@@ -19,7 +19,8 @@ namespace svdag {
 class ScratchDir {
  public:
   // The folder for `output`: OUTPUT.scratch, or, if `under` is not empty, a folder in `under` named
-  // after the output and a hash of its absolute path, so that many bakes may share `under`.
+  // after the output and a hash of its absolute path, so that many bakes may share `under`. A name
+  // that would be too long for a file system is cut, and has the hash, too.
   static std::string path_for(const std::string& output, const std::string& under);
 
   // Creates the folder, or takes it over with all it holds. A folder that another process owns is
