@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "builder/commands/commands.h"
@@ -121,6 +122,8 @@ Outcome run(const BuildCommandConfig& job) {
 
 int run_batch(const BuildCommandConfig& config) {
   const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
+  std::optional<AtomicFile> report;  // opened before there is work to lose
+  if (!config.report.empty()) report.emplace(config.report);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;
@@ -134,11 +137,10 @@ int run_batch(const BuildCommandConfig& config) {
     failed += outcome.code != ExitCode::kOk;
     if (first == ExitCode::kOk) first = outcome.code;
   }
-  if (!config.report.empty()) {
-    AtomicFile file(config.report);
-    file.append(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}.dump(2) +
-                "\n");
-    file.commit();
+  if (report) {
+    report->append(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}.dump(2) +
+                   "\n");
+    report->commit();
   }
   if (!config.output.quiet)
     std::printf("%zu of %zu baked, %zu failed\n", done.size() - failed, jobs.size(), failed);

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "builder/commands/commands.h"
 #include "io/units.h"
@@ -148,7 +149,7 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               format_bytes(r.peak_resident).c_str());
 }
 
-void refuse_overwriting_inputs(const BuildCommandConfig& config) {
+void refuse_outputs(const BuildCommandConfig& config) {
   for (const std::string& input : config.build.scene.paths) {
     for (const std::string& output : {config.build.output, config.report}) {
       if (!output.empty() && same_file(input, output))
@@ -157,12 +158,15 @@ void refuse_overwriting_inputs(const BuildCommandConfig& config) {
   }
   if (config.build.output == config.report)
     fail_usage("the output and the report have the same name: choose another --report");
+  AtomicFile::check(config.build.output);
 }
 
 }  // namespace
 
 void bake_scene(const BuildCommandConfig& config, std::string* json) {
-  refuse_overwriting_inputs(config);
+  refuse_outputs(config);
+  std::optional<AtomicFile> report_file;  // opened before there is work to lose
+  if (!config.report.empty()) report_file.emplace(config.report);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
   BuildConfig build_config = config.build;
@@ -175,10 +179,9 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
   if (json != nullptr) *json = report_json(config, report);
-  if (!config.report.empty()) {
-    AtomicFile file(config.report);
-    file.append(report_json(config, report));
-    file.commit();
+  if (report_file) {
+    report_file->append(report_json(config, report));
+    report_file->commit();
   }
   if (!config.output.quiet) print_summary(config, report);
 }

@@ -4,6 +4,7 @@
 #include "builder/farm/print_plan.h"
 #include "builder/farm/receipt.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -31,6 +32,7 @@ int run_plan(const PlanCommandConfig& config) {
 
 // A bake is one shard with the threads and the memory of the bake, merged at once.
 int run_dry(const BuildCommandConfig& config) {
+  AtomicFile::check(config.build.output);
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();

@@ -100,6 +100,7 @@ void write_data(const std::string& path) {
 }  // namespace
 
 void write_octree(const LevelDag& dag, const std::string& path) {
+  for (const char* ending : {"", "data"}) AtomicFile::check(path + ending);  // before any is there
   const Places places(dag);
   Output nodes(path + "nodes");
   put_node(kVoxelData, 0, 0, false, &nodes);

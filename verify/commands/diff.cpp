@@ -7,6 +7,7 @@
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "verify/diff.h"
 #include "verify/difference_points.h"
@@ -40,8 +41,8 @@ std::vector<Offender> first_offenders(DagDiff* diff, uint64_t most) {
     for (unsigned bit = 0; bit < 64 && offenders.size() < most; ++bit) {
       if (((a ^ b) >> bit & 1) == 0) continue;
       const auto [x, y, z] = brick_voxel(bit);
-      offenders.push_back({LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z),
-                           (a >> bit & 1) != 0});
+      offenders.push_back(
+          {LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z), (a >> bit & 1) != 0});
     }
     return offenders.size() < most;
   });
@@ -80,6 +81,7 @@ void print_text(const DagDiff& diff, const DiffCounts& counts,
 
 int run(const DiffConfig& config) {
   const Stopwatch stopwatch(config.common);
+  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);

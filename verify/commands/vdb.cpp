@@ -7,6 +7,7 @@
 #include "io/dag/dag_level.h"
 #include "io/dag/dag_stats.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "verify/compare_vdb.h"
 
@@ -86,6 +87,7 @@ void write_difference(const VdbConfig& config, const VdbComparison& comparison,
 
 int run(const VdbConfig& config) {
   const Stopwatch stopwatch(config.common);
+  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile file = DagFile::open(config.file);

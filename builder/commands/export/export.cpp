@@ -6,6 +6,7 @@
 #include "io/dag/dag_level.h"
 #include "io/formats/hashdag.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -80,6 +81,7 @@ int run(const ExportConfig& asked) {
   if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
   if (same_file(config.file, config.output))
     fail_usage(config.output + ": is the input; choose another name for the output");
+  AtomicFile::check(config.output);
   MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)
