@@ -11,6 +11,7 @@
 #include "builder/farm/leaf_bins.h"
 #include "builder/farm/merge_tree.h"
 #include "builder/farm/pilot.h"
+#include "builder/scene_watch.h"
 #include "streaming/error.h"
 #include "streaming/file_folder.h"
 
@@ -46,7 +47,8 @@ class Planner {
         scratch_(&folder_, &budget_),
         vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
                   [this] { return scratch_.new_streams(); }},
-        scene_(config.build.scene, &budget_, &vertices_) {
+        scene_(config.build.scene, &budget_, &vertices_),
+        watch_(scene_) {
     make_room();
   }
 
@@ -77,6 +79,7 @@ class Planner {
   Scratch scratch_;
   SpillSpace vertices_;
   Scene scene_;
+  SceneWatch watch_;
   std::unique_ptr<SpillFile> triangles_;
   PilotConfig pilot_config_;
   Pilot pilot_;
@@ -93,6 +96,7 @@ void Planner::make_room() {
 
 void Planner::read_scene() {
   progress_->phase("read bounds", 0);
+  watch_.begin();
   const Box box = config_.build.bounds ? Box() : scene_.bounds();
   plan_.folder = config_.folder;
   plan_.grid = choose_grid(config_.build, box);
@@ -105,6 +109,7 @@ void Planner::read_scene() {
   split_config.triangle_bytes = budget_.limit() / 4;
   split_config.scratch = &scratch_;
   SplitScene scene = split(scene_, plan_.grid, split_config, &budget_);
+  watch_.check();
   plan_.counts = scene.counts;
   if (scene.counts.scene.triangles == 0)
     fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");
