@@ -161,6 +161,7 @@ void Bake::split() {
     split_ = {config_.ready->counts, nullptr, config_.ready->bins};
   } else {
     split_ = svdag::split(scene_, report_.grid, split_config_, &budget_);
+    description_.watch()->check();  // the triangles are not read again
     if (split_.counts.scene.triangles == 0)
       fail_input(config_.scene.paths.front(), "the scene has no triangles to bake");
     if (!split_.tree) {
@@ -312,6 +313,7 @@ BuildReport Bake::run() {
     fail_usage(config_.output + ": a part of a grid is a run: choose an output that ends in .run");
   find_unfinished();
   report_.resumed = saved_.has_value();
+  if (config_.ready == nullptr) description_.watch()->begin();
   choose_grid();
   // The output is opened before the work begins: an unwritable folder is known at once.
   const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
@@ -319,6 +321,8 @@ BuildReport Bake::run() {
   split();
   voxelize();
   const std::vector<CellRoot> tops = merge(output.get());
+  if (config_.name_files) report_.files = description_.files();  // or there is no output either
+  phase_.lap();
   progress_->phase("write", 0);
   output->finish(tops, report_.voxels, report_.split.largest_snap);
   saves_ = false;
@@ -335,7 +339,6 @@ BuildReport Bake::run() {
   report_.seconds.cpu = cpu_seconds();
   report_.peak_counted = budget_.peak();
   report_.peak_resident = peak_resident_bytes();
-  if (config_.name_files) report_.files = description_.files();
   return std::move(report_);
 }
 

@@ -69,7 +69,12 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
 }
 
 const std::vector<SceneFile>& Description::files() {
-  if (files_.empty()) files_ = scene_files(scene_);
+  if (files_.empty()) {
+    watch_.begin();
+    std::vector<SceneFile> files = scene_files(scene_);
+    watch_.check();
+    files_ = std::move(files);
+  }
   return files_;
 }
 

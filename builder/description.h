@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builder/build.h"
+#include "builder/scene_watch.h"
 
 namespace svdag {
 
@@ -17,10 +18,15 @@ std::vector<SceneFile> scene_files(const Scene& scene);
 // `files`: of the scene; a bake that is `ready` needs none, for its plan has described them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
-// Both, of one bake. Hashes cost a reading of the whole scene: they are made when needed, and once.
+// Both, of one bake. Hashes cost a reading of the whole scene: they are made when needed, and once,
+// and they are those of what the bake has read, or an Error.
 class Description {
  public:
-  Description(const BuildConfig& config, const Scene& scene) : config_(config), scene_(scene) {}
+  Description(const BuildConfig& config, const Scene& scene)
+      : config_(config), scene_(scene), watch_(scene) {}
+
+  // Of the scene; begin it before the scene is read.
+  SceneWatch* watch() { return &watch_; }
 
   const std::vector<SceneFile>& files();
   std::string text();
@@ -28,6 +34,7 @@ class Description {
  private:
   const BuildConfig& config_;
   const Scene& scene_;
+  SceneWatch watch_;
   std::vector<SceneFile> files_;
 };
 

@@ -18,6 +18,12 @@ namespace svdag {
 
 class AtomicFile {
  public:
+  // An Error (kOutput) if `target` is what a file must not replace: a folder, a device, a pipe, a
+  // socket, a link to one, or the name of a descriptor (/dev/stdout); or if it is too long for a
+  // name. For who has work to do before there are bytes to write: an output is refused before it.
+  static void check(const std::string& target);
+
+  // Checks, and opens.
   explicit AtomicFile(const std::string& target);
 
   void write_at(uint64_t offset, std::span<const std::byte> bytes);

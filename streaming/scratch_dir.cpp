@@ -12,9 +12,18 @@ namespace svdag {
 namespace {
 
 constexpr const char* kOwner = "owner";
+constexpr const char* kEnding = ".scratch";
+constexpr size_t kLongestName = 255;  // bytes, of Linux's file systems
 
 std::string name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
+}
+
+// At most `most` bytes of `name`, which do not end within a character of UTF-8.
+std::string shortened(const std::string& name, size_t most) {
+  if (name.size() <= most) return name;
+  while (most > 0 && (name[most] & 0xC0) == 0x80) --most;
+  return name.substr(0, most);
 }
 
 // The lock is the first file that an owner makes and the last that it removes.
@@ -25,12 +34,16 @@ bool holds_others_only(const std::vector<std::string>& names) {
 }  // namespace
 
 std::string ScratchDir::path_for(const std::string& output, const std::string& under) {
-  if (under.empty()) return output + ".scratch";
+  const std::string name = name_of(output);
+  if (under.empty() && (name + kEnding).size() <= kLongestName) return output + kEnding;
   const std::string absolute = absolute_path(output);
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx",
                 static_cast<unsigned long long>(checksum64(std::as_bytes(std::span(absolute)))));
-  return under + "/" + name_of(output) + "-" + hash + ".scratch";
+  const std::string ending = std::string("-") + hash + kEnding;
+  const std::string folder = output.substr(0, output.size() - name.size());
+  return (under.empty() ? folder : under + "/") + shortened(name, kLongestName - ending.size()) +
+         ending;
 }
 
 bool ScratchDir::in_use(const std::string& path) {

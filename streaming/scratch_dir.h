@@ -28,7 +28,8 @@ class ScratchInUse : public Error {
 class ScratchDir {
  public:
   // The folder for `output`: OUTPUT.scratch, or, if `under` is not empty, a folder in `under` named
-  // after the output and a hash of its absolute path, so that many bakes may share `under`.
+  // after the output and a hash of its absolute path, so that many bakes may share `under`. A name
+  // that would be too long for a file system is cut, and has the hash, too.
   static std::string path_for(const std::string& output, const std::string& under);
 
   // Whether a process owns the folder `path` now.

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
@@ -159,6 +160,8 @@ Outcome run(const BuildCommandConfig& job, bool dry) {
 int run_batch(const BuildCommandConfig& config) {
   const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
   refuse_overwriting(config, jobs);
+  std::optional<AtomicFile> report;  // opened before there is work to lose
+  if (!config.report.empty()) report.emplace(config.report);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;
@@ -172,12 +175,11 @@ int run_batch(const BuildCommandConfig& config) {
     failed += outcome.code != ExitCode::kOk;
     if (first == ExitCode::kOk) first = outcome.code;
   }
-  if (!config.report.empty()) {
-    AtomicFile file(config.report);
-    file.append(
+  if (report) {
+    report->append(
         json_text(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}, 2) +
         "\n");
-    file.commit();
+    report->commit();
   }
   if (!config.output.quiet)
     std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),

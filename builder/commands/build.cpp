@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
@@ -179,6 +180,9 @@ void refuse_overwriting(const BuildCommandConfig& config) {
 }  // namespace
 
 void bake_scene(const BuildCommandConfig& config, std::string* json) {
+  AtomicFile::check(config.build.output);
+  std::optional<AtomicFile> report_file;  // opened before there is work to lose
+  if (!config.report.empty()) report_file.emplace(config.report);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
   BuildConfig build_config = config.build;
@@ -191,16 +195,15 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
   if (json != nullptr) *json = report_json(config, report);
-  if (!config.report.empty()) {
-    AtomicFile file(config.report);
-    file.append(report_json(config, report));
-    file.commit();
+  if (report_file) {
+    report_file->append(report_json(config, report));
+    report_file->commit();
   }
   if (!config.output.quiet) print_summary(config, report);
 }
 
 int run_build(const BuildCommandConfig& config) {
-  if (config.shard != 0) return run_shard(config);
+  if (config.shard != 0 && !config.build.scene.paths.empty()) return run_shard(config);
   if (config.dry_run && !config.report.empty())
     fail_usage("--dry-run bakes nothing to report: leave --report out");
   if (config.keep_going && config.batch.empty()) fail_usage("--keep-going is for --batch");

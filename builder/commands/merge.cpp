@@ -2,6 +2,7 @@
 
 #include "builder/commands/commands.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -40,6 +41,7 @@ int run_merge(const MergeCommandConfig& config) {
   if (!config.step.empty()) return run_merge_step(config);
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   refuse_overwriting_inputs(config.merge);
+  AtomicFile::check(config.merge.output);
   ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
   Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
   const MergeRunsReport report = merge_runs(config.merge, &executor, &progress);

@@ -6,6 +6,7 @@
 #include "builder/farm/print_plan.h"
 #include "builder/farm/receipt.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -38,6 +39,7 @@ int run_plan(const PlanCommandConfig& config) {
 int run_dry(const BuildCommandConfig& config) {
   if (config.build.part)
     fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
+  AtomicFile::check(config.build.output);
   PlanConfig dry;
   dry.build = config.build;
   dry.step_threads = config.threads != 0 ? config.threads : available_processors();

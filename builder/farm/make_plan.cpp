@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "builder/checkpoint.h"
 #include "builder/choose_grid.h"
 #include "builder/description.h"
 #include "builder/farm/leaf_bins.h"
 #include "builder/farm/merge_tree.h"
 #include "builder/farm/pilot.h"
 #include "builder/farm/plan_folder.h"
+#include "builder/scene_watch.h"
 #include "streaming/error.h"
 #include "streaming/file_folder.h"
 
@@ -41,6 +43,14 @@ void require_names(const PlanConfig& config) {
     for (const std::string& name : names) require_utf8(name);
 }
 
+// Where a plan spills: apart from the bake of the same output, which may have left work to
+// resume.
+std::string scratch_path(const PlanConfig& config) {
+  const std::string name =
+      config.folder.empty() ? config.build.output + ".dry-run" : config.folder + "/plan";
+  return ScratchDir::path_for(name, config.build.scratch);
+}
+
 // From a scene to a plan; one function per phase.
 class Planner {
  public:
@@ -48,14 +58,13 @@ class Planner {
       : config_(config),
         progress_(progress),
         budget_(config.build.memory != 0 ? config.build.memory : default_memory_limit()),
-        folder_(ScratchDir::path_for(
-            config.folder.empty() ? config.build.output : config.folder + "/plan",
-            config.build.scratch)),
+        folder_(scratch_path(config)),
         scratch_(&folder_, &budget_),
         vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
                   [this] { return scratch_.new_streams(); }},
-        scene_(config.build.scene, &budget_, &vertices_) {
-    folder_.clear();
+        scene_(config.build.scene, &budget_, &vertices_),
+        watch_(scene_) {
+    make_room();
   }
 
   Plan run() {
@@ -68,6 +77,7 @@ class Planner {
   }
 
  private:
+  void make_room();
   void read_scene();
   void describe_inputs();
   void survey();
@@ -84,6 +94,7 @@ class Planner {
   Scratch scratch_;
   SpillSpace vertices_;
   Scene scene_;
+  SceneWatch watch_;
   std::unique_ptr<SpillFile> triangles_;
   PilotConfig pilot_config_;
   Pilot pilot_;
@@ -91,10 +102,18 @@ class Planner {
   Plan plan_;
 };
 
+// What a killed plan left behind goes; a bake whose output has the name of this scratch does not.
+void Planner::make_room() {
+  if (!Checkpoint::exists(folder_)) return folder_.clear();
+  folder_.keep();
+  fail_usage(folder_.path() + " holds an unfinished bake: finish it, or choose another --scratch");
+}
+
 void Planner::read_scene() {
   if (!config_.folder.empty())
     scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
   progress_->phase("read bounds", 0);
+  watch_.begin();
   const Box box = config_.build.bounds ? Box() : scene_.bounds();
   plan_.folder = config_.folder;
   plan_.grid = choose_grid(config_.build, box);
@@ -107,6 +126,7 @@ void Planner::read_scene() {
   split_config.triangle_bytes = budget_.limit() / 4;
   split_config.scratch = &scratch_;
   SplitScene scene = split(scene_, plan_.grid, split_config, &budget_);
+  watch_.check();
   plan_.counts = scene.counts;
   if (scene.counts.scene.triangles == 0)
     fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");

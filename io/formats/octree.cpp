@@ -104,6 +104,7 @@ std::vector<std::string> octree_files(const std::string& path) {
 }
 
 void write_octree(const LevelDag& dag, const std::string& path) {
+  for (const char* ending : {"", "data"}) AtomicFile::check(path + ending);  // before any is there
   const Places places(dag);
   const std::vector<std::string> files = octree_files(path);
   Output nodes(files[1]);

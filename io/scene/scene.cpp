@@ -140,6 +140,7 @@ Box Scene::bounds(SceneCounts* counts) const {
 
 void Scene::visit_files(const std::function<void(const File&)>& visit) const {
   for (const std::string& path : config_.paths) {
+    if (config_.names.excludes(base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
     if (detect_format(file) != SceneFormat::kGltf) continue;

@@ -80,14 +80,52 @@ TEST(AtomicFile, ASymlinkIsReplacedAndNotFollowed) {
   EXPECT_FALSE(std::filesystem::is_symlink(folder.file("out")));
 }
 
-TEST(AtomicFile, AFolderOfThatNameIsAnOutputErrorAndLeavesNothing) {
+TEST(AtomicFile, ALinkThatLeadsNowhereIsReplaced) {
   const TempFolder folder;
-  std::filesystem::create_directory(folder.file("out"));
-  {
-    AtomicFile file(folder.file("out"));
-    EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kOutput, "out: cannot be replaced");
-  }
+  std::filesystem::create_symlink(folder.file("gone"), folder.file("out"));
+  AtomicFile file(folder.file("out"));
+  file.append("new");
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "new");
   EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(AtomicFile, WhatIsNoRegularFileIsRefusedBeforeItIsWritten) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.file("folder"));
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/null", folder.file("device"));
+  std::filesystem::create_symlink("/proc/self/fd/1", folder.file("stdout"));
+  for (const char* name : {"pipe", "device", "stdout"})
+    EXPECT_SVDAG_ERROR(AtomicFile(folder.file(name)), ExitCode::kOutput, "is no regular file");
+  EXPECT_SVDAG_ERROR(AtomicFile(folder.file("folder")), ExitCode::kOutput, "is a folder");
+  EXPECT_SVDAG_ERROR(AtomicFile("/dev/null"), ExitCode::kOutput, "is no regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("device")));
+  EXPECT_EQ(folder.entries(), 4U);
+}
+
+TEST(AtomicFile, WhatIsMadeBeforeTheCommitIsRefusedToo) {
+  const TempFolder folder;
+  {
+    AtomicFile to_folder(folder.file("folder")), to_pipe(folder.file("pipe"));
+    std::filesystem::create_directory(folder.file("folder"));
+    ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+    EXPECT_SVDAG_ERROR(to_folder.commit(), ExitCode::kOutput, "folder: is a folder");
+    EXPECT_SVDAG_ERROR(to_pipe.commit(), ExitCode::kOutput, "pipe: is no regular file");
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
+  EXPECT_EQ(folder.entries(), 2U);
+}
+
+TEST(AtomicFile, TheLongestNameIsWrittenAndALongerOneRefusedAtOnce) {
+  const TempFolder folder;
+  AtomicFile file(folder.file(std::string(255, 'n')));
+  file.append("new");
+  file.commit();
+  EXPECT_EQ(folder.read(std::string(255, 'n')), "new");
+  EXPECT_SVDAG_ERROR(AtomicFile(folder.file(std::string(256, 'n'))), ExitCode::kOutput,
+                     "is too long for the name of a file");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <thread>
 
 #include "tests/expect_error.h"
@@ -53,6 +54,28 @@ TEST(ScratchDir, StandsBesideTheOutputOrIsNamedAfterItsAbsolutePath) {
   EXPECT_EQ(here.substr(31), ".scratch");
   EXPECT_EQ(ScratchDir::path_for(fs::current_path() / "x/../out.svdag", "/big"), here);
   EXPECT_NE(ScratchDir::path_for("x/out.svdag", "/big"), here);
+}
+
+TEST(ScratchDir, ALongNameIsCutBetweenTwoCharactersAndStaysItsOwn) {
+  const auto name_of = [](const std::string& path) { return fs::path(path).filename().string(); };
+  const TempFolder temp;
+  for (const std::string& under : {std::string(), temp.file("under")}) {
+    std::set<std::string> paths;
+    for (const size_t length : {247, 248, 250, 254, 255}) {
+      const std::string path = ScratchDir::path_for(temp.file(std::string(length, 'n')), under);
+      EXPECT_EQ(fs::path(path).parent_path(), under.empty() ? temp.path() : under);
+      EXPECT_LE(name_of(path).size(), 255U);
+      EXPECT_TRUE(paths.insert(path).second);
+    }
+    std::string wide;  // two bytes a character
+    while (wide.size() < 254) wide += "\u00e4";
+    const std::string cut = name_of(ScratchDir::path_for(temp.file(wide), under));
+    EXPECT_EQ(cut.find('-') % 2, 0U);
+    EXPECT_EQ(name_of(ScratchDir::path_for(temp.file("n" + wide), under)).find('-') % 2, 1U);
+  }
+  EXPECT_EQ(name_of(ScratchDir::path_for(std::string(247, 'n'), "")),
+            std::string(247, 'n') + ".scratch");
+  ScratchDir made(ScratchDir::path_for(temp.file(std::string(250, 'n')), ""));
 }
 
 TEST(ScratchDir, AnOutputHasOneFolderThroughWhateverLinkItIsReached) {

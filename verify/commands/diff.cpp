@@ -7,6 +7,7 @@
 #include "io/dag/dag_file.h"
 #include "io/json_text.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
 #include "verify/diff.h"
@@ -78,6 +79,7 @@ int run(const DiffConfig& config) {
     if (same_file(input, config.write_diff))
       fail_usage(config.write_diff + ": is an input; choose another name for the difference");
   }
+  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);

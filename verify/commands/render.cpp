@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "io/dag/dag_file.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
 #include "streaming/memory_budget.h"
@@ -85,12 +86,14 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 
-// "fly.png" and 7 into "fly_0007.png".
-std::string frame_name(const std::string& path, int frame) {
+// The output, or for --fly with "fly.png" and 6 "fly_0007.png".
+std::string picture_name(const RenderCommandConfig& config, int frame) {
+  const std::string& path = config.output;
+  if (config.fly == 0) return path;
   const size_t dot = path.rfind(".png");
   const bool named = dot != std::string::npos && dot + 4 == path.size();
   char number[16];
-  std::snprintf(number, sizeof number, "_%04d", frame);
+  std::snprintf(number, sizeof number, "_%04d", frame + 1);
   return (named ? path.substr(0, dot) : path) + number + ".png";
 }
 
@@ -122,6 +125,8 @@ int run(const RenderCommandConfig& config) {
   picture.beams = mode != ShadeMode::kSteps;  // they would hide the steps
   if (same_file(config.file, config.output))
     fail_usage(config.output + ": is the input; choose another name for the picture");
+  const int frames = std::max(config.fly, 1);
+  for (int frame = 0; frame < frames; ++frame) AtomicFile::check(picture_name(config, frame));
 
   const DagFile file = DagFile::open(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to look at");
@@ -132,7 +137,6 @@ int run(const RenderCommandConfig& config) {
   const Light light = make_shading(mode, first, int(up), box).light;
   ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
   Progress progress(config.common.progress);
-  const int frames = std::max(config.fly, 1);
   Tree64 tree;
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = config.fly > 0 ? turned(first, box, int(up), frame, config.fly) : first;
@@ -144,7 +148,7 @@ int run(const RenderCommandConfig& config) {
           file.view(),
           uncut_rays(file.view(), shading, picture) * uint64_t(frames) / executor.workers(),
           default_memory_limit());
-    const std::string name = config.fly > 0 ? frame_name(config.output, frame + 1) : config.output;
+    const std::string name = picture_name(config, frame);
     write_png(render(file.view(), tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)
       std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,

@@ -63,6 +63,7 @@ int run(const ReportConfig& config) {
     if (same_file(input, config.output))
       fail_usage(config.output + ": is an input; choose another name for the page");
   }
+  AtomicFile output(config.output);  // opened before there is work to lose
   const DagFile file = DagFile::open(config.file);
   const std::string bake = read_text(config.bake);
   const IntegrityReport integrity = inspect(file.header(), file.view(), file.metadata());
@@ -70,7 +71,6 @@ int run(const ReportConfig& config) {
   report_html(bake, config.bake, file, stats, integrity, {});  // refuses before there are pictures
   const std::string page =
       report_html(bake, config.bake, file, stats, integrity, make_pictures(config, file));
-  AtomicFile output(config.output);
   output.append(page);
   output.commit();
   if (!config.common.quiet)

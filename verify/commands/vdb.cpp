@@ -8,6 +8,7 @@
 #include "io/dag/dag_stats.h"
 #include "io/json_text.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "verify/compare_vdb.h"
 
@@ -85,6 +86,7 @@ int run(const VdbConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (same_file(config.write_diff, config.file) || same_file(config.write_diff, config.vdb))
     fail_usage(config.write_diff + ": is an input; choose another name for the difference");
+  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile file = DagFile::open(config.file);

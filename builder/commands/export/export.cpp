@@ -7,6 +7,7 @@
 #include "io/formats/hashdag.h"
 #include "io/formats/octree.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -92,6 +93,7 @@ int run(const ExportConfig& asked) {
   ExportConfig config = asked;
   if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
   refuse_own_input(row, config);
+  AtomicFile::check(config.output);
   MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)

@@ -15,6 +15,7 @@
 #include "io/formats/transform_dag.h"
 #include "io/formats/vox.h"
 #include "io/units.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -102,6 +103,7 @@ std::vector<std::string> import_formats() {
 int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
+  AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
   const Row& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);

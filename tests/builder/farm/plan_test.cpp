@@ -169,5 +169,39 @@ TEST_F(Plans, DryOnesLeaveNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
 }
 
+TEST_F(Plans, DryOnesLeaveAnUnfinishedBakeAlone) {
+  PlanConfig c = config(1);
+  c.folder.clear();
+  c.build.output = folder_.file("out.svdag");
+  std::filesystem::create_directory(folder_.file("scratch"));
+  for (const std::string& under : {std::string(), folder_.file("scratch")}) {
+    c.build.scratch = under;
+    const std::string path = ScratchDir::path_for(c.build.output, under);
+    {
+      ScratchDir bake(path);
+      bake.create("journal");
+      bake.keep();
+    }
+    EXPECT_EQ(plan_of(c).steps.size(), 2u);
+    EXPECT_TRUE(ScratchDir(path).has("journal"));
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  // The scene, and --scratch.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.file("scratch")));
+}
+
+TEST_F(Plans, NoBakeIsDiscardedWhoseScratchHasTheNameOfAPlans) {
+  PlanConfig c = config();
+  std::filesystem::create_directory(c.folder);
+  {
+    ScratchDir bake(ScratchDir::path_for(c.folder + "/plan", ""));
+    bake.create("journal");
+    bake.keep();
+  }
+  EXPECT_SVDAG_ERROR(plan_of(c), ExitCode::kUsage, "holds an unfinished bake");
+  EXPECT_TRUE(ScratchDir(c.folder + "/plan.scratch").has("journal"));
+}
+
 }  // namespace
 }  // namespace svdag

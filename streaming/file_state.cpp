@@ -1,0 +1,22 @@
+#include "streaming/file_state.h"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+
+#include "streaming/file_calls.h"
+
+namespace svdag {
+
+FileState state_of(const File& file) {
+  struct stat status;
+  if (::fstat(file.descriptor(), &status) != 0)
+    fail_call(ExitCode::kBadInput, "cannot be examined", file.path(), errno);
+  return {status.st_dev,
+          status.st_ino,
+          uint64_t(status.st_size),
+          {status.st_mtim.tv_sec, status.st_mtim.tv_nsec},
+          {status.st_ctim.tv_sec, status.st_ctim.tv_nsec}};
+}
+
+}  // namespace svdag

@@ -1,0 +1,33 @@
+# A name that is a folder, a pipe or a device, or leads to one, is refused before the work begins,
+# and is still what it was.
+refused() { "$@" || echo "exit code $?"; }
+svdag-scene rectangle -q -o r.ply
+svdag build r.ply -r 64 -o r.svdag -q --report r.json
+svdag build r.ply -r 64 -o r.run -q --part 1/1
+svdag export r.svdag -o r.npz -q
+mkdir folder
+mkfifo pipe pipe.npz pipe.png
+ln -s /dev/null device
+ln -s /proc/self/fd/1 stdout
+for out in folder pipe device stdout; do refused svdag build r.ply -r 64 -o $out; done
+refused svdag build r.ply -r 64 -o new.svdag --report pipe
+refused svdag build r.ply -r 64 -o new.svdag --report nowhere/r.json
+echo '[{"scene": "r.ply", "output": "new.svdag", "resolution": 64}]' >list.json
+refused svdag build --batch list.json --report device
+refused svdag build r.ply -r 64 -o pipe --dry-run
+refused svdag merge r.run -o pipe
+refused svdag export r.svdag -o pipe.npz
+refused svdag import r.npz -o pipe
+refused svdag-verify report r.svdag r.json -o pipe
+refused svdag-verify render r.svdag -o pipe.png
+refused svdag-verify diff r.svdag r.svdag --write-diff pipe
+ls -F
+# A link to a file, or to nothing, gives way to the output; what it leads to stays.
+echo precious >file
+ln -s file link
+ln -s nothing dangling
+svdag build r.ply -r 64 -o link -q
+svdag build r.ply -r 64 -o dangling -q
+cat file
+cmp link r.svdag && cmp dangling r.svdag
+ls -F
