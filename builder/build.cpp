@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 
 #include "builder/bake_bins.h"
@@ -13,6 +12,7 @@
 #include "builder/disk_need.h"
 #include "builder/merge.h"
 #include "builder/shares.h"
+#include "builder/stopwatch.h"
 #include "builder/voxelize.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -20,20 +20,6 @@
 
 namespace svdag {
 namespace {
-
-// Seconds since it was last asked.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void describe_output(const BakeOutput& output, BuildReport* report) {
   report->nodes = output.keys();

@@ -132,7 +132,10 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint6
 }
 
 CellCursor::CellCursor(const CellTree& tree, const DescentConfig& config)
-    : tree_(tree), config_(config), path_(size_t(tree.cell_level() + 1)), depth_(tree.root().level) {
+    : tree_(tree),
+      config_(config),
+      path_(size_t(tree.cell_level() + 1)),
+      depth_(tree.root().level) {
   enter(tree.root(), tree.root_.get(), {});
 }
 

@@ -58,8 +58,8 @@ class CellTree {
   SegmentedArray<LatticeTriangle> triangles_;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
-  uint64_t heaviest_ = 0;  // triangles that begin in one cell, at most
-  uint64_t inner_ = 0;     // triangles that stand at inner nodes
+  uint64_t heaviest_ = 0;                 // triangles that begin in one cell, at most
+  uint64_t inner_ = 0;                    // triangles that stand at inner nodes
   std::vector<uint64_t> heaviest_inner_;  // [level]: at one inner node of it, at most
 };
 

@@ -1,12 +1,12 @@
 #include "builder/merge_runs.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "builder/bake_output.h"
 #include "builder/checkpoint.h"
 #include "builder/merge.h"
 #include "builder/run_check.h"
+#include "builder/stopwatch.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -46,17 +46,6 @@ MergeConfig merge_config(Scratch* scratch, MemoryBudget* budget, size_t workers)
       std::max<uint64_t>(2, memory * 3 / 8 / (kRunBlockBytes + 4 * scratch->block_bytes()));
   return config;
 }
-
-class Seconds {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 Run run_of(const RunFile& file) {
   Run run;
@@ -109,7 +98,7 @@ void require_whole(const Part& part, const Grid& grid, const std::string& output
 }
 
 MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress) {
-  Seconds seconds;
+  Stopwatch seconds;
   MergeRunsReport report;
   MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
   std::vector<RunFile> files;
