@@ -4,7 +4,9 @@ A piece is five minutes of one fuzzer on one core; its executions are added to b
 when it has ended well, so the run can be stopped at any time and goes on with the next call, from the
 corpus it had. What was counted belongs to the bytes of one program: another build begins at nothing.
 
-Usage: long_run.py [--executions N] [--jobs N] [--minutes N] [FUZZER...]"""
+With --seconds each fuzzer runs so long instead, whatever was counted: the short run of make stress.
+
+Usage: long_run.py [--executions N | --seconds N] [--jobs N] [--minutes N] [FUZZER...]"""
 import argparse
 import hashlib
 import json
@@ -63,8 +65,18 @@ class Fuzzer:
         os.replace(path.with_suffix(".new"), path)
 
 
-def run_all(waiting, executions, jobs, until):
-    """Every core takes the next fuzzer that is not done. Returns (name, finding) of those that found."""
+def run_on(fuzzer, executions, until):
+    """Piece after piece, until there are so many executions or something is found."""
+    while fuzzer.kept["executions"] < executions and time.monotonic() < until:
+        seconds = int(min(PIECE_SECONDS, until - time.monotonic())) + 1
+        finding = fuzzer.piece(executions - fuzzer.kept["executions"], seconds)
+        if finding:
+            return finding
+    return ""
+
+
+def run_all(waiting, jobs, run):
+    """Every core takes the next fuzzer. Returns (name, finding) of those that found."""
     found = []
     lock = threading.Lock()
 
@@ -74,12 +86,9 @@ def run_all(waiting, executions, jobs, until):
                 if not waiting:
                     return
                 fuzzer = waiting.pop(0)
-            while fuzzer.kept["executions"] < executions and time.monotonic() < until:
-                seconds = int(min(PIECE_SECONDS, until - time.monotonic())) + 1
-                finding = fuzzer.piece(executions - fuzzer.kept["executions"], seconds)
-                if finding:
-                    found.append((fuzzer.name, finding))
-                    break
+            finding = run(fuzzer)
+            if finding:
+                found.append((fuzzer.name, finding))
 
     threads = [threading.Thread(target=work) for _ in range(jobs)]
     for thread in threads:
@@ -92,6 +101,7 @@ def run_all(waiting, executions, jobs, until):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--executions", type=int, default=10**8, help="of each fuzzer (10^8)")
+    parser.add_argument("--seconds", type=int, help="run each fuzzer so long instead")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="fuzzers at a time (a core each)")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="stop after so many")
     parser.add_argument("fuzzers", nargs="*", metavar="FUZZER", help="their names (all)")
@@ -100,7 +110,13 @@ def main():
     built = sorted(path.name[:-5] for path in (BUILD / "tests").glob("*_fuzz"))
     fuzzers = [Fuzzer(name) for name in arguments.fuzzers or built]
     until = time.monotonic() + 60 * arguments.minutes
-    found = run_all(list(fuzzers), arguments.executions, arguments.jobs, until)
+
+    def run(fuzzer):
+        if arguments.seconds:
+            return fuzzer.piece(-1, arguments.seconds)  # any number of executions
+        return run_on(fuzzer, arguments.executions, until)
+
+    found = run_all(list(fuzzers), arguments.jobs, run)
     print(f"{'fuzzer':15} {'executions':>12} {'per second':>11} {'edges':>6}")
     for fuzzer in fuzzers:
         kept = fuzzer.kept

@@ -36,13 +36,5 @@ sh tests/stress/deb_test.sh build/release build/deb
 echo "Fuzzers, $seconds s each"
 cmake --preset fuzz --log-level=WARNING >/dev/null
 cmake --build --preset fuzz --target fuzzers
-for fuzzer in build/fuzz/tests/*_fuzz; do
-  [ -x "$fuzzer" ] || continue
-  name=$(basename "$fuzzer")
-  corpus=build/fuzz/corpus/$name
-  mkdir -p "$corpus"
-  words=tests/fuzz/$name.dict
-  [ -e "$words" ] && words=-dict=$words || words=
-  "$fuzzer" "$corpus" tests/fuzz/corpus/"$name" $words -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20
-done
+/usr/bin/python3 -B tests/fuzz/long_run.py --seconds "$seconds"
 echo "All of it passed."
