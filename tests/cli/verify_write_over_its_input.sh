@@ -10,6 +10,9 @@ for name in a.svdag b.svdag ./b.svdag soft.svdag hard.svdag; do
   svdag-verify diff a.svdag b.svdag -q --write-diff $name || echo "exit $?"
 done
 svdag-verify vdb a.svdag a.vdb -q --write-diff ./a.vdb || echo "exit $?"
+cp a.svdag fly_0002.png  # a frame is a result, too
+svdag-verify render fly_0002.png -o fly.png --fly 2 -q || echo "exit $?"
+cmp fly_0002.png kept.svdag
 cmp a.svdag kept.svdag
 cmp b.svdag kept.svdag
 ls

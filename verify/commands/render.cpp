@@ -123,10 +123,13 @@ int run(const RenderCommandConfig& config) {
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   const ShadeMode mode = parse_mode(config.mode);
   picture.beams = mode != ShadeMode::kSteps;  // they would hide the steps
-  if (same_file(config.file, config.output))
-    fail_usage(config.output + ": is the input; choose another name for the picture");
   const int frames = std::max(config.fly, 1);
-  for (int frame = 0; frame < frames; ++frame) AtomicFile::check(picture_name(config, frame));
+  for (int frame = 0; frame < frames; ++frame) {
+    const std::string name = picture_name(config, frame);
+    if (same_file(config.file, name))
+      fail_usage(name + ": is the input; choose another name for the picture");
+    AtomicFile::check(name);
+  }
 
   const DagFile file = DagFile::open(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to look at");
