@@ -94,18 +94,12 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
     return true;
   });
   uint64_t at = bin.range.begin;
-  const std::vector<TriangleBin> parts = bins.finish();
-  double triangles = 0, done_triangles = 0;
-  for (const TriangleBin& part : parts) triangles += double(part.triangles);
-  for (const TriangleBin& part : parts) {
-    const double begin = done_triangles / triangles;
-    done_triangles += double(part.triangles);
-    const Progress::Part of_bin(progress_, begin, done_triangles / triangles);
+  for_each_bin(bins.finish(), progress_, [&](const TriangleBin& part) {
     voxelizer_->note_empty({at, part.range.begin});
     bake(passing, part);
     passing->free(part.stream);
     at = part.range.end;
-  }
+  });
   voxelizer_->note_empty({at, bin.range.end});
 }
 

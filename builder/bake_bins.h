@@ -10,6 +10,19 @@
 
 namespace svdag {
 
+// visit(bin) for one after the other; each is as much of the progress as it has triangles.
+template <class Visit>
+void for_each_bin(const std::vector<TriangleBin>& bins, Progress* progress, const Visit& visit) {
+  double all = 0, done = 0;
+  for (const TriangleBin& bin : bins) all += double(bin.triangles);
+  for (const TriangleBin& bin : bins) {
+    const double begin = done / all;
+    done += double(bin.triangles);
+    const Progress::Part part(progress, begin, done / all);
+    visit(bin);
+  }
+}
+
 class BinBaker {
  public:
   // All must outlive the baker. `split` tells the cells and the share of memory.

@@ -10,9 +10,9 @@
 #include "builder/choose_grid.h"
 #include "builder/description.h"
 #include "builder/disk_need.h"
+#include "builder/lap_timer.h"
 #include "builder/merge.h"
 #include "builder/shares.h"
-#include "builder/stopwatch.h"
 #include "builder/voxelize.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -88,7 +88,7 @@ class Bake {
   bool spilled_ = false;
   uint64_t spilled_bytes_ = 0;      // of runs_
   std::atomic<bool> saves_{false};  // something can be resumed
-  Stopwatch phase_;
+  LapTimer phase_;
 };
 
 // An earlier process may have left work behind: it is resumed, discarded, or in the way.
@@ -182,14 +182,7 @@ void Bake::voxelize() {
                    executor_, progress_);
     SpillFile* const file =
         config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
-    double triangles = 0, done_triangles = 0;
-    for (const TriangleBin& bin : split_.bins) triangles += double(bin.triangles);
-    for (const TriangleBin& bin : split_.bins) {
-      const double begin = done_triangles / triangles;
-      done_triangles += double(bin.triangles);
-      const Progress::Part part(progress_, begin, done_triangles / triangles);
-      baker.bake(file, bin);
-    }
+    for_each_bin(split_.bins, progress_, [&](const TriangleBin& bin) { baker.bake(file, bin); });
   }
   describe_work(voxelizer);
   end_phase(&report_.seconds.voxelize, &report_.phase_peaks.voxelize);
@@ -293,7 +286,7 @@ BuildReport Bake::run_or_tell() {
 }
 
 BuildReport Bake::run() {
-  Stopwatch total;
+  LapTimer total;
   report_.rule = config_.descent.rule;
   if (config_.part && !names_run(config_.output))
     fail_usage(config_.output + ": a part of a grid is a run: choose an output that ends in .run");

@@ -5,7 +5,7 @@
 
 namespace svdag {
 
-class Stopwatch {
+class LapTimer {
  public:
   // Since the last lap, or since it was made.
   double lap() {

@@ -4,9 +4,9 @@
 
 #include "builder/bake_output.h"
 #include "builder/checkpoint.h"
+#include "builder/lap_timer.h"
 #include "builder/merge.h"
 #include "builder/run_check.h"
-#include "builder/stopwatch.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -98,7 +98,7 @@ void require_whole(const Part& part, const Grid& grid, const std::string& output
 }
 
 MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress) {
-  Stopwatch seconds;
+  LapTimer seconds;
   MergeRunsReport report;
   MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
   std::vector<RunFile> files;

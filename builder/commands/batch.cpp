@@ -139,7 +139,11 @@ struct Outcome {
 Outcome run(const BuildCommandConfig& job, bool dry) {
   Outcome outcome;
   try {
-    dry ? void(run_dry(job)) : bake_scene(job, &outcome.report);
+    if (dry) {
+      run_dry(job);
+    } else {
+      bake_scene(job, &outcome.report);
+    }
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {

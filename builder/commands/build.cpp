@@ -203,6 +203,7 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
 }
 
 int run_build(const BuildCommandConfig& config) {
+  // Without a plan it is a batch, which refuses the shard.
   if (config.shard != 0 && !config.build.scene.paths.empty()) return run_shard(config);
   if (config.dry_run && !config.report.empty())
     fail_usage("--dry-run bakes nothing to report: leave --report out");

@@ -10,12 +10,8 @@ void CommandFiles::read(const std::vector<std::string>& paths) {
 }
 
 void CommandFiles::read_buffers(const SceneConfig& scene, uint64_t memory) {
-  SceneConfig wanted = scene;
-  std::erase_if(wanted.paths, [&](const std::string& path) {
-    return scene.names.excludes(path.substr(path.find_last_of('/') + 1));
-  });
   MemoryBudget budget(memory != 0 ? memory : default_memory_limit());
-  Scene(wanted, &budget).visit_files([&](const File& file) { read(file.path()); });
+  Scene(scene, &budget).visit_files([&](const File& file) { read(file.path()); });
 }
 
 void CommandFiles::write(const std::string& path) {

@@ -33,9 +33,10 @@ size_t packs_to_keep_open() {
   return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
 }
 
-// What is no fault of the pack and passes: the bake goes on without it.
-void require_passing(const Error& error) {
-  if (error.code() == ExitCode::kInternal) throw error;
+// Of an Error being handled that is no fault of the pack: it passes, and the bake goes on without
+// it, but for a defect of ours.
+void let_pass(const Error& error) {
+  if (error.code() == ExitCode::kInternal) throw;
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ void CellCache::open_packs() {
     } catch (const DamagedPack&) {
       discard(file.name);
     } catch (const Error& error) {
-      require_passing(error);
+      let_pass(error);
     }
   }
   counted_ = budget_->reserve(entries * sizeof(Place), "the cell cache");
@@ -141,7 +142,7 @@ bool CellCache::usable(Open* open) {
   } catch (const DamagedPack&) {
     discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
-    require_passing(error);
+    let_pass(error);
   }
   return open->proven;
 }

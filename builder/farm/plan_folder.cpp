@@ -37,8 +37,8 @@ std::vector<std::string> files_of(const Plan& plan) {
 }
 
 void refuse_strange_files(const std::string& folder, const std::string& output) {
-  std::error_code
-      none;  // no folder, or one that cannot be listed: whoever writes there will say so
+  // No folder, or one that cannot be listed: whoever writes there will say so.
+  std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
        entry.increment(none)) {
     const std::string name = entry->path().filename().string();
