@@ -8,7 +8,7 @@
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
-#           page in Chromium, fuzzers
+#           page in Chromium, fuzzers; hours (or some of it: STAGES="tsan families")
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
 #              it can be stopped at any time and goes on where it was
 #   bench   the tables and plots of docs/performance.md
@@ -79,7 +79,7 @@ test-farm: build
 
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
-	@sh tests/stress/stress.sh
+	@sh tests/stress/stress.sh $(STAGES)
 
 fuzz-long: deps
 	$(call install,$(STRESS_PACKAGES))

@@ -14,7 +14,7 @@ constexpr int kSmallestCellLog2 = 6;  // of the side of such a cell in voxels
 }  // namespace
 
 BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
-                   const DoneSet* done, Voxelizer* voxelizer, MemoryBudget* budget,
+                   const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget,
                    Executor* executor, Progress* progress)
     : grid_(grid),
       split_(split),
@@ -26,13 +26,15 @@ BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConf
       progress_(progress) {}
 
 void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
-  if (done_ != nullptr && done_->state(bin.range) == DoneSet::State::kAll) return;
+  if (done_ != nullptr && done_->coverage(bin.range) == MortonSet::Coverage::kAll) return;
   const MortonRange own = morton_range(bin.cube, grid_.levels);
-  const DoneSet::State done = done_ != nullptr ? done_->state(own) : DoneSet::State::kNone;
-  if (done == DoneSet::State::kAll) return voxelizer_->note_empty(bin.range);
+  const MortonSet::Coverage done =
+      done_ != nullptr ? done_->coverage(own) : MortonSet::Coverage::kNone;
+  if (done == MortonSet::Coverage::kAll) return voxelizer_->note_empty(bin.range);
   if (const auto tree = load(file, bin)) return voxelizer_->bake(*tree, bin.range, progress_);
   // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
-  if (done == DoneSet::State::kNone && grid_.levels - bin.cube.level <= DenseCube::kLargestLog2)
+  if (done == MortonSet::Coverage::kNone &&
+      grid_.levels - bin.cube.level <= DenseCube::kLargestLog2)
     return bake_dense(file, bin);
   bake_parts(file, bin);
 }

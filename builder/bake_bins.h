@@ -5,12 +5,12 @@
 // fit (10^9 triangles in one voxel) is collected in a bitmap, batch by batch.
 #pragma once
 
-#include "builder/split.h"
+#include "builder/split/split.h"
 #include "builder/voxelize.h"
 
 namespace svdag {
 
-// visit(bin) for one after the other; each is as much of the progress as it has triangles.
+// Calls visit(bin) for the bins in order; each counts for progress by its triangles.
 template <class Visit>
 void for_each_bin(const std::vector<TriangleBin>& bins, Progress* progress, const Visit& visit) {
   double all = 0, done = 0;
@@ -27,7 +27,7 @@ class BinBaker {
  public:
   // All must outlive the baker. `split` tells the cells and the share of memory.
   BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
-           const DoneSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
+           const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
            Progress* progress);
 
   // `file` holds the bin.
@@ -44,7 +44,7 @@ class BinBaker {
   const Grid& grid_;
   const SplitConfig& split_;
   const DescentConfig& descent_;
-  const DoneSet* done_;
+  const MortonSet* done_;
   Voxelizer* voxelizer_;
   MemoryBudget* budget_;
   Executor* executor_;

@@ -2,18 +2,18 @@
 //
 // Of the octree only the path to the last brick stands in memory; what lies before it is in the
 // node table. A table that has had its share of memory is frozen to a run and begins anew
-// (builder/run.h): what is complete becomes roots, and the cubes of the path, whose
-// parts are then in several runs, become nodes of the top tree (builder/top_tree.h), exactly as in
-// a bake.
+// (builder/run/run.h): what is complete becomes roots, and the cubes of the path, whose
+// parts are then in several runs, become nodes of the top tree (builder/merge/top_tree.h), exactly
+// as in a bake.
 #pragma once
 
 #include <functional>
 #include <vector>
 
-#include "builder/node_table.h"
-#include "builder/run.h"
-#include "builder/scratch.h"
-#include "builder/top_tree.h"
+#include "builder/descend/node_table.h"
+#include "builder/octree/sub_dag_root.h"
+#include "builder/run/run.h"
+#include "builder/spill/scratch.h"
 
 namespace svdag {
 
@@ -36,7 +36,7 @@ class BrickReduction {
   void finish();
 
   std::vector<Run>& runs() { return runs_; }
-  std::vector<CellRoot>& roots() { return roots_; }
+  std::vector<SubDagRoot>& roots() { return roots_; }
   bool spilled() const { return spilled_; }
 
  private:
@@ -67,7 +67,7 @@ class BrickReduction {
   bool any_ = false;
   std::vector<Part> parts_;  // of the table as it is
   std::vector<Run> runs_;
-  std::vector<CellRoot> roots_;
+  std::vector<SubDagRoot> roots_;
   bool spilled_ = false;
 };
 

@@ -5,18 +5,19 @@
 #include <memory>
 
 #include "builder/bake_bins.h"
-#include "builder/bake_output.h"
 #include "builder/checkpoint.h"
 #include "builder/choose_grid.h"
 #include "builder/description.h"
-#include "builder/disk_need.h"
-#include "builder/lap_timer.h"
-#include "builder/merge.h"
-#include "builder/shares.h"
+#include "builder/merge/merge.h"
+#include "builder/run/bake_output.h"
+#include "builder/spill/disk_need.h"
+#include "builder/spill/shares.h"
 #include "builder/voxelize.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/lap_timer.h"
+#include "streaming/spoiled_scratch.h"
 
 namespace svdag {
 namespace {
@@ -34,7 +35,7 @@ class Bake {
       : config_(config),
         executor_(executor),
         progress_(progress),
-        budget_(config.memory != 0 ? config.memory : default_memory_limit()),
+        budget_(memory_or_default(config.memory)),
         shares_(budget_.limit(), executor->workers()),
         folder_(ScratchDir::path_for(config.output, config.scratch)),
         scratch_(&folder_, &budget_),
@@ -48,12 +49,13 @@ class Bake {
  private:
   BuildReport run();
   std::string kept() const;
+  bool is_discarded(const Error& error) const;
   void keep_scratch();
   void find_unfinished();
   void choose_grid();
   void split();
   void voxelize();
-  std::vector<CellRoot> merge(BakeOutput* output);
+  std::vector<SubDagRoot> merge(BakeOutput* output);
   void describe_work(const Voxelizer& voxelizer);
   void hand_on(BakedRun baked);
   void take_from_store();
@@ -84,7 +86,7 @@ class Bake {
   SplitScene split_;
   std::mutex runs_mutex_;
   std::vector<Run> runs_;
-  std::vector<CellRoot> roots_;
+  std::vector<SubDagRoot> roots_;
   bool spilled_ = false;
   uint64_t spilled_bytes_ = 0;      // of runs_
   std::atomic<bool> saves_{false};  // something can be resumed
@@ -131,6 +133,7 @@ void Bake::choose_grid() {
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
     disk_need_.expect_triangles(counts.triangles, shares_.triangles);
+    split_config_.on_spill = [this, counts] { disk_need_.expect_spilled(counts.triangles); };
   }
   const int levels = report_.grid.levels;
   part_ = config_.part ? Part::of_cells(*config_.part, levels) : Part::whole(levels);
@@ -139,8 +142,12 @@ void Bake::choose_grid() {
 
 void Bake::split() {
   progress_->phase("split", 0);
-  split_config_ = {choose_cell_level(config_, report_.grid, budget_.limit()), executor_->workers(),
-                   shares_.triangles, &scratch_, config_.part ? &*part_ : nullptr};
+  split_config_ = {choose_cell_level(config_, report_.grid, budget_.limit()),
+                   executor_->workers(),
+                   shares_.triangles,
+                   &scratch_,
+                   config_.part ? &*part_ : nullptr,
+                   std::move(split_config_.on_spill)};
   if (saved_ && saved_->split) {
     split_ = std::move(*saved_->split);
   } else if (config_.ready != nullptr) {
@@ -169,7 +176,7 @@ void Bake::voxelize() {
     }
     report_.voxels_kept = report_.voxels;
   }
-  const DoneSet done(std::move(finished));
+  const MortonSet done(std::move(finished));
   Voxelizer voxelizer(report_.grid,
                       {config_.descent, shares_.table, config_.checkpoint, &scratch_, &done,
                        store_.get(), [this](BakedRun baked) { save(std::move(baked)); }},
@@ -238,7 +245,7 @@ void Bake::save(BakedRun baked) {
 }
 
 void Bake::add(BakedRun baked) {
-  for (CellRoot& root : baked.roots) {
+  for (SubDagRoot& root : baked.roots) {
     root.run = as_u32(runs_.size(), "runs");
     roots_.push_back(root);
   }
@@ -251,14 +258,10 @@ void Bake::add(BakedRun baked) {
   runs_.push_back(std::move(baked.run));
 }
 
-std::vector<CellRoot> Bake::merge(BakeOutput* output) {
+std::vector<SubDagRoot> Bake::merge(BakeOutput* output) {
   progress_->phase("merge", 0);
-  MergeConfig config;
-  config.budget = &budget_;
-  config.scratch = spilled_ ? &scratch_ : nullptr;
-  config.map_bytes = shares_.maps;
-  config.window_bytes = shares_.maps / executor_->workers();
-  config.sources = std::max<size_t>(2, shares_.sources / (4 * scratch_.block_bytes()));
+  const MergeConfig config = share_for_merge(&budget_, spilled_ ? &scratch_ : nullptr,
+                                             executor_->workers(), 4 * scratch_.block_bytes());
   auto tops = svdag::merge(runs_, std::move(roots_), *part_, config, output, executor_);
   end_phase(&report_.seconds.merge, &report_.phase_peaks.merge);
   return tops;
@@ -269,7 +272,13 @@ std::string Bake::kept() const {
          (report_.resumed ? ", --restart begins anew" : "");
 }
 
-// As run(), and who can be resumed says so.
+// Whether the scratch is of no use any more, and build() begins afresh.
+bool Bake::is_discarded(const Error& error) const {
+  return config_.unfinished == Unfinished::kResumeSame &&
+         dynamic_cast<const SpoiledScratch*>(&error) != nullptr;
+}
+
+// As run(); an error also says that --resume can go on, if work was saved.
 BuildReport Bake::run_or_tell() {
   try {
     return run();
@@ -277,7 +286,7 @@ BuildReport Bake::run_or_tell() {
     interrupted.resumable = saves_;
     throw;
   } catch (const Error& error) {
-    if (!saves_ || error.code() == ExitCode::kInternal) throw;
+    if (!saves_ || error.code() == ExitCode::kInternal || is_discarded(error)) throw;
     throw Error(error.code(), error.what() + kept());
   } catch (const std::exception& error) {
     if (!saves_ || !is_lack_of_memory(error)) throw;
@@ -298,9 +307,11 @@ BuildReport Bake::run() {
   const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
   if (config_.open_store) store_ = config_.open_store(report_.grid, report_.rule, &budget_);
   split();
+  // At once: they must stay as they are until then.
+  if (config_.name_files) report_.files = description_.files();
+  phase_.lap();
   voxelize();
-  const std::vector<CellRoot> tops = merge(output.get());
-  if (config_.name_files) report_.files = description_.files();  // or there is no output either
+  const std::vector<SubDagRoot> tops = merge(output.get());
   phase_.lap();
   progress_->phase("write", 0);
   output->finish(tops, report_.voxels, report_.split.largest_snap);
@@ -324,7 +335,14 @@ BuildReport Bake::run() {
 }  // namespace
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
-  return Bake(config, executor, progress).run_or_tell();
+  try {
+    return Bake(config, executor, progress).run_or_tell();
+  } catch (const SpoiledScratch&) {
+    if (config.unfinished != Unfinished::kResumeSame) throw;
+  }
+  BuildConfig afresh = config;
+  afresh.unfinished = Unfinished::kRestart;
+  return Bake(afresh, executor, progress).run_or_tell();
 }
 
 }  // namespace svdag

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "builder/cell_store.h"
-#include "builder/overlap.h"
-#include "builder/part.h"
-#include "builder/split.h"
+#include "builder/octree/part.h"
+#include "builder/overlap/overlap.h"
+#include "builder/split/split.h"
 #include "io/dag/format.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
 
 namespace svdag {
 
-// What to do with an unfinished bake of the same output: kResume refuses it if it is another bake,
-// kResumeSame discards it then.
+// What to do with an unfinished bake of the same output: kResume refuses it if it is another bake
+// or damaged, kResumeSame discards it then.
 enum class Unfinished { kRefuse, kResume, kResumeSame, kRestart };
 
 // A split that was made before, by a plan (builder/farm/plan.h).

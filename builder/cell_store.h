@@ -9,8 +9,9 @@
 #include <optional>
 #include <string>
 
-#include "builder/cell.h"
-#include "builder/run.h"
+#include "builder/octree/octree_cube.h"
+#include "builder/overlap/entry.h"
+#include "builder/run/run.h"
 
 namespace svdag {
 
@@ -31,8 +32,8 @@ class CellStore {
   // Whether the sub-DAG of `key` is known. If so it stands in `cube` now, and nobody bakes that.
   // From any thread.
   virtual bool take(const CellKey& key, const Cube& cube) = 0;
-  // Hands on what was taken, run by run; spilled where target(bytes), given a bound of the memory
-  // that the run takes, gives a place.
+  // Hands over the taken cells as runs. target(bytes) decides whether a run of up to `bytes` is
+  // spilled, and where to.
   virtual void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                      const std::function<void(BakedRun)>& use) = 0;
   // Adds the cells of `baked` to what is known; `runs` holds the run if it was spilled. From any

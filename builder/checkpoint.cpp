@@ -1,10 +1,21 @@
 #include "builder/checkpoint.h"
 
+#include "streaming/spoiled_scratch.h"
+
 namespace svdag {
 namespace {
 
 constexpr const char* kName = "journal";
 constexpr int kSessionShift = 40;  // numbers of streams that a session may use, log2
+
+// Only what was read is looked at, so any Error is about that.
+SavedBake read_or_spoiled(const std::vector<JournalRecord>& records, const std::string& path) {
+  try {
+    return read_saved(records, path);
+  } catch (const Error& error) {
+    throw SpoiledScratch(error);
+  }
+}
 
 }  // namespace
 
@@ -15,7 +26,7 @@ bool Checkpoint::exists(const ScratchDir& folder) {
 std::optional<SavedBake> Checkpoint::resume(const std::function<bool(const std::string&)>& wanted) {
   std::vector<JournalRecord> records;
   Journal journal(scratch_->folder()->open(kName), &records);
-  SavedBake saved = read_saved(records, scratch_->folder()->path() + "/" + kName);
+  SavedBake saved = read_or_spoiled(records, scratch_->folder()->path() + "/" + kName);
   if (saved.block_bytes == 0 || !wanted(saved.description)) return {};
   // Blocks that a killed process left behind carry numbers that are not in the journal: each
   // session has numbers of its own.

@@ -1,8 +1,9 @@
 // What of a bake survives its process: a journal in the scratch folder.
 //
-// Records: what is being baked (its description and its grid); the split, if its triangles were
-// spilled; every run; every process that resumed. A record is appended after what it speaks of is
-// on disk, so a bake that is resumed trusts the journal and nothing else (builder/saved_bake.h).
+// Records: what is being baked (the layout of the records, its description and its grid); the
+// split, if its triangles were spilled; every run; every process that resumed. A record is appended
+// after what it speaks of is on disk, so a bake that is resumed trusts the journal and nothing else
+// (builder/saved_bake.h).
 #pragma once
 
 #include <functional>
@@ -11,7 +12,7 @@
 #include <string>
 
 #include "builder/saved_bake.h"
-#include "builder/scratch.h"
+#include "builder/spill/scratch.h"
 
 namespace svdag {
 
@@ -22,8 +23,8 @@ class Checkpoint {
   // Whether the folder holds a bake that can be resumed.
   static bool exists(const ScratchDir& folder);
   // Reads the journal, takes the files of the scratch over, and goes on with them. None, and
-  // nothing is taken over, if the journal has no bake or one whose description is not wanted; an
-  // Error (kOutput) if it makes no sense.
+  // nothing is taken over, if the journal has no bake or one whose description is not wanted;
+  // SpoiledScratch if it makes no sense or is of another layout.
   std::optional<SavedBake> resume(const std::function<bool(const std::string&)>& wanted);
 
   // Removes the journal, if there is one, for good: no power cut brings it back beside files that

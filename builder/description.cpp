@@ -47,7 +47,7 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
   out << "algorithm: " << kAlgorithm << '\n';
-  out << "rule: " << (config.descent.rule == Rule::kThin ? "thin" : "conservative") << '\n';
+  out << "rule: " << rule_name(config.descent.rule) << '\n';
   if (config.voxel_size != 0) {
     out << "voxel size: " << format_double(config.voxel_size) << '\n';
   } else {

@@ -1,8 +1,9 @@
 #include "builder/full_cubes.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "builder/cell.h"
+#include "builder/octree/morton.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -13,9 +14,9 @@ void FullCubes::add(const FullCube& cube) {
                ((x | y | z) & ((1U << cube.log2_side) - 1)) == 0);
   if (records_.size() == records_.capacity()) {
     const size_t capacity = std::max<size_t>(1024, 2 * records_.size());
-    reserved_ = {};  // of the smaller array, which is about to go
-    reserved_ = budget_->reserve(capacity * sizeof(uint64_t), "cubes of the file");
-    records_.reserve(capacity);
+    auto larger = budget_->reserve(capacity * sizeof(uint64_t), "cubes of the file");
+    records_.reserve(capacity);  // both arrays are there while one is copied
+    reserved_ = std::move(larger);
   }
   records_.push_back(morton(LatticePoint(x, y, z)) | uint64_t(cube.log2_side));
 }

@@ -14,7 +14,7 @@
 
 #include <functional>
 
-#include "builder/bake_output.h"
+#include "builder/run/bake_output.h"
 #include "io/dag/node_graph.h"
 #include "streaming/executor.h"
 #include "streaming/memory_budget.h"

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <optional>
 
-#include "builder/bake_output.h"
 #include "builder/brick_reduction.h"
-#include "builder/cell.h"
 #include "builder/checkpoint.h"
-#include "builder/disk_need.h"
 #include "builder/full_cubes.h"
 #include "builder/graph_reduction.h"
-#include "builder/merge.h"
+#include "builder/merge/merge.h"
+#include "builder/octree/morton.h"
+#include "builder/run/bake_output.h"
+#include "builder/spill/disk_need.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -87,7 +87,7 @@ class Import {
   Import(const ImportConfig& config, Executor* executor)
       : config_(config),
         executor_(executor),
-        budget_(config.memory != 0 ? config.memory : default_memory_limit()),
+        budget_(memory_or_default(config.memory)),
         folder_(ScratchDir::path_for(config.output, config.scratch)) {
     if (Checkpoint::exists(folder_)) {
       folder_.keep();
@@ -134,11 +134,8 @@ class Import {
     BrickReduction bricks(grid.levels, {&budget_, &scratch, budget_.limit() / 4});
     const uint64_t voxels = Reducer(grid.levels, cubes, &bricks).run(&*sort);
     sort.reset();  // the merge needs the room
-    MergeConfig merging;
-    merging.budget = &budget_;
-    merging.scratch = bricks.spilled() ? &scratch : nullptr;
-    merging.map_bytes = budget_.limit() / 2;
-    merging.sources = std::max<size_t>(2, budget_.limit() * 3 / 8 / (4 * scratch.block_bytes()));
+    const MergeConfig merging = share_for_merge(&budget_, bricks.spilled() ? &scratch : nullptr,
+                                                executor_->workers(), 4 * scratch.block_bytes());
     const auto roots = merge(bricks.runs(), std::move(bricks.roots()), Part::whole(grid.levels),
                              merging, &output, executor_);
     output.finish(roots, voxels, 0);
@@ -166,7 +163,7 @@ class Import {
     grid.voxel_size = place.voxel_size;
     bool good = std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
     for (int a = 0; a < 3; ++a) good = good && std::isfinite(grid.origin[a]);
-    if (!good) throw Error(ExitCode::kBadInput, "the file puts its voxels at an impossible place");
+    if (!good) fail_input(config_.source, "puts its voxels at an impossible place");
     grid.selection = grid.whole();
     return grid;
   }

@@ -2,8 +2,8 @@
 // voxels would give.
 //
 // DAGs are reduced as graphs (builder/graph_reduction.h). Lists of voxels are sorted by Morton
-// code, out of core, and reduced brick by brick (builder/brick_reduction.h, builder/merge.h); cubes
-// that are set as a whole are put between them, each in one piece (builder/full_cubes.h).
+// code, out of core, and reduced brick by brick (builder/brick_reduction.h, builder/merge/merge.h);
+// cubes that are set as a whole are put between them, each in one piece (builder/full_cubes.h).
 #pragma once
 
 #include <functional>
@@ -16,6 +16,7 @@
 namespace svdag {
 
 struct ImportConfig {
+  std::string source;  // the file that is read, for an Error
   std::string output;
   int levels = 0;       // -r: L of the grid, where the file leaves it open; 0: as small as possible
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine

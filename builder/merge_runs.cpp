@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "builder/bake_output.h"
 #include "builder/checkpoint.h"
-#include "builder/lap_timer.h"
-#include "builder/merge.h"
-#include "builder/run_check.h"
+#include "builder/merge/merge.h"
+#include "builder/run/bake_output.h"
+#include "builder/run/run_check.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/lap_timer.h"
 
 namespace svdag {
 namespace {
@@ -31,20 +31,6 @@ std::string voxel_text(uint64_t code) {
   const LatticePoint p = unmorton(code);
   return "voxel (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
          ")";
-}
-
-// How the memory is shared out.
-MergeConfig merge_config(Scratch* scratch, MemoryBudget* budget, size_t workers) {
-  const uint64_t memory = budget->limit();
-  MergeConfig config;
-  config.budget = budget;
-  config.scratch = scratch;
-  config.map_bytes = memory / 2;
-  config.window_bytes = memory / 2 / workers;
-  // A source holds its block and, where maps are spilled, the writer of one.
-  config.sources =
-      std::max<uint64_t>(2, memory * 3 / 8 / (kRunBlockBytes + 4 * scratch->block_bytes()));
-  return config;
 }
 
 Run run_of(const RunFile& file) {
@@ -82,16 +68,11 @@ Part joined_part(const std::vector<RunFile>& runs) {
 
 void require_whole(const Part& part, const Grid& grid, const std::string& output) {
   for (const Cube& cube : part.rest().tops()) {
-    const int shift = grid.levels - cube.level;
-    bool wanted = true;
-    for (int a = 0; a < 3; ++a) {
-      const int64_t low = cube.coordinate[a] << shift, high = low + (int64_t(1) << shift);
-      wanted = wanted && low < grid.selection.max[a] && high > grid.selection.min[a];
-    }
-    if (!wanted) continue;
-    const LatticePoint low = cube.coordinate << int64_t(shift);
+    const VoxelBox voxels = cube.voxels(grid.levels);
+    if (!voxels.meets(grid.selection)) continue;
+    const LatticePoint low = voxels.min;
     fail_usage(output + ": a part of the grid is in none of the runs, first the " +
-               format_resolution(uint64_t(1) << shift) + "^3 voxels from (" +
+               format_resolution(uint64_t(voxels.max.x - low.x)) + "^3 voxels from (" +
                std::to_string(low.x) + ", " + std::to_string(low.y) + ", " + std::to_string(low.z) +
                ") on: add the missing run, or merge to an output that ends in .run");
   }
@@ -100,7 +81,7 @@ void require_whole(const Part& part, const Grid& grid, const std::string& output
 MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress) {
   LapTimer seconds;
   MergeRunsReport report;
-  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
+  MemoryBudget budget(memory_or_default(config.memory));
   std::vector<RunFile> files;
   for (const std::string& path : config.runs) files.push_back(RunFile::open(path, &budget));
   Part part = joined_part(files);
@@ -129,10 +110,10 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
 
   progress->phase("merge", 0);
   std::vector<Run> runs;
-  std::vector<CellRoot> roots;
+  std::vector<SubDagRoot> roots;
   double largest_snap = 0;
   for (const RunFile& file : files) {
-    for (CellRoot root : file.roots()) {
+    for (SubDagRoot root : file.roots()) {
       root.run = uint32_t(runs.size());
       roots.push_back(root);
     }
@@ -141,9 +122,11 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
     report.runs_bytes += file.header().file_bytes;
     largest_snap = std::max(largest_snap, file.header().largest_snap);
   }
-  const auto tops =
-      merge(runs, std::move(roots), part, merge_config(&scratch, &budget, executor->workers()),
-            output.get(), executor);
+  // A source holds its block and, where maps are spilled, the writer of one.
+  const uint64_t source_bytes = kRunBlockBytes + 4 * scratch.block_bytes();
+  const auto tops = merge(runs, std::move(roots), part,
+                          share_for_merge(&budget, &scratch, executor->workers(), source_bytes),
+                          output.get(), executor);
   report.seconds.merge = seconds.lap();
   progress->phase("write", 0);
   output->finish(tops, report.voxels, largest_snap);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/run_file.h"
+#include "builder/run/run_file.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
 

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
-#include "builder/bin_record.h"
-#include "builder/scratch.h"
+#include "builder/spill/scratch.h"
+#include "builder/split/bin_record.h"
 
 namespace svdag {
 namespace {
+
+// Changes when any record does, those of builder/split/bin_record.h included. Journals without a
+// layout begin with the length of their description instead, which is that of a text of several
+// lines.
+constexpr uint32_t kLayout = 2;
 
 // Field by field: no byte of a hostile file becomes a bool or an enumerator unseen.
 void put_grid(const Grid& grid, RecordWriter* out) {
@@ -35,7 +40,36 @@ Grid get_grid(RecordReader* in) {
   return grid;
 }
 
-void get_bake(RecordReader* in, SavedBake* saved) {
+void put_counts(const SplitCounts& counts, RecordWriter* out) {
+  out->put(counts.scene.triangles);
+  out->put(counts.scene.quantisation);
+  out->put(counts.scene.invalid);
+  out->put(counts.scene.undeformed);
+  out->put(counts.clipped);
+  out->put(counts.outside);
+  out->put(counts.degenerate);
+  out->put(counts.largest_snap);
+}
+
+SplitCounts get_counts(RecordReader* in) {
+  SplitCounts counts;
+  in->get(&counts.scene.triangles);
+  in->get(&counts.scene.quantisation);
+  in->get(&counts.scene.invalid);
+  in->get(&counts.scene.undeformed);
+  in->get(&counts.clipped);
+  in->get(&counts.outside);
+  in->get(&counts.degenerate);
+  in->get(&counts.largest_snap);
+  return counts;
+}
+
+void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
+  uint32_t layout = 0;
+  in->get(&layout);
+  if (layout != kLayout)
+    throw Error(ExitCode::kUsage, "is of another version of svdag: discard it with --restart",
+                path);
   in->get(&saved->description);
   saved->grid = get_grid(in);
   in->get(&saved->block_bytes);
@@ -51,7 +85,7 @@ void check_run(const BakedRun& baked, int levels, const RecordReader& in) {
   const uint64_t all = uint64_t(1) << 3 * levels;
   for (const MortonRange& range : baked.finished)
     in.require(range.begin <= range.end && range.end <= all, "a run is not in the grid");
-  for (const CellRoot& root : baked.roots) {
+  for (const SubDagRoot& root : baked.roots) {
     in.require(root.level >= 0 && root.level <= levels - 2 && root.morton >> 3 * root.level == 0,
                "a root is not in the grid");
     const bool brick = root.level == levels - 2;
@@ -95,6 +129,7 @@ void put_level(const RunLevel<Key>& level, RecordWriter* out) {
 
 RecordWriter bake_record(const std::string& description, const Grid& grid, uint64_t block_bytes) {
   RecordWriter record;
+  record.put(kLayout);
   record.put(description);
   put_grid(grid, &record);
   record.put(block_bytes);
@@ -103,7 +138,7 @@ RecordWriter bake_record(const std::string& description, const Grid& grid, uint6
 
 RecordWriter split_record(const SplitScene& split) {
   RecordWriter record;
-  record.put(split.counts);
+  put_counts(split.counts, &record);
   put_bins(split.bins, &record);
   return record;
 }
@@ -127,10 +162,10 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
     in.require((kind == SavedKind::kBake) == (&record == records.data()),
                "it does not begin with the bake");
     if (kind == SavedKind::kBake) {
-      get_bake(&in, &saved);
+      get_bake(&in, path, &saved);
     } else if (kind == SavedKind::kSplit) {
       saved.split.emplace();
-      in.get(&saved.split->counts);
+      saved.split->counts = get_counts(&in);
       saved.split->bins = get_bins(&in, saved.grid.levels);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {

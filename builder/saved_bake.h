@@ -1,7 +1,9 @@
 // What a journal says of a bake: its records, written and read.
 //
 // The scratch folder is private, but it lies on a disk and outlives its process: what is read is
-// held against the grid before anybody follows a rank or a block of it.
+// held against the grid before anybody follows a rank or a block of it. It may outlive the program,
+// too: the first record begins with the number of this layout, so that no build takes the records
+// of another one for damaged, or for its own.
 #pragma once
 
 #include <optional>
@@ -9,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/split.h"
+#include "builder/split/split.h"
 #include "builder/voxelize.h"
 #include "streaming/journal.h"
 #include "streaming/record.h"
@@ -34,7 +36,7 @@ RecordWriter split_record(const SplitScene& split);
 RecordWriter run_record(const BakedRun& baked);  // which was spilled
 
 // Records that make no sense are an Error (kOutput, as all that is wrong with a scratch folder)
-// that names `path`.
+// that names `path`; those of another layout are one, too (kUsage: --restart is the way out).
 SavedBake read_saved(std::span<const JournalRecord> records, const std::string& path);
 
 }  // namespace svdag

@@ -4,8 +4,8 @@
 // between, the triangles would be of two scenes, or the journal would name another content than
 // the triangles have, and a resumed bake would trust it. So what stat says of every file is noted
 // before the first reading, and compared after the last one that gives triangles and after the
-// hash. Rejected: copies and locks (nobody else keeps to them), the hash before and after (a
-// reading more).
+// hash, which follows at once where a report wants it. Rejected: copies and locks (nobody else
+// keeps to them), the hash before and after (a reading more).
 #pragma once
 
 #include <string>

@@ -60,8 +60,8 @@ class Voxelizer::Worker : public Spiller {
  private:
   // Whether nothing of the cell is done, or left to others: else its content is not all of it.
   bool is_new(const Cube& cell) const {
-    return config_.done == nullptr ||
-           config_.done->state(morton_range(cell, table_.levels())) == DoneSet::State::kNone;
+    return config_.done == nullptr || config_.done->coverage(morton_range(cell, table_.levels())) ==
+                                          MortonSet::Coverage::kNone;
   }
 
   // A cell in whose middle the table was emptied stands in two runs, and is of no use to others.
@@ -126,7 +126,7 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
   executor_->for_each(cells.size(), [&](size_t w, size_t i) {
     Worker& worker = *workers_[w];
     if (i == 0) worker.note_empty(range.begin, ranges[0].begin);
-    if (config_.done == nullptr || config_.done->state(ranges[i]) != DoneSet::State::kAll)
+    if (config_.done == nullptr || config_.done->coverage(ranges[i]) != MortonSet::Coverage::kAll)
       worker.bake(cells[i]);
     worker.note_empty(ranges[i].end, i + 1 < cells.size() ? ranges[i + 1].begin : range.end);
     progress->advance();

@@ -1,8 +1,8 @@
 // Second phase: each cell's triangles become the cell's sub-DAG, on all workers.
 //
 // A worker keeps one node table for all its cells, so what cells share is found at once. A table
-// that has had its share of memory, or that shall be saved, is frozen to a run (builder/run.h) and
-// begins anew, wherever its worker stands. Which worker bakes which cell, and when tables are
+// that has had its share of memory, or that shall be saved, is frozen to a run (builder/run/run.h)
+// and begins anew, wherever its worker stands. Which worker bakes which cell, and when tables are
 // emptied, does not reach the output: numbers become ranks when the tables freeze.
 #pragma once
 
@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "builder/cell_store.h"
-#include "builder/cell_tree.h"
-#include "builder/dense_cube.h"
-#include "builder/run.h"
-#include "builder/scratch.h"
-#include "builder/top_tree.h"
+#include "builder/descend/dense_cube.h"
+#include "builder/octree/sub_dag_root.h"
+#include "builder/run/run.h"
+#include "builder/spill/scratch.h"
+#include "builder/split/cell_tree.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
 
@@ -40,7 +40,7 @@ struct BakedCell {
 // A frozen table: the run, and what of the scene it holds.
 struct BakedRun {
   Run run;
-  std::vector<CellRoot> roots;  // `run` is not set in them
+  std::vector<SubDagRoot> roots;  // `run` is not set in them
   uint64_t voxels = 0;
   std::vector<MortonRange> finished;
   std::vector<BakedCell> cells;  // those that were baked whole, if there is a store of cells
@@ -51,7 +51,7 @@ struct VoxelizeConfig {
   uint64_t table_bytes = UINT64_MAX;   // freeze_bytes() of a table from which on it is frozen
   double seconds = 1e30;               // after which a table is frozen, however small
   Scratch* scratch = nullptr;          // null: tables are never emptied
-  const DoneSet* done = nullptr;       // what is there already; null: nothing
+  const MortonSet* done = nullptr;     // what is there already; null: nothing
   CellStore* store = nullptr;          // of cells baked before; null: all are baked
   std::function<void(BakedRun)> save;  // gets what was spilled, from any thread
 };

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/common.hpp>
 
 #include "io/triangle.h"
 
@@ -31,6 +32,14 @@ struct VoxelBox {
   LatticePoint min{0};
   LatticePoint max{0};
   bool empty() const { return min.x >= max.x || min.y >= max.y || min.z >= max.z; }
+  // Whether it has a voxel of `other`.
+  bool meets(const VoxelBox& other) const {
+    return !VoxelBox{glm::max(min, other.min), glm::min(max, other.max)}.empty();
+  }
+  // Whether all voxels of `other` are in it.
+  bool holds(const VoxelBox& other) const {
+    return glm::min(min, other.min) == min && glm::max(max, other.max) == max;
+  }
   bool operator==(const VoxelBox&) const = default;
 };
 
@@ -48,6 +57,11 @@ struct Grid {
   int64_t resolution() const { return int64_t(1) << levels; }
   int fraction() const { return fraction_bits(levels); }
   VoxelBox whole() const { return {LatticePoint(0), LatticePoint(resolution())}; }
+  // The closed voxels of `box`, in lattice units.
+  LatticeBox closed(const VoxelBox& box) const {
+    const int64_t side = int64_t(1) << fraction();
+    return {box.min * side, box.max * side};
+  }
   // World position of the corner of voxel (0, 0, 0), for display and export.
   Point corner() const;
   // Whether it can be one that a bake made, for grids that come from files.

@@ -12,6 +12,15 @@
 
 namespace svdag {
 
+// The cells of side 2^shift that a lattice coordinate touches, first .. last: ceil(q / 2^shift) - 1
+// and floor(q / 2^shift). On a plane between two cells it touches both.
+constexpr int64_t first_touched(int64_t q, int shift) noexcept {
+  return -((-q) >> shift) - 1;
+}
+constexpr int64_t last_touched(int64_t q, int shift) noexcept {
+  return q >> shift;
+}
+
 class Lattice {
  public:
   explicit Lattice(const Grid& grid);
@@ -20,10 +29,9 @@ class Lattice {
   // distance on an axis, in lattice units (<= 0.5), that a coordinate was moved.
   LatticePoint snap(const Point& p, double* move = nullptr) const;
 
-  // The voxels that a lattice coordinate touches: first .. last, both included.
-  // ceil(q / 2^F) - 1 and floor(q / 2^F): on a voxel plane both neighbours are touched.
-  int64_t first_voxel(int64_t q) const { return -((-q) >> fraction_) - 1; }
-  int64_t last_voxel(int64_t q) const { return q >> fraction_; }
+  // The voxels that a lattice coordinate touches, first .. last.
+  int64_t first_voxel(int64_t q) const { return first_touched(q, fraction_); }
+  int64_t last_voxel(int64_t q) const { return last_touched(q, fraction_); }
   int fraction() const { return fraction_; }
 
  private:

@@ -46,16 +46,23 @@ std::vector<std::string> option_names(const App& app) {
 }
 
 // What is wrong with a command line that CLI11 could not parse, as `error` says, unless a word of
-// it is unknown.
+// it is unknown. `words`: without the program's name.
 template <class App>
-std::string explain(const App& app, int argc, char** argv, const std::exception& error) {
+std::string explain(const App& app, const std::vector<std::string>& words,
+                    const std::exception& error) {
   std::vector<CommandWords> commands = {{"", option_names(app)}};
-  for (const App* command : app.get_subcommands({}))
-    commands.push_back({command->get_name(), option_names(*command)});
-  const std::string unknown =
-      explain_unknown(app.get_name(), commands, std::vector<std::string>(argv + 1, argv + argc));
-  return unknown.empty() ? std::string(error.what()) + "; see " + app.get_name() + " --help"
-                         : unknown;
+  for (const App* command : app.get_subcommands({})) {
+    if (!command->get_name().empty())  // else a group, whose options are the program's
+      commands.push_back({command->get_name(), option_names(*command)});
+  }
+  const std::string unknown = explain_unknown(app.get_name(), commands, words);
+  if (!unknown.empty()) return unknown;
+  std::string whole = app.get_name();
+  for (const CommandWords& command : commands) {
+    if (!words.empty() && !command.name.empty() && command.name == words[0])
+      whole += " " + command.name;
+  }
+  return std::string(error.what()) + "; see " + whole + " --help";
 }
 
 }  // namespace svdag

@@ -1,6 +1,7 @@
 // Points and triangles, in the world (double) and on the lattice (integers).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,7 +22,43 @@ struct LatticeTriangle {
   bool operator==(const LatticeTriangle&) const = default;
 };
 
-// A closed box; empty until a point was added.
+// A closed box on the lattice.
+struct LatticeBox {
+  LatticePoint min{0};
+  LatticePoint max{0};
+
+  // Whether they have a point in common: closed boxes that touch do.
+  bool meets(const LatticeBox& other) const noexcept {
+    for (int a = 0; a < 3; ++a) {
+      if (max[a] < other.min[a] || min[a] > other.max[a]) return false;
+    }
+    return true;
+  }
+  // Whether all of `other` lies in it.
+  bool holds(const LatticeBox& other) const noexcept {
+    for (int a = 0; a < 3; ++a) {
+      if (other.min[a] < min[a] || other.max[a] > max[a]) return false;
+    }
+    return true;
+  }
+  void add(const LatticeBox& other) noexcept {
+    for (int a = 0; a < 3; ++a) {
+      min[a] = std::min(min[a], other.min[a]);
+      max[a] = std::max(max[a], other.max[a]);
+    }
+  }
+};
+
+inline LatticeBox box_of(const LatticeTriangle& t) noexcept {
+  LatticeBox box;
+  for (int a = 0; a < 3; ++a) {
+    box.min[a] = std::min(std::min(t.v[0][a], t.v[1][a]), t.v[2][a]);
+    box.max[a] = std::max(std::max(t.v[0][a], t.v[1][a]), t.v[2][a]);
+  }
+  return box;
+}
+
+// A closed box of the world; empty until a point was added.
 struct Box {
   Point min{std::numeric_limits<double>::infinity()};
   Point max{-std::numeric_limits<double>::infinity()};

@@ -17,6 +17,8 @@ const std::string& checked(const std::string& target) {
 
 // A rename replaces whatever has the name: as root, also /dev/null.
 void AtomicFile::check(const std::string& target) {
+  if (target == "-")
+    throw Error(ExitCode::kUsage, "-: an output is a file, which is there whole or not at all");
   std::error_code error;
   const fs::file_type type = fs::status(target, error).type();
   if (error == std::errc::filename_too_long)

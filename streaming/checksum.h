@@ -14,6 +14,10 @@ using Hash128 = std::array<uint64_t, 2>;  // low word, high word of XXH128_hash_
 
 // 32 hex digits, the high word first: how a hash is shown to people.
 std::string to_hex(const Hash128& hash);
+// The same of a hash in a file's header.
+inline std::string to_hex(const uint64_t (&hash)[2]) {
+  return to_hex(Hash128{hash[0], hash[1]});
+}
 
 uint64_t checksum64(std::span<const std::byte> bytes);
 

@@ -1,8 +1,9 @@
 #include "streaming/error.h"
 
-#include <algorithm>
 #include <new>
 #include <system_error>
+
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -11,9 +12,7 @@ std::string compose(const std::string& sentence, const std::string& path,
                     std::optional<uint64_t> offset) {
   std::string text = path.empty() ? sentence : path + ": " + sentence;
   if (offset) text += " (at byte " + std::to_string(*offset) + ")";
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
+  return printable(text);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace svdag {
 
-// Exit codes of both programs; a farm tells retryable (4, 5) from permanent (2, 3) failures by
+// Exit codes of all programs; a farm tells retryable (4, 5) from permanent (2, 3) failures by
 // them.
 enum class ExitCode : int {
   kOk = 0,

@@ -39,5 +39,9 @@ class ParallelExecutor : public Executor {
 
 // The number of processors this process may use.
 size_t available_processors();
+// What --threads says; 0: nothing, so all of them.
+inline size_t threads_or_all(size_t threads) {
+  return threads != 0 ? threads : available_processors();
+}
 
 }  // namespace svdag

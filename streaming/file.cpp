@@ -94,6 +94,7 @@ void fail_call(ExitCode code, const char* what, const std::string& path, int err
 }
 
 File File::open_read(const std::string& path) {
+  if (path == "-") fail_usage("-: files are read more than once, so standard input cannot be one");
   // O_NONBLOCK: opening a pipe must not hang before fstat can refuse it.
   const int fd =
       retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });

@@ -74,8 +74,8 @@ class File {
 void sync_folder(const std::string& folder);
 // The folder part of `path`, "." if it has none.
 std::string folder_of(const std::string& path);
-// True if there is such a name. A client of a file server remembers for a while that there was
-// none: it is made to ask again.
+// True if there is such a name. NFS clients remember for a while that there was none: the folder
+// is opened again, so that they ask the server.
 bool name_exists(const std::string& path);
 // True if both names are one and the same existing file.
 bool same_file(const std::string& a, const std::string& b);

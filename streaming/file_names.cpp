@@ -18,15 +18,18 @@ std::string number_of(const std::string& path) {
 
 // Its place in its folder, and what is there now; names with one of them in common are one file.
 std::vector<std::string> keys_of(const std::string& path) {
-  const std::string folder = number_of(folder_of(path));
-  std::vector<std::string> keys;
-  keys.push_back(folder.empty() ? path : folder + "/" + path.substr(path.find_last_of('/') + 1));
+  std::vector<std::string> keys = {place_of(path)};
   std::string file = number_of(path);
   if (!file.empty()) keys.push_back(std::move(file));
   return keys;
 }
 
 }  // namespace
+
+std::string place_of(const std::string& path) {
+  const std::string folder = number_of(folder_of(path));
+  return folder.empty() ? path : folder + "/" + path.substr(path.find_last_of('/') + 1);
+}
 
 void FileNames::add(const std::string& path) {
   for (std::string& key : keys_of(path)) names_.emplace(std::move(key), path);

@@ -9,6 +9,10 @@
 
 namespace svdag {
 
+// The last name in its folder, whatever the folder is called: what a rename to `path` replaces. Two
+// links to one file have two.
+std::string place_of(const std::string& path);
+
 class FileNames {
  public:
   void add(const std::string& path);

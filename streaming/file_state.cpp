@@ -15,8 +15,7 @@ FileState state_of(const File& file) {
   return {status.st_dev,
           status.st_ino,
           uint64_t(status.st_size),
-          {status.st_mtim.tv_sec, status.st_mtim.tv_nsec},
-          {status.st_ctim.tv_sec, status.st_ctim.tv_nsec}};
+          {status.st_mtim.tv_sec, status.st_mtim.tv_nsec}};
 }
 
 }  // namespace svdag

@@ -1,8 +1,11 @@
 // What tells, without reading it, that a file is not what it was.
 //
-// A write changes the size or the times, a rename that puts another file in its place the inode.
-// The time of the last access is no part of it: whoever reads sets it. Two writes within one tick
-// of the kernel's clock (4 ms) that leave the size as it was look like one.
+// A write changes the size or the time of the last write, a rename that puts another file in its
+// place the inode. The time of the last access is no part of it, for whoever reads sets it; nor is
+// that of the last change of the inode, for a hard link, chmod or a backup sets it and changes
+// nothing that is read. So a write whose time is set back afterwards, as if to hide it, is not
+// seen; and two writes within one tick of the kernel's clock (4 ms) that leave the size as it was
+// look like one.
 #pragma once
 
 #include <array>
@@ -14,7 +17,7 @@ namespace svdag {
 
 struct FileState {
   uint64_t device = 0, inode = 0, size = 0;
-  std::array<int64_t, 2> written{}, changed{};  // mtime and ctime: seconds, nanoseconds
+  std::array<int64_t, 2> written{};  // mtime: seconds, nanoseconds
 
   bool operator==(const FileState&) const = default;
 };

@@ -11,20 +11,27 @@
 namespace svdag {
 
 void MemoryBudget::take(uint64_t bytes, const char* purpose) {
+  uint64_t wanted;
+  if (try_take(bytes, &wanted)) return;
+  throw Error(ExitCode::kMemory,
+              "the " + std::string(purpose) + " need " + std::to_string((wanted >> 20) + 1) +
+                  " MiB in all, more than the memory budget of " + std::to_string(limit_ >> 20) +
+                  " MiB: give more with --memory");
+}
+
+bool MemoryBudget::try_take(uint64_t bytes, uint64_t* wanted) noexcept {
   const uint64_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
-  const uint64_t now = before + bytes;
+  const uint64_t now = *wanted = before + bytes;
   if (now > limit_ || now < before) {
     give_back(bytes);
-    throw Error(ExitCode::kMemory,
-                "the " + std::string(purpose) + " need " + std::to_string((now >> 20) + 1) +
-                    " MiB in all, more than the memory budget of " + std::to_string(limit_ >> 20) +
-                    " MiB: give more with --memory");
+    return false;
   }
   for (std::atomic<uint64_t>* highest : {&peak_, &lap_peak_}) {
     uint64_t peak = highest->load(std::memory_order_relaxed);
     while (peak < now && !highest->compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
     }
   }
+  return true;
 }
 
 MemoryBudget::Reservation MemoryBudget::reserve(uint64_t bytes, const char* purpose) {
@@ -46,6 +53,15 @@ void MemoryBudget::Reservation::resize(uint64_t bytes, const char* purpose) {
   if (bytes > bytes_) budget_->take(bytes - bytes_, purpose);
   if (bytes < bytes_) budget_->give_back(bytes_ - bytes);
   bytes_ = bytes;
+}
+
+bool MemoryBudget::Reservation::try_resize(uint64_t bytes) noexcept {
+  SVDAG_ASSERT(budget_ != nullptr);
+  uint64_t wanted;
+  if (bytes > bytes_ && !budget_->try_take(bytes - bytes_, &wanted)) return false;
+  if (bytes < bytes_) budget_->give_back(bytes_ - bytes);
+  bytes_ = bytes;
+  return true;
 }
 
 void MemoryBudget::Reservation::release() noexcept {

@@ -25,6 +25,8 @@ class MemoryBudget {
     uint64_t bytes() const { return bytes_; }
     // Grows (or shrinks) to `bytes`; growing beyond the limit is an Error (kMemory).
     void resize(uint64_t bytes, const char* purpose);
+    // The same, but beyond the limit false, and nothing changes.
+    bool try_resize(uint64_t bytes) noexcept;
     void release() noexcept;
 
    private:
@@ -49,6 +51,8 @@ class MemoryBudget {
 
  private:
   void take(uint64_t bytes, const char* purpose);
+  // Whether the limit allows it; *wanted: what would be in use.
+  bool try_take(uint64_t bytes, uint64_t* wanted) noexcept;
   void give_back(uint64_t bytes) noexcept { used_.fetch_sub(bytes, std::memory_order_relaxed); }
 
   uint64_t limit_;
@@ -59,6 +63,10 @@ class MemoryBudget {
 
 // Half of what this machine, or the cgroup we run in, allows: the default of --memory.
 uint64_t default_memory_limit();
+// What --memory says; 0: nothing, so the default.
+inline uint64_t memory_or_default(uint64_t memory) {
+  return memory != 0 ? memory : default_memory_limit();
+}
 // Largest resident set of this process so far, in bytes.
 uint64_t peak_resident_bytes();
 // Processor time of the process so far, of all its threads.

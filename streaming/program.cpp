@@ -16,8 +16,8 @@ int tell(const ProgramWords& words, const char* sentence, int code) {
   return code;
 }
 
-// What whoever started the program has left: ignored ends of children, of which none could then be
-// waited for, and few open files where a merge has thousands of runs.
+// Undoes what the parent process may have set: SIGCHLD ignored, so that no child could be waited
+// for, and a low limit of open files, where a merge has thousands of runs.
 void settle_inheritance() {
   constexpr rlim_t kOpenFiles = 65536;
   ::signal(SIGCHLD, SIG_DFL);

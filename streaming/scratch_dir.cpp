@@ -7,6 +7,7 @@
 
 #include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file_lock.h"
 
 namespace svdag {
 namespace {
@@ -47,11 +48,7 @@ std::string ScratchDir::path_for(const std::string& output, const std::string& u
 }
 
 bool ScratchDir::in_use(const std::string& path) {
-  try {
-    return !File::open_read(path + "/" + kOwner).try_lock();
-  } catch (const Error&) {  // there is no such folder, or none that can be owned
-    return false;
-  }
+  return is_locked(path + "/" + kOwner);
 }
 
 ScratchDir::ScratchDir(const std::string& path) : folder_(own(path, &owner_)) {}

@@ -32,7 +32,7 @@ class SpillBlock {
 
 constexpr size_t kSpillHeader = 64;
 
-// What a block says of itself; where it was put is not known to it.
+// What a block says of itself. Its position in the file is no part of that.
 struct SpillLabel {
   uint64_t stream = 0;
   uint64_t index = 0;   // of the block in its stream

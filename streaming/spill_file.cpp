@@ -7,6 +7,7 @@
 
 #include "streaming/error.h"
 #include "streaming/spill_queue.h"
+#include "streaming/spoiled_scratch.h"
 
 namespace svdag {
 
@@ -54,9 +55,9 @@ class SpillFile::Impl {
     return block.bytes().subspan(kHeader, length);
   }
   [[noreturn]] void fail_damaged() const {
-    const bool given = damaged_ == ExitCode::kBadInput;
-    throw Error(damaged_, given ? "is damaged: make it again" : "scratch file is damaged",
-                queue.path());
+    if (damaged_ == ExitCode::kBadInput)
+      throw Error(damaged_, "is damaged: make it again", queue.path());
+    throw SpoiledScratch(damaged_, "scratch file is damaged", queue.path());
   }
 
   const size_t block_bytes;

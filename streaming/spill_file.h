@@ -8,7 +8,7 @@
 //   checksum u64 (XXH3-64 of the whole block, with zeros here), zeros up to 64 bytes
 //
 // and the last block of a stream is filled up with zeros, so that a flipped bit, a stale block and
-// a block of another stream or place are all found (Error kOutput: "scratch file is damaged"). The
+// a block of another stream or place are all found (SpoiledScratch: "scratch file is damaged"). The
 // file is opened with O_DIRECT where the system has it: spilled bytes are used once, long after
 // they were written, and would only push the rest out of the page cache. Reading ahead and writing
 // behind run on one thread of the file, so that disk and processor overlap. Rejected: a file per
@@ -39,7 +39,8 @@ class SpillFile {
   static constexpr size_t kHeader = kSpillHeader;
 
   // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
-  // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block.
+  // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block;
+  // with kBadInput the file is no scratch.
   SpillFile(File file, size_t block_bytes, uint32_t first_free = 0,
             ExitCode damaged = ExitCode::kOutput);
   ~SpillFile();

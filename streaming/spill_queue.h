@@ -34,9 +34,9 @@ class SpillQueue {
   ~SpillQueue();
 
   const std::string& path() const { return file_.path(); }
-  // If it throws (no memory, no thread), the transfer is done as it is.
+  // If it throws (no memory, no thread), nothing was queued and the transfer counts as done.
   void submit(SpillTransfer* transfer);
-  // The transfer is done without having been asked for.
+  // Marks a transfer done that was never queued, so that nobody waits for it.
   void take_back(SpillTransfer* transfer) noexcept;
   void wait(SpillTransfer* transfer);
   // Throws what the first write that failed threw. Cheap if none has.

@@ -9,7 +9,7 @@
 
 #include "builder/farm/cell_pack.h"
 #include "builder/farm/pack_blocks.h"
-#include "builder/run_format.h"
+#include "builder/run/run_format.h"
 #include "streaming/checksum.h"
 
 namespace svdag {

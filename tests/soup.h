@@ -1,10 +1,7 @@
 // Triangle soups for tests: made in memory, written as binary STL where a file is needed.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <filesystem>
+#include <cmath>
 #include <fstream>
 #include <random>
 #include <string>
@@ -13,21 +10,6 @@
 #include "io/triangle.h"
 
 namespace svdag {
-
-// A folder of its own for each test, removed afterwards.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "svdag-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 inline void write_stl(const std::string& path, const std::vector<Triangle>& triangles) {
   std::ofstream out(path, std::ios::binary);

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "io/dag/cube.h"
+#include "io/dag/voxel_cube.h"
 #include "tests/verify/raw_dag.h"
 
 namespace svdag {
@@ -34,7 +34,7 @@ inline VoxelSet bodies(int levels, uint64_t seed) {
 }
 
 // The voxels of a cube, each once.
-inline void add_cube(VoxelSet* set, const Cube& cube) {
+inline void add_cube(VoxelSet* set, const VoxelCube& cube) {
   if (cube.side != kBlockSide) return add_box(set, cube.box());
   for (unsigned i = 0; i < 512; ++i)
     if (cube.block.get(i >> 6, i >> 3 & 7, i & 7))

@@ -6,7 +6,7 @@ namespace svdag {
 namespace {
 
 // Calls `f` with the set voxels of a cube until it returns false.
-bool each_voxel(const Cube& cube, const std::function<bool(const LatticePoint&)>& f) {
+bool each_voxel(const VoxelCube& cube, const std::function<bool(const LatticePoint&)>& f) {
   for (int64_t x = 0; x < cube.side; ++x)
     for (int64_t y = 0; y < cube.side; ++y)
       for (int64_t z = 0; z < cube.side; ++z) {
@@ -50,7 +50,7 @@ Block VdbComparer::ours(const LatticePoint& origin) const {
   return turned;
 }
 
-void VdbComparer::compare_block(Cube cube, const Found& found) {
+void VdbComparer::compare_block(VoxelCube cube, const Found& found) {
   if (window_ != nullptr) cube.block.cut(cube.origin, their_window_);
   const Block mine = ours(cube.origin);
   const uint64_t both = (cube.block & mine).count();
@@ -58,7 +58,7 @@ void VdbComparer::compare_block(Cube cube, const Found& found) {
   found(both, cube);
 }
 
-void VdbComparer::split(const Cube& cube, const Found& found) {
+void VdbComparer::split(const VoxelCube& cube, const Found& found) {
   if (window_ != nullptr && !meet(cube.box(), their_window_)) return;
   if (cube.side == kBlockSide) return compare_block(cube, found);
   if (window_ == nullptr || contains(their_window_, cube.box())) {
@@ -78,7 +78,7 @@ void VdbComparer::extras(const std::function<bool(const LatticePoint&)>& sink) {
   constexpr int64_t kAll = int64_t(1) << 40;
   const VoxelBox all{LatticePoint(0), LatticePoint(kAll)};
   uint64_t cubes = 0;
-  ours_->visit(window_ != nullptr ? *window_ : all, [&](const Cube& cube) {
+  ours_->visit(window_ != nullptr ? *window_ : all, [&](const VoxelCube& cube) {
     if (++cubes % 1024 == 0) check_interrupt();
     return each_voxel(cube, [&](const LatticePoint& voxel) {
       return theirs_.get(map_.back(voxel)) || sink(voxel);
@@ -89,9 +89,9 @@ void VdbComparer::extras(const std::function<bool(const LatticePoint&)>& sink) {
 VdbComparison VdbComparer::compare(uint64_t file_voxels, uint64_t show) {
   VdbComparison result;
   uint64_t cubes = 0;
-  theirs_.visit([&](const Cube& cube) {
+  theirs_.visit([&](const VoxelCube& cube) {
     if (++cubes % 1024 == 0) check_interrupt();
-    split(cube, [&](uint64_t both, const Cube& missing) {
+    split(cube, [&](uint64_t both, const VoxelCube& missing) {
       result.both += both;
       result.missing += missing.count();
       each_voxel(missing, [&](const LatticePoint& voxel) {
@@ -114,8 +114,8 @@ VdbComparison VdbComparer::compare(uint64_t file_voxels, uint64_t show) {
 
 void VdbComparer::write_difference(VdbWriter* writer) {
   writer->begin("missing", theirs_.centres());
-  theirs_.visit([&](const Cube& cube) {
-    split(cube, [&](uint64_t, const Cube& missing) {
+  theirs_.visit([&](const VoxelCube& cube) {
+    split(cube, [&](uint64_t, const VoxelCube& missing) {
       if (missing.count() > 0) writer->add(missing);
     });
     return true;

@@ -37,9 +37,9 @@ class VdbComparer {
 
  private:
   // Both take cubes of their index space.
-  using Found = std::function<void(uint64_t both, const Cube& missing)>;
-  void split(const Cube& cube, const Found& found);
-  void compare_block(Cube cube, const Found& found);
+  using Found = std::function<void(uint64_t both, const VoxelCube& missing)>;
+  void split(const VoxelCube& cube, const Found& found);
+  void compare_block(VoxelCube cube, const Found& found);
   Block ours(const LatticePoint& origin) const;
   // Hands on the voxels of ours that theirs lacks, until the sink returns false.
   void extras(const std::function<bool(const LatticePoint& ours)>& sink);

@@ -5,12 +5,13 @@
 #include "io/dag/dag_level.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "verify/same_place.h"
 
 namespace svdag {
 namespace {
 
 double length(const Point& p) {
-  return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+  return std::hypot(p.x, p.y, p.z);  // of any scale: no square overflows
 }
 
 VoxelBox box_of(LatticePoint a, LatticePoint b) {  // both inclusive, in any order
@@ -56,6 +57,37 @@ IndexMap turn_of(const VdbGrid& theirs, double size, const std::string& path) {
   return map;
 }
 
+// Their voxels in the file's index space.
+class Placement {
+ public:
+  Placement(const IndexToWorld& theirs, const Grid& level) {
+    const double size = level.voxel_size;
+    const IndexToWorld ours = voxel_centres(level);
+    first_ = (theirs.origin - ours.origin) / size;
+    for (size_t a = 0; a < 3; ++a) steps_[a] = theirs.axes[a] / size;
+    double reach = 0;  // no coordinate is larger, in voxels
+    for (int a = 0; a < 3; ++a)
+      reach = std::max({reach, std::abs(theirs.origin[a] / size),
+                        std::abs(ours.origin[a] / size) + double(level.resolution())});
+    tolerance_ = kCentreTolerance + std::min(kRoundings * reach, kMostOfRoundings);
+  }
+
+  Point operator()(const LatticePoint& i) const {
+    return first_ + double(i.x) * steps_[0] + double(i.y) * steps_[1] + double(i.z) * steps_[2];
+  }
+  bool is_near(const Point& off) const {
+    return std::abs(off.x) < tolerance_ && std::abs(off.y) < tolerance_ &&
+           std::abs(off.z) < tolerance_;
+  }
+
+ private:
+  static constexpr double kMostOfRoundings = 1.0 / 8;
+
+  Point first_;
+  std::array<Point, 3> steps_;
+  double tolerance_;
+};
+
 }  // namespace
 
 VoxelBox IndexMap::operator()(const VoxelBox& theirs) const {
@@ -70,10 +102,7 @@ GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& pat
   GridFit fit{find_level(theirs, grid, path), {}};
   const Grid level = level_grid(grid, fit.levels);
   fit.map = turn_of(theirs, level.voxel_size, path);
-  // Where the voxel is in the file's index space, exactly to some 1e-7 voxel.
-  const auto position = [&](const LatticePoint& i) {
-    return (theirs.centres()(Point(i)) - level.corner()) / level.voxel_size - 0.5;
-  };
+  const Placement position(theirs.centres(), level);
   const VoxelBox box = theirs.bounds();
   const Point first = position(box.min);
   const LatticePoint turned = fit.map(box.min);
@@ -90,8 +119,7 @@ GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& pat
     for (int a = 0; a < 3; ++a)
       if (std::abs(off[a]) > std::abs(worst[a])) worst[a] = off[a];
   }
-  if (!(std::abs(worst.x) < kCentreTolerance && std::abs(worst.y) < kCentreTolerance &&
-        std::abs(worst.z) < kCentreTolerance)) {
+  if (!position.is_near(worst)) {
     char text[128];
     std::snprintf(text, sizeof text, "its voxel centres are (%.3g, %.3g, %.3g) voxels away from",
                   worst.x, worst.y, worst.z);

@@ -1,10 +1,16 @@
 // How the voxels of a foreign grid lie on ours.
 //
-// Their voxel i has its centre at origin + sum of i_a * axes_a, ours voxel u at corner + (u + 1/2)
-// * size. The grids fit if every centre of theirs is a centre of ours: then u = P i + shift with a
-// signed permutation P, so axes may be swapped and mirrored. How far the true map is from that one
-// is an affine function, largest at a corner of the box of their voxels, so eight points prove it
-// for all. Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1
+// Their voxel i has its centre at origin + sum of i_a * axes_a, ours voxel u at centre + u * size,
+// the centre being that of our voxel 0. The grids fit if every centre of theirs is a centre of
+// ours: then u = P i + shift with a signed permutation P, so axes may be swapped and mirrored. How
+// far the true map is from that one is an affine function, largest at a corner of the box of their
+// voxels, so eight points prove it for all.
+//
+// Far from zero a voxel is a few steps of a double, or less than one. Positions are therefore taken
+// from our first centre on, not from zero: what we exported ourselves is there to the last bit, so
+// it fits wherever it lies. What others computed may be off by a few roundings of the coordinates,
+// but by no more than 1/8 of a voxel: else nobody knows which voxel is meant.
+// Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1
 // voxel at 1M).
 #pragma once
 
@@ -37,7 +43,7 @@ struct GridFit {
   IndexMap map;
 };
 
-// Voxel centres further apart than this, in voxels, are not the same.
+// Voxel centres further apart than this, in voxels, are not the same, but for roundings.
 constexpr double kCentreTolerance = 1e-3;
 
 // Finds the level of `grid` and the map onto it; a grid that does not fit is an Error (kUsage) that

@@ -4,8 +4,9 @@
 //             (occupancy.h, thin.h)
 //   cgal      asks CGAL's exact kernel about one cell after the other (judge_cgal.h)
 //
-// They share no arithmetic and no idea, so that an error in one is seen by the other. Both judge
-// both rules (docs/accuracy.md). A judge keeps scratch memory: one per thread.
+// They share no arithmetic and no idea, so that an error in one is seen by the other, but for the
+// box of cells that either asks about (touched_cells.h). Both judge both rules (docs/accuracy.md).
+// A judge keeps scratch memory: one per thread.
 #pragma once
 
 #include <memory>

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "verify/touched_cells.h"
+
 namespace svdag {
 namespace {
 
@@ -49,12 +51,7 @@ class CgalJudge final : public Judge {
   void cells(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
              const Sink& sink) override {
     take(triangle);
-    VoxelBox box;
-    for (int a = 0; a < 3; ++a) {  // the cells that the closed box of the triangle touches
-      const auto [low, high] = std::minmax({triangle.v[0][a], triangle.v[1][a], triangle.v[2][a]});
-      box.min[a] = std::max(window.min[a], -((-low) >> shift) - 1);
-      box.max[a] = std::min(window.max[a], (high >> shift) + 1);
-    }
+    const VoxelBox box = touched_cells(box_of(triangle), shift, window);
     if (!box.empty()) descend(box, shift, sink);
   }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "verify/touched_cells.h"
+
 namespace svdag {
 namespace {
 
@@ -42,10 +44,10 @@ class ColumnClip {
     for (int i = 0; i < 3; ++i) {
       for (int a = 0; a < 3; ++a) p_[i][a] = t.v[i][order[a]];
     }
+    const VoxelBox cells = touched_cells(box_of(t), shift, window);
     for (int a = 0; a < 3; ++a) {
-      const auto [low, high] = std::minmax({p_[0][a], p_[1][a], p_[2][a]});
-      first_[a] = std::max(window.min[order[a]], first_cell(low));
-      last_[a] = std::min(window.max[order[a]] - 1, last_cell(high));
+      first_[a] = cells.min[order[a]];
+      last_[a] = cells.max[order[a]] - 1;
     }
     for (int e = 0; e < 3; ++e) {
       edges_[e] = {p_[e], p_[(e + 1) % 3]};
@@ -82,8 +84,8 @@ class ColumnClip {
     std::array<Rounded, 3> v, w;
   };
 
-  int64_t first_cell(int64_t ceil) const { return -((-ceil) >> shift_) - 1; }
-  int64_t last_cell(int64_t floor) const { return floor >> shift_; }
+  int64_t first_cell(int64_t ceil) const { return first_touched(ceil, shift_); }
+  int64_t last_cell(int64_t floor) const { return last_touched(floor, shift_); }
 
   void set_plane() {
     Coordinates a, b;

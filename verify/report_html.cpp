@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/json_number.h"
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
@@ -55,11 +56,11 @@ class Page {
   }
   std::string hash() const {
     const Header& h = file_.header();
-    return to_hex({h.content_hash[0], h.content_hash[1]});
+    return to_hex(h.content_hash);
   }
 
  private:
-  uint64_t count(const char* key) const { return bake_.at(key).get<uint64_t>(); }
+  uint64_t count(const char* key) const { return whole_number<uint64_t>(bake_.at(key)); }
   double number(const char* key) const { return bake_.at(key).get<double>(); }
 
   void box(const char* kind, const std::string& text) {
@@ -102,6 +103,12 @@ class Page {
     if (count("triangles_invalid") > 0)
       box("note", format_count(count("triangles_invalid")) +
                       " triangles with NaN or infinite coordinates were dropped.");
+    for (const Json& pattern : bake_.at("patterns_unmatched"))
+      box("note",
+          "No part of the scene matches <code>" + escaped(pattern.get<std::string>()) + "</code>.");
+    if (count("triangles_undeformed") > 0)
+      box("note", format_count(count("triangles_undeformed")) +
+                      " triangles were baked as stored: skins and morph targets are not applied.");
     if (count("triangles_outside") + count("triangles_clipped") > 0)
       box("note", format_count(count("triangles_outside")) +
                       " triangles lie outside of the grid, " +
@@ -130,8 +137,9 @@ class Page {
     begin_facts("What was baked");
     for (const Json& source : bake_.at("files"))
       row("scene file", escaped(source.at("name").get<std::string>()) + ", " +
-                            format_bytes(source.at("bytes").get<uint64_t>()) + "<br><code>" +
-                            escaped(source.at("hash").get<std::string>()) + "</code>");
+                            format_bytes(whole_number<uint64_t>(source.at("bytes"))) +
+                            "<br><code>" + escaped(source.at("hash").get<std::string>()) +
+                            "</code>");
     row("triangles", format_count(count("triangles")));
     row("grid",
         format_resolution(grid.resolution()) + "<sup>3</sup> voxels of " +
@@ -149,7 +157,7 @@ class Page {
     begin_facts("Accuracy");
     row("largest move of a coordinate by the snap",
         formatted("%.3g voxel", number("largest_snap_voxels")) + ", to a lattice of 2<sup>" +
-            std::to_string(bake_.at("grid").at("fraction_bits").get<int>()) +
+            std::to_string(whole_number<int>(bake_.at("grid").at("fraction_bits"))) +
             "</sup> steps per voxel");
     row("decisions at voxels", format_count(count("decisions")));
     row("of which doubles could not decide, so integers did",
@@ -203,29 +211,30 @@ class Page {
     const Json& seconds = bake_.at("seconds");
     const Json& memory = bake_.at("memory");
     const double total = std::max(seconds.at("total").get<double>(), 1e-9);
-    const auto counted = memory.at("peak_counted").get<uint64_t>();
+    const auto counted = whole_number<uint64_t>(memory.at("peak_counted"));
     std::vector<PlotBar> times, peaks;
     for (const auto& [phase, bytes] : memory.at("phases").items()) {
       const double value = seconds.at(phase).get<double>();
       times.push_back({phase, value, formatted("%.2f s", value)});
-      peaks.push_back({phase, bytes.get<double>(), format_bytes(bytes.get<uint64_t>())});
+      peaks.push_back({phase, bytes.get<double>(), format_bytes(whole_number<uint64_t>(bytes))});
     }
     out_ += "<h2>Time and memory</h2>\n<div class=\"plots\">\n" +
             plot_bars("Seconds per phase", times, total, "one") +
             plot_bars("Most memory per phase", peaks, double(counted), "two") + "</div>\n";
-    out_ += "<p class=\"dim\">" + formatted("%.2f", total) + " seconds in all, " +
-            formatted("%.2f", seconds.at("cpu").get<double>()) + " of processors, on " +
-            std::to_string(count("threads")) + " threads with " +
-            escaped(bake_.at("vectors").get<std::string>()) + ". Memory: " + format_bytes(counted) +
-            " counted at most, " + format_bytes(memory.at("peak_resident").get<uint64_t>()) +
-            " resident. Scratch on disk: " +
-            format_bytes(bake_.at("scratch").at("peak").get<uint64_t>()) + " at most.</p>\n";
+    out_ +=
+        "<p class=\"dim\">" + formatted("%.2f", total) + " seconds in all, " +
+        formatted("%.2f", seconds.at("cpu").get<double>()) + " of processors, on " +
+        std::to_string(count("threads")) + " threads with " +
+        escaped(bake_.at("vectors").get<std::string>()) + ". Memory: " + format_bytes(counted) +
+        " counted at most, " + format_bytes(whole_number<uint64_t>(memory.at("peak_resident"))) +
+        " resident. Scratch on disk: " +
+        format_bytes(whole_number<uint64_t>(bake_.at("scratch").at("peak"))) + " at most.</p>\n";
   }
 
   void skipped() {
     const Json& memo = bake_.at("plane_memo");
-    const auto asked = memo.at("asked").get<uint64_t>(),
-               answered = memo.at("answered").get<uint64_t>();
+    const auto asked = whole_number<uint64_t>(memo.at("asked")),
+               answered = whole_number<uint64_t>(memo.at("answered"));
     const size_t cell_level = count("cell_level");
     const uint64_t grid_cells = uint64_t(1) << (3 * cell_level), cells = count("cells");
     const auto work = bake_.at("cubes_divided").get<std::vector<uint64_t>>();
@@ -248,7 +257,7 @@ class Page {
             " nodes above the bricks, and the bake divided " + format_count(divided) + " cubes. " +
             format_count(asked) + " cubes were put to the plane memo, which answered " +
             format_count(answered) + " and computed " +
-            format_count(memo.at("computed").get<uint64_t>()) + " nodes for that.</p>\n";
+            format_count(whole_number<uint64_t>(memo.at("computed"))) + " nodes for that.</p>\n";
   }
 
   const Json& bake_;
@@ -274,6 +283,8 @@ std::string report_html(const std::string& bake, const std::string& path, const 
     return page.make(pictures);
   } catch (const Json::exception&) {
     fail_input(path, "is no report of svdag build, or of another version");
+  } catch (const Error& error) {
+    fail_input(path, error.what());
   }
 }
 

@@ -9,7 +9,6 @@ namespace svdag {
 namespace {
 
 constexpr double kExact = 1e-6;
-constexpr double kDoubleStep = 0x1p-50;  // a few roundings
 constexpr double kFloatStep = 0x1p-23, kMostOfFloats = 1.0 / 8;
 
 // A grid in units of a length, which keeps sums of huge and of tiny worlds finite.
@@ -54,7 +53,7 @@ bool same_place(const Grid& a, const Grid& b) {
   const double unit = std::min(a.voxel_size, b.voxel_size);
   const Placed in_a(a, unit), in_b(b, unit);
   const double reach = std::max(in_a.reach, in_b.reach);
-  double tolerance = kExact + kDoubleStep * reach;
+  double tolerance = kExact + kRoundings * reach;
   if (may_be_of_floats(a) || may_be_of_floats(b))
     tolerance = std::max(tolerance, std::min(kFloatStep * reach, kMostOfFloats));
   for (const Ends& ends : kWays) {

@@ -19,6 +19,9 @@
 
 namespace svdag {
 
+// A few roundings of a double, against the number that was rounded.
+constexpr double kRoundings = 0x1p-50;
+
 bool same_place(const Grid& a, const Grid& b);
 
 }  // namespace svdag

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <bit>
 
+#include "verify/touched_cells.h"
+
 namespace svdag {
 namespace {
 
@@ -11,25 +13,14 @@ namespace {
 constexpr size_t kGather = size_t(1) << 16;
 constexpr size_t kShare = 1024;
 
-// The bricks that the triangle's box touches, cut to those of the grid.
-VoxelBox brick_box(const LatticeTriangle& t, const Grid& grid) {
-  const int shift = grid.fraction() + 2;
-  VoxelBox box;
-  for (int a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    box.min[a] = std::max<int64_t>(-((-low) >> shift) - 1, 0);
-    box.max[a] = std::min<int64_t>((high >> shift) + 1, grid.resolution() / kBrickSide);
-  }
-  return box;
-}
-
 }  // namespace
 
 BrickSample::BrickSample(const Grid& grid, std::vector<uint64_t> codes)
     : grid_(grid), codes_(std::move(codes)), bricks_(codes_.size()) {}
 
 void BrickSample::add(const LatticeTriangle& triangle, Judge& judge) {
-  const VoxelBox box = brick_box(triangle, grid_);
+  const VoxelBox bricks{LatticePoint(0), LatticePoint(grid_.resolution() / kBrickSide)};
+  const VoxelBox box = touched_cells(box_of(triangle), grid_.fraction() + 2, bricks);
   if (box.empty()) return;
   // The smallest octree cell that holds the whole box: the common prefix of its corners' codes.
   const uint64_t low = cell_code(box.min), high = cell_code(box.max - int64_t(1));

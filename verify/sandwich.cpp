@@ -95,7 +95,7 @@ class Window {
 
   // The file's voxels where OpenVDB knows of no triangle.
   void check_rest() {
-    walk_->visit(box_, [&](const Cube& cube) {
+    walk_->visit(box_, [&](const VoxelCube& cube) {
       LatticePoint at;
       for (at.x = 0; at.x < cube.side; at.x += kBlockSide)
         for (at.y = 0; at.y < cube.side; at.y += kBlockSide)
@@ -128,12 +128,9 @@ class Window {
   }
 
   void ask(const LatticeTriangle& t) {
-    VoxelBox box;
-    for (int a = 0; a < 3; ++a) {
-      const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-      box.min[a] = (low >> grid_.fraction()) - 2;
-      box.max[a] = (high >> grid_.fraction()) + 3;
-    }
+    const LatticeBox corners = box_of(t);
+    const int64_t shift = grid_.fraction();
+    const VoxelBox box{(corners.min >> shift) - int64_t(2), (corners.max >> shift) + int64_t(3)};
     constexpr int64_t kLeast = INT64_MIN;
     auto s = std::lower_bound(suspects_.begin(), suspects_.end(),
                               Suspect{{box.min.x, kLeast, kLeast}, false, false});

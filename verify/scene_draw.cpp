@@ -132,16 +132,6 @@ struct Draws {
   size_t next = 0;
 };
 
-bool meets_selection(const LatticeTriangle& t, const Grid& grid) {
-  for (int a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    if (high < grid.selection.min[a] << grid.fraction() || low > grid.selection.max[a]
-                                                                     << grid.fraction())
-      return false;
-  }
-  return !grid.selection.empty();
-}
-
 // A third each, one more for the first ones; a measure without weight leaves its share to the next.
 void place(std::array<Draws, kMeasures>* draws, uint64_t count, Random& random) {
   uint64_t left = 0;
@@ -166,10 +156,12 @@ std::vector<uint64_t> SceneDraw::all() const {
 
 SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Random& random) {
   SceneDraw result;
+  if (grid.selection.empty()) return result;
+  const LatticeBox selection = grid.closed(grid.selection);
   std::array<Draws, kMeasures> draws;
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
-      if (!meets_selection(t, grid)) continue;
+      if (!selection.meets(box_of(t))) continue;
       ++result.near;
       const Part part(t, grid);
       for (size_t m = 0; m < kMeasures; ++m) draws[m].total += part.weight(Measure(m));
@@ -178,7 +170,7 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
   place(&draws, count, random);
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
-      if (!meets_selection(t, grid)) continue;
+      if (!selection.meets(box_of(t))) continue;
       const Part part(t, grid);
       for (size_t m = 0; m < kMeasures; ++m) {
         Draws& own = draws[m];

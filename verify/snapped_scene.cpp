@@ -7,14 +7,6 @@
 namespace svdag {
 namespace {
 
-bool box_meets_grid(const LatticeTriangle& t, int64_t side) {
-  for (int a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    if (high < 0 || low > side) return false;
-  }
-  return true;
-}
-
 // The grid that a bake of the whole scene would choose, or nothing where none fits.
 bool follows_from(const Grid& grid, const Box& bounds) {
   if (grid.bounded) return false;
@@ -31,7 +23,7 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink) {
   const Lattice lattice(grid);
-  const int64_t side = grid.resolution() << grid.fraction();
+  const LatticeBox whole = grid.closed(grid.whole());
   SnapCounts counts;
   std::vector<LatticeTriangle> snapped;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
@@ -39,7 +31,7 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
     for (const Triangle& t : batch.triangles) {
       LatticeTriangle q;
       for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &counts.largest_move);
-      if (box_meets_grid(q, side)) {
+      if (whole.meets(box_of(q))) {
         snapped.push_back(q);
       } else {
         ++counts.outside;

@@ -31,12 +31,9 @@ Polygon cut_to_box(Polygon polygon, const Point& low, const Point& high) {
 }
 
 bool is_near(const LatticeTriangle& t, const VoxelBox& window, int fraction) {
-  for (int a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    if (high < (window.min[a] - 1) << fraction || low > (window.max[a] + 1) << fraction)
-      return false;
-  }
-  return true;
+  const int64_t voxel = int64_t(1) << fraction;
+  const LatticeBox wider{(window.min - int64_t(1)) * voxel, (window.max + int64_t(1)) * voxel};
+  return wider.meets(box_of(t));
 }
 
 void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, int fraction,

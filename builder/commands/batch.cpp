@@ -12,6 +12,7 @@
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
@@ -26,8 +27,15 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// A command line can leave an option out, but not take back what holds for all bakes.
+void refuse_to_take_back(const std::string& key, const BuildCommandConfig& batch) {
+  if (std::find(batch.given.begin(), batch.given.end(), "--" + key) != batch.given.end())
+    fail_usage("\"" + key + "\": false does not take back the --" + key +
+               " beside --batch, which is for all bakes: leave one of them out");
+}
+
 // The command line of one object.
-std::vector<std::string> arguments_of(const Json& job) {
+std::vector<std::string> arguments_of(const Json& job, const BuildCommandConfig& batch) {
   std::vector<std::string> scene, options;
   const auto add = [&](const std::string& key, const Json& one) {
     if (one.is_structured() || one.is_null())
@@ -35,7 +43,7 @@ std::vector<std::string> arguments_of(const Json& job) {
     if (key == "scene") {
       scene.push_back(text_of(one));
     } else if (one.is_boolean()) {
-      if (one.get<bool>()) options.push_back("--" + key);
+      one.get<bool>() ? options.push_back("--" + key) : refuse_to_take_back(key, batch);
     } else if (const std::string text = text_of(one); text.empty()) {
       options.insert(options.end(), {"--" + key, text});  // behind "=" it would be the next word
     } else {
@@ -79,9 +87,15 @@ Json read_list(const std::string& path) {
   if (file.size() > kMost) fail_input(path, "is too large for a list of bakes");
   std::string text(file.size(), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
-  const Json list = Json::parse(text, nullptr, false);
-  if (!list.is_array()) fail_input(path, "is no list of bakes: a JSON array of objects");
-  return list;
+  try {
+    Json list = Json::parse(text);
+    if (list.is_array()) return list;
+  } catch (const Json::parse_error& error) {
+    throw Error(ExitCode::kBadInput, "is no JSON from there on", path, error.byte);
+  } catch (const Json::exception&) {
+    fail_input(path, "has a number that is too large");
+  }
+  fail_input(path, "is no list of bakes: a JSON array of objects");
 }
 
 }  // namespace
@@ -93,7 +107,7 @@ std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) 
     const std::string where = place(batch, jobs.size());
     if (!job.is_object()) fail_usage(where + "is no object");
     try {
-      jobs.push_back(batch.parse(arguments_of(job), defaults));
+      jobs.push_back(batch.parse(arguments_of(job, batch), defaults));
     } catch (const Error& error) {
       fail_usage(where + error.what());
     }
@@ -123,6 +137,7 @@ void refuse_overwriting(const BuildCommandConfig& batch,
   for (size_t i = 0; i < jobs.size(); ++i) {
     try {
       for (const std::string& output : outputs_of(jobs[i])) files.write(output);
+      refuse_foreign_name(jobs[i].build.output);
     } catch (const Error& error) {
       fail_usage(place(batch, i) + error.what());
     }

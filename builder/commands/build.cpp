@@ -5,6 +5,8 @@
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/scene_notes.h"
+#include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/atomic_file.h"
@@ -63,12 +65,14 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
                {"files", files_json(r.files)},
                {"output", config.build.output},
                {"grid", grid_json(r.grid)},
-               {"rule", r.rule == Rule::kThin ? "thin" : "conservative"},
+               {"rule", rule_name(r.rule)},
                {"triangles", r.split.scene.triangles},
                {"triangles_outside", r.split.outside},
                {"triangles_clipped", r.split.clipped},
                {"triangles_degenerate", r.split.degenerate},
                {"triangles_invalid", r.split.scene.invalid},
+               {"triangles_undeformed", r.split.scene.undeformed},
+               {"patterns_unmatched", r.split.scene.unmatched},
                {"largest_snap_voxels", r.split.largest_snap},
                {"quantisation_voxels", r.split.scene.quantisation / r.grid.voxel_size},
                {"decisions", r.decisions.asked},
@@ -120,6 +124,10 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
               format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
               r.seconds.total);
+  print_scene_notes(r.split.scene);
+  if (r.voxels == 0)
+    std::printf("  no voxel is set: %s triangles meet the grid\n",
+                format_count(r.split.scene.triangles - r.split.outside).c_str());
   if (!config.output.verbose) return;
   const auto& s = r.seconds;
   std::printf(
@@ -175,16 +183,18 @@ void refuse_overwriting(const BuildCommandConfig& config) {
   if (std::any_of(outputs.begin(), outputs.end(), name_exists))
     files.read_buffers(config.build.scene, config.build.memory);
   for (const std::string& output : outputs) files.write(output);
+  refuse_foreign_name(config.build.output);
 }
 
 }  // namespace
 
 void bake_scene(const BuildCommandConfig& config, std::string* json) {
   AtomicFile::check(config.build.output);
+  discard_dry_run(config.build);
   std::optional<AtomicFile> report_file;  // opened before there is work to lose
   if (!config.report.empty()) report_file.emplace(config.report);
-  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
-  Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
+  ParallelExecutor executor(threads_or_all(config.threads));
+  Progress progress(config.output.mode());
   BuildConfig build_config = config.build;
   build_config.name_files = json != nullptr || !config.report.empty();
   if (!config.cache.folder.empty())

@@ -4,6 +4,7 @@
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -61,12 +62,15 @@ void add_cache_options(CLI::App* app, CellCacheConfig* config) {
               "--cache", config->folder,
               "Folder of cells baked before, by any bake: the same cells are not baked again"))
           ->type_name("DIR");
-  app->add_option_function<std::string>(
-         "--cache-size",
-         [config](const std::string& s) { config->most_bytes = parse_count(s, "--cache-size"); },
-         "Most bytes that the cache may hold; the least used go first (default: 16G)")
-      ->needs(cache)
-      ->type_name("SIZE");
+  CLI::Option* size =
+      app->add_option_function<std::string>(
+             "--cache-size",
+             [config](const std::string& s) {
+               config->most_bytes = parse_count(s, "--cache-size");
+             },
+             "Most bytes that the cache may hold; the least used go first (default: 16G)")
+          ->type_name("SIZE");
+  if (config->folder.empty()) size->needs(cache);  // else the list has one
 }
 
 // A step of a plan has to know which options it does not heed.
@@ -130,7 +134,9 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
   takes_files(app->add_option("--report", config->report, "Write a report of the bake as JSON"),
               {".json"})
       ->type_name("FILE");
-  add_output_options(app, &config->output);
+  add_quiet(app, &config->output);
+  add_verbose(app, &config->output, "Print seconds and memory per phase");
+  add_progress(app, &config->output);
   add_measurement_options(app, &build->descent);
   remember_options(app, grid, &config->given);
   add_examples(app,
@@ -148,7 +154,7 @@ BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
-    fail_usage(error.what());
+    fail_usage(explain(app, arguments, error));
   }
   if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
   if (config.shard != 0) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");

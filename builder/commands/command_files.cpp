@@ -1,5 +1,6 @@
 #include "builder/commands/command_files.h"
 
+#include "builder/farm/plan_folder.h"
 #include "streaming/error.h"
 #include "streaming/memory_budget.h"
 
@@ -10,16 +11,22 @@ void CommandFiles::read(const std::vector<std::string>& paths) {
 }
 
 void CommandFiles::read_buffers(const SceneConfig& scene, uint64_t memory) {
-  MemoryBudget budget(memory != 0 ? memory : default_memory_limit());
+  MemoryBudget budget(memory_or_default(memory));
   Scene(scene, &budget).visit_files([&](const File& file) { read(file.path()); });
+}
+
+void CommandFiles::read(const Plan& plan, const PlanStep* own) {
+  for (const std::string& file : files_of(plan)) {
+    if (own == nullptr || file != plan.path(own->output)) read(file);
+  }
+  for (const PlanInput& input : plan.inputs) read(input.path);
 }
 
 void CommandFiles::write(const std::string& path) {
   if (inputs_.find(path) != nullptr)
     fail_usage(path + " is also an input, which is never overwritten: choose another output");
-  if (outputs_.find(path) != nullptr)
+  if (!outputs_.insert(place_of(path)).second)
     fail_usage(path + " would be written twice: choose another name for one of the results");
-  outputs_.add(path);
 }
 
 }  // namespace svdag

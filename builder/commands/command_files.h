@@ -1,11 +1,15 @@
 // The files of a command: what it reads is never overwritten, and no result by another one.
 //
+// An input is known by all its names. A result is a file of its own that gets its name by a rename,
+// also where a link to another result was: only its place counts.
 // All inputs are told before the first output. Nothing is opened but by read_buffers().
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
+#include "builder/farm/plan.h"
 #include "io/scene/scene.h"
 #include "streaming/file_names.h"
 
@@ -17,11 +21,15 @@ class CommandFiles {
   void read(const std::vector<std::string>& paths);
   // The files that the scene's own files name: the buffers of glTF. Errors are those of the reader.
   void read_buffers(const SceneConfig& scene, uint64_t memory);
+  // The files of a plan, and those that it was made of. What `own` makes may be written, at its
+  // place in the plan.
+  void read(const Plan& plan, const PlanStep* own = nullptr);
   // Error (kUsage) if it is an input, or an output already.
   void write(const std::string& path);
 
  private:
-  FileNames inputs_, outputs_;
+  FileNames inputs_;
+  std::unordered_set<std::string> outputs_;  // their places
 };
 
 }  // namespace svdag

@@ -18,6 +18,8 @@ struct OutputConfig {
   bool quiet = false;    // -q: errors only
   bool verbose = false;  // -v: seconds and memory per phase
   Progress::Mode progress = Progress::Mode::kAuto;
+
+  Progress::Mode mode() const { return quiet ? Progress::Mode::kOff : progress; }
 };
 
 struct BuildCommandConfig {
@@ -30,8 +32,8 @@ struct BuildCommandConfig {
   std::string batch;      // --batch: a list of bakes instead of a scene
   std::vector<std::string> given;  // the options of the command line, "--rule"
   bool keep_going = false;         // --keep-going: a bake that fails does not stop those after it
-  // What `svdag build` with these arguments would do, and as `defaults` do where they say nothing;
-  // an Error (kUsage) if they make no sense.
+  // Parses `arguments` as `svdag build` does, starting from `defaults`; an Error (kUsage) if they
+  // make no sense.
   std::function<BuildCommandConfig(const std::vector<std::string>& arguments,
                                    const BuildCommandConfig& defaults)>
       parse;
@@ -57,7 +59,7 @@ struct RunCommandConfig {
   OutputConfig output;
 };
 
-struct SubmitConfig {
+struct SubmitCommandConfig {
   std::string plan;
   std::string engine;         // slurm | openjd
   std::string program;        // --program: svdag on the other machines; "": this one
@@ -68,10 +70,11 @@ struct SubmitConfig {
   OutputConfig output;
 };
 
-struct InfoConfig {
+struct InfoCommandConfig {
   std::vector<std::string> paths;  // one .svdag or .run, or the files of one scene
   bool json = false;
-  bool levels = false;  // a table of levels
+  bool levels = false;  // a table of levels, or of the steps of a plan
+  bool parts = false;   // of scenes: a table of named parts
   NameFilter names;     // for scenes
   bool skip_invalid = false;
   bool sandbox = false;
@@ -83,23 +86,23 @@ int run_build(const BuildCommandConfig& config);
 int run_merge(const MergeCommandConfig& config);
 int run_plan(const PlanCommandConfig& config);
 int run_run(const RunCommandConfig& config);
-int run_submit(const SubmitConfig& config);
-int run_info(const InfoConfig& config);
+int run_submit(const SubmitCommandConfig& config);
+int run_info(const InfoCommandConfig& config);
 
-// The parts of run_build and run_merge that do steps of a plan, and that of the first that only
-// tells what it would take.
+// run_build with --shard, run_merge with --step, run_build with --dry-run.
 int run_shard(const BuildCommandConfig& config);
 int run_merge_step(const MergeCommandConfig& config);
 int run_dry(const BuildCommandConfig& config);
-// That which does a list of bakes; what it does for one, with the report as JSON in *json if given.
+// run_build with --batch: all bakes of a list. bake_scene does one; *json, if given, gets its
+// report.
 int run_batch(const BuildCommandConfig& config);
 std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& config);
 void bake_scene(const BuildCommandConfig& config, std::string* json = nullptr);
 // The files that a bake writes; an Error (kUsage) if the first of them has no name.
 std::vector<std::string> outputs_of(const BuildCommandConfig& config);
 // The parts of run_info that look at plans, runs and scenes.
-void info_plan(const InfoConfig& config);
-void info_run(const InfoConfig& config);
-void info_scene(const InfoConfig& config);
+void info_plan(const InfoCommandConfig& config);
+void info_run(const InfoCommandConfig& config);
+void info_scene(const InfoCommandConfig& config);
 
 }  // namespace svdag

@@ -28,7 +28,9 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
          "Do this merge of a plan; one that is done already is kept")
       ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
-  add_output_options(app, &config->output);
+  add_quiet(app, &config->output);
+  add_verbose(app, &config->output, "Print seconds and memory per phase");
+  add_progress(app, &config->output);
   add_examples(
       app,
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
@@ -56,8 +58,11 @@ CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
       2, 1000)
       ->type_name("N");
   add_grid_options(app, &plan->build);
-  add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch);
-  add_output_options(app, &config->output);
+  add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
+                       "PLAN/plan.scratch");
+  add_quiet(app, &config->output);
+  add_verbose(app, &config->output, "Print a table of the steps");
+  add_progress(app, &config->output);
   add_examples(app,
                {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
                "-m bounds the planning and each step; -j are the threads of a shard (default: 1). "
@@ -75,12 +80,13 @@ CLI::App* add_run(CLI::App* program, RunCommandConfig* config) {
   takes_folder(
       app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory"))
       ->type_name("DIR");
-  add_output_options(app, &config->output);
+  add_quiet(app, &config->output);
+  add_progress(app, &config->output);
   add_examples(app, {"svdag run city.plan -j 4"});
   return app;
 }
 
-CLI::App* add_submit(CLI::App* program, SubmitConfig* config) {
+CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config) {
   CLI::App* app = program->add_subcommand("submit", "Hand a plan to a farm");
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   one_of(app->add_option("--engine", config->engine,
@@ -101,7 +107,7 @@ CLI::App* add_submit(CLI::App* program, SubmitConfig* config) {
       app->add_option("--scratch", config->scratch, "Folder on the machines for what is spilled"))
       ->type_name("DIR");
   app->add_option("OPTION", config->options, "Behind --: options for the engine");
-  add_output_options(app, &config->output);
+  add_quiet(app, &config->output);
   add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",
                      "svdag submit city.plan --engine openjd -o city.openjd.json"});
   return app;

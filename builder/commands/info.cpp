@@ -51,15 +51,14 @@ void print_levels(const DagStats& stats) {
               format_count(stats.blocks).c_str(), format_count(stats.unique_blocks).c_str(), "");
 }
 
-void info_dag(const InfoConfig& config) {
+void info_dag(const InfoCommandConfig& config) {
   const DagFile file = DagFile::open(config.paths.front());
   const DagStats stats = compute_stats(file);
   if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
   const Header& h = file.header();
   const Grid grid = file.grid();
   std::printf("%s: %s^3 voxels, rule %s\n", file.path().c_str(),
-              format_resolution(uint64_t(grid.resolution())).c_str(),
-              file.rule() == Rule::kThin ? "thin" : "conservative");
+              format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()));
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
               format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
               format_double(h.corner[2]).c_str(), h.bounded ? ", restricted by --bounds" : "");
@@ -70,23 +69,31 @@ void info_dag(const InfoConfig& config) {
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
-  std::printf("  content hash %s\n", to_hex({h.content_hash[0], h.content_hash[1]}).c_str());
+  std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
   if (config.levels) print_levels(stats);
 }
 
 }  // namespace
 
-int run_info(const InfoConfig& config) {
+int run_info(const InfoCommandConfig& config) {
   const bool one = config.paths.size() == 1;
-  if (one && is_plan(config.paths.front())) {
+  const std::string& first = config.paths.front();
+  const auto refuse = [&](bool given, const char* option, const char* what) {
+    if (given) fail_usage(std::string(option) + ": " + first + " is a " + what);
+  };
+  if (one && is_plan(first)) {
+    refuse(config.parts, "--parts", "plan");
     info_plan(config);
-  } else if (one && begins_with(kMagic, config.paths.front())) {
+  } else if (one && begins_with(kMagic, first)) {
+    refuse(config.parts, "--parts", ".svdag");
     info_dag(config);
-  } else if (one && begins_with(kRunMagic, config.paths.front())) {
+  } else if (one && begins_with(kRunMagic, first)) {
+    refuse(config.parts, "--parts", "run");
+    refuse(config.levels, "--levels", "run");
     info_run(config);
   } else {
-    const std::string& first = config.paths.front();
     if (one && first.ends_with(".svdag")) refuse_symvox(File::open_read(first));
+    refuse(config.levels, "--levels", "scene");
     info_scene(config);
   }
   return int(ExitCode::kOk);

@@ -7,7 +7,7 @@
 
 namespace svdag {
 
-CLI::App* add_info(CLI::App* program, InfoConfig* config) {
+CLI::App* add_info(CLI::App* program, InfoCommandConfig* config) {
   CLI::App* app = program->add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
   std::vector<std::string> endings = kSceneEndings;
   endings.insert(endings.begin(), {".svdag", ".run"});
@@ -16,7 +16,10 @@ CLI::App* add_info(CLI::App* program, InfoConfig* config) {
               endings)
       ->required();
   app->add_flag("--json", config->json, "Print JSON");
-  app->add_flag("--levels", config->levels, "Print a table of the levels of a .svdag");
+  app->add_flag("--levels", config->levels,
+                "Print a table of the levels of a .svdag, or of the steps of a plan");
+  app->add_flag("--parts", config->parts,
+                "Print the names of a scene's parts, as --include takes them");
   add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
   add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});

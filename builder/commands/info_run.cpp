@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
-#include "builder/run_check.h"
+#include "builder/run/run_check.h"
 #include "io/json_text.h"
 #include "io/units.h"
 
@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string hash_of(const RunFile& run) {
-  return to_hex({run.header().content_hash[0], run.header().content_hash[1]});
+  return to_hex(run.header().content_hash);
 }
 
 // Of all voxels of the grid, how many lie in the part.
@@ -28,7 +28,7 @@ void print_json(const RunFile& run) {
                {"version", h.version},
                {"levels", h.levels},
                {"resolution", run.grid().resolution()},
-               {"rule", run.rule() == Rule::kThin ? "thin" : "conservative"},
+               {"rule", rule_name(run.rule())},
                {"voxels", h.voxels},
                {"largest_snap", h.largest_snap},
                {"ranges", Json::array()},
@@ -49,7 +49,7 @@ void print_text(const RunFile& run) {
   for (const uint64_t count : h.keys) nodes += count;
   std::printf("%s: a run of %.4g %% of %s^3 voxels, rule %s\n", run.path().c_str(),
               100 * share_of(run), format_resolution(uint64_t(run.grid().resolution())).c_str(),
-              run.rule() == Rule::kThin ? "thin" : "conservative");
+              rule_name(run.rule()));
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
               format_double(corner.x).c_str(), format_double(corner.y).c_str(),
               format_double(corner.z).c_str(), h.bounded ? ", restricted by --bounds" : "");
@@ -61,8 +61,8 @@ void print_text(const RunFile& run) {
 
 }  // namespace
 
-void info_run(const InfoConfig& config) {
-  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
+void info_run(const InfoCommandConfig& config) {
+  MemoryBudget budget(memory_or_default(config.memory));
   const RunFile run = RunFile::open(config.paths.front(), &budget);
   check_run(run, budget.limit() / 4, &budget);
   config.json ? print_json(run) : print_text(run);

@@ -1,34 +1,54 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <utility>
 
 #include "builder/commands/commands.h"
+#include "builder/commands/scene_notes.h"
 #include "io/json_text.h"
 #include "io/scene/mesh_stats.h"
 #include "io/units.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-void print_json(const InfoConfig& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats) {
-  const Json json = {{"scene", config.paths},
-                     {"triangles", stats.triangles},
-                     {"invalid", counts.invalid},
-                     {"bounds", {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}},
-                     {"positions", stats.positions},
-                     {"repeated_corners", stats.repeated},
-                     {"zero_area", stats.zero_area},
-                     {"duplicates", stats.duplicates},
-                     {"open_edges", stats.open_edges},
-                     {"non_manifold_edges", stats.non_manifold_edges},
-                     {"components", stats.components}};
+using Parts = std::vector<std::pair<std::string, uint64_t>>;  // names and triangles, as they come
+
+Parts list_parts(const Scene& scene) {
+  Parts parts;
+  std::unordered_map<std::string, size_t> place;
+  scene.stream([&](const TriangleBatch& batch) {
+    const auto [at, added] = place.emplace(batch.mesh, parts.size());
+    if (added) parts.emplace_back(batch.mesh, 0);
+    parts[at->second].second += batch.triangles.size();
+  });
+  return parts;
+}
+
+void print_json(const InfoCommandConfig& config, const Box& box, const SceneCounts& counts,
+                const MeshStats& stats, const Parts& parts) {
+  Json json = {{"scene", config.paths},
+               {"triangles", stats.triangles},
+               {"invalid", counts.invalid},
+               {"undeformed", counts.undeformed},
+               {"bounds", {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}},
+               {"positions", stats.positions},
+               {"repeated_corners", stats.repeated},
+               {"zero_area", stats.zero_area},
+               {"duplicates", stats.duplicates},
+               {"open_edges", stats.open_edges},
+               {"non_manifold_edges", stats.non_manifold_edges},
+               {"components", stats.components}};
+  for (const auto& [name, triangles] : parts)
+    json["parts"].push_back({{"name", name}, {"triangles", triangles}});
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
-void print_text(const InfoConfig& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats) {
+void print_text(const InfoCommandConfig& config, const Box& box, const SceneCounts& counts,
+                const MeshStats& stats, const Parts& parts) {
   const auto point = [](const Point& p) {
     return "(" + format_double(p.x) + ", " + format_double(p.y) + ", " + format_double(p.z) + ")";
   };
@@ -47,17 +67,24 @@ void print_text(const InfoConfig& config, const Box& box, const SceneCounts& cou
   if (counts.invalid > 0)
     std::printf("  %s triangles with NaN or infinity left out\n",
                 format_count(counts.invalid).c_str());
+  print_scene_notes(counts);
+  if (config.parts) std::printf("\n  %14s  part\n", "triangles");
+  for (const auto& [name, triangles] : parts)
+    std::printf("  %14s  %s\n", format_count(triangles).c_str(),
+                name.empty() ? "(no name)" : printable(name).c_str());
 }
 
 }  // namespace
 
-void info_scene(const InfoConfig& config) {
-  MemoryBudget budget(config.memory != 0 ? config.memory : default_memory_limit());
+void info_scene(const InfoCommandConfig& config) {
+  MemoryBudget budget(memory_or_default(config.memory));
   const Scene scene({config.paths, config.names, config.skip_invalid, config.sandbox}, &budget);
   SceneCounts counts;
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);
-  config.json ? print_json(config, box, counts, stats) : print_text(config, box, counts, stats);
+  const Parts parts = config.parts ? list_parts(scene) : Parts();
+  config.json ? print_json(config, box, counts, stats, parts)
+              : print_text(config, box, counts, stats, parts);
 }
 
 }  // namespace svdag

@@ -24,14 +24,14 @@ int run_command(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
-  app.set_version_flag("--version", "svdag " SVDAG_VERSION, "Print the version and exit");
+  app.set_version_flag("-V,--version", "svdag " SVDAG_VERSION, "Print the version and exit");
   app.require_subcommand(1);
   BuildCommandConfig build;
   MergeCommandConfig merge;
   PlanCommandConfig plan;
   RunCommandConfig run;
-  SubmitConfig submit;
-  InfoConfig info;
+  SubmitCommandConfig submit;
+  InfoCommandConfig info;
   std::string subject;
   CLI::App* build_app = add_build(&app, &build);
   CLI::App* merge_app = add_merge(&app, &merge);
@@ -44,7 +44,9 @@ int run_command(int argc, char** argv) {
   add_help(&app, &subject);
   add_examples(&app,
                {"svdag build city.glb -o city.svdag -r 64K", "svdag help build", "svdag help grid"},
-               list_of_topics());
+               list_of_topics() +
+                   "\n\nsvdag-verify proves what was baked, and makes pictures of it; "
+                   "svdag-trace traces rays through it.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
   return build_app->parsed()    ? run_build(build)
          : merge_app->parsed()  ? run_merge(merge)

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "builder/commands/commands.h"
+#include "builder/run/bake_output.h"
 #include "io/units.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
@@ -17,6 +18,7 @@ void refuse_overwriting_inputs(const MergeRunsConfig& config) {
       if (same_file(config.runs[i], config.runs[j])) fail_usage(config.runs[i] + " is given twice");
     }
   }
+  refuse_foreign_name(config.output);
 }
 
 void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
@@ -42,8 +44,8 @@ int run_merge(const MergeCommandConfig& config) {
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   refuse_overwriting_inputs(config.merge);
   AtomicFile::check(config.merge.output);
-  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
-  Progress progress(config.output.quiet ? Progress::Mode::kOff : config.output.progress);
+  ParallelExecutor executor(threads_or_all(config.threads));
+  Progress progress(config.output.mode());
   const MergeRunsReport report = merge_runs(config.merge, &executor, &progress);
   if (!config.output.quiet) print_summary(config, report);
   return int(ExitCode::kOk);

@@ -17,14 +17,18 @@ CLI::App* add_build(CLI::App* program, BuildCommandConfig* config);
 CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config);
 CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config);
 CLI::App* add_run(CLI::App* program, RunCommandConfig* config);
-CLI::App* add_submit(CLI::App* program, SubmitConfig* config);
-CLI::App* add_info(CLI::App* program, InfoConfig* config);
+CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config);
+CLI::App* add_info(CLI::App* program, InfoCommandConfig* config);
 
 // What several commands understand (shared_options.cpp).
-void add_output_options(CLI::App* app, OutputConfig* output);
+void add_quiet(CLI::App* app, OutputConfig* output);
+void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text);
+void add_progress(CLI::App* app, OutputConfig* output);
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox);
 // Memory, threads and disk; the result is the same with any of them.
-void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch);
+// `own_scratch`: where it is by default, in words.
+void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
+                          const char* own_scratch = "OUT.scratch");
 // The grid of a bake; one of the options in the group returned is required.
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build);
 

@@ -2,10 +2,9 @@
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/scene_notes.h"
 #include "builder/farm/plan_folder.h"
 #include "builder/farm/print_plan.h"
-#include "builder/farm/receipt.h"
-#include "io/units.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
 
@@ -19,7 +18,7 @@ std::string output_name(const std::string& scene) {
 }
 
 Plan plan(PlanConfig config, const OutputConfig& output) {
-  Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
+  Progress progress(output.mode());
   config.output = output_name(config.build.scene.paths.front());
   return make_plan(config, &progress);
 }
@@ -31,34 +30,26 @@ int run_plan(const PlanCommandConfig& config) {
   files.read(config.plan.build.scene.paths);
   for (const std::string& file : own_files(config.plan.folder)) files.write(file);
   const Plan made = plan(config.plan, config.output);
-  if (!config.output.quiet) print_plan(made, config.output.verbose);
+  if (config.output.quiet) return int(ExitCode::kOk);
+  print_plan(made, config.output.verbose);
+  print_scene_notes(made.counts.scene);
   return int(ExitCode::kOk);
 }
 
-// A bake is one shard with the threads and the memory of the bake, merged at once.
+// svdag build --dry-run: a bake is one shard with the threads and the memory of the bake, merged at
+// once.
 int run_dry(const BuildCommandConfig& config) {
   if (config.build.part)
     fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
   AtomicFile::check(config.build.output);
   PlanConfig dry;
   dry.build = config.build;
-  dry.step_threads = config.threads != 0 ? config.threads : available_processors();
+  dry.step_threads = threads_or_all(config.threads);
   const Plan made = plan(dry, config.output);
-  if (!config.output.quiet) print_bake(made, config.build.output);
+  if (config.output.quiet) return int(ExitCode::kOk);
+  print_bake(made, config.build.output);
+  print_scene_notes(made.counts.scene);
   return int(ExitCode::kOk);
-}
-
-void info_plan(const InfoConfig& config) {
-  const Plan plan = load_plan(config.paths.front(), true);
-  if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
-  print_plan(plan, config.levels);
-  size_t done = 0;
-  for (const PlanStep& step : plan.steps)
-    done += state_of(plan, step, plan.path(step.output), false) == OutputState::kValid;
-  for (const PlanInput& input : plan.inputs)
-    std::printf("  input %s, %s, content %s\n", input.path.c_str(),
-                format_bytes(input.bytes).c_str(), input.hash.c_str());
-  std::printf("  %zu of %zu steps are done\n", done, plan.steps.size());
 }
 
 }  // namespace svdag

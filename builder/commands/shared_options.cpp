@@ -1,6 +1,5 @@
 // What several commands understand.
 #include <CLI/CLI.hpp>
-#include <map>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
@@ -11,6 +10,13 @@
 namespace svdag {
 namespace {
 
+Rule parse_rule(const std::string& name) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    if (name == rule_name(rule)) return rule;
+  }
+  fail_usage("--rule: \"" + name + "\" is no rule: conservative or thin");
+}
+
 double checked_voxel_size(double size) {
   if (size == 0) fail_usage("--voxel-size: 0 is not a size");
   return size;
@@ -18,9 +24,15 @@ double checked_voxel_size(double size) {
 
 }  // namespace
 
-void add_output_options(CLI::App* app, OutputConfig* output) {
+void add_quiet(CLI::App* app, OutputConfig* output) {
   app->add_flag("-q,--quiet", output->quiet, "Print errors only");
-  app->add_flag("-v,--verbose", output->verbose, "Print seconds and memory per phase");
+}
+
+void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text) {
+  app->add_flag("-v,--verbose", output->verbose, text);
+}
+
+void add_progress(CLI::App* app, OutputConfig* output) {
   app->add_flag_callback(
       "--progress", [output] { output->progress = Progress::Mode::kOn; },
       "Show progress even if stderr is no terminal");
@@ -43,13 +55,15 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
                 "Decode Draco and OpenMesh data in a limited process: for scenes of strangers");
 }
 
-void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch) {
+void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
+                          const char* own_scratch) {
   add_memory_budget(app, memory);
   from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");
   takes_folder(app->add_option("--scratch", *scratch,
-                               "Folder for what does not fit in memory (default: OUT.scratch)"))
+                               "Folder for what does not fit in memory (default: " +
+                                   std::string(own_scratch) + ")"))
       ->type_name("DIR");
 }
 
@@ -76,14 +90,11 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
-  static const std::map<std::string, Rule> kRules = {{"conservative", Rule::kConservative},
-                                                     {"thin", Rule::kThin}};
-  suggests(app->add_option(
-               "--rule", build->descent.rule,
+  suggests(app->add_option_function<std::string>(
+               "--rule", [build](const std::string& s) { build->descent.rule = parse_rule(s); },
                "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
-               "about 1.8 times fewer voxels"),
+               "1.05 (walls) to 1.9 (curved surfaces) times fewer voxels"),
            {"conservative", "thin"})
-      ->transform(CLI::CheckedTransformer(kRules).description(""))
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);
   return grid;

@@ -4,14 +4,13 @@
 
 #include <filesystem>
 
+#include "builder/farm/process.h"
 #include "streaming/error.h"
 
 namespace svdag {
 
 void become_sibling(const char* name, char** argv) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string program = self.parent_path() / name;
+  const std::string program = std::filesystem::path(own_program()).parent_path() / name;
   ::execv(program.c_str(), argv + 1);
   fail_usage("svdag " + std::string(argv[1]) + " needs the program " + program +
              ", which is not there or does not start: install it beside svdag");

@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <set>
 
+#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "builder/farm/run_step.h"
 #include "builder/farm/shell.h"
+#include "builder/farm/step_name.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -28,8 +30,11 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
 
 int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
         const OutputConfig& output) {
+  CommandFiles files;
+  files.read(plan, &step);
+  files.write(config.output.empty() ? plan.path(step.output) : config.output);
   ParallelExecutor executor(threads != 0 ? threads : step.threads);
-  Progress progress(output.quiet ? Progress::Mode::kOff : output.progress);
+  Progress progress(output.mode());
   StepReport report;
   try {
     report = run_step(plan, step, config, &executor, &progress);
@@ -80,7 +85,7 @@ int run_shard(const BuildCommandConfig& config) {
   const Plan plan = load_plan(build.scene.paths.front(), true);
   if (config.shard > plan.shards())
     fail_usage("--shard: the plan has shards 1 to " + std::to_string(plan.shards()));
-  const PlanStep& step = find_step(plan, "shard-" + std::to_string(config.shard));
+  const PlanStep& step = find_step(plan, shard_name(config.shard));
   StepConfig shard{build.output, build.memory, build.scratch};
   if (std::find(config.given.begin(), config.given.end(), "--checkpoint") != config.given.end())
     shard.checkpoint = build.checkpoint;

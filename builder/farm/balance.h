@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "builder/part.h"
+#include "builder/octree/part.h"
 
 namespace svdag {
 

@@ -10,7 +10,7 @@
 
 #include "builder/farm/cell_key.h"
 #include "builder/farm/pack_blocks.h"
-#include "builder/shares.h"
+#include "builder/spill/shares.h"
 #include "streaming/counts.h"
 
 namespace svdag {

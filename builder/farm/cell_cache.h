@@ -4,13 +4,13 @@
 // with new cells. A bake reads the entries of all packs when it begins, takes what it meets, and
 // adds packs of its own at its end, each under a random name and complete from the moment that it
 // has the name: any number of bakes may share the folder. A pack is read through before anything of
-// it is taken, and stays open then, for another bake may remove it. One that is damaged is removed;
-// one that cannot be opened or read just now is left alone; both are as if they had never been, and
-// so are those that are met when as many as may be are open, and those for whose entries the share
-// of the memory (builder/shares.h) has no room beside those that were used since. Beyond the
-// folder's limits the packs that were not used for the longest time go first: one limit is of
-// bytes, the other of packs, for small ones are never joined to larger ones and each costs a bake
-// its reading. Rejected: a file per cell (262,144 at 64K^3), one data base (locks over NFS).
+// it is taken, and stays open then, for another bake may remove it. A damaged pack is removed. A
+// pack that cannot be opened or read just now is skipped; so are packs beyond the number that may
+// be open at once, and the least recently used where the entries of all have no room in their share
+// of the memory (builder/spill/shares.h). The folder has two limits, of bytes and of packs, for
+// small packs are never joined and each costs a bake its reading: beyond them the packs go that
+// were not used for the longest time. Rejected: a file per cell (262,144 at 64K^3), one data base
+// (locks over NFS).
 #pragma once
 
 #include <filesystem>

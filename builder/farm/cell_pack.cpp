@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "builder/farm/pack_blocks.h"
+#include "builder/farm/pack_extraction.h"
 #include "streaming/checksum.h"
 #include "streaming/rank_bitmap.h"
 
@@ -12,25 +12,10 @@ namespace {
 
 constexpr char kPackMagic[8] = {'s', 'v', 'c', 'e', 'l', 'l', 's', '\n'};
 constexpr uint32_t kPackVersion = 1;
-constexpr uint32_t kBrickHeight = 2;
 constexpr uint32_t kHeights = PackHeader::kHeights;
 
-static_assert(sizeof(PackHeader) == kPackBegin && sizeof(PackEntry) == 48);
-
-uint64_t key_bytes(uint32_t height) {
-  return height == kBrickHeight ? sizeof(Brick) : sizeof(NodeKey);
-}
-
-// Where the section of `height` begins; that of kHeights is the entries.
-uint64_t begin_of(const PackHeader& header, uint32_t height) {
-  uint64_t at = 0;
-  for (uint32_t h = kBrickHeight; h < height; ++h)
-    at = align_pack(at + header.keys[h] * key_bytes(h));
-  return at;
-}
-
 uint64_t payload_of(const PackHeader& header) {
-  return begin_of(header, kHeights) + header.entries * sizeof(PackEntry);
+  return pack_section(header, kHeights) + header.entries * sizeof(PackEntry);
 }
 
 uint64_t blocks_of(const PackHeader& header) {
@@ -39,11 +24,6 @@ uint64_t blocks_of(const PackHeader& header) {
 
 uint64_t checksum_of(const PackHeader& header) {
   return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(PackHeader, checksum)));
-}
-
-template <class Key>
-std::span<const Key> keys_in(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const Key*>(bytes.data()), bytes.size() / sizeof(Key)};
 }
 
 // Appends the keys of a level, wherever they are; returns how many there are.
@@ -60,36 +40,6 @@ uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget*
   return level.spilled->bytes / sizeof(Key);
 }
 
-// Collects the keys of one level of a run, in memory or in a stream.
-template <class Key>
-class LevelWriter {
- public:
-  LevelWriter(RunLevel<Key>* level, uint64_t count, int number, MemoryBudget* budget,
-              const SpillTarget* target)
-      : level_(level) {
-    if (target != nullptr) {
-      writer_.emplace(target->file, target->first_stream + uint64_t(number), budget);
-    } else {
-      level->reservation = budget->reserve(count * sizeof(Key), "cells of the cache");
-      level->keys.reserve(count);
-    }
-  }
-  void add(const Key& key) {
-    if (writer_) {
-      writer_->append(std::as_bytes(std::span(&key, 1)));
-    } else {
-      level_->keys.push_back(key);
-    }
-  }
-  void finish() {
-    if (writer_) level_->spilled = writer_->finish();
-  }
-
- private:
-  RunLevel<Key>* level_;
-  std::optional<SpillWriter> writer_;
-};
-
 // Keys of one height, of which none is empty: what a merge relies on.
 template <class Key>
 class Ascending {
@@ -103,78 +53,6 @@ class Ascending {
  private:
   const std::string& path_;
   Key last_{};
-};
-
-// Copies what taken nodes reach out of a proven pack.
-class Extraction {
- public:
-  using Read =
-      std::function<void(uint32_t height, const std::function<void(std::span<std::byte>)>&)>;
-
-  Extraction(const PackHeader& header, const std::string& path, Read read, MemoryBudget* budget)
-      : header_(header), path_(path), read_(std::move(read)), budget_(budget) {
-    for (uint32_t h = 0; h < kHeights; ++h) marks_.emplace_back(budget, "marks of a pack");
-  }
-
-  void take(const PackEntry& entry) { marks_[entry.height].set(entry.rank); }
-
-  Run run(int levels, const SpillTarget* target) {
-    for (uint32_t h = kHeights - 1; h > kBrickHeight; --h) mark_children(h);
-    std::vector<uint64_t> counts;
-    for (RankBitmap& marks : marks_) {
-      marks.seal();
-      counts.push_back(marks.count());
-    }
-    Run run;
-    run.nodes.resize(size_t(levels - 2));
-    copy(kBrickHeight, counts[kBrickHeight], levels - 2, target, &run.bricks);
-    for (int level = levels - 3; level >= 0; --level) {
-      const uint32_t h = uint32_t(levels - level);
-      copy(h, counts[h], level, target, &run.nodes[size_t(level)]);
-    }
-    return run;
-  }
-  uint32_t rank(const PackEntry& entry) const { return marks_[entry.height].rank(entry.rank); }
-
- private:
-  void mark_children(uint32_t height) {
-    uint32_t rank = 0;
-    read_(height, [&](std::span<std::byte> bytes) {
-      for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
-        if (!marks_[height].has(rank++)) continue;
-        for (const uint32_t child : key) {
-          SVDAG_ASSERT(child <= header_.keys[height - 1]);  // the pack was proven
-          if (child != 0) marks_[height - 1].set(child - 1);
-        }
-      }
-    });
-  }
-
-  template <class Key>
-  void copy(uint32_t height, uint64_t count, int level, const SpillTarget* target,
-            RunLevel<Key>* out) {
-    LevelWriter<Key> writer(out, count, level, budget_, target);
-    uint32_t rank = 0;
-    if (count > 0) {
-      read_(height, [&](std::span<std::byte> bytes) {
-        for (const Key& key : keys_in<Key>(bytes)) {
-          if (marks_[height].has(rank++)) writer.add(translated(key, height));
-        }
-      });
-    }
-    writer.finish();
-  }
-  Brick translated(Brick brick, uint32_t) const { return brick; }
-  NodeKey translated(NodeKey key, uint32_t height) const {
-    for (uint32_t& child : key) child = child == 0 ? 0 : 1 + marks_[height - 1].rank(child - 1);
-    return key;
-  }
-
-  const PackHeader& header_;
-  const std::string& path_;
-  Read read_;
-  MemoryBudget* budget_;
-  std::vector<RankBitmap> marks_;  // [height]
 };
 
 }  // namespace
@@ -194,7 +72,7 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
   for (const BakedCell& cell : baked.cells) {
     PackEntry entry{cell.key, cell.voxels, 0, kNoNode};
     if (cell.root != BakedCell::kNoRoot) {
-      const CellRoot& root = baked.roots[cell.root];
+      const SubDagRoot& root = baked.roots[cell.root];
       entry.height = uint32_t(levels - root.level);
       entry.rank = root.rank;
     }
@@ -238,7 +116,7 @@ void Pack::read_entries(MemoryBudget* budget) {
   file.read_at(kPackBegin + payload, std::as_writable_bytes(std::span(checksums_)));
   entries_.resize(header_.entries);
   std::byte* to = reinterpret_cast<std::byte*>(entries_.data());
-  read_pack(file, checksums_, payload, begin_of(header_, kHeights), payload,
+  read_pack(file, checksums_, payload, pack_section(header_, kHeights), payload,
             [&](std::span<std::byte> bytes) {
               std::memcpy(to, bytes.data(), bytes.size());
               to += bytes.size();
@@ -250,21 +128,23 @@ void Pack::read_entries(MemoryBudget* budget) {
   }
 }
 
+void Pack::read_height(const File& file, uint32_t height,
+                       const std::function<void(std::span<std::byte>)>& use) const {
+  const uint64_t begin = pack_section(header_, height);
+  read_pack(file, checksums_, payload_of(header_), begin,
+            begin + header_.keys[height] * pack_key_bytes(height), use);
+}
+
 void Pack::prove() {
   if (file_.descriptor() >= 0) return;
   File file = File::open_read(path_);
-  const auto read = [&](uint32_t height, const auto& use) {
-    const uint64_t begin = begin_of(header_, height);
-    read_pack(file, checksums_, payload_of(header_), begin,
-              begin + header_.keys[height] * key_bytes(height), use);
-  };
   Ascending<Brick> bricks(path_);
-  read(kBrickHeight, [&](std::span<std::byte> bytes) {
+  read_height(file, kBrickHeight, [&](std::span<std::byte> bytes) {
     for (const Brick brick : keys_in<Brick>(bytes)) bricks.add(brick);
   });
   for (uint32_t h = kBrickHeight + 1; h < kHeights; ++h) {
     Ascending<NodeKey> nodes(path_);
-    read(h, [&](std::span<std::byte> bytes) {
+    read_height(file, h, [&](std::span<std::byte> bytes) {
       for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
         nodes.add(key);
         if (*std::max_element(key.begin(), key.end()) > header_.keys[h - 1])
@@ -280,12 +160,8 @@ BakedRun Pack::extract(std::vector<Taken> taken, int levels, MemoryBudget* budge
   const auto range_of = [&](const Taken& t) { return morton_range(t.cube, levels); };
   std::sort(taken.begin(), taken.end(),
             [&](const Taken& a, const Taken& b) { return range_of(a).begin < range_of(b).begin; });
-  const auto read = [&](uint32_t height, const std::function<void(std::span<std::byte>)>& use) {
-    const uint64_t begin = begin_of(header_, height);
-    read_pack(file_, checksums_, payload_of(header_), begin,
-              begin + header_.keys[height] * key_bytes(height), use);
-  };
-  Extraction extraction(header_, path_, read, budget);
+  PackExtraction extraction(
+      header_, [&](uint32_t height, const auto& use) { read_height(file_, height, use); }, budget);
   for (const Taken& t : taken) {
     if (entries_[t.entry].rank != kNoNode) extraction.take(entries_[t.entry]);
   }

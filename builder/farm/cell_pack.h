@@ -1,15 +1,7 @@
 // A pack: the sub-DAGs of the cells that one worker baked, in one file of a cell cache.
 //
-//   header | bricks | nodes of height 3, 4, ... | entries | checksums
-//
-// Heights instead of levels (a node of height h covers 2^h voxels a side, bricks have 2), so that a
-// pack serves grids of any resolution. Each height is sorted and closed like a level of a run
-// (builder/run.h): children are 1 + rank in the height below. An entry says which node is the
-// sub-DAG of which key, or that nothing is set. The checksums are those of 64 KiB blocks.
-//
-// What a bake takes of a pack is a run again: what the taken nodes reach, which is marked from the
-// top down and copied from the bricks up, with ranks for the old ranks. Both orders are the same,
-// so nothing is sorted.
+// What is in it: builder/farm/pack_layout.h. What a bake takes of it:
+// builder/farm/pack_extraction.h.
 #pragma once
 
 #include <memory>
@@ -18,32 +10,11 @@
 #include <vector>
 
 #include "builder/cell_store.h"
+#include "builder/farm/pack_layout.h"
 #include "builder/voxelize.h"
 #include "streaming/file.h"
 
 namespace svdag {
-
-constexpr uint32_t kNoNode = 0xffffffffU;
-
-struct PackEntry {
-  CellKey key;
-  uint64_t voxels;
-  uint32_t height;
-  uint32_t rank;  // kNoNode: nothing is set in the cell
-};
-
-struct PackHeader {
-  static constexpr uint32_t kHeights = 21;
-
-  char magic[8];
-  uint32_t version;
-  uint32_t unused;
-  uint64_t keys[kHeights];  // [h]: of height h
-  uint64_t entries;
-  uint64_t file_bytes;
-  unsigned char reserved[48];  // zero
-  uint64_t checksum;           // XXH3-64 of all before
-};
 
 // Writes the cells of `baked` that have keys, baked in a grid of `levels` levels, for packs that
 // are read later; nothing if there are none. `runs` holds the run if it was spilled.
@@ -80,6 +51,10 @@ class Pack {
                    const SpillTarget* target) const;
 
  private:
+  // Reads the section of `height` in order, piece by piece.
+  void read_height(const File& file, uint32_t height,
+                   const std::function<void(std::span<std::byte>)>& use) const;
+
   std::string path_;
   PackHeader header_{};
   MemoryBudget::Reservation counted_;  // the next two

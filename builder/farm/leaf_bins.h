@@ -1,16 +1,16 @@
 // The triangles of a plan: bins so fine that a shard reads little beyond its own.
 //
-// The split's triangles are dealt into bins (builder/triangle_bins.h), heavy bins dealt again,
-// until a bin is light, or a cell, or its triangles so large that dealing them would only copy
-// them. What is left stands in Morton order in one file, each bin's blocks one behind the other, so
-// a shard reads a few long ranges. Rejected: a file per shard (triangles on borders and of large
-// walls would stand in many, and shards could not be cut anew).
+// The split's triangles are dealt into bins (builder/split/triangle_bins.h), heavy bins dealt
+// again, until a bin is light, or a cell, or its triangles so large that dealing them would only
+// copy them. What is left stands in Morton order in one file, each bin's blocks one behind the
+// other, so a shard reads a few long ranges. Rejected: a file per shard (triangles on borders and
+// of large walls would stand in many, and shards could not be cut anew).
 #pragma once
 
 #include <vector>
 
-#include "builder/part.h"
-#include "builder/split.h"
+#include "builder/octree/part.h"
+#include "builder/split/split.h"
 
 namespace svdag {
 

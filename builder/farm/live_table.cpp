@@ -27,6 +27,10 @@ void LiveTable::tell(size_t step, const StepRow& row) {
   const PlanStep& s = plan_.steps[step];
   if (row.state == StepState::kDone) {
     if (live_) return;
+    if (row.already) {
+      std::printf("%-10s is done already\n", s.name.c_str());
+      return;
+    }
     std::printf("%-10s done in %.1f s (planned %.1f s)", s.name.c_str(), row.seconds,
                 s.predicted.seconds);
     if (row.receipt)
@@ -84,14 +88,20 @@ void LiveTable::finish(const std::vector<StepRow>& rows) {
   if (quiet_) return;
   double cpu = 0;
   uint64_t memory = 0;
-  size_t done = 0;
+  size_t done = 0, already = 0;
   for (const StepRow& row : rows) {
     done += row.state == StepState::kDone;
-    if (row.receipt) cpu += row.receipt->cpu;
-    if (row.receipt) memory = std::max(memory, row.receipt->memory);
+    already += row.already;
+    if (!row.receipt || row.already) continue;
+    cpu += row.receipt->cpu;
+    memory = std::max(memory, row.receipt->memory);
   }
-  std::printf("%zu of %zu steps done in %.1f s: %.1f CPU seconds, at most %s of memory in a step\n",
-              done, rows.size(), seconds(Clock::now() - begin_), cpu, format_bytes(memory).c_str());
+  const std::string before =
+      already == 0 ? "" : " (" + std::to_string(already) + " of them before)";
+  std::printf(
+      "%zu of %zu steps done%s in %.1f s: %.1f CPU seconds, at most %s of memory in a step\n", done,
+      rows.size(), before.c_str(), seconds(Clock::now() - begin_), cpu,
+      format_bytes(memory).c_str());
 }
 
 }  // namespace svdag

@@ -18,7 +18,9 @@ struct StepRow {
   StepState state = StepState::kWaiting;
   int attempts = 0;
   bool others = false;  // somebody else's process does it, which is waited for
-  int code = 0;         // of the last attempt
+  std::chrono::steady_clock::time_point next_look;  // whether it still does
+  int code = 0;                                     // of the last attempt
+  bool already = false;                             // was done before it was asked for
   pid_t process = 0;
   std::chrono::steady_clock::time_point begin;
   double seconds = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "builder/checkpoint.h"
 #include "builder/choose_grid.h"
@@ -13,8 +14,10 @@
 #include "builder/farm/merge_tree.h"
 #include "builder/farm/pilot.h"
 #include "builder/farm/plan_folder.h"
+#include "builder/farm/step_name.h"
 #include "builder/scene_watch.h"
 #include "streaming/error.h"
+#include "streaming/file.h"
 #include "streaming/file_folder.h"
 
 namespace svdag {
@@ -57,7 +60,7 @@ class Planner {
   Planner(const PlanConfig& config, Progress* progress)
       : config_(config),
         progress_(progress),
-        budget_(config.build.memory != 0 ? config.build.memory : default_memory_limit()),
+        budget_(memory_or_default(config.build.memory)),
         folder_(scratch_path(config)),
         scratch_(&folder_, &budget_),
         vertices_{budget_.limit() / 4, [this] { return scratch_.passing(); },
@@ -174,7 +177,7 @@ void Planner::make_steps() {
 void Planner::add_shards(const std::vector<ShardWork>& works) {
   for (size_t i = 0; i < shards_.size(); ++i) {
     PlanStep step;
-    step.name = "shard-" + std::to_string(i + 1);
+    step.name = shard_name(i + 1);
     step.cells = shards_[i];
     step.triangles = works[i].triangles;
     step.output = "runs/" + step.name + ".run";
@@ -184,8 +187,8 @@ void Planner::add_shards(const std::vector<ShardWork>& works) {
   }
 }
 
-// What shards have in common is known for one of them (nothing) and for all; in between it is
-// reckoned by the number of shards.
+// The share of nodes that shards have in common is 0 for one shard and measured for all; between,
+// it is interpolated in the logarithm of their number.
 void Planner::add_merges(const std::vector<ShardWork>& works) {
   const size_t shards = works.size();
   std::vector<NodeCounts> found;   // by step
@@ -204,7 +207,7 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
   const MergeTree tree = merge_tree(shards, config_.fan_in);
   for (size_t m = 0; m < tree.size(); ++m) {
     PlanStep step;
-    step.name = "merge-" + std::to_string(m + 1);
+    step.name = merge_name(m + 1);
     step.inputs = tree[m];
     NodeCounts read, sum;
     size_t count = 0;
@@ -236,6 +239,19 @@ void Planner::save() {
 }
 
 }  // namespace
+
+void discard_dry_run(const BuildConfig& build) {
+  PlanConfig dry;
+  dry.build = build;
+  const std::string path = scratch_path(dry);
+  std::error_code none;
+  if (!std::filesystem::exists(path, none) || ScratchDir::in_use(path)) return;
+  try {
+    ScratchDir folder(path);
+    if (Checkpoint::exists(folder)) folder.keep();  // of a bake whose output has such a name
+  } catch (const Error&) {                          // somebody else's; it is in nobody's way
+  }
+}
 
 Plan make_plan(const PlanConfig& config, Progress* progress) {
   PlanConfig own = config;

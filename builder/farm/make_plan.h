@@ -17,6 +17,11 @@ struct PlanConfig {
   std::string output;  // name of the finished file in the plan's folder
 };
 
+// Removes what a killed dry run of this bake has left in its scratch folder: the bake itself spills
+// elsewhere and would not come upon it. A folder that a process owns, or that is of no dry run,
+// stays.
+void discard_dry_run(const BuildConfig& build);
+
 // Error (kUsage) if the folder holds a plan already, or files that are of no plan.
 Plan make_plan(const PlanConfig& config, Progress* progress);
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/farm/plan_index.h"
+#include "builder/farm/step_name.h"
+#include "io/json_number.h"
 #include "streaming/atomic_file.h"
 #include "streaming/checksum.h"
 #include "streaming/counts.h"
@@ -18,18 +20,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 2;
-constexpr std::string_view kShard = "shard-";
+constexpr int kFormat = 3;  // changes when a key does
 
 template <class Vector>
 Json three(const Vector& v) {
   return {v.x, v.y, v.z};
 }
-template <class Vector>
-Vector get_three(const Json& json) {
-  Vector v;
-  for (int a = 0; a < 3; ++a) v[a] = json.at(size_t(a)).get<typename Vector::value_type>();
+LatticePoint get_point(const Json& json) {
+  LatticePoint v;
+  for (int a = 0; a < 3; ++a) v[a] = whole_number<int64_t>(json.at(size_t(a)));
   return v;
+}
+
+uint64_t count_of(const Json& json, const char* key) {
+  return whole_number<uint64_t>(json.at(key));
 }
 
 Json grid_json(const Grid& grid) {
@@ -46,19 +50,19 @@ Json grid_json(const Grid& grid) {
 Grid get_grid(const Json& json) {
   Grid grid;
   grid.kind = json.at("kind") == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
-  grid.levels = json.at("levels");
+  grid.levels = whole_number<int>(json.at("levels"));
   grid.voxel_size = json.at("voxel_size");
-  grid.origin = get_three<Point>(json.at("origin"));
-  grid.k0 = get_three<LatticePoint>(json.at("k0"));
+  for (int a = 0; a < 3; ++a) grid.origin[a] = json.at("origin").at(size_t(a));
+  grid.k0 = get_point(json.at("k0"));
   grid.bounded = json.at("bounded");
-  grid.selection = {get_three<LatticePoint>(json.at("selection_min")),
-                    get_three<LatticePoint>(json.at("selection_max"))};
+  grid.selection = {get_point(json.at("selection_min")), get_point(json.at("selection_max"))};
   return grid;
 }
 
 Json counts_json(const SplitCounts& counts) {
   return {{"triangles", counts.scene.triangles},
           {"invalid", counts.scene.invalid},
+          {"undeformed", counts.scene.undeformed},
           {"quantisation", counts.scene.quantisation},
           {"outside", counts.outside},
           {"clipped", counts.clipped},
@@ -68,12 +72,13 @@ Json counts_json(const SplitCounts& counts) {
 
 SplitCounts get_counts(const Json& json) {
   SplitCounts counts;
-  counts.scene.triangles = json.at("triangles");
-  counts.scene.invalid = json.at("invalid");
+  counts.scene.triangles = count_of(json, "triangles");
+  counts.scene.invalid = count_of(json, "invalid");
+  counts.scene.undeformed = count_of(json, "undeformed");
   counts.scene.quantisation = json.at("quantisation");
-  counts.outside = json.at("outside");
-  counts.clipped = json.at("clipped");
-  counts.degenerate = json.at("degenerate");
+  counts.outside = count_of(json, "outside");
+  counts.clipped = count_of(json, "clipped");
+  counts.degenerate = count_of(json, "degenerate");
   counts.largest_snap = json.at("largest_snap_voxels");
   return counts;
 }
@@ -89,8 +94,9 @@ Json prediction_json(const Prediction& p) {
 }
 
 Prediction get_prediction(const Json& json) {
-  return {json.at("cpu_seconds"),  json.at("seconds"),      json.at("budget_bytes"),
-          json.at("memory_bytes"), json.at("output_bytes"), json.at("scratch_bytes")};
+  return {json.at("cpu_seconds"),         json.at("seconds"),
+          count_of(json, "budget_bytes"), count_of(json, "memory_bytes"),
+          count_of(json, "output_bytes"), count_of(json, "scratch_bytes")};
 }
 
 Json step_json(const Plan& plan, const PlanStep& step) {
@@ -123,19 +129,20 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   step.output = json.at("output");
   if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
     throw Error(ExitCode::kBadInput, "a step leads out of the plan's folder: " + step.output);
-  step.threads = json.at("threads");
+  step.threads = count_of(json, "threads");
   if (step.threads < 1 || step.threads > kMostThreads)
     throw Error(ExitCode::kBadInput, "step " + step.name + " has an impossible number of threads");
   step.predicted = get_prediction(json.at("predicted"));
   if (json.contains("cells")) {
     const Json& cells = json.at("cells");
-    step.cells = {cells.at("level"), cells.at("begin"), cells.at("end")};
-    step.triangles = json.at("triangles");
+    step.cells = {whole_number<int>(cells.at("level")), count_of(cells, "begin"),
+                  count_of(cells, "end")};
+    step.triangles = count_of(json, "triangles");
     const int level = step.cells.level;
     if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
         step.cells.end > uint64_t(1) << 3 * level)
       throw Error(ExitCode::kBadInput, "the cells of step " + step.name + " are not in the grid");
-    if (!step.name.starts_with(kShard))
+    if (!is_shard_name(step.name))
       throw Error(ExitCode::kBadInput, "the shard " + step.name + " has no name of one");
     return step;
   }
@@ -151,14 +158,14 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   if (json.at("format") != kFormat)
     throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
   for (const Json& input : json.at("inputs"))
-    plan->inputs.push_back({input.at("path"), input.at("bytes"), input.at("hash")});
+    plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
   plan->description = json.at("description");
   plan->grid = get_grid(json.at("grid"));
   if (!plan->grid.is_possible()) throw Error(ExitCode::kBadInput, "has an impossible grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   plan->counts = get_counts(json.at("scene"));
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
-  plan->cells = json.at("one_bake").at("cells");
+  plan->cells = count_of(json.at("one_bake"), "cells");
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
   if (plan->steps.empty()) throw Error(ExitCode::kBadInput, "has no steps");
@@ -184,7 +191,7 @@ size_t Plan::shards() const {
 }
 
 std::vector<std::string> Plan::command(const PlanStep& step) const {
-  if (step.is_shard()) return {"build", folder, "--shard", step.name.substr(kShard.size())};
+  if (step.is_shard()) return {"build", folder, "--shard", number_in(step.name)};
   return {"merge", folder, "--step", step.name};
 }
 
@@ -206,7 +213,7 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
     json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"hash", input.hash}});
   json["description"] = plan.description;
   json["grid"] = grid_json(plan.grid);
-  json["rule"] = plan.rule == Rule::kThin ? "thin" : "conservative";
+  json["rule"] = rule_name(plan.rule);
   json["scene"] = counts_json(plan.counts);
   json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
   json["bins"] = plan.bins.size();

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "builder/part.h"
-#include "builder/split.h"
+#include "builder/octree/part.h"
+#include "builder/split/split.h"
 #include "io/dag/format.h"
 
 namespace svdag {

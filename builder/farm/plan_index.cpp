@@ -1,6 +1,6 @@
 #include "builder/farm/plan_index.h"
 
-#include "builder/bin_record.h"
+#include "builder/split/bin_record.h"
 #include "streaming/atomic_file.h"
 #include "streaming/checksum.h"
 

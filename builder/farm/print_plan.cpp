@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "builder/farm/shell.h"
 #include "io/units.h"
 
 namespace svdag {
@@ -47,8 +48,9 @@ void print_steps(const Plan& plan) {
               "output", "scratch", "command");
   for (const PlanStep& step : plan.steps) {
     const Prediction& p = step.predicted;
-    std::string command = "svdag";
-    for (const std::string& word : plan.command(step)) command += " " + word;
+    std::vector<std::string> words = plan.command(step);
+    words.insert(words.begin(), "svdag");
+    const std::string command = shell_words(words);
     std::printf("  %-12s %8.2f %8.2f %10s %10s %10s  %s\n", step.name.c_str(), p.cpu, p.seconds,
                 format_bytes(p.memory).c_str(), format_bytes(p.output).c_str(),
                 format_bytes(p.scratch).c_str(), plan.folder.empty() ? "" : command.c_str());

@@ -2,10 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "builder/bake_output.h"
-#include "builder/run_check.h"
-#include "builder/run_file.h"
+#include "builder/run/bake_output.h"
+#include "builder/run/run_check.h"
+#include "builder/run/run_file.h"
 #include "io/dag/check.h"
+#include "io/json_number.h"
 #include "io/json_text.h"
 #include "streaming/atomic_file.h"
 #include "streaming/checksum.h"
@@ -23,7 +24,7 @@ std::string content_of_run(const std::string& path, bool thorough) {
   MemoryBudget budget;
   const RunFile run = RunFile::open(path, &budget);
   if (thorough) check_run(run, kCheckMemory, &budget);
-  return to_hex({run.header().content_hash[0], run.header().content_hash[1]});
+  return to_hex(run.header().content_hash);
 }
 
 std::string content_of_dag(const std::string& path, bool thorough) {
@@ -35,7 +36,7 @@ std::string content_of_dag(const std::string& path, bool thorough) {
     file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
     if (header.file_bytes != file.size()) fail_input(path, "is cut short");
   }
-  return to_hex({header.content_hash[0], header.content_hash[1]});
+  return to_hex(header.content_hash);
 }
 
 }  // namespace
@@ -69,13 +70,15 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
     if (json.at("plan") != plan.hash || json.at("step") != step.name) return {};
     Receipt receipt;
     receipt.content_hash = json.at("content_hash");
-    receipt.bytes = json.at("bytes");
+    receipt.bytes = whole_number<uint64_t>(json.at("bytes"));
     receipt.seconds = json.at("seconds");
     receipt.cpu = json.at("cpu_seconds");
-    receipt.memory = json.at("memory_bytes");
-    receipt.scratch = json.at("scratch_bytes");
+    receipt.memory = whole_number<uint64_t>(json.at("memory_bytes"));
+    receipt.scratch = whole_number<uint64_t>(json.at("scratch_bytes"));
     return receipt;
   } catch (const Json::exception&) {
+    return {};
+  } catch (const Error&) {
     return {};
   }
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "builder/farm/live_table.h"
 #include "builder/farm/process.h"
 #include "builder/farm/receipt.h"
 #include "builder/farm/run_step.h"
+#include "builder/farm/shell.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -15,22 +17,23 @@ namespace svdag {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Time = std::filesystem::file_time_type;
 
 constexpr int kAttempts = 2;
 constexpr auto kLook = std::chrono::milliseconds(20);  // between two looks at the processes
+constexpr auto kLookAtOthers = std::chrono::milliseconds(500);  // and at what others do
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// The last line of a log: what the step said when it failed.
-std::string last_line(const std::string& path) {
+// What the step said when it failed, by the end of its log.
+std::string last_words(const std::string& path) {
   const File file = File::open_read(path);
   const uint64_t size = file.size(), most = std::min<uint64_t>(size, 4096);
   std::string text(most, ' ');
   file.read_at(size - most, std::as_writable_bytes(std::span(text)));
-  while (text.ends_with('\n')) text.pop_back();
-  return text.substr(text.find_last_of('\n') + 1);
+  return last_line_of(text);
 }
 
 class Runner {
@@ -39,12 +42,14 @@ class Runner {
       : plan_(plan),
         config_(config),
         rows_(plan.steps.size()),
+        written_(plan.steps.size()),
         table_(plan, config.table, config.quiet) {}
 
   void run() {
     try {
-      while (start_ready() || running() > 0) {
+      while (!is_over()) {
         check_interrupt();
+        start_ready();
         std::this_thread::sleep_for(kLook);
         for (size_t i = 0; i < rows_.size(); ++i) look_after(i);
         table_.draw(rows_);
@@ -69,24 +74,56 @@ class Runner {
     }));
   }
 
-  // Starts what can be started; true if something was.
-  bool start_ready() {
-    bool started = false;
-    for (size_t i = 0; i < rows_.size() && running() < config_.processes; ++i) {
-      if (rows_[i].state != StepState::kWaiting) continue;
-      const auto& inputs = plan_.steps[i].inputs;
-      const auto is = [&](StepState state) {
-        return [this, state](size_t input) { return rows_[input].state == state; };
-      };
-      if (std::any_of(inputs.begin(), inputs.end(), is(StepState::kFailed))) {
-        rows_[i].state = StepState::kFailed;  // never started: its code stays 0
-        started = true;                       // others may fail by it
-      } else if (std::all_of(inputs.begin(), inputs.end(), is(StepState::kDone))) {
-        start(i);
-        started = true;
+  bool is_over() const {
+    return std::none_of(rows_.begin(), rows_.end(), [](const StepRow& row) {
+      return row.state == StepState::kWaiting || row.state == StepState::kRunning;
+    });
+  }
+
+  // Starts what can be started; last what was others' when it was looked at before.
+  void start_ready() {
+    fail_what_lacks_inputs();
+    size_t started = running();
+    for (const bool others : {false, true}) {
+      for (size_t i = 0; i < rows_.size() && started < config_.processes; ++i) {
+        if (rows_[i].others == others && is_ready(i)) started += start_or_wait(i);
       }
     }
-    return started;
+  }
+
+  // Never started: the code of such a step stays 0.
+  void fail_what_lacks_inputs() {
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      const auto& inputs = plan_.steps[i].inputs;
+      const auto failed = [&](size_t input) { return rows_[input].state == StepState::kFailed; };
+      if (std::any_of(inputs.begin(), inputs.end(), failed)) rows_[i].state = StepState::kFailed;
+    }
+  }
+
+  bool is_ready(size_t i) const {
+    if (rows_[i].state != StepState::kWaiting || Clock::now() < rows_[i].next_look) return false;
+    const auto& inputs = plan_.steps[i].inputs;
+    return std::all_of(inputs.begin(), inputs.end(),
+                       [&](size_t input) { return rows_[input].state == StepState::kDone; });
+  }
+
+  // False if somebody else's process does the step: none of ours then stands in line for it, in
+  // the place of one that could do another step.
+  bool start_or_wait(size_t i) {
+    StepConfig step;
+    step.scratch = config_.scratch;
+    const bool others = is_being_done(plan_, plan_.steps[i], step);
+    others ? wait_for_others(i) : start(i);
+    return !others;
+  }
+
+  void wait_for_others(size_t i) {
+    StepRow& row = rows_[i];
+    row.state = StepState::kWaiting;
+    row.next_look = Clock::now() + kLookAtOthers;
+    if (row.others) return;  // said before
+    row.others = true;
+    table_.tell(i, row);
   }
 
   void start(size_t i) {
@@ -99,9 +136,16 @@ class Runner {
       command.push_back(config_.scratch);
     }
     row.begin = Clock::now();
+    written_[i] = last_write(i);
     row.process = start_process(command, log_of(i));
     row.state = StepState::kRunning;
     ++row.attempts;
+  }
+
+  // Of the step's receipt; the least of all times if there is none.
+  Time last_write(size_t i) const {
+    std::error_code none;
+    return std::filesystem::last_write_time(receipt_path(plan_, plan_.steps[i]), none);
   }
 
   void look_after(size_t i) {
@@ -111,11 +155,10 @@ class Runner {
     if (row.code == 0) {
       row.state = StepState::kDone;
       row.receipt = read_receipt(plan_, plan_.steps[i]);
-    } else if (row.code == int(ExitCode::kOutput) && is_others(i)) {
-      row.state = StepState::kWaiting;
+      row.already = written_[i] != Time::min() && written_[i] == last_write(i);
+    } else if (row.code == int(kDoneElsewhere)) {
       --row.attempts;
-      if (row.others) return;  // said before
-      row.others = true;
+      return wait_for_others(i);
     } else if (may_pass(row.code) && row.attempts < kAttempts) {
       row.state = StepState::kWaiting;
       row.others = false;
@@ -123,12 +166,6 @@ class Runner {
       row.state = StepState::kFailed;
     }
     table_.tell(i, row);
-  }
-
-  bool is_others(size_t i) const {
-    StepConfig step;
-    step.scratch = config_.scratch;
-    return is_being_done(plan_, plan_.steps[i], step);
   }
 
   void fail_if_any_failed() const {
@@ -139,7 +176,7 @@ class Runner {
       first = std::min(first, i);
     }
     if (failed == 0) return;
-    std::string said = last_line(log_of(first));
+    std::string said = last_words(log_of(first));
     if (said.starts_with("svdag: ")) said = said.substr(7);
     throw Error(ExitCode(rows_[first].code),
                 (failed == 1 ? "" : std::to_string(failed) + " steps failed, first ") +
@@ -151,13 +188,15 @@ class Runner {
   const Plan& plan_;
   const RunLocalConfig& config_;
   std::vector<StepRow> rows_;  // by step
+  std::vector<Time> written_;  // when the receipts were, before the steps began
   LiveTable table_;
 };
 
 }  // namespace
 
 bool may_pass(int code) {
-  return code == int(ExitCode::kOutput) || code == int(ExitCode::kMemory) || code > 128;
+  return code == int(ExitCode::kOutput) || code == int(ExitCode::kMemory) ||
+         code == int(kDoneElsewhere) || code > 128;
 }
 
 void run_local(const Plan& plan, const RunLocalConfig& config) {

@@ -3,7 +3,7 @@
 // Processes and not threads: a step that dies takes nothing with it, and its memory is bounded by
 // itself. A step that failed in a way that may pass (disk, memory, a signal) is tried once more; a
 // step that failed for good fails those that need it, and the others go on. A step that a process
-// of somebody else does (of an earlier run, that was killed) is waited for.
+// of somebody else does (of an earlier run, that was killed) is waited for, while the others go on.
 #pragma once
 
 #include "builder/farm/plan.h"

@@ -5,7 +5,6 @@
 #include "builder/build.h"
 #include "builder/farm/leaf_bins.h"
 #include "builder/merge_runs.h"
-#include "streaming/error.h"
 #include "streaming/scratch_dir.h"
 
 namespace svdag {
@@ -86,7 +85,7 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
   try {
     report.receipt = work(plan, step, config, report.output, executor, progress);
   } catch (const ScratchInUse& in_use) {
-    throw Error(ExitCode::kOutput,
+    throw Error(kDoneElsewhere,
                 "another process is doing " + step.name + " in this scratch folder: wait for it",
                 in_use.path());
   }

@@ -2,16 +2,21 @@
 //
 // A step may be asked for any number of times, anywhere, also twice at once: a valid output is
 // kept, any other replaced, and outputs appear whole. What a killed shard had saved is taken up
-// again where its scratch is still to be found; scratch of another plan is discarded. A step that
-// another process does at the moment, in the same scratch folder, is an Error (kOutput): it may
-// pass.
+// again where its scratch is still to be found; scratch of another plan, or that is damaged, is
+// discarded, and the shard begins afresh. A step that another process does at the moment, in the
+// same scratch folder, is an Error of a code of its own: nothing has failed.
 #pragma once
 
 #include "builder/farm/receipt.h"
+#include "streaming/error.h"
 #include "streaming/executor.h"
 #include "streaming/progress.h"
 
 namespace svdag {
+
+// Another process does the step (EX_TEMPFAIL of sysexits.h): no code of a failure, so that whoever
+// counts the attempts at a step does not count this one.
+constexpr ExitCode kDoneElsewhere{75};
 
 struct StepConfig {
   std::string output;     // empty: the place in the plan

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/farm/process.h"
+#include "builder/farm/step_name.h"
 #include "streaming/file.h"
 
 namespace svdag {
@@ -15,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
 constexpr int kLeastSeconds = 600;
+constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the step that a task does
 
 // Open Job Description wants relative defaults of paths.
 std::string relative_to(const std::string& folder, const std::string& path) {
@@ -57,20 +59,15 @@ Json requirements(const Plan& plan, const Stage& stage) {
                         {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
 }
 
-// "merge-12" -> "12".
-std::string number_of(const PlanStep& step) {
-  return step.name.substr(step.name.find('-') + 1);
-}
-
 Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage) {
   const bool shards = plan.steps[stage.steps.front()].is_shard();
-  const std::string tasks =
-      number_of(plan.steps[stage.steps.front()]) + "-" + number_of(plan.steps[stage.steps.back()]);
+  const std::string tasks = number_in(plan.steps[stage.steps.front()].name) + "-" +
+                            number_in(plan.steps[stage.steps.back()].name);
   double seconds = 0;
   for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
   Json arguments = {shards ? "build" : "merge", "{{Param.Plan}}"};
   arguments.push_back(shards ? "--shard" : "--step");
-  arguments.push_back(shards ? "{{Task.Param.Number}}" : "merge-{{Task.Param.Number}}");
+  arguments.push_back(shards ? kNumber : merge_name(kNumber));
   if (!config.scratch.empty()) {
     arguments.push_back("--scratch");
     arguments.push_back(config.scratch);

@@ -9,6 +9,7 @@
 #include "builder/farm/process.h"
 #include "builder/farm/receipt.h"
 #include "builder/farm/shell.h"
+#include "builder/farm/step_name.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -158,9 +159,9 @@ std::string Submission::script_of(const Job& job) const {
   return "#!/bin/sh\n" + command +
          "\n"
          "code=$?\n"
-         "# What may pass (disk, memory, a signal) is tried again; the rest would fail again.\n"
+         "# What may pass (disk, memory, another process, a signal) is tried again, no other.\n"
          "case $code in\n"
-         "  4 | 5 | 12[89] | 1[3-9]? | 2[0-9][0-9])\n"
+         "  4 | 5 | 75 | 12[89] | 1[3-9]? | 2[0-9][0-9])\n"
          "    if [ \"${SLURM_RESTART_COUNT:-0}\" -lt 2 ]; then\n"
          "      scontrol requeue \"$SLURM_JOB_ID\" && sleep 60\n"
          "    fi ;;\n"
@@ -183,8 +184,8 @@ std::string Submission::log_of(const Job& job) const {
   if (is_array(job)) {
     const size_t array = number_of(job.steps.front()) / array_;
     const size_t digits = std::to_string(array_).size() - 1;
-    name = array == 0 ? "shard-%a"
-                      : "shard-" + std::to_string(array) + "%" + std::to_string(digits) + "a";
+    name =
+        shard_name(array == 0 ? "%a" : std::to_string(array) + "%" + std::to_string(digits) + "a");
   }
   return plan_.path("logs/" + name + ".slurm.log");
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "builder/cell_tree.h"
-#include "builder/run.h"
+#include "builder/run/run.h"
+#include "builder/split/cell_tree.h"
 #include "streaming/interrupt.h"
 
 namespace svdag {

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "builder/descend.h"
-#include "builder/triangle_bins.h"
+#include "builder/descend/descend.h"
+#include "builder/split/triangle_bins.h"
 #include "streaming/memory_budget.h"
 
 namespace svdag {
@@ -44,7 +44,7 @@ class Survey {
 
   // Counts the wanted cells of `bin`, in Morton order. False if it has too many triangles.
   bool count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted, const Visit& visit);
-  // From now on `part`, a survey of the same kind, counts those of the cells that are wanted there.
+  // From now on `part`, a survey of the same kind, also counts those of our cells it `wanted`.
   void share_with(Survey* part, Wanted wanted);
   // Unique nodes and bricks so far.
   uint64_t nodes();

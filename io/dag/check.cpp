@@ -35,21 +35,25 @@ void check_identity(const File& file, const Header& h) {
 }
 
 void check_fields(const File& file, const Header& h) {
-  require(h.header_bytes == sizeof(Header), file, "wrong header size", 12);
+  require(h.header_bytes == sizeof(Header), file, "wrong header size",
+          offsetof(Header, header_bytes));
   check_grid(h, [&](bool condition, const char* sentence, uint64_t offset) {
     require(condition, file, sentence, offset);
   });
-  require(h.section_count == h.levels - 1, file, "wrong number of sections", 92);
+  require(h.section_count == h.levels - 1, file, "wrong number of sections",
+          offsetof(Header, section_count));
   for (int a = 0; a < 3; ++a)
-    require(std::isfinite(h.corner[a]), file, "impossible grid corner", 32);
-  for (const unsigned char byte : h.reserved) require(byte == 0, file, "unknown header field", 648);
+    require(std::isfinite(h.corner[a]), file, "impossible grid corner", offsetof(Header, corner));
+  for (const unsigned char byte : h.reserved)
+    require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }
 
 // The parts stand one behind the other exactly as the format says, so no byte is unaccounted for.
 void check_layout(const File& file, const Header& h) {
   uint64_t end = sizeof(Header);
   const uint64_t size = file.size();
-  require(h.file_bytes == size, file, "its size is not the one in its header", 168);
+  require(h.file_bytes == size, file, "its size is not the one in its header",
+          offsetof(Header, file_bytes));
   const auto place = [&](uint64_t offset, uint64_t bytes, uint64_t field) {
     require(offset == aligned(end) && offset <= size && bytes <= size - offset, file,
             "a section is not where it belongs", field);
@@ -67,11 +71,12 @@ void check_layout(const File& file, const Header& h) {
     require(s.bytes % unit == 0 && s.bytes / unit <= kMaxWords, file, "impossible section size",
             field);
   }
-  place(h.metadata_offset, h.metadata_bytes, 136);
-  place(h.checksum_offset, h.checksum_bytes, 152);
+  place(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
+  place(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
   const uint64_t payload = h.checksum_offset - sizeof(Header);
   const uint64_t blocks = (payload + kChecksumBlock - 1) / kChecksumBlock;
-  require(h.checksum_bytes == 8 * blocks && end == size, file, "wrong checksum table", 160);
+  require(h.checksum_bytes == 8 * blocks && end == size, file, "wrong checksum table",
+          offsetof(Header, checksum_bytes));
 }
 
 std::vector<uint64_t> read_table(const File& file, const Header& h) {

@@ -50,15 +50,15 @@ bool CubeWalk::full(uint32_t level, uint32_t node) {
   return full_[level][node] = all;
 }
 
-bool CubeWalk::visit(const VoxelBox& box, const CubeSink& sink) {
+bool CubeWalk::visit(const VoxelBox& box, const VoxelCubeSink& sink) {
   return dag_.empty() || visit({0, 0, LatticePoint(0)}, box, sink);
 }
 
-bool CubeWalk::visit(const At& at, const VoxelBox& box, const CubeSink& sink) {
+bool CubeWalk::visit(const At& at, const VoxelBox& box, const VoxelCubeSink& sink) {
   const Overlap part = overlap(at.origin, side(at.level), box);
   if (part == Overlap::kNone) return true;
   if (at.level + 3 == levels_) {
-    Cube cube{at.origin, kBlockSide, block_of(dag_, at.level, at.node)};
+    VoxelCube cube{at.origin, kBlockSide, block_of(dag_, at.level, at.node)};
     if (part == Overlap::kPart) cube.block.cut(at.origin, box);
     return cube.block.empty() || sink(cube);
   }

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/dag/cube.h"
 #include "io/dag/dag_view.h"
+#include "io/dag/voxel_cube.h"
 
 namespace svdag {
 
@@ -27,7 +27,7 @@ class CubeWalk {
   CubeWalk(const DagView& dag, uint32_t levels);
 
   // Hands on what is set in `box`, until the sink returns false; returns false then.
-  bool visit(const VoxelBox& box, const CubeSink& sink);
+  bool visit(const VoxelBox& box, const VoxelCubeSink& sink);
   // What visit() would touch, inside full cubes too; stops counting beyond `most` blocks.
   CubeCounts count_cubes(const VoxelBox& box, uint64_t most);
   // The number of voxels set in `box`.
@@ -46,7 +46,7 @@ class CubeWalk {
   Brick brick(const LatticePoint& at) const;
   bool full(uint32_t level, uint32_t node);
   uint64_t voxels_below(uint32_t level, uint32_t node);
-  bool visit(const At& at, const VoxelBox& box, const CubeSink& sink);
+  bool visit(const At& at, const VoxelBox& box, const VoxelCubeSink& sink);
   void count(const At& at, const VoxelBox& box, uint64_t most, CubeCounts* counts) const;
   uint64_t count_voxels(const At& at, const VoxelBox& box);
 

@@ -66,8 +66,8 @@ SVDAG_HD inline bool dag_voxel(const DagView& dag, uint32_t x, uint32_t y, uint3
   return (dag_brick(dag, x >> 2, y >> 2, z >> 2) >> (8 * outer + inner)) & 1U;
 }
 
-// Makes a view of `size` bytes at `data` (8-byte aligned), trusting a header and pointers that were
-// checked before (io/dag/check.h).
+// Makes a view of the whole file at `data` (8-byte aligned), trusting a header and pointers that
+// were checked before (io/dag/check.h).
 inline DagView dag_view(const void* data) {
   const Header& header = *static_cast<const Header*>(data);
   const char* base = static_cast<const char*>(data);

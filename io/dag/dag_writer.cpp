@@ -69,11 +69,13 @@ void DagWriter::begin_level(int level) {
   align();
   level_ = level;
   words_ = 0;
+  last_node_ = {};
   header_.sections[level].offset = position();
 }
 
 uint32_t DagWriter::add_brick(Brick brick) {
-  SVDAG_ASSERT(brick != 0 && level_ + 2 == int(header_.levels));
+  SVDAG_ASSERT(last_brick_ < brick && level_ + 2 == int(header_.levels));
+  last_brick_ = brick;
   if (words_ >= most_words_)
     throw Error(ExitCode::kOutput,
                 "the scene needs more than 2^32 - 2 different bricks, which "
@@ -92,7 +94,8 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
     words[count++] = children[c] - 1;
   }
   words[0] = mask;
-  SVDAG_ASSERT(mask != 0 && level_ + 2 < int(header_.levels));
+  SVDAG_ASSERT(last_node_ < children && level_ + 2 < int(header_.levels));
+  last_node_ = children;
   if (uint64_t(words_) + count > most_words_)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " needs more than 2^32 - 2 words, which format "
@@ -112,8 +115,7 @@ std::string DagWriter::metadata() const {
   for (uint32_t k = 0; k < h.section_count; ++k)
     nodes += (k ? "," : "[") + number(h.sections[k].nodes);
   return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
-         ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" +
-         (Rule(h.rule) == Rule::kThin ? "thin" : "conservative") +
+         ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
          "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
          (Grid::Kind(h.grid_kind) == Grid::Kind::kBox ? "box" : "lattice") +
          "\",\"corner\":" + json_list({real(h.corner[0]), real(h.corner[1]), real(h.corner[2])}) +

@@ -26,9 +26,10 @@ class DagWriter {
 
   // Begins the section of `level`; the order is L-2, L-3, ..., 0, each exactly once.
   void begin_level(int level);
-  // Appends a brick to level L-2; returns its index. A full section is an Error (kOutput).
+  // Appends a brick to level L-2, greater than the one before; returns its index. A full section is
+  // an Error (kOutput).
   uint32_t add_brick(Brick brick);
-  // Appends a node to an inner level; returns the index of its first word.
+  // Appends a node to an inner level, greater than the one before; returns its first word's index.
   uint32_t add_node(const NodeKey& children);
   // Writes metadata, checksums and header, and gives the file its name.
   void finish(uint64_t voxels, double largest_snap);
@@ -46,8 +47,10 @@ class DagWriter {
   AtomicFile file_;
   Header header_{};
   uint64_t most_words_;
-  int level_;                     // the level being written
-  uint32_t words_ = 0;            // words (bricks) in it
+  int level_;             // the level being written
+  uint32_t words_ = 0;    // words (bricks) in it
+  Brick last_brick_ = 0;  // the keys before, to assert their order
+  NodeKey last_node_{};
   uint64_t written_ = 0;          // payload bytes in the file
   std::vector<std::byte> block_;  // payload bytes not yet written, less than kChecksumBlock
   std::vector<uint64_t> checksums_;

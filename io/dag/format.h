@@ -20,6 +20,10 @@ constexpr uint64_t kMaxWords = 0xfffffffeU;  // of a section: the last two u32 v
 
 enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
 
+constexpr const char* rule_name(Rule rule) {
+  return rule == Rule::kThin ? "thin" : "conservative";
+}
+
 // One level. Inner levels (0 .. L-3): u32 words; the brick level (L-2): u64 bricks.
 struct Section {
   uint64_t offset;  // from the start of the file

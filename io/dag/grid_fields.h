@@ -46,18 +46,20 @@ Grid get_grid(const H& header, const double (&corner)[3]) {
 template <class H, class Require>
 void check_grid(const H& h, const Require& require) {
   require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels),
-          "the number of levels is not 3 to 20", 16);
-  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), "wrong lattice fraction", 20);
-  require(h.rule <= 1, "unknown rule", 24);
-  require(h.grid_kind <= 1, "unknown kind of grid", 28);
-  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size", 56);
-  require(h.bounded <= 1, "impossible flag", 88);
+          "the number of levels is not 3 to 20", offsetof(H, levels));
+  require(h.fraction == uint32_t(fraction_bits(int(h.levels))), "wrong lattice fraction",
+          offsetof(H, fraction));
+  require(h.rule <= 1, "unknown rule", offsetof(H, rule));
+  require(h.grid_kind <= 1, "unknown kind of grid", offsetof(H, grid_kind));
+  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size",
+          offsetof(H, voxel_size));
+  require(h.bounded <= 1, "impossible flag", offsetof(H, bounded));
   const uint32_t n = 1U << h.levels;
   for (int a = 0; a < 3; ++a) {
     require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n,
-            "impossible selection", 96);
+            "impossible selection", offsetof(H, selection_min));
     require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n),
-            "impossible selection", 96);
+            "impossible selection", offsetof(H, selection_min));
   }
 }
 

@@ -108,7 +108,7 @@ bool is_integer(const Array& a) {
   return (a.kind == 'i' || a.kind == 'u') && size;
 }
 bool is_coordinates(const Array& a) {
-  return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3 && !a.fortran_order;
+  return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3;
 }
 bool is_dense(const Array& a) {
   return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
@@ -122,16 +122,22 @@ uint64_t read_integer(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
+// In Fortran order, which numpy.argwhere() gives, all x stand before all y and z: a stream for
+// each.
 void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
-  ByteStream stream(file, array.offset, array.end);
+  const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
+  std::vector<ByteStream> streams;
+  for (uint64_t a = 0; a < (array.fortran_order ? 3 : 1); ++a)
+    streams.emplace_back(file, array.offset + a * column, array.end);
   VoxelBatch batch(sink);
   for (uint64_t row = 0; row < array.shape[0]; ++row) {
     Voxel voxel;
-    for (uint32_t& out : voxel) {
+    for (size_t a = 0; a < 3; ++a) {
+      ByteStream& stream = streams[array.fortran_order ? a : 0];
       const uint64_t value = read_integer(&stream, array);
       if (value >> kMaxLevels != 0)
         fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
-      out = uint32_t(value);
+      voxel[a] = uint32_t(value);
     }
     batch.add(voxel);
   }

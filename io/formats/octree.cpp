@@ -43,7 +43,7 @@ class Places {
   uint64_t of_brick(const LevelDag& dag, uint32_t number) const {
     return begin_[dag.brick_level()] + blocks_before_[number];
   }
-  // `starts` of the level; every word before that is no node is a child.
+  // Every word before `word` that starts no node is a child pointer; `starts` knows the nodes.
   uint64_t of_node(uint32_t level, uint32_t word, const RankBitmap& starts) const {
     return begin_[level] + word - starts.rank(word);
   }

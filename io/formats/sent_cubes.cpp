@@ -142,7 +142,7 @@ std::string SentCubes::type() const {
   return type_ == CubeType::kMask ? "mask" : type_ == CubeType::kBool ? "bool" : "float";
 }
 
-bool SentCubes::visit(const CubeSink& sink) const {
+bool SentCubes::visit(const VoxelCubeSink& sink) const {
   for (const Tile& tile : tiles_) {
     const int64_t side = tile.side;
     if (!sink({point(tile.origin), side, side == kBlockSide ? Block::full() : Block()}))

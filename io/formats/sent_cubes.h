@@ -48,7 +48,7 @@ class SentCubes final : public VdbGrid {
   std::string type() const override;
   const IndexToWorld& centres() const override { return centres_; }
   VoxelBox bounds() const override { return bounds_; }
-  bool visit(const CubeSink& sink) const override;
+  bool visit(const VoxelCubeSink& sink) const override;
   bool get(const LatticePoint& voxel) const override;
 
  private:

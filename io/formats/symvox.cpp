@@ -1,6 +1,7 @@
 #include "io/formats/symvox.h"
 
 #include <array>
+#include <cmath>
 
 #include "io/dag/symvox_header.h"
 #include "io/formats/graph_window.h"
@@ -103,12 +104,22 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
   }
   header.side = float(side);
   header.levels = dag.levels();
+  bool good = header.side > 0 && std::isfinite(header.side);
+  for (int a = 0; a < 3; ++a) {
+    good = good && header.box_min[a] < header.box_max[a];
+    good = good && std::isfinite(header.box_min[a]) && std::isfinite(header.box_max[a]);
+  }
+  if (!good)
+    fail_usage(
+        "SymVox keeps the box of a grid as float32, and this one is too large, too small or too "
+        "far from zero for that: export hashdag, which keeps float64");
   return header;
 }
 
 }  // namespace
 
 void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path) {
+  SymvoxHeader header = header_for(dag, grid);
   const HugeVector<uint32_t> blocks_before = dag.blocks_before();
   std::array<uint64_t, kMaxSections> base{};  // [level]: its first word
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
@@ -118,7 +129,6 @@ void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path
   if (words > UINT32_MAX)
     fail_usage("SymVox holds less than 2^32 words, this DAG needs " + format_count(words) +
                ": export a coarser --level");
-  SymvoxHeader header = header_for(dag, grid);
   uint64_t nodes = dag.bricks() + (words - first_leaf);
   for (uint32_t k = 0; k < dag.brick_level(); ++k) nodes += dag.nodes(k);
   header.nodes = uint32_t(nodes);

@@ -14,7 +14,8 @@
 
 namespace svdag {
 
-// `grid`: of the level. 2^32 words and more are an Error (kUsage).
+// `grid`: of the level. 2^32 words and more are an Error (kUsage), and so is a box that is not
+// finite in float32, or has no extent there.
 void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path);
 
 // `file` must outlive the graph. What is not such a file is an Error (kBadInput), and so are the

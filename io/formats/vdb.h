@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-#include "io/dag/cube.h"
+#include "io/dag/voxel_cube.h"
 #include "io/formats/value_range.h"
 
 namespace svdag {
@@ -55,7 +55,7 @@ class VdbWriter {
   virtual void begin(const std::string& name, const IndexToWorld& centres) = 0;
   virtual void metadata(const VdbMetadata& entries) = 0;
   // The cube's origin is a multiple of 8; of a larger cube a multiple of its side or of 4096.
-  virtual void add(const Cube& cube) = 0;
+  virtual void add(const VoxelCube& cube) = 0;
   virtual void add_voxel(const LatticePoint& voxel) = 0;
   // Puts everything into a file under the name `path`, whole or not at all; a full disk is an Error
   // (kOutput).
@@ -79,7 +79,7 @@ class VdbGrid {
   virtual VoxelBox bounds() const = 0;  // of set voxels
   // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, each voxel in one of them,
   // until the sink returns false.
-  virtual bool visit(const CubeSink& sink) const = 0;
+  virtual bool visit(const VoxelCubeSink& sink) const = 0;
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
 

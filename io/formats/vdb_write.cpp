@@ -118,7 +118,7 @@ class Writer final : public VdbWriter {
       grids_.back()->insertMeta(key, openvdb::StringMetadata(value));
   }
 
-  void add(const Cube& cube) override {
+  void add(const VoxelCube& cube) override {
     openvdb::MaskTree& tree = grids_.back()->tree();
     if (cube.side > kBlockSide || cube.block == Block::full()) {
       const LatticePoint last = cube.origin + (cube.side - 1);

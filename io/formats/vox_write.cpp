@@ -84,7 +84,7 @@ std::vector<LatticePoint> tiles_of(const Window& window) {
     if (tiles.empty() || tiles.back() != tile) tiles.push_back(tile);
     return tiles.size() <= kMostVoxModels;
   };
-  const bool all = window.walk->visit(window.box(), [&](const Cube& cube) {
+  const bool all = window.walk->visit(window.box(), [&](const VoxelCube& cube) {
     const LatticePoint first = cube.origin / kTile;
     const int64_t n = std::max<int64_t>(cube.side / kTile, 1);
     for (int64_t x = 0; x < n; ++x)

@@ -26,7 +26,7 @@ void for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
             visit(Voxel{uint32_t(from.x + x), uint32_t(from.y + y), uint32_t(from.z + z)});
         }
   };
-  walk->visit(box, [&](const Cube& cube) {
+  walk->visit(box, [&](const VoxelCube& cube) {
     check_interrupt();
     if (cube.side != kBlockSide) {
       visit_box(cube.origin, cube.side, [](int64_t, int64_t, int64_t) { return true; });

@@ -124,6 +124,19 @@ std::vector<char*> without_help(const Manual& program, int argc, char** argv) {
   return words;
 }
 
+// "--help build" as "build --help", and --version alone: nothing else of the line is looked at.
+std::vector<char*> asked_first(const CLI::App& program, std::vector<char*> words) {
+  if (words.size() < 3) return words;
+  const std::string_view first = words[1];
+  const bool help = program.get_help_ptr()->check_name(std::string(first));
+  const bool version = program.get_version_ptr()->check_name(std::string(first));
+  if (!help && !version) return words;
+  const bool command = help && words[2][0] != '-';
+  if (command) std::swap(words[1], words[2]);
+  words.resize(command ? 3 : 2);
+  return words;
+}
+
 // "biuld" of "biuld --help", which CLI11 would answer with the help of the program.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
@@ -145,19 +158,21 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     return 0;
   }
   std::vector<char*> words = without_help(manual_of(*program), argc, argv);
+  words = asked_first(*program, std::move(words));
   argc = int(words.size());
   argv = words.data();
+  const std::vector<std::string> given(argv + 1, argv + argc);
   try {
     program->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::CallForHelp& call) {
-    if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, argc, argv, call));
+    if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, given, call));
     std::fputs(help_text(asked_manual(*program), text_width(stdout)).c_str(), stdout);
     return 0;
   } catch (const CLI::Success& success) {  // --version
     return program->exit(success);
   } catch (const CLI::ParseError& error) {
-    fail_usage(explain(*program, argc, argv, error));
+    fail_usage(explain(*program, given, error));
   }
 }
 

@@ -3,9 +3,10 @@
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
 // triangles. Only the positions of an indexed primitive are held (or joined: corners.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
-// windows. Skins are ignored: a skinned mesh comes as stored, under its node's transform (joints
-// alone would place it, 3.7.3.2). So are morph targets, whatever their weights, points and lines. A
-// Draco primitive that also has plain data is read from the plain data, which is exact.
+// windows. Skins are not applied: a skinned mesh comes as stored, under its node's transform (joints
+// alone would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as undeformed.
+// Points and lines are left out. A Draco primitive that also has plain data is read from the plain
+// data, which is exact.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -44,7 +45,8 @@ class GltfReader {
  private:
   void read_node(const JsonObject& node, const std::string& name, const Affine& world) {
     const JsonObject mesh = document_.element("meshes", node.count("mesh"));
-    out_.mesh(name.empty() ? mesh.text("name") : name);
+    out_.mesh(name.empty() ? mesh.text("name") : name,
+              node.has("skin") || has_weights(node.has("weights") ? node : mesh));
     for (const auto& value : mesh.array("primitives")) {
       const JsonObject primitive(value, document_.file->path());
       const uint64_t mode = primitive.count("mode", kTriangles);
@@ -58,6 +60,13 @@ class GltfReader {
         read_primitive(value, primitive, mode, std::move(instances));
       }
     }
+  }
+
+  // Whether morph targets take part in the mesh: the weights of a node go before those of its mesh.
+  static bool has_weights(const JsonObject& object) {
+    const auto weights = object.array("weights");
+    return std::any_of(weights.begin(), weights.end(),
+                       [](const nlohmann::json& weight) { return weight != 0; });
   }
 
   void draw(const KeptPrimitive& kept, uint64_t mode, InstanceStream instances) {

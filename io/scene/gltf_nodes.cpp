@@ -79,11 +79,12 @@ class Walk {
     if (depth > kMaxDepth) fail(index, "lies too deep in the hierarchy");
     reached_[size_t(index)] = true;
     const std::string& name = object.text("name");
+    const bool included = options_.names->includes(name);  // asked in any case (mesh_reader.h)
     if (options_.names->excludes(name)) {
       ++excluded_;
       return;
     }
-    chosen = chosen || options_.names->includes(name);
+    chosen = chosen || included;
     const Affine world = compose(parent, local_transform(object));
     if (chosen && object.has("mesh")) visit_(object, name, world);
     for (const auto& child : object.array("children")) {

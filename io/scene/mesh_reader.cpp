@@ -7,25 +7,32 @@
 namespace svdag {
 namespace {
 
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-  });
+// *use: the patterns that match this or an earlier name; null: nobody asks.
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name,
+                 std::vector<bool>* use) {
+  bool any = false;
+  for (size_t i = 0; i < patterns.size() && !(any && use == nullptr); ++i) {
+    if (fnmatch(patterns[i].c_str(), name.c_str(), 0) != 0) continue;
+    any = true;
+    if (use != nullptr) (*use)[i] = true;
+  }
+  return any;
 }
 
 }  // namespace
 
 bool NameFilter::excludes(const std::string& name) const {
-  return matches_any(exclude, name);
+  return matches_any(exclude, name, use == nullptr ? nullptr : &use->exclude);
 }
 
 bool NameFilter::includes(const std::string& name) const {
-  return include.empty() || matches_any(include, name);
+  return include.empty() || matches_any(include, name, use == nullptr ? nullptr : &use->include);
 }
 
-void BatchWriter::mesh(std::string_view name) {
+void BatchWriter::mesh(std::string_view name, bool undeformed) {
   flush();
   mesh_ = name;
+  undeformed_ = undeformed;
   first_ = 0;
 }
 
@@ -46,7 +53,7 @@ void BatchWriter::make_room() {
 
 void BatchWriter::flush() {
   if (size_ == 0) return;
-  sink_({mesh_, first_, {batch_.get(), size_}, quantisation_});
+  sink_({mesh_, first_, {batch_.get(), size_}, quantisation_, undeformed_});
   first_ += size_;
   size_ = 0;
 }

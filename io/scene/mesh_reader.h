@@ -28,6 +28,7 @@ struct TriangleBatch {
   uint64_t first = 0;     // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
   double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
+  bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)
 };
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
@@ -36,8 +37,14 @@ using TriangleSink = std::function<void(const TriangleBatch&)>;
 // node is chosen if it or an ancestor matches), OBJ group and object names, names of solids in text
 // STL, and file names. Parts without a name have the name "".
 struct NameFilter {
+  // Which patterns have matched a name, in their order.
+  struct Use {
+    std::vector<bool> include, exclude;
+  };
+
   std::vector<std::string> include;  // if not empty, only what matches one of these
   std::vector<std::string> exclude;  // never what matches one of these
+  Use* use = nullptr;                // if not null, gets what matches
 
   bool excludes(const std::string& name) const;
   bool includes(const std::string& name) const;  // true where `include` is empty
@@ -76,7 +83,8 @@ struct ReadOptions {
 
   // Whether a part called `name` inside the file is wanted.
   bool wants(const std::string& name) const {
-    return !names->excludes(name) && (file_included || names->includes(name));
+    const bool included = names->includes(name);  // asked in any case: a pattern that matches
+    return !names->excludes(name) && (file_included || included);
   }
 };
 
@@ -96,7 +104,7 @@ class BatchWriter {
   explicit BatchWriter(const TriangleSink& sink)
       : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kFirst)) {}
   // Starts the next mesh: flushes, and counts triangles from 0 again.
-  void mesh(std::string_view name);
+  void mesh(std::string_view name, bool undeformed = false);
   // The quantisation step of the triangles from here on.
   void quantisation(double step);
   // Corner by corner to its place: a Triangle built first and copied then would be read back in
@@ -119,6 +127,7 @@ class BatchWriter {
   std::string mesh_;
   uint64_t first_ = 0;
   double quantisation_ = 0;
+  bool undeformed_ = false;
   std::unique_ptr<Triangle[]> batch_;
   size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and for how many it has memory
 };

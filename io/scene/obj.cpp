@@ -45,7 +45,7 @@ class ObjLines {
         scanner_(&stream_, {'#', true}, from.line),
         at_(from),
         positions_(*positions),
-        triangulator_(options.budget),
+        triangulator_(options.budget, file.path()),
         writer_(*writer) {}
 
   // To the end of the file, or of the line with which the positions leave memory.

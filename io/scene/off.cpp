@@ -25,8 +25,8 @@ uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
 template <class Corners>
 class OffFaces {
  public:
-  OffFaces(TextScanner* scanner, Corners* positions, MemoryBudget* budget)
-      : scanner_(*scanner), positions_(*positions), triangulator_(budget) {}
+  OffFaces(const File& file, TextScanner* scanner, Corners* positions, MemoryBudget* budget)
+      : scanner_(*scanner), positions_(*positions), triangulator_(budget, file.path()) {}
 
   void read(uint64_t faces, BatchWriter& writer) {
     for (; faces > 0; --faces) {
@@ -70,7 +70,7 @@ class OffReader {
     read_corners(&positions_, writer, [&](auto& corners, BatchWriter& out) {
       ByteStream stream(stream_.file(), scanner_.offset());
       TextScanner scanner(&stream, kSyntax, scanner_.line());
-      OffFaces(&scanner, &corners, options_.budget).read(faces, out);
+      OffFaces(stream_.file(), &scanner, &corners, options_.budget).read(faces, out);
     });
     writer.flush();
   }

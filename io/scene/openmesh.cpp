@@ -95,7 +95,7 @@ void decode(const File& file, std::span<const std::byte> bytes, const Header& he
   }
   BatchWriter out(sink);
   MemoryBudget without_limit;  // the process of its own has one
-  Triangulator polygon(&without_limit);
+  Triangulator polygon(&without_limit, file.path());
   uint64_t left = mesh.n_halfedges();
   for (const auto face : mesh.faces()) {
     each_corner(file, mesh, face, &left, [&](const Point& p) { polygon.corner(p); });

@@ -36,8 +36,8 @@ class PlyBody {
     }
     BatchWriter writer(sink);
     read_corners(&*positions_, writer, [&](auto& corners, BatchWriter& out) {
-      PlyFaces<Values, std::remove_reference_t<decltype(corners)>> faces(&corners, options_.budget,
-                                                                         &out);
+      PlyFaces<Values, std::remove_reference_t<decltype(corners)>> faces(file_, &corners,
+                                                                         options_.budget, &out);
       read_faces(faces);
     });
     writer.flush();

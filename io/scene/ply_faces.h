@@ -38,8 +38,8 @@ inline std::optional<TriangleRow> triangle_row(const PlyElement& element, size_t
 template <class Values, class Corners>
 class PlyFaces {
  public:
-  PlyFaces(Corners* positions, MemoryBudget* budget, BatchWriter* writer)
-      : positions_(*positions), triangulator_(budget), writer_(*writer) {}
+  PlyFaces(const File& file, Corners* positions, MemoryBudget* budget, BatchWriter* writer)
+      : positions_(*positions), triangulator_(budget, file.path()), writer_(*writer) {}
 
   // Rows of "face" are polygons, rows of "tristrips" are strips; everything else is skipped.
   void read(Values& values, const PlyElement& element) {

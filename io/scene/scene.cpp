@@ -45,12 +45,13 @@ class FiniteFilter {
     kept_.clear();
     std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
     counts_->invalid += batch.triangles.size() - kept_.size();
-    pass({batch.mesh, batch.first, kept_, batch.quantisation});
+    pass({batch.mesh, batch.first, kept_, batch.quantisation, batch.undeformed});
   }
 
  private:
   void pass(const TriangleBatch& batch) {
     counts_->triangles += batch.triangles.size();
+    if (batch.undeformed) counts_->undeformed += batch.triangles.size();
     counts_->quantisation = std::max(counts_->quantisation, batch.quantisation);
     if (!batch.triangles.empty()) sink_(batch);
   }
@@ -91,6 +92,13 @@ std::string base_name(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
 
+void append_unmatched(const char* option, const std::vector<std::string>& patterns,
+                      const std::vector<bool>& use, std::vector<std::string>* out) {
+  for (size_t i = 0; i < patterns.size(); ++i) {
+    if (!use[i]) out->push_back(std::string(option) + " '" + patterns[i] + "'");
+  }
+}
+
 std::string lower_extension(const std::string& path) {
   const std::string name = base_name(path);
   const size_t dot = name.find_last_of('.');
@@ -110,15 +118,21 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
 
 SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   SceneCounts counts;
+  NameFilter names = config_.names;
+  NameFilter::Use use{std::vector<bool>(names.include.size()),
+                      std::vector<bool>(names.exclude.size())};
+  names.use = &use;
   for (const std::string& path : config_.paths) {
     const std::string name = base_name(path);
-    if (config_.names.excludes(name)) continue;
+    const bool by_name = !names.include.empty() && names.includes(name);
+    if (names.excludes(name)) continue;
     const File file = File::open_read(path);
-    const bool by_name = !config_.names.include.empty() && config_.names.includes(name);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
-    read_file(file, {&config_.names, by_name, budget_, spill_, box_alone, config_.sandbox},
+    read_file(file, {&names, by_name, budget_, spill_, box_alone, config_.sandbox},
               std::ref(filter));
   }
+  append_unmatched("--include", names.include, use.include, &counts.unmatched);
+  append_unmatched("--exclude", names.exclude, use.exclude, &counts.unmatched);
   return counts;
 }
 
@@ -134,7 +148,11 @@ Box Scene::bounds(SceneCounts* counts) const {
   seen.triangles += alone.triangles;
   box.add(alone.box);
   if (counts != nullptr) *counts = seen;
-  if (box.empty()) fail_input(config_.paths.front(), "the scene has no triangles to bake");
+  if (box.empty()) {
+    std::string why;
+    for (const std::string& pattern : seen.unmatched) why += "; nothing matches " + pattern;
+    fail_input(config_.paths.front(), "the scene has no triangles to bake" + why);
+  }
   return box;
 }
 

@@ -22,6 +22,8 @@ struct SceneCounts {
   uint64_t triangles = 0;   // handed to the sink
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
+  uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
+  std::vector<std::string> unmatched;  // "--include 'sky*'": patterns that no name matches
 };
 
 class Scene {

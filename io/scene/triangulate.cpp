@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "io/units.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
-
-// Clipping is quadratic, cubic at worst; a polygon may take this many point tests per corner, what
-// is left then becomes a fan. Reached only by polygons of thousands of corners.
-constexpr uint64_t kWorkPerCorner = 1 << 14;
 
 // Sum over the edges, from the first corner so that large offsets cost no digits.
 Point newell_normal(const std::vector<Point>& corners) {
@@ -34,9 +32,8 @@ int dominant_axis(const Point& v) {
   return axis;
 }
 
-// The half plane of a direction: 1 for angles in [0, pi), 0 for [pi, 2 pi), -1 for no direction.
+// The half plane of a direction: 1 for angles in [0, pi), 0 for [pi, 2 pi).
 int half(const glm::dvec2& d) {
-  if (d.x == 0 && d.y == 0) return -1;
   return d.y > 0 || (d.y == 0 && d.x > 0) ? 1 : 0;
 }
 
@@ -44,9 +41,11 @@ int half(const glm::dvec2& d) {
 
 void Triangulator::grow() {
   const size_t capacity = std::max<size_t>(64, 2 * corners_.capacity());
-  if (capacity > UINT32_MAX) throw Error(ExitCode::kBadInput, "a polygon has too many corners");
-  // The corners, half of them once more while they are moved, their projection and the ring.
-  const size_t bytes = sizeof(Point) * 3 / 2 + sizeof(glm::dvec2) + 2 * sizeof(uint32_t);
+  if (capacity > UINT32_MAX / 2) fail_input(path_, "a polygon has too many corners");
+  // The corners, half of them once more while they are moved, their projection, the ring, and what
+  // finds ears.
+  const size_t bytes = sizeof(Point) * 3 / 2 + sizeof(glm::dvec2) + 2 * sizeof(uint32_t) +
+                       CornerTree::kBytesPerCorner + EarCandidates::kBytesPerCorner;
   reservation_.resize(capacity * bytes, kPurpose);
   corners_.reserve(capacity);
 }
@@ -84,20 +83,44 @@ double Triangulator::turn(size_t a, size_t b, size_t c) const {
   return ab.x * ac.y - ab.y * ac.x;
 }
 
+// The largest that turn(a, b, a corner in the box) can be, rounding included: turn() is monotone in
+// both coordinates of its last corner, and so is each of its roundings.
+double Triangulator::most_left(size_t a, size_t b, const FlatBox& box) const {
+  const glm::dvec2 ab = flat_[b] - flat_[a];
+  const glm::dvec2 p(ab.y > 0 ? box.min.x : box.max.x, ab.x > 0 ? box.max.y : box.min.y);
+  const glm::dvec2 ac = p - flat_[a];
+  return ab.x * ac.y - ab.y * ac.x;
+}
+
+// The box of all corners that forbids() can find in the triangle. turn() errs by less than `error`,
+// so none of a corner's three shares in a, b and c (its turns over the area) is less than -error /
+// area, and it lies outside of their box by that part of its width at most, twice.
+FlatBox Triangulator::reach(size_t a, size_t b, size_t c) const {
+  const glm::dvec2 all = tree_.box().max - tree_.box().min;
+  const double span = std::max(all.x, all.y), error = 0x1p-49 * span * span;
+  const double area = turn(a, b, c) - error;
+  const double part = area > 0 ? 4 * error / area : INFINITY;
+  const FlatBox box = {glm::min(glm::min(flat_[a], flat_[b]), flat_[c]),
+                       glm::max(glm::max(flat_[a], flat_[b]), flat_[c])};
+  const glm::dvec2 slack = part * (box.max - box.min);
+  return {box.min - slack, box.max + slack};
+}
+
 // No right turn, and once around only: a pentagram turns left everywhere, but goes around twice.
+// A corner that repeats the one before it is passed over, else it would hide a right turn there.
 bool Triangulator::is_convex() const {
-  const size_t n = flat_.size();
-  int changes = 0, first = -1, last = -1;
-  for (size_t i = 0; i < n; ++i) {
-    const size_t j = i + 1 < n ? i + 1 : 0, k = j + 1 < n ? j + 1 : 0;
-    if (!(turn(i, j, k) >= 0)) return false;
-    const int side = half(flat_[j] - flat_[i]);
-    if (side < 0) continue;
-    if (first < 0) first = side;
-    if (last >= 0 && side != last) ++changes;
+  size_t b = flat_.size() - 1, a = b;  // the edge from a to b, and the next corner c
+  while (a > 0 && flat_[a] == flat_[b]) --a;
+  int changes = 0, last = half(flat_[b] - flat_[a]);
+  for (size_t c = 0; c < flat_.size(); ++c) {
+    if (flat_[c] == flat_[b]) continue;
+    if (!(turn(a, b, c) >= 0)) return false;
+    const int side = half(flat_[c] - flat_[b]);
+    if (side != last) ++changes;
     last = side;
+    a = b;
+    b = c;
   }
-  if (first != last) ++changes;
   return changes == 2;
 }
 
@@ -125,15 +148,37 @@ bool Triangulator::forbids(uint32_t i, size_t a, size_t b, size_t c) const {
   return true;
 }
 
-bool Triangulator::is_ear(uint32_t ear, uint64_t& work) const {
+// Whether a candidate is an ear; if not, it is no candidate any more.
+bool Triangulator::is_ear(uint32_t ear) {
   const uint32_t a = prev_[ear], c = next_[ear];
-  if (!(turn(a, ear, c) > 0)) return false;
-  for (uint32_t i = next_[c]; i != a; i = next_[i]) {
-    if (work == 0) return false;
-    --work;
-    if (forbids(i, a, ear, c)) return false;
+  if (!(turn(a, ear, c) > 0)) {
+    candidates_.erase(ear);
+    return false;
   }
-  return true;
+  const FlatBox near = reach(a, ear, c);
+  const auto may_hold = [&](const FlatBox& box) {
+    count_step();
+    if (box.max.x < near.min.x || box.min.x > near.max.x) return false;
+    if (box.max.y < near.min.y || box.min.y > near.max.y) return false;
+    return !(most_left(a, ear, box) < 0 || most_left(ear, c, box) < 0 || most_left(c, a, box) < 0);
+  };
+  const uint32_t other = tree_.find(may_hold, [&](uint32_t i) {
+    count_step();
+    return i != a && i != ear && i != c && forbids(i, a, ear, c);
+  });
+  if (other == CornerTree::kNone) return true;
+  candidates_.wait(ear, other);
+  return false;
+}
+
+// The first ear of the ring from `from` on, or CornerTree::kNone.
+uint32_t Triangulator::next_ear(uint32_t from) {
+  for (;;) {
+    uint32_t i = candidates_.next(from);
+    if (i == UINT32_MAX) i = candidates_.next(0);
+    if (i == UINT32_MAX || is_ear(i)) return i;
+    from = i;
+  }
 }
 
 void Triangulator::make_ring() {
@@ -145,6 +190,24 @@ void Triangulator::make_ring() {
     next_[i] = i + 1 == n ? 0 : i + 1;
   }
   left_ = n;
+  done_ = 0;
+  tree_.build(flat_);
+  candidates_.reset(n);
+}
+
+void Triangulator::count_step() {
+  if (++done_ > steps_ * corners_.size())
+    fail_input(path_, "a polygon of " + format_count(corners_.size()) +
+                          " corners is too entangled to be cut into triangles");
+}
+
+// The ring has changed at a corner: it may be an ear now, and what it forbade may be allowed.
+void Triangulator::ask_again(uint32_t corner) {
+  candidates_.insert(corner);
+  candidates_.wake(corner, [&](uint32_t ear) {
+    count_step();
+    return !forbids(corner, prev_[ear], ear, next_[ear]);
+  });
 }
 
 // Takes a corner out of the ring, as the triangle with its neighbours; returns the one before it.
@@ -154,7 +217,19 @@ uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
   next_[a] = c;
   prev_[c] = a;
   --left_;
+  tree_.remove(corner);
+  candidates_.erase(corner);
+  candidates_.wake(corner, [](uint32_t) { return true; });
+  ask_again(a);
+  ask_again(c);
   return a;
+}
+
+// Takes out what repeats the corner before it: nothing turns there, so it would be no ear.
+void Triangulator::clip_repeats(BatchWriter& writer) {
+  for (uint32_t i = 0; i < corners_.size() && left_ > 3; ++i) {
+    if (flat_[i] == flat_[prev_[i]]) clip(i, writer);
+  }
 }
 
 // Where `corner` is the tip of a slit (the ring comes to it and leaves it on the same way), takes
@@ -171,21 +246,15 @@ uint32_t Triangulator::clip_slit(uint32_t corner, BatchWriter& writer) {
 
 void Triangulator::clip_ears(BatchWriter& writer) {
   make_ring();
-  uint64_t work = kWorkPerCorner * left_;
-  uint32_t here = 0;
+  clip_repeats(writer);
+  uint32_t here = candidates_.next(0);
   for (uint32_t i = left_; i > 0; --i) here = next_[clip_slit(here, writer)];
-  // Without an ear all around, a corner that repeats the one before it goes; without that, the end.
-  uint64_t tried = 0;
-  while (left_ > 3 && tried < 2 * uint64_t(left_) && work > 0) {
-    if (tried < left_ ? is_ear(here, work) : flat_[here] == flat_[prev_[here]]) {
-      const uint32_t a = clip_slit(clip(here, writer), writer);
-      const uint32_t c = clip_slit(next_[a], writer);
-      here = next_[c];  // not c: the ears of a round shape would all share one corner
-      tried = 0;
-    } else {
-      here = next_[here];
-      ++tried;
-    }
+  while (left_ > 3) {
+    const uint32_t ear = next_ear(here);
+    if (ear == CornerTree::kNone) break;
+    const uint32_t a = clip_slit(clip(ear, writer), writer);
+    const uint32_t c = clip_slit(next_[a], writer);
+    here = next_[c];  // not c: the ears of a round shape would all share one corner
   }
   for (uint32_t i = next_[here]; next_[i] != here; i = next_[i])
     writer.add(corners_[here], corners_[i], corners_[next_[i]]);

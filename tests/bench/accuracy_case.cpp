@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "builder/overlap.h"
+#include "builder/overlap/overlap.h"
 #include "io/lattice.h"
 #include "verify/occupancy.h"
 #include "verify/sample.h"

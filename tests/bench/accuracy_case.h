@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/cell.h"
+#include "builder/octree/octree_cube.h"
 #include "tests/bench/peers/cube_descent.h"
 
 namespace svdag::bench {

@@ -1,8 +1,8 @@
 #include "tests/bench/accuracy_methods.h"
 
-#include "builder/descend.h"
-#include "builder/overlap.h"
-#include "builder/window.h"
+#include "builder/descend/descend.h"
+#include "builder/descend/window.h"
+#include "builder/overlap/overlap.h"
 #include "tests/bench/peers/akenine_moller.h"
 #include "tests/bench/peers/integer.h"
 #include "tests/bench/peers/schwarz_seidel.h"
@@ -26,7 +26,7 @@ class BuilderDescent {
     const int64_t side = int64_t(1) << cell.side_log2(grid_.levels);
     for (const LatticeTriangle& t : triangles) {
       setups.push_back(make_setup(t));
-      if (boxes_meet(setups.back(), corner, side))
+      if (setups.back().box.meets({corner, corner + side}))
         list.push_back({&setups.back(), setups.back().edges});
     }
     descend(cell, list, out);

@@ -79,7 +79,9 @@ def figures(bakes, name):
             continue
         wide = measure(bakes, AVX512) if has_avx512() else None
         targets = [f"{target:,} {unit}".strip() for target in (at_most, aim)]
-        rows.append([work, *targets, shown(best, unit), shown(wide, unit)])
+        measured = [shown(value, unit) + (" **missed**" if value is not None and value > at_most else "")
+                    for value in (best, wide)]
+        rows.append([work, *targets, *measured])
     return table(["work", "at most", "aim", name, "AVX-512"], rows)
 
 

@@ -15,6 +15,7 @@
 #include "tests/reference_reduction.h"
 #include "tests/soup.h"
 #include "tests/stress/paths.h"
+#include "tests/temp_folder.h"
 #include "verify/occupancy.h"
 
 namespace svdag {
@@ -40,7 +41,7 @@ std::function<void(size_t)> random_delay(uint64_t seed) {
 }
 
 TEST(Build, GivesTheSameBytesWithoutAnyOfItsShortcuts) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (const NamedScene& scene : three_scenes()) {
     const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
     write_stl(path, scene.triangles);
@@ -61,7 +62,7 @@ TEST(Build, GivesTheSameBytesWithoutAnyOfItsShortcuts) {
 }
 
 TEST(Build, GivesTheSameBytesWhereAHeavyCellIsDivided) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   write_stl(path, random_soup(30'000, 0.05, 3));
   BuildConfig config = config_for(path, output, 7);
@@ -78,7 +79,7 @@ TEST(Build, GivesTheSameBytesWhereAHeavyCellIsDivided) {
 }
 
 TEST(Build, GivesTheSameBytesForEveryThreadCountCellSizeAndOrder) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (NamedScene& scene : three_scenes()) {
     const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
     write_stl(path, scene.triangles);
@@ -113,7 +114,7 @@ TEST(Build, GivesTheSameBytesForEveryThreadCountCellSizeAndOrder) {
 }
 
 TEST(Build, DuplicatesSubdivisionAndWindingChangeNothing) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   std::vector<Triangle> mesh = boxes_and_quad(10, 4);
   SequentialExecutor one;
@@ -129,7 +130,7 @@ TEST(Build, DuplicatesSubdivisionAndWindingChangeNothing) {
 }
 
 TEST(Build, HoldsExactlyTheVoxelsOfTheJudgeAndIsMinimal) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (const NamedScene& scene : three_scenes()) {
     const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
     write_stl(path, scene.triangles);
@@ -163,7 +164,7 @@ TEST(Build, HoldsExactlyTheVoxelsOfTheJudgeAndIsMinimal) {
 }
 
 TEST(Build, AnEmptySelectionIsAValidFileAndAnEmptySceneAnError) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   write_stl(path, bumpy_sphere(10));
   BuildConfig config = config_for(path, output, 6);
@@ -181,7 +182,7 @@ TEST(Build, AnEmptySelectionIsAValidFileAndAnEmptySceneAnError) {
 }
 
 TEST(Build, BoundsOnALatticeGiveTheSameVoxelsAsTheWholeScene) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   write_stl(path, bumpy_sphere(40));
   BuildConfig config = config_for(path, output, 0);
@@ -215,7 +216,7 @@ TEST(Build, BoundsOnALatticeGiveTheSameVoxelsAsTheWholeScene) {
 }
 
 TEST(Build, AFailureLeavesTheOldOutputAndNothingElse) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   std::vector<Triangle> mesh = bumpy_sphere(10);
   mesh.back().v[1].y = std::nan("");

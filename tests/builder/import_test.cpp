@@ -16,6 +16,7 @@ ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& ou
                          VoxelPlace place = {}, const std::vector<FullCube>& cubes = {},
                          uint64_t memory = 0) {
   ImportConfig config;
+  config.source = "voxels.npz";
   config.output = output;
   config.levels = levels;
   config.memory = memory;
@@ -46,7 +47,7 @@ TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
   const std::string out = folder.write("a.svdag", "old");
   EXPECT_SVDAG_ERROR(import_list({{0, 16, 0}}, out, 4), ExitCode::kUsage, "17 at least");
   EXPECT_SVDAG_ERROR(import_list({{0, 0, 0}}, out, 4, {Point(0), 0, 0}), ExitCode::kBadInput,
-                     "impossible place");
+                     "voxels.npz: puts its voxels at an impossible place");
   EXPECT_EQ(folder.read("a.svdag"), "old");
   EXPECT_EQ(folder.entries(), 1U);
 }

@@ -10,6 +10,7 @@
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -95,7 +96,7 @@ class MergeRuns : public ::testing::Test {
     return runs;
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   uint64_t scratch_written_ = 0;
 };
 

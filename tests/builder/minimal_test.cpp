@@ -6,7 +6,7 @@
 #include "io/dag/dag_file.h"
 #include "tests/reference_reduction.h"
 #include "tests/shared_scenes.h"
-#include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -20,7 +20,7 @@ class Minimal : public ::testing::TestWithParam<SceneAt> {};
 
 TEST_P(Minimal, HasAsManyNodesPerLevelAsTheReferenceReduction) {
   SVDAG_NEEDS_SHARED_SCENES();
-  const TemporaryFolder folder;
+  const TempFolder folder;
   BuildConfig config;
   config.scene.paths = {shared_scene(GetParam().name)};
   config.output = folder.file("out.svdag");

@@ -6,13 +6,13 @@
 #include <random>
 #include <set>
 
-#include "builder/merge.h"
-#include "builder/run.h"
-#include "builder/unique_set.h"
+#include "builder/descend/unique_set.h"
+#include "builder/merge/merge.h"
+#include "builder/run/run.h"
 #include "io/dag/dag_file.h"
 #include "tests/expect_error.h"
 #include "tests/reference_reduction.h"
-#include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -101,21 +101,22 @@ class Merge : public ::testing::TestWithParam<MergeWay> {
   Merge() : folder_(directory_.file("scratch")), scratch_(&folder_, &budget_) {}
 
   // Freezes `table`, of which `roots` holds the cells as 1 + settled number.
-  svdag::Run freeze_cells(NodeTable* table, uint32_t run, int level, std::vector<CellRoot>* roots) {
+  svdag::Run freeze_cells(NodeTable* table, uint32_t run, int level,
+                          std::vector<SubDagRoot>* roots) {
     std::vector<NodeNumber> numbers;
-    for (const CellRoot& root : *roots) {
+    for (const SubDagRoot& root : *roots) {
       if (root.run == run) numbers.push_back({level, root.rank});
     }
     const SpillTarget target{scratch_.runs(), scratch_.new_streams(20)};
     svdag::Run frozen = freeze(table, numbers, GetParam().spilled ? &target : nullptr);
     size_t next = 0;
-    for (CellRoot& root : *roots) {
+    for (SubDagRoot& root : *roots) {
       if (root.run == run) root.rank = numbers[next++].number;
     }
     return frozen;
   }
 
-  TemporaryFolder directory_;
+  TempFolder directory_;
   MemoryBudget budget_;
   ScratchDir folder_;
   Scratch scratch_;
@@ -129,7 +130,7 @@ TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     for (size_t w = 0; w < workers; ++w)
       tables.push_back(std::make_unique<NodeTable>(levels, &budget_));
     RandomCells cells(levels, seed);
-    std::vector<CellRoot> roots;
+    std::vector<SubDagRoot> roots;
     const int64_t side = int64_t(1) << cell_level;
     for (int64_t i = 0; i < side * side * side; ++i) {
       const Cube cube{cell_level, {i / side / side, i / side % side, i % side}};
@@ -140,7 +141,7 @@ TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     std::vector<svdag::Run> runs;
     for (size_t w = 0; w < workers; ++w) {
       tables[w]->flush();
-      for (CellRoot& root : roots) {
+      for (SubDagRoot& root : roots) {
         if (root.run == w) root.rank = tables[w]->settled(cell_level, root.rank) - 1;
       }
       // What no root reaches does not stay.

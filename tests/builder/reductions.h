@@ -6,8 +6,8 @@
 #include <random>
 
 #include "builder/brick_reduction.h"
-#include "builder/cell.h"
-#include "builder/merge.h"
+#include "builder/merge/merge.h"
+#include "builder/octree/morton.h"
 #include "io/dag/dag_file.h"
 #include "tests/reference_reduction.h"
 #include "tests/temp_folder.h"

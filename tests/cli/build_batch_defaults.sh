@@ -20,5 +20,10 @@ for wrong in '"shard": 1' '"keep-going": true' '"batch": "list.json"'; do
   echo '[{"scene": "a.ply", "output": "x.svdag", "resolution": 64, '"$wrong"'}]' > wrong.json
   svdag build --batch wrong.json 2>&1 || echo "exit $?"
 done
+echo '[{"scene": "a.ply", "output": "x.svdag", "skip-invalid": false}]' > wrong.json
+svdag build --batch wrong.json -r 64 --skip-invalid 2>&1 || echo "exit $?"
+echo '[{"scene": "a.ply", "output": "small.svdag", "cache-size": "1M"}]' > small.json
+svdag build --batch small.json -r 64 --cache cells -q
+svdag build --batch small.json -r 64 -q 2>&1 || echo "exit $?"
 svdag build a.ply -o x.svdag -r 64 --keep-going 2>&1 || echo "exit $?"
 ls

@@ -18,4 +18,13 @@ list "{$A, \"report\": \"l.json\"}"
 list '{"scene": "h.ply", "resolution": 64, "output": ""}'
 cmp h.ply h2.ply
 cmp h2.ply kept.ply
+# Results of before may be links of one another: each name gets a file of its own.
+svdag build h.ply -r 64 -o one.svdag -q
+cp one.svdag a.svdag
+ln a.svdag b.svdag
+ln -s a.svdag c.svdag
+echo "[{$A}, {\"scene\": \"h.ply\", \"resolution\": 32, \"output\": \"b.svdag\"}, {\"scene\": \"h.ply\", \"resolution\": 16, \"output\": \"c.svdag\"}]" > links.json
+svdag build --batch links.json -q
+cmp one.svdag a.svdag
+stat -c '%n %h %F' a.svdag b.svdag c.svdag
 ls

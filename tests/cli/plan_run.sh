@@ -7,3 +7,4 @@ cmp one.svdag p/c.svdag && echo "the same bytes"
 svdag info p | grep -v input
 svdag build p --shard 2
 svdag merge p --step merge-4 -q
+svdag run p -j 2 | grep -v planned | LC_ALL=C sort

@@ -13,6 +13,9 @@ done
 for seconds in 0 -1 nan; do
   refused svdag build r.ply -r 64 -o x.svdag --checkpoint=$seconds
 done
+refused svdag-verify mesh r.svdag r.ply --sample 0
+refused svdag-verify mesh r.svdag r.ply --judge openvdb --sample 0
+refused svdag-verify render r.svdag -o r.png --fly 0
 refused svdag merge r.run -o ''
 refused svdag build r.ply --shard 0
 refused svdag build r.ply -r 64 -o x.svdag --checkpoint soon

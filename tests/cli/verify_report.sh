@@ -15,4 +15,6 @@ echo '{"content_hash": 3}' > c.json
 svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 echo 'no JSON' > c.json
 svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
+sed 's/"fraction_bits": *[0-9]*/"fraction_bits": 1e24/' a.json >c.json
+svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 svdag-verify report a.svdag a.json -o a.json 2>&1 || echo "exit $?"

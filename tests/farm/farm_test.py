@@ -8,6 +8,7 @@ The generated atrium, cut into 16 shards, is baked
 Where SVDAG_SCENES is set, Crytek Sponza as well, on Slurm. --only ENGINE runs a part.
 """
 import argparse
+import functools
 import hashlib
 import json
 import os
@@ -140,7 +141,10 @@ def by_slurm(farm, name, resolution, with_accident):
 
 def interrupted(farm, plan):
     """The exit code of a run that is interrupted in its middle; 0 if it was at its end by then."""
-    run = subprocess.Popen([farm.svdag, "run", plan, "-j", "2", "-q"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    # What is started in the background, as by nohup, ignores interrupts, and so would its children.
+    obey = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    run = subprocess.Popen([farm.svdag, "run", plan, "-j", "2", "-q"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                           preexec_fn=obey)
     receipts = [plan / "runs" / f"{name}.json" for name in farm.steps(plan)]
     while sum(map(pathlib.Path.exists, receipts)) < 3 and run.poll() is None:
         time.sleep(0.002)

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """A plan on a file server, its scratch on a local disk: what NFS says and local disks do not, and the right verdict.
 
-No O_TMPFILE; folders that cannot be synced; a rename that is done, sent again, and then said to have failed; no locks;
-files that the server has replaced (ESTALE), a server that does not answer (ETIMEDOUT).
+No O_TMPFILE; folders that cannot be synced; a rename that is done, sent again, and then said to have failed; no locks,
+or such as need a file that is open for writing; files that the server has replaced (ESTALE), a server that does not
+answer (ETIMEDOUT).
 """
 import errno
+import fcntl
 import pathlib
 import shutil
 import subprocess
 import tempfile
+import threading
+import time
 
 import bakes
 import shim
@@ -72,6 +76,31 @@ def judge_locks(report, farm):
     report.judge("no locks, scratch on the server", said + bakes.sentences(outcome.stderr))
 
 
+def judge_range_locks(report, farm):
+    """Scratch on the server, a step that another process does: no process of ours begins it meanwhile."""
+    farm.clear()
+    runs = farm.served / "plan" / "runs"
+    scratch = runs / "shard-1.run.scratch"
+    scratch.mkdir(mode=0o700)
+    with open(scratch / "owner", "w") as owner:
+        fcntl.flock(owner, fcntl.LOCK_EX)
+        ours = threading.Thread(target=give_back_after, args=(owner, runs / "shard-2.json"))
+        ours.start()
+        outcome = shim.run(bakes.SHIM, [SVDAG, "run", "plan", "-j", "1", "-q"], farm.served, Fault(range_locks=True))
+        ours.join()
+    found = [] if outcome.code == 0 else [f"exit {outcome.code}, {outcome.stderr!r}"]
+    said = (farm.served / "plan" / "logs" / "shard-1.log").read_text()
+    report.judge("locks as of NFS", found + [said] * (said != "") + farm.complaints_about_file())
+
+
+def give_back_after(lock, receipt):
+    """What another process does, until the receipt is there."""
+    patience = time.monotonic() + 60
+    while not receipt.exists() and time.monotonic() < patience:
+        time.sleep(0.02)
+    fcntl.flock(lock, fcntl.LOCK_UN)
+
+
 def judge_losses(report, farm):
     """Each open and read of the server's files fails once: exit 4, and the step done again gives the file."""
     fired = 0
@@ -104,6 +133,7 @@ def main():
         farm = Farm(pathlib.Path(folder).resolve())
         judge_oddities(report, farm)
         judge_locks(report, farm)
+        judge_range_locks(report, farm)
         judge_losses(report, farm)
     report.finish()
 

@@ -11,6 +11,8 @@
 //   SVDAG_FAULT_FOLDER_SYNC  an errno: what every fsync of a folder says (not counted)
 //   SVDAG_FAULT_RENAME_TWICE 1: every rename is done, and says ENOENT: an NFS server was asked
 //   twice
+//   SVDAG_FAULT_RANGE_LOCKS  1: as NFS clients make record locks of flock, one that excludes needs
+//   a descriptor that may write, a shared one a descriptor that may read
 //
 // Only descriptors and paths below the watched folders count, so that libraries, /proc and stdout
 // stay out of the game.
@@ -74,6 +76,7 @@ struct Plan {
   bool no_tmpfile = setting("SVDAG_FAULT_NO_TMPFILE") == "1";
   int folder_sync = std::atoi(setting("SVDAG_FAULT_FOLDER_SYNC").c_str());
   bool rename_twice = setting("SVDAG_FAULT_RENAME_TWICE") == "1";
+  bool range_locks = setting("SVDAG_FAULT_RANGE_LOCKS") == "1";
   int action = 0;
   std::array<std::atomic<long>, kKinds> counts{};
   std::array<std::atomic<bool>, kDescriptors> watched{};

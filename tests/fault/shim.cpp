@@ -67,6 +67,13 @@ bool is_unsyncable(int fd) {
          S_ISDIR(status.st_mode);
 }
 
+// What fcntl asks of the descriptor of a record lock.
+bool may_lock_range(int fd, int operation) {
+  const int access = fcntl(fd, F_GETFL) & O_ACCMODE;
+  return !((operation & LOCK_EX) != 0 && access == O_RDONLY) &&
+         !((operation & LOCK_SH) != 0 && access == O_WRONLY);
+}
+
 // Half of n, and whole pages of a file that is written directly.
 size_t less_than(size_t n) {
   return n >= 8192 ? n / 2 & ~size_t(4095) : std::max<size_t>(n / 2, 1);
@@ -283,6 +290,8 @@ int mkdirat(int folder, const char* path, mode_t mode) noexcept {
 
 int flock(int fd, int operation) noexcept {
   NEXT(flock);
+  if (plan().range_locks && is_watched(fd) && !may_lock_range(fd, operation))
+    return errno = EBADF, -1;
   return on_descriptor(kLock, fd, [&] { return next(fd, operation); });
 }
 

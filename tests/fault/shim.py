@@ -19,6 +19,7 @@ class Fault(NamedTuple):
     no_tmpfile: bool = False  # the file system has no O_TMPFILE
     folder_sync: int = 0  # the number of an errno: what every fsync of a folder says
     rename_twice: bool = False  # every rename is done, and then says that there is no such file
+    range_locks: bool = False  # flock needs what a record lock needs: to exclude, a file open for writing
 
 
 class Outcome(NamedTuple):
@@ -33,7 +34,8 @@ def environment(library, folders, mark, fault, log=""):
                 SVDAG_FAULT_UNDER=":".join(str(pathlib.Path(f).resolve()) for f in folders),
                 SVDAG_FAULT_KIND=fault.kind, SVDAG_FAULT_AT=str(fault.at), SVDAG_FAULT_DO=fault.action,
                 SVDAG_FAULT_STAYS=str(int(fault.stays)), SVDAG_FAULT_NO_TMPFILE=str(int(fault.no_tmpfile)),
-                SVDAG_FAULT_FOLDER_SYNC=str(fault.folder_sync), SVDAG_FAULT_RENAME_TWICE=str(int(fault.rename_twice)))
+                SVDAG_FAULT_FOLDER_SYNC=str(fault.folder_sync), SVDAG_FAULT_RENAME_TWICE=str(int(fault.rename_twice)),
+                SVDAG_FAULT_RANGE_LOCKS=str(int(fault.range_locks)))
 
 
 def run(library, command, cwd, fault, folders=(), log=""):

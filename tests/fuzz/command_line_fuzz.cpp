@@ -17,8 +17,8 @@ struct Filled {
   MergeCommandConfig merge;
   PlanCommandConfig plan;
   RunCommandConfig run;
-  SubmitConfig submit;
-  InfoConfig info;
+  SubmitCommandConfig submit;
+  InfoCommandConfig info;
 };
 
 // All commands. To make them takes ten times as long as to understand a line, so they are made
@@ -48,7 +48,8 @@ class Program {
       app_.parse(int(argv.size()), argv.data());
     } catch (const CLI::Success&) {
     } catch (const CLI::ParseError& error) {
-      fail_usage(explain(app_, int(argv.size()), argv.data(), error));
+      words.erase(words.begin());
+      fail_usage(explain(app_, words, error));
     }
     const bool many_threads = filled_.build.threads > 1024 || filled_.merge.threads > 1024;
     if (many_threads || filled_.build.build.levels > kMaxLevels) std::abort();

@@ -1,6 +1,6 @@
 // Arbitrary bytes as a `.run`, as they are and with their checksums repaired: an Error, or a run
 // that check_run() proves and whose levels can be read.
-#include "builder/run_check.h"
+#include "builder/run/run_check.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_files.h"
 

@@ -11,7 +11,7 @@ constexpr ValueRange kRange = {-0.5, 0.5};
 
 void visit(const VdbGrid& grid) {
   size_t visited = 0;
-  grid.visit([&](const Cube& cube) {
+  grid.visit([&](const VoxelCube& cube) {
     if (cube.side < kBlockSide || cube.count() == 0) std::abort();
     const Block& block = cube.block;
     const bool set = cube.side > kBlockSide || block.get(0, 0, 0);

@@ -22,6 +22,17 @@ TEST(Error, NamesOfStrangersReachNoTerminalAsTheyAre) {
   EXPECT_EQ(error.path(), "red\x1b[31m.vdb");
 }
 
+TEST(Error, ControlCharactersOfTwoBytesReachNoTerminalEither) {
+  const auto what = [](const char* text) {
+    return std::string(Error(ExitCode::kUsage, text).what());
+  };
+  EXPECT_EQ(what("a\xc2\x9b"
+                 "31mb\xc2\x80\xc2\x9f"),
+            "a?31mb??");
+  // U+00A0, U+00C2 and U+00DB with bytes that look alike, and a byte that stands alone at the end.
+  EXPECT_EQ(what("\xc2\xa0\xc3\x82\xc3\x9b\xc2"), "\xc2\xa0\xc3\x82\xc3\x9b\xc2");
+}
+
 TEST(Error, ShorthandsCarryTheirExitCodes) {
   EXPECT_SVDAG_ERROR(fail_input("b.obj", "is broken", 3), ExitCode::kBadInput, "b.obj: is broken");
   EXPECT_SVDAG_ERROR(fail_usage("no such rule"), ExitCode::kUsage, "no such rule");

@@ -33,6 +33,16 @@ TEST(FileNames, AFileThatIsNotThereYetIsKnownByItsPlace) {
   EXPECT_EQ(names.find(folder.file("in/other")), nullptr);
 }
 
+TEST(FileNames, APlaceIsOfTheNameAndNotOfTheFile) {
+  const TempFolder folder;
+  const std::string a = folder.write("a", "A");
+  std::filesystem::create_hard_link(a, folder.file("b"));
+  std::filesystem::create_symlink(a, folder.file("c"));
+  EXPECT_EQ(place_of(folder.path() + "/./a"), place_of(a));
+  EXPECT_NE(place_of(folder.file("b")), place_of(a));
+  EXPECT_NE(place_of(folder.file("c")), place_of(a));
+}
+
 TEST(FileNames, AFileInAFolderThatIsNotThereIsKnownByItsNameAlone) {
   const TempFolder folder;
   FileNames names;

@@ -41,6 +41,18 @@ TEST(MemoryBudget, AFailedReservationTakesNothingAndCountsNoPeak) {
   EXPECT_EQ(budget.peak(), 50U);
 }
 
+TEST(MemoryBudget, TryingBeyondTheLimitChangesNothing) {
+  MemoryBudget budget(100);
+  auto held = budget.reserve(50, "nodes");
+  EXPECT_FALSE(held.try_resize(101));
+  EXPECT_EQ(held.bytes(), 50U);
+  EXPECT_EQ(budget.used(), 50U);
+  EXPECT_TRUE(held.try_resize(100));
+  EXPECT_TRUE(held.try_resize(20));
+  EXPECT_EQ(budget.used(), 20U);
+  EXPECT_EQ(budget.peak(), 100U);
+}
+
 TEST(MemoryBudget, APeakOfAPhaseBeginsWithWhatIsHeldAndForgetsThePhaseBefore) {
   MemoryBudget budget(100);
   const auto held = budget.reserve(20, "nodes");

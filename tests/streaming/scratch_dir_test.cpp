@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -242,6 +243,15 @@ TEST(ScratchDir, IsInUseAsLongAsItsOwnerLives) {
   }
   EXPECT_FALSE(ScratchDir::in_use(path));
   ScratchDir again(path);  // which asking has not changed
+}
+
+TEST(ScratchDir, WhoAsksWhetherItIsInUseIsNoUser) {
+  const TempFolder temp;
+  fs::create_directory(temp.file("s"));
+  const int asker = open(temp.write("s/owner", "").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(asker, LOCK_SH), 0);
+  EXPECT_FALSE(ScratchDir::in_use(temp.file("s")));
+  close(asker);
 }
 
 TEST(ScratchDir, TheFolderOfAKilledOwnerIsTakenOverWithAllItHolds) {

@@ -1,8 +1,8 @@
 // No holes in baked files: windows of an effective 64K^3 on the surface, each one whole bake.
 //
 // `--voxel-size` of 1/65536 of the scene and `--bounds` of about 48 voxels give the voxels that a
-// bake of everything has there (builder/build_test.cpp), through readers, split, descent, reduction
-// and file.
+// bake of everything has there (tests/builder/build_test.cpp), through readers, split, descent,
+// reduction and file.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include "tests/soup.h"
 #include "tests/stress/random.h"
 #include "tests/stress/separation.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -53,7 +54,7 @@ std::vector<LatticeTriangle> snapped(const std::vector<Triangle>& mesh, const Gr
 }
 
 void expect_no_leaks(const std::string& path, int windows) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   BuildConfig config;
   config.scene.paths = {path};
   config.output = folder.file("window.svdag");
@@ -64,7 +65,7 @@ void expect_no_leaks(const std::string& path, int windows) {
   }
   config.voxel_size =
       std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / kResolution;
-  Random random(31);
+  StressRandom random(31);
   Separation sums[2];
   for (int i = 0; i < windows; ++i) {
     const Point at = mesh[random.below(mesh.size())].v[0];
@@ -96,7 +97,7 @@ void expect_no_leaks(const std::string& path, int windows) {
 }
 
 TEST(SeparationOfBakes, OfASphereWithBumps) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_stl(folder.file("sphere.stl"), bumpy_sphere(60));
   expect_no_leaks(folder.file("sphere.stl"), 12);
 }

@@ -24,7 +24,7 @@ uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
 // side lie in the grid: near zero, anywhere, and in the far corner.
 template <class Check>
 void everywhere(const Check& check) {
-  Random random(11);
+  StressRandom random(11);
   for (const int levels : kGrids) {
     Spot spot;
     spot.grid = unit_grid(levels);
@@ -59,18 +59,18 @@ uint64_t product(const LatticePoint& p) {
   return uint64_t(p.x * p.y * p.z);
 }
 
-LatticePoint draw_size(Random* random) {
+LatticePoint draw_size(StressRandom* random) {
   return {random->between(4, 70), random->between(4, 70), random->between(4, 70)};
 }
 
 // A point strictly inside the voxel above a corner.
-LatticePoint inside_voxel(const Spot& spot, Random* random) {
+LatticePoint inside_voxel(const Spot& spot, StressRandom* random) {
   const int64_t last = spot.voxel() - 1;
   return {random->between(1, last), random->between(1, last), random->between(1, last)};
 }
 
 TEST(ClosedForm, ABoxOnVoxelPlanesHasWallsOfTwoVoxels) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const LatticePoint s = draw_size(random), two(2);
     EXPECT_EQ(count_voxels(spot, Rule::kConservative, box(at, s * spot.voxel())),
               product(s + two) - product(s - two));
@@ -78,7 +78,7 @@ TEST(ClosedForm, ABoxOnVoxelPlanesHasWallsOfTwoVoxels) {
 }
 
 TEST(ClosedForm, ABoxOffVoxelPlanesHasWallsOfOneVoxel) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const LatticePoint s = draw_size(random), one(1);
     const LatticePoint off = inside_voxel(spot, random);
     EXPECT_EQ(count_voxels(spot, Rule::kConservative, box(at + off, s * spot.voxel())),
@@ -87,7 +87,7 @@ TEST(ClosedForm, ABoxOffVoxelPlanesHasWallsOfOneVoxel) {
 }
 
 TEST(ClosedForm, TheTriangleAcrossTheAxes) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const int64_t c = random->between(1, 70), s = c * spot.voxel();
     const LatticeTriangle t{
         {at + LatticePoint(s, 0, 0), at + LatticePoint(0, s, 0), at + LatticePoint(0, 0, s)}};
@@ -96,7 +96,7 @@ TEST(ClosedForm, TheTriangleAcrossTheAxes) {
 }
 
 TEST(ClosedForm, ADiagonalOfCollinearVertices) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const int64_t n = random->between(1, 140);
     const LatticePoint end = at + LatticePoint(n * spot.voxel());
     const LatticePoint middle = at + LatticePoint(random->between(0, n * spot.voxel()));
@@ -107,7 +107,7 @@ TEST(ClosedForm, ADiagonalOfCollinearVertices) {
 }
 
 TEST(ClosedForm, APointTouchesEightFourTwoOrOneVoxels) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const LatticePoint off = inside_voxel(spot, random);
     for (unsigned inside = 0; inside < 8; ++inside) {  // bit a: off the planes of axis a
       LatticePoint p = at;
@@ -122,7 +122,7 @@ TEST(ClosedForm, APointTouchesEightFourTwoOrOneVoxels) {
 // Rule thin counts a rectangle of whole voxels by its area, on planes, on centres and anywhere
 // else: every line of centres that meets it sets one voxel, and ties go one way.
 TEST(ClosedForm, AThinRectangleHasItsArea) {
-  everywhere([](const Spot& spot, Random* random, const LatticePoint& at) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const LatticePoint s = draw_size(random);
     LatticePoint corner = at;
     if (random->coin()) corner += LatticePoint(spot.voxel() / 2);
@@ -136,7 +136,7 @@ TEST(ClosedForm, AThinRectangleHasItsArea) {
 }
 
 TEST(ClosedForm, TheFractionFollowsFromTheResolutionAlone) {
-  Random random(12);
+  StressRandom random(12);
   for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
     for (int round = 0; round < 50; ++round) {
       const double scale = std::ldexp(1.0, int(random.between(-100, 50)));

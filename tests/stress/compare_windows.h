@@ -21,8 +21,8 @@ struct Tally {
   Tally& operator+=(const Tally& other);
 };
 
-// The region as the voxelizer (builder/window.h) sets it. `outside`, if given, grows by the voxels
-// set outside the region although only the region was selected.
+// The region as the voxelizer (builder/descend/window.h) sets it. `outside`, if given, grows by the
+// voxels set outside the region although only the region was selected.
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
 // The region as the judge sets it: conservative by clipping (verify/occupancy.h), thin by the

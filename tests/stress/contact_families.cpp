@@ -17,7 +17,7 @@ struct Cell {
   int64_t side;
 };
 
-Cell draw_cell(const Spot& spot, Random* random) {
+Cell draw_cell(const Spot& spot, StressRandom* random) {
   const int64_t side = spot.voxel() << random->below(5);
   LatticePoint corner = spot.corner(random);
   for (int a = 0; a < 3; ++a) corner[a] = corner[a] / side * side;
@@ -25,7 +25,7 @@ Cell draw_cell(const Spot& spot, Random* random) {
 }
 
 // A wing tip: strictly away from the cell on the axes of `outward` (bits), free on the others.
-LatticePoint tip(const Cell& cell, unsigned outward, Random* random) {
+LatticePoint tip(const Cell& cell, unsigned outward, StressRandom* random) {
   const int64_t reach = 2 * cell.side;
   LatticePoint d;
   for (int a = 0; a < 3; ++a) {
@@ -36,7 +36,7 @@ LatticePoint tip(const Cell& cell, unsigned outward, Random* random) {
 }
 
 // The two ends of the edge that is shared by both wings, and along which the cell is met.
-std::array<LatticePoint, 2> spine(const Cell& cell, Contact contact, int w, Random* random) {
+std::array<LatticePoint, 2> spine(const Cell& cell, Contact contact, int w, StressRandom* random) {
   std::array<LatticePoint, 2> ends{cell.corner, cell.corner};
   switch (contact) {
     case Contact::kCorner:  // from the corner outwards
@@ -58,7 +58,7 @@ std::array<LatticePoint, 2> spine(const Cell& cell, Contact contact, int w, Rand
 }
 
 Family contact_family(const char* name, Contact contact) {
-  return {name, [contact](const Spot& spot, Random* random) {
+  return {name, [contact](const Spot& spot, StressRandom* random) {
             Soup soup;
             for (int i = 0; i < 3; ++i) {
               const Cell cell = draw_cell(spot, random);

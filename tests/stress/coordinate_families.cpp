@@ -25,7 +25,7 @@ Grid box_grid(int levels, double size, const Point& corner) {
 
 // Triangles of a few voxels in world doubles; `adjust` makes the coordinates what the family says.
 template <class Adjust>
-Soup world_soup(const Spot& spot, Random* random, const Adjust& adjust) {
+Soup world_soup(const Spot& spot, StressRandom* random, const Adjust& adjust) {
   std::vector<Triangle> triangles(4);
   for (Triangle& t : triangles) {
     const Point at = anchor_in_voxels(spot, random);
@@ -40,30 +40,30 @@ Soup world_soup(const Spot& spot, Random* random, const Adjust& adjust) {
 }
 
 // Coordinates like those of a national grid, in metres, with centimetres.
-Grid utm_grid(int levels, Random* random) {
+Grid utm_grid(int levels, StressRandom* random) {
   static constexpr double kSizes[4] = {0.01, 0.1, 0.25, 1.0};
   const double size = kSizes[random->below(4)];
   const Point corner(5e5 + 1e3 * random->unit(), 4e6 + 1e3 * random->unit(), 100);
   return random->coin() ? lattice_grid(levels, size, corner) : box_grid(levels, size, corner);
 }
 
-Soup utm_centimetres(const Spot& spot, Random* random) {
+Soup utm_centimetres(const Spot& spot, StressRandom* random) {
   return world_soup(spot, random, [](double x) { return std::nearbyint(x * 100) / 100; });
 }
 
-Soup utm_floats(const Spot& spot, Random* random) {
+Soup utm_floats(const Spot& spot, StressRandom* random) {
   return world_soup(spot, random, [](double x) { return round_to_float(x); });
 }
 
 // Voxel sizes that no double holds, and vertices at multiples of their halves: on planes but for
 // the rounding of the world's doubles.
-Grid non_dyadic_grid(int levels, Random* random) {
+Grid non_dyadic_grid(int levels, StressRandom* random) {
   static constexpr double kSizes[5] = {0.1, 0.3, 0.7, 1.0 / 3, 0.001};
   const Point corner(random->unit(), -1e3 * random->unit(), 1e4 * random->unit());
   return lattice_grid(levels, kSizes[random->below(5)], corner);
 }
 
-Soup non_dyadic(const Spot& spot, Random* random) {
+Soup non_dyadic(const Spot& spot, StressRandom* random) {
   const double half = spot.grid.voxel_size / 2;
   return world_soup(spot, random, [=](double x) { return std::nearbyint(x / half) * half; });
 }
@@ -71,14 +71,14 @@ Soup non_dyadic(const Spot& spot, Random* random) {
 // The same scene in a unit so small, or so large, that float arithmetic over- or underflows.
 Family scaled(const char* name, double unit) {
   return {name,
-          [unit](const Spot& spot, Random* random) {
+          [unit](const Spot& spot, StressRandom* random) {
             const bool on_planes = random->coin();
             return world_soup(spot, random, [=](double x) {
               return on_planes ? std::nearbyint(x / unit * 2) / 2 * unit : x;
             });
           },
           Place::kAnywhere,
-          [unit](int levels, Random* random) {
+          [unit](int levels, StressRandom* random) {
             const double size = (random->coin() ? 1 : 0.37) * unit;
             const Point corner = unit * 1e3 * Point(random->unit(), random->unit(), random->unit());
             return random->coin() ? lattice_grid(levels, size, corner)
@@ -95,7 +95,7 @@ Grid around_zero(int levels, double size) {
 }
 
 // Coordinates that are zero of either sign, denormal, or ordinary.
-Soup denormals(const Spot& spot, Random* random) {
+Soup denormals(const Spot& spot, StressRandom* random) {
   constexpr double kDenormal = 0x1p-1074;
   return world_soup(spot, random, [&](double x) {
     const double denormal = std::copysign(kDenormal * double(random->log_between(1, 1LL << 51)), x);
@@ -105,15 +105,17 @@ Soup denormals(const Spot& spot, Random* random) {
 }
 
 // A whole scene of denormals: 1024 voxels and less are below 2^-1022.
-Soup denormal_scene(const Spot& spot, Random* random) {
+Soup denormal_scene(const Spot& spot, StressRandom* random) {
   return world_soup(spot, random, [&](double x) { return random->below(8) == 0 ? -0.0 : x; });
 }
 
 }  // namespace
 
 std::vector<Family> coordinate_families() {
-  const auto zero_grid = [](int levels, Random*) { return around_zero(levels, 1); };
-  const auto smallest_grid = [](int levels, Random*) { return around_zero(levels, 0x1p-1021); };
+  const auto zero_grid = [](int levels, StressRandom*) { return around_zero(levels, 1); };
+  const auto smallest_grid = [](int levels, StressRandom*) {
+    return around_zero(levels, 0x1p-1021);
+  };
   return {{"utm_centimetres", utm_centimetres, Place::kAnywhere, utm_grid},
           {"utm_floats", utm_floats, Place::kAnywhere, utm_grid},
           {"non_dyadic_voxels", non_dyadic, Place::kAnywhere, non_dyadic_grid},

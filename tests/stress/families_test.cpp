@@ -28,7 +28,7 @@ struct Outcome {
 };
 
 Outcome stress(const Family& family, int levels, Rule rule, uint64_t decisions) {
-  Random random(uint64_t(levels) * 1000 + uint64_t(rule));
+  StressRandom random(uint64_t(levels) * 1000 + uint64_t(rule));
   Outcome outcome;
   const size_t depths = size_t(levels - 1);  // 0 .. L-2
   const uint64_t most = 1000 + decisions;    // of a family that misses its own regions
@@ -49,8 +49,7 @@ class Families : public ::testing::TestWithParam<Family> {};
 TEST_P(Families, GiveTheVoxelsOfTheJudgeOnEveryGridAtEveryDepth) {
   const uint64_t decisions = wanted_decisions();
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-    std::printf("%-24s %-12s", GetParam().name.c_str(),
-                rule == Rule::kThin ? "thin" : "conservative");
+    std::printf("%-24s %-12s", GetParam().name.c_str(), rule_name(rule));
     Tally sum;
     for (const int levels : kGrids) {
       const Outcome outcome = stress(GetParam(), levels, rule, decisions);

@@ -18,9 +18,9 @@ using Soup = std::vector<LatticeTriangle>;
 
 struct Family {
   std::string name;
-  std::function<Soup(const Spot&, Random*)> draw;
+  std::function<Soup(const Spot&, StressRandom*)> draw;
   Place place = Place::kAnywhere;
-  std::function<Grid(int levels, Random*)> grid = [](int levels, Random*) {
+  std::function<Grid(int levels, StressRandom*)> grid = [](int levels, StressRandom*) {
     return unit_grid(levels);
   };
 };

@@ -9,7 +9,7 @@ namespace svdag {
 namespace {
 
 // Quarter turns about axes and diagonals as quaternions, normalised or not.
-std::array<double, 4> quarter_turn(Random* random) {
+std::array<double, 4> quarter_turn(StressRandom* random) {
   std::array<double, 4> q{};
   const double length = random->coin() ? std::sqrt(0.5) : double(random->between(1, 3));
   q[random->below(4)] = length * double(random->sign());
@@ -21,7 +21,7 @@ std::array<double, 4> quarter_turn(Random* random) {
   return q;
 }
 
-std::array<double, 3> mirrored_scale(Random* random) {
+std::array<double, 3> mirrored_scale(StressRandom* random) {
   static constexpr double kScales[4] = {1, 2, 0.5, 0.1};
   std::array<double, 3> scale;
   for (double& s : scale) s = kScales[random->below(4)] * double(random->sign());
@@ -30,7 +30,7 @@ std::array<double, 3> mirrored_scale(Random* random) {
 
 // Corners on half voxels, turned and mirrored by two nodes: back on planes, or beside them by what
 // the transform rounds.
-Soup gltf_nodes(const Spot& spot, Random* random) {
+Soup gltf_nodes(const Spot& spot, StressRandom* random) {
   Trs parent, child;
   const Point at = to_world(spot.grid, Point(spot.corner(random)) / double(spot.voxel()));
   for (size_t a = 0; a < 3; ++a) parent.translation[a] = at[int(a)];
@@ -48,7 +48,7 @@ Soup gltf_nodes(const Spot& spot, Random* random) {
 // Integers of `bits` bits over a range of the grid's size, dequantised in double as
 // io/scene/draco.cpp does: float minimum and range, min + k * (range / (2^bits - 1)).
 Family draco(const char* name, int bits) {
-  return {name, [bits](const Spot& spot, Random* random) {
+  return {name, [bits](const Spot& spot, StressRandom* random) {
             const double last = double((int64_t(1) << bits) - 1);
             const double range =
                 round_to_float(double(spot.grid.resolution()) * (0.5 + 0.4 * random->unit()));

@@ -30,7 +30,7 @@ TEST_P(Judges, AgreeWithEachOther) {
   uint64_t voxels = 0;
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     for (const int levels : {10, 13, 16, 20}) {
-      Random random(uint64_t(levels) * 77 + uint64_t(rule));
+      StressRandom random(uint64_t(levels) * 77 + uint64_t(rule));
       for (int round = 0; round < 3; ++round) {
         const Grid grid = GetParam().grid(levels, &random);
         const Spot spot = draw_spot(grid, levels - 5, 12, GetParam().place, &random);

@@ -1,5 +1,5 @@
-// Near-planar patches (builder/patch.h): walls of many triangles that are one plane, or almost, or
-// that look so and are not.
+// Near-planar patches (builder/descend/patch.h): walls of many triangles that are one plane, or
+// almost, or that look so and are not.
 #include <cmath>
 
 #include "tests/stress/family.h"
@@ -15,7 +15,7 @@ struct Wall {
   int64_t noise;    // of a height, lattice steps
   int64_t at[3];    // where the wall passes
 
-  LatticePoint vertex(int64_t i, int64_t j, Random* random, bool jitter) const {
+  LatticePoint vertex(int64_t i, int64_t j, StressRandom* random, bool jitter) const {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
     LatticePoint p;
     p[u] = at[u] + i * step + (jitter ? random->around(step / 4) : 0);
@@ -26,7 +26,7 @@ struct Wall {
   }
 };
 
-Wall draw_wall(const Spot& spot, Random* random) {
+Wall draw_wall(const Spot& spot, StressRandom* random) {
   Wall wall;
   wall.w = random->axis();
   wall.step = random->log_between(2 * spot.voxel(), 24 * spot.voxel());
@@ -41,7 +41,7 @@ Wall draw_wall(const Spot& spot, Random* random) {
   return wall;
 }
 
-Soup tessellated(const Wall& wall, Random* random) {
+Soup tessellated(const Wall& wall, StressRandom* random) {
   constexpr int64_t kHalf = 2, kSide = 2 * kHalf + 1;
   const bool jitter = random->coin();
   std::vector<LatticePoint> vertices;
@@ -65,12 +65,12 @@ Soup tessellated(const Wall& wall, Random* random) {
   return soup;
 }
 
-Soup walls(const Spot& spot, Random* random) {
+Soup walls(const Spot& spot, StressRandom* random) {
   return tessellated(draw_wall(spot, random), random);
 }
 
 // With triangles missing, repeated, or turned about an edge onto their neighbour.
-Soup damaged_walls(const Spot& spot, Random* random) {
+Soup damaged_walls(const Spot& spot, StressRandom* random) {
   Soup soup = walls(spot, random);
   for (int i = 0; i < 4; ++i) {
     const size_t k = random->below(soup.size());
@@ -91,7 +91,7 @@ Soup damaged_walls(const Spot& spot, Random* random) {
 }
 
 // Thin pairs that share their long diagonal: their boxes hold much that they do not touch.
-Soup rhombs(const Spot& spot, Random* random) {
+Soup rhombs(const Spot& spot, StressRandom* random) {
   Wall wall = draw_wall(spot, random);
   wall.step = random->log_between(4 * spot.voxel(), 12 * spot.voxel());
   const int u = (wall.w + 1) % 3, v = (wall.w + 2) % 3;
@@ -115,7 +115,7 @@ Soup rhombs(const Spot& spot, Random* random) {
 
 // Two large triangles that share an edge: the diagonal of a quad, exactly flat or nearly so, whole
 // or with the second one turned over.
-Soup quads(const Spot& spot, Random* random) {
+Soup quads(const Spot& spot, StressRandom* random) {
   Wall wall = draw_wall(spot, random);
   wall.step = random->log_between(64 * spot.voxel(), int64_t(1) << 34);
   const LatticePoint a = wall.vertex(-1, -1, random, true), b = wall.vertex(1, -1, random, true),

@@ -1,5 +1,5 @@
-// Near-planar patches: no wrong voxel under the conditions of builder/patch.h, and wrong ones
-// without any of them.
+// Near-planar patches: no wrong voxel under the conditions of builder/descend/patch.h, and wrong
+// ones without any of them.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace {
 
 // Voxels that differ from the plain path's, over many windows of all patch families.
 uint64_t wrong_voxels(const PatchConditions& conditions, Rule rule, int windows) {
-  Random random(77);
+  StressRandom random(77);
   const DescentPath plain = descent_paths().front();
   uint64_t wrong = 0;
   for (int i = 0; i < windows; ++i) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/descend.h"
+#include "builder/descend/descend.h"
 
 namespace svdag {
 

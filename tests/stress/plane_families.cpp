@@ -12,12 +12,12 @@ LatticePoint whole(const LatticePoint& p, const Spot& spot) {
   return {p.x >> f << f, p.y >> f << f, p.z >> f << f};
 }
 
-LatticePoint sized_point(const Spot& spot, Random* random) {
+LatticePoint sized_point(const Spot& spot, StressRandom* random) {
   return random->point(random->log_between(spot.voxel(), 64 * spot.voxel()));
 }
 
 // Constant on one axis: on a voxel plane plus `offset`.
-Soup faces(const Spot& spot, Random* random, int64_t offset) {
+Soup faces(const Spot& spot, StressRandom* random, int64_t offset) {
   Soup soup(2);
   for (LatticeTriangle& t : soup) {
     const int w = random->axis();
@@ -31,14 +31,14 @@ Soup faces(const Spot& spot, Random* random, int64_t offset) {
   return soup;
 }
 
-Soup faces_off_planes(const Spot& spot, Random* random) {
+Soup faces_off_planes(const Spot& spot, StressRandom* random) {
   static constexpr int64_t kOffsets[4] = {-1, 1, 12345, 0};
   const int64_t offset = kOffsets[random->below(4)];
   return faces(spot, random, offset != 0 ? offset : spot.voxel() / 2);
 }
 
 // Walls over the whole grid on a plane.
-Soup giant_faces(const Spot& spot, Random* random) {
+Soup giant_faces(const Spot& spot, StressRandom* random) {
   const int w = random->axis();
   const LatticePoint at = spot.corner(random);
   LatticePoint a = random->point(kLargest), b = random->point(kLargest);
@@ -48,7 +48,7 @@ Soup giant_faces(const Spot& spot, Random* random) {
 }
 
 // All vertices on voxel corners.
-Soup vertices_on_corners(const Spot& spot, Random* random) {
+Soup vertices_on_corners(const Spot& spot, StressRandom* random) {
   Soup soup(2);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.corner(random);
@@ -58,7 +58,7 @@ Soup vertices_on_corners(const Spot& spot, Random* random) {
   return soup;
 }
 
-Soup giant_on_corners(const Spot& spot, Random* random) {
+Soup giant_on_corners(const Spot& spot, StressRandom* random) {
   const LatticePoint at = spot.corner(random);
   const LatticePoint a = whole(random->point(kLargest), spot);
   const LatticePoint b = whole(random->point(kLargest), spot);
@@ -66,7 +66,7 @@ Soup giant_on_corners(const Spot& spot, Random* random) {
 }
 
 // All vertices on centres of voxels: every tie of rule thin.
-Soup vertices_on_centres(const Spot& spot, Random* random) {
+Soup vertices_on_centres(const Spot& spot, StressRandom* random) {
   Soup soup = vertices_on_corners(spot, random);
   for (LatticeTriangle& t : soup) {
     for (LatticePoint& p : t.v) p += LatticePoint(spot.voxel() / 2);
@@ -75,7 +75,7 @@ Soup vertices_on_centres(const Spot& spot, Random* random) {
 }
 
 // Vertices on the outer faces of the grid, next to them and beyond.
-Soup outer_faces(const Spot& spot, Random* random) {
+Soup outer_faces(const Spot& spot, StressRandom* random) {
   const int64_t side = spot.grid.resolution() << spot.grid.fraction();
   Soup soup(3);
   for (LatticeTriangle& t : soup) {
@@ -92,7 +92,7 @@ Soup outer_faces(const Spot& spot, Random* random) {
 }
 
 // Planes +-x +-y +-z = c through voxel corners, or one step beside them.
-Soup diagonal_plane(const Spot& spot, Random* random) {
+Soup diagonal_plane(const Spot& spot, StressRandom* random) {
   const LatticePoint at = spot.corner(random);
   const int64_t sign[3] = {random->sign(), random->sign(), random->sign()};
   const int64_t size = random->log_between(8 * spot.voxel(), kLargest / 4);
@@ -110,7 +110,7 @@ Soup diagonal_plane(const Spot& spot, Random* random) {
 }
 
 // Giants that lean from a voxel plane by a few lattice steps over their whole length.
-Soup near_axis_giant(const Spot& spot, Random* random) {
+Soup near_axis_giant(const Spot& spot, StressRandom* random) {
   const int w = random->axis();
   LatticePoint at = spot.anchor(random);
   at[w] = spot.corner(random)[w];
@@ -122,7 +122,7 @@ Soup near_axis_giant(const Spot& spot, Random* random) {
 }
 
 // Triangles of a thousandth of a voxel on planes, edges and corners of voxels.
-Soup tiny_on_borders(const Spot& spot, Random* random) {
+Soup tiny_on_borders(const Spot& spot, StressRandom* random) {
   Soup soup(16);
   for (LatticeTriangle& t : soup) {
     LatticePoint at = spot.anchor(random);
@@ -139,7 +139,7 @@ Soup tiny_on_borders(const Spot& spot, Random* random) {
 }  // namespace
 
 std::vector<Family> plane_families() {
-  return {{"faces_on_planes", [](const Spot& s, Random* r) { return faces(s, r, 0); }},
+  return {{"faces_on_planes", [](const Spot& s, StressRandom* r) { return faces(s, r, 0); }},
           {"faces_off_planes", faces_off_planes},
           {"giant_faces", giant_faces},
           {"vertices_on_corners", vertices_on_corners},

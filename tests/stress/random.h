@@ -1,5 +1,6 @@
 // Random numbers of the stress suite: the same on every machine and for every standard library
-// (the distributions of <random> are not).
+// (the distributions of <random> are not). Not those of verify/random.h, with which
+// a user's seed draws samples: either may change without the other.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 
 namespace svdag {
 
-class Random {
+class StressRandom {
  public:
-  explicit Random(uint64_t seed) : bits_(seed) {}
+  explicit StressRandom(uint64_t seed) : bits_(seed) {}
 
   uint64_t below(uint64_t bound) { return bits_() % bound; }
   bool coin() { return bits_() >> 63 != 0; }

@@ -8,7 +8,7 @@ constexpr int64_t kLimit = (int64_t(1) << 41) - 1;
 
 // Two vertices at opposite ends of the range on every axis, the third so that the triangle passes
 // through the region: products of the exact tests come as near to 2^127 as they can.
-Soup ends_of_int128(const Spot& spot, Random* random) {
+Soup ends_of_int128(const Spot& spot, StressRandom* random) {
   const LatticePoint at = random->coin() ? spot.corner(random) : spot.anchor(random);
   LatticeTriangle t;
   for (int a = 0; a < 3; ++a) {
@@ -24,7 +24,7 @@ Soup ends_of_int128(const Spot& spot, Random* random) {
 }
 
 // One vertex at 2^41 exactly or a step beside it: where the narrow path ends.
-Soup at_the_switch(const Spot& spot, Random* random) {
+Soup at_the_switch(const Spot& spot, StressRandom* random) {
   Soup soup = ends_of_int128(spot, random);
   LatticePoint& p = soup[0].v[random->below(3)];
   p[random->axis()] = random->sign() * (kLimit + random->between(0, 2));
@@ -32,7 +32,7 @@ Soup at_the_switch(const Spot& spot, Random* random) {
 }
 
 // Triangles up to 2^61 steps large: 256-bit integers.
-Soup beyond_int128(const Spot& spot, Random* random) {
+Soup beyond_int128(const Spot& spot, StressRandom* random) {
   const int64_t size = random->log_between(kLimit, int64_t(1) << 60);
   const LatticePoint at = random->coin() ? spot.corner(random) : spot.anchor(random);
   if (random->coin())
@@ -41,7 +41,7 @@ Soup beyond_int128(const Spot& spot, Random* random) {
 }
 
 // A clip box of 10^-6 of the scene: doubles of the world, snapped far outside of the grid.
-Soup small_clip_box(const Spot& spot, Random* random) {
+Soup small_clip_box(const Spot& spot, StressRandom* random) {
   const Point at = to_world(spot.grid, anchor_in_voxels(spot, random));
   const double size = 1e6 * double(spot.grid.resolution()) * spot.grid.voxel_size;
   const auto draw = [&] {

@@ -40,7 +40,7 @@ SnappedMesh snap(const Mesh& mesh, int levels) {
 }
 
 // A window around a random point of a random triangle, and only the triangles near it.
-Spot draw_window(const SnappedMesh& mesh, Random* random, Soup* near) {
+Spot draw_window(const SnappedMesh& mesh, StressRandom* random, Soup* near) {
   Spot spot;
   spot.grid = mesh.grid;
   const LatticeTriangle& t = mesh.triangles[random->below(mesh.triangles.size())];
@@ -67,7 +67,7 @@ Spot draw_window(const SnappedMesh& mesh, Random* random, Soup* near) {
 
 // Draws windows on the mesh at 1K^3 .. 64K^3 and expects no leak in any, for both rules.
 void expect_no_leaks(const char* name, const Mesh& mesh, int windows) {
-  Random random(5);
+  StressRandom random(5);
   for (const int levels : {10, 13, 16}) {
     const SnappedMesh scene = snap(mesh, levels);
     ASSERT_TRUE(is_closed(scene.triangles)) << name << " is not closed: it has no inside";
@@ -148,7 +148,7 @@ TEST(Separation, OfBoxesOnPlanesAndCentres) {
 // Thousands of needles and tiny tetrahedra: closed, and small against a voxel at 1K.
 TEST(Separation, OfTetrahedraOfEverySize) {
   Mesh mesh;
-  Random random(17);
+  StressRandom random(17);
   for (int i = 0; i < 3000; ++i) {
     const double size = std::ldexp(1.0, -int(random.between(2, 14)));
     const Point at(random.unit(), random.unit(), random.unit());
@@ -162,7 +162,7 @@ TEST(Separation, OfTetrahedraOfEverySize) {
 
 TEST(Separation, AMissingTriangleIsALeak) {
   const SnappedMesh scene = snap(torus(64, 24), 13);
-  Random random(6);
+  StressRandom random(6);
   uint64_t leaks[2] = {0, 0};
   for (int i = 0; i < 10; ++i) {
     Soup near;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kLargest = int64_t(1) << 38;  // half sides of giants: |q| stays below 2^41
 
-Soup eight_voxels(const Spot& spot, Random* random) {
+Soup eight_voxels(const Spot& spot, StressRandom* random) {
   Soup soup(6);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.anchor(random);
@@ -20,14 +20,14 @@ Soup eight_voxels(const Spot& spot, Random* random) {
 }
 
 // Of any size from 16 voxels to many times the grid, passing through the region.
-Soup giant(const Spot& spot, Random* random) {
+Soup giant(const Spot& spot, StressRandom* random) {
   const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
   const LatticePoint at = spot.anchor(random);
   return {around_centroid(at, at + random->point(size), at + random->point(size))};
 }
 
 // As above, with an edge or a vertex in the region instead of the middle.
-Soup giant_border(const Spot& spot, Random* random) {
+Soup giant_border(const Spot& spot, StressRandom* random) {
   const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
   const LatticePoint at = spot.anchor(random), d = random->point(size);
   const LatticePoint third = at + random->point(size);
@@ -37,7 +37,7 @@ Soup giant_border(const Spot& spot, Random* random) {
 
 // A sliver of the aspect given, made of doubles (or floats) of the world, then snapped.
 Family sliver(const char* name, double aspect, bool floats) {
-  return {name, [=](const Spot& spot, Random* random) {
+  return {name, [=](const Spot& spot, StressRandom* random) {
             const Lattice lattice(spot.grid);
             const double scale = double(spot.voxel());
             const Point at = Point(spot.anchor(random)) / scale;
@@ -60,7 +60,7 @@ Family sliver(const char* name, double aspect, bool floats) {
 }
 
 // Exactly collinear: multiples of one vector, the third vertex inside or outside the other two.
-Soup collinear(const Spot& spot, Random* random) {
+Soup collinear(const Spot& spot, StressRandom* random) {
   Soup soup(3);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.anchor(random);
@@ -72,7 +72,7 @@ Soup collinear(const Spot& spot, Random* random) {
 }
 
 // Along axes and diagonals through voxel corners: every voxel that is touched is a tie.
-Soup collinear_on_corners(const Spot& spot, Random* random) {
+Soup collinear_on_corners(const Spot& spot, StressRandom* random) {
   Soup soup(2);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.corner(random);
@@ -83,7 +83,7 @@ Soup collinear_on_corners(const Spot& spot, Random* random) {
 }
 
 // The same triangles several times, turned and mirrored.
-Soup duplicates(const Spot& spot, Random* random) {
+Soup duplicates(const Spot& spot, StressRandom* random) {
   Soup soup;
   for (int i = 0; i < 3; ++i) {
     const LatticePoint at = spot.anchor(random);
@@ -97,7 +97,7 @@ Soup duplicates(const Spot& spot, Random* random) {
 }
 
 // Two equal vertices, or three: segments and points, many of them on planes, edges and corners.
-Soup points_and_segments(const Spot& spot, Random* random) {
+Soup points_and_segments(const Spot& spot, StressRandom* random) {
   Soup soup(12);
   for (LatticeTriangle& t : soup) {
     LatticePoint at = spot.anchor(random);

@@ -6,7 +6,7 @@ namespace svdag {
 namespace {
 
 // A coordinate in 0 .. bound-1.
-int64_t draw_coordinate(int64_t bound, Place place, Random* random) {
+int64_t draw_coordinate(int64_t bound, Place place, StressRandom* random) {
   switch (place) {
     case Place::kBorder:
       return random->coin() ? 0 : bound - 1;
@@ -19,7 +19,7 @@ int64_t draw_coordinate(int64_t bound, Place place, Random* random) {
 
 }  // namespace
 
-Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, Random* random) {
+Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRandom* random) {
   Spot spot;
   spot.grid = grid;
   spot.start.level = depth;

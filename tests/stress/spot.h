@@ -8,7 +8,7 @@
 // Where the triangles are small, the whole cube is asked and the region compared.
 #pragma once
 
-#include "builder/window.h"
+#include "builder/descend/window.h"
 #include "tests/stress/random.h"
 #include "tests/stress/voxel_region.h"
 
@@ -21,14 +21,14 @@ struct Spot {
 
   int64_t voxel() const { return int64_t(1) << grid.fraction(); }  // in lattice steps
   // A lattice point of the closed region.
-  LatticePoint anchor(Random* random) const {
+  LatticePoint anchor(StressRandom* random) const {
     LatticePoint p;
     for (int a = 0; a < 3; ++a)
       p[a] = random->between(region.min[a] << grid.fraction(), region.max[a] << grid.fraction());
     return p;
   }
   // A corner of a voxel of the closed region.
-  LatticePoint corner(Random* random) const {
+  LatticePoint corner(StressRandom* random) const {
     LatticePoint p;
     for (int a = 0; a < 3; ++a)
       p[a] = random->between(region.min[a], region.max[a]) << grid.fraction();
@@ -40,7 +40,7 @@ struct Spot {
 enum class Place { kAnywhere, kBorder, kMiddle };
 
 // A spot whose descent starts at `depth`; the region is a cube of at most `side` voxels.
-Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, Random* random);
+Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRandom* random);
 
 // A grid whose world and voxels are the same but for F: voxel size 1, corner at zero.
 Grid unit_grid(int levels);

@@ -1,40 +1,67 @@
 #!/bin/sh
-# make stress: what takes too long for every change.
+# make stress: what takes too long for every change. Stages can be named (make stress STAGES="tsan packages"),
+# so that one can be asked again, or all in pieces.
 set -eu
 cd "$(dirname "$0")/../.."
-seconds=${FUZZ_SECONDS:-60}
+all="tsan families one_hash completion faults report_shot packages fuzzers"
 
-echo "TSan"
-cmake --preset tsan --log-level=WARNING >/dev/null
-cmake --build --preset tsan
-env -u SVDAG_SCENES ctest --test-dir build/tsan -L '^unit$' --output-on-failure
+release() {  # [TARGET...]
+  cmake --preset release --log-level=WARNING >/dev/null
+  cmake --build --preset release ${1:+--target "$@"}
+}
 
-echo "Families: 10^7 decisions per family, grid and rule"
-cmake --preset release --log-level=WARNING >/dev/null
-cmake --build --preset release --target stress_test
-SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
+tsan() {
+  cmake --preset tsan --log-level=WARNING >/dev/null
+  cmake --build --preset tsan
+  env -u SVDAG_SCENES ctest --test-dir build/tsan -L '^unit$' --output-on-failure
+}
 
-echo "Every compiler and flag gives the same bytes"
-bash tests/stress/one_hash.sh
+families() {  # 10^7 decisions per family, grid and rule
+  release stress_test
+  SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
+}
 
-echo "Completion by bash, fish and zsh"
-cmake --build --preset release --target svdag_manuals
-ctest --test-dir build/release -R '^completion$' --output-on-failure
+one_hash() {  # every compiler and flag gives the same bytes
+  bash tests/stress/one_hash.sh
+}
 
-echo "Faults from outside: every call, small disks, signals, kills, power cuts, little memory"
-cmake --build --preset release --target svdag svdag-scene svdag_fault_shim
-SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure
+completion() {  # by bash, fish and zsh
+  release svdag_manuals
+  ctest --test-dir build/release -R '^completion$' --output-on-failure
+}
 
-echo "The page of a report, in Chromium"
-cmake --build --preset release
-/usr/bin/python3 -B tests/stress/report_shot.py build/release build/report_shots
+faults() {  # every call, small disks, signals, kills, power cuts, little memory
+  release svdag svdag-scene svdag_fault_shim
+  SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure
+}
 
-echo "The packages, in a clean Debian"
-(cd build/release && cpack -G DEB -B ../deb >/dev/null)
-sh tests/stress/deb_test.sh build/release build/deb
+report_shot() {  # the page of a report, in Chromium
+  release
+  /usr/bin/python3 -B tests/stress/report_shot.py build/release build/report_shots
+}
 
-echo "Fuzzers, $seconds s each"
-cmake --preset fuzz --log-level=WARNING >/dev/null
-cmake --build --preset fuzz --target fuzzers
-/usr/bin/python3 -B tests/fuzz/long_run.py --seconds "$seconds"
+packages() {  # in a clean Debian
+  release
+  (cd build/release && cpack -G DEB -B ../deb >/dev/null)
+  sh tests/stress/deb_test.sh build/release build/deb
+}
+
+fuzzers() {  # FUZZ_SECONDS each
+  cmake --preset fuzz --log-level=WARNING >/dev/null
+  cmake --build --preset fuzz --target fuzzers
+  /usr/bin/python3 -B tests/fuzz/long_run.py --seconds "${FUZZ_SECONDS:-60}"
+}
+
+for stage in ${*:-$all}; do
+  case " $all " in
+    *" $stage "*) ;;
+    *) echo "stress: there is no stage \"$stage\" (there are: $all)" >&2; exit 2 ;;
+  esac
+done
+for stage in ${*:-$all}; do
+  began=$(date +%s)
+  echo "$stage"
+  "$stage"
+  echo "$stage passed in $((($(date +%s) - began + 30) / 60)) min"
+done
 echo "All of it passed."

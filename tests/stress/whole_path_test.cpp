@@ -14,6 +14,7 @@
 #include "io/dag/dag_file.h"
 #include "tests/soup.h"
 #include "tests/stress/random.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -89,7 +90,7 @@ std::string dag_bytes(const std::string& path) {
 }
 
 TEST(WholePath, FiveMillionVoxelsAwayTheDagIsTheSame) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string scene = folder.file("scene.off"), far = folder.file("far.off");
   const std::string output = folder.file("out.svdag"), far_output = folder.file("far.svdag");
   for (const auto& triangles : scenes()) {
@@ -111,7 +112,7 @@ TEST(WholePath, FiveMillionVoxelsAwayTheDagIsTheSame) {
 }
 
 TEST(WholePath, AMoveByHalfAVoxelChangesTheDag) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string scene = folder.file("scene.off"), output = folder.file("out.svdag");
   std::vector<Triangle> triangles = dyadic(bumpy_sphere(40));
   write_off(scene, triangles);
@@ -126,9 +127,9 @@ TEST(WholePath, AMoveByHalfAVoxelChangesTheDag) {
 }
 
 TEST(WholePath, FarFromZeroOneFileForEveryCellSizeThreadCountAndOrder) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string scene = folder.file("scene.off"), output = folder.file("out.svdag");
-  Random random(23);
+  StressRandom random(23);
   for (auto triangles : scenes()) {
     triangles = moved(triangles);
     for (const Rule rule : kRules) {

@@ -17,7 +17,7 @@ inline Point to_world(const Grid& grid, const Point& voxels) {
 }
 
 // A point of the region, in voxels from the grid's corner.
-inline Point anchor_in_voxels(const Spot& spot, Random* random) {
+inline Point anchor_in_voxels(const Spot& spot, StressRandom* random) {
   return Point(spot.anchor(random)) / double(spot.voxel());
 }
 

@@ -134,29 +134,29 @@ TEST(CompareVdbTiles, TilesAreComparedWithoutBeingUnpacked) {
   voxels.emplace(300, 301, 302);                       // one voxel of a tile
   const RawFile file(raw_dag(grid, voxels));
   CubeWalk walk(file.view(), 9);
-  const std::vector<Cube> tiles{{{128, 0, 128}, 128, {}},
-                                {{0, 0, 0}, 8, Block::full()},
-                                {{256, 256, 256}, 128, {}},
-                                {{4096, 0, 0}, 4096, {}}};
+  const std::vector<VoxelCube> tiles{{{128, 0, 128}, 128, {}},
+                                     {{0, 0, 0}, 8, Block::full()},
+                                     {{256, 256, 256}, 128, {}},
+                                     {{4096, 0, 0}, 4096, {}}};
   class Tiles final : public VdbGrid {
    public:
-    Tiles(const Grid& grid, const std::vector<Cube>& tiles)
+    Tiles(const Grid& grid, const std::vector<VoxelCube>& tiles)
         : centres_(voxel_centres(grid)), tiles_(tiles) {}
     std::string name() const override { return "tiles"; }
     std::string type() const override { return "mask"; }
     const IndexToWorld& centres() const override { return centres_; }
     VoxelBox bounds() const override { return {{0, 0, 0}, {8192, 4096, 4096}}; }
-    bool visit(const CubeSink& sink) const override {
+    bool visit(const VoxelCubeSink& sink) const override {
       return std::all_of(tiles_.begin(), tiles_.end(), sink);
     }
     bool get(const LatticePoint& v) const override {
       return std::any_of(tiles_.begin(), tiles_.end(),
-                         [&](const Cube& tile) { return holds(tile.box(), v); });
+                         [&](const VoxelCube& tile) { return holds(tile.box(), v); });
     }
 
    private:
     IndexToWorld centres_;
-    std::vector<Cube> tiles_;
+    std::vector<VoxelCube> tiles_;
   } theirs(grid, tiles);
   VdbComparer comparer(theirs, &walk, fit_grid(theirs, grid, "x").map, nullptr);
   const VdbComparison result = comparer.compare(voxels.size(), 4);
@@ -166,7 +166,7 @@ TEST(CompareVdbTiles, TilesAreComparedWithoutBeingUnpacked) {
   EXPECT_EQ(result.extra, 512U);
   EXPECT_EQ(result.first_extra.front(), LatticePoint(8, 0, 0));
   // A missing tile: nothing of it may be called the same.
-  const std::vector<Cube> fewer(tiles.begin() + 1, tiles.end());
+  const std::vector<VoxelCube> fewer(tiles.begin() + 1, tiles.end());
   const Tiles lacking(grid, fewer);
   VdbComparer again(lacking, &walk, fit_grid(lacking, grid, "x").map, nullptr);
   EXPECT_EQ(again.compare(voxels.size(), 0).extra, 512U + tile);

@@ -10,9 +10,9 @@ namespace svdag {
 
 class FakeVdb final : public VdbGrid {
  public:
-  FakeVdb(const IndexToWorld& centres, const VoxelSet& voxels, std::vector<Cube> tiles = {})
+  FakeVdb(const IndexToWorld& centres, const VoxelSet& voxels, std::vector<VoxelCube> tiles = {})
       : centres_(centres), cubes_(std::move(tiles)), all_(voxels) {
-    for (const Cube& tile : cubes_) add_cube(&all_, tile);
+    for (const VoxelCube& tile : cubes_) add_cube(&all_, tile);
     std::map<std::array<int64_t, 3>, Block> leaves;
     for (const auto& [x, y, z] : voxels)
       leaves[{x & ~7, y & ~7, z & ~7}].set(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
@@ -32,8 +32,8 @@ class FakeVdb final : public VdbGrid {
       }
     return box;
   }
-  bool visit(const CubeSink& sink) const override {
-    for (const Cube& cube : cubes_)
+  bool visit(const VoxelCubeSink& sink) const override {
+    for (const VoxelCube& cube : cubes_)
       if (!sink(cube)) return false;
     return true;
   }
@@ -42,7 +42,7 @@ class FakeVdb final : public VdbGrid {
 
  private:
   IndexToWorld centres_;
-  std::vector<Cube> cubes_;
+  std::vector<VoxelCube> cubes_;
   VoxelSet all_;
 };
 

@@ -72,4 +72,14 @@ inline LatticeTriangle family_triangle(std::mt19937_64& random, int family, int6
   return t;
 }
 
+// Corners up to 2^40 lattice steps away, or, if `wide`, 2^61: beyond 2^41 products need 256 bits.
+inline LatticeTriangle random_giant(std::mt19937_64& random, bool wide) {
+  const int64_t reach = int64_t(1) << (wide ? 61 : 40);
+  LatticeTriangle t;
+  for (LatticePoint& p : t.v) {
+    for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % uint64_t(2 * reach)) - reach;
+  }
+  return t;
+}
+
 }  // namespace svdag

@@ -7,6 +7,7 @@
 
 #include "io/dag/dag_file.h"
 #include "streaming/error.h"
+#include "tests/temp_folder.h"
 #include "tests/verify/raw_dag.h"
 
 namespace svdag {
@@ -57,7 +58,8 @@ TEST(Integrity, EmptyGridIsSound) {
 }
 
 TEST(Integrity, HandMadeFileIsAcceptedByTheReader) {
-  const std::string path = ::testing::TempDir() + "integrity_good.svdag";
+  const TempFolder folder;
+  const std::string path = folder.file("good.svdag");
   RawFile(good_dag()).write(path);
   const DagFile file = DagFile::open(path);
   EXPECT_TRUE(inspect(file.header(), file.view(), file.metadata()).sound());

@@ -32,7 +32,7 @@ class Agreement {
       Judge& cgal = *cgal_[size_t(rule)];
       const VoxelSet expected = judged_voxels(integer, t, shift, window);
       if (judged_voxels(cgal, t, shift, window) != expected)
-        return ::testing::AssertionFailure() << (rule == Rule::kThin ? "thin" : "conservative");
+        return ::testing::AssertionFailure() << rule_name(rule);
       set_[size_t(rule)] += expected.size();
     }
     return ::testing::AssertionSuccess();
@@ -83,11 +83,7 @@ TEST(CgalJudge, AgreesOnGiantsInsideAndBeyond128Bits) {
   const VoxelBox window{LatticePoint(-6), LatticePoint(6)};
   Agreement judges;
   for (int i = 0; i < 150; ++i) {
-    const int64_t reach = i % 2 == 0 ? int64_t(1) << 61 : int64_t(1) << 40;
-    LatticeTriangle t;
-    for (LatticePoint& p : t.v) {
-      for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % uint64_t(2 * reach)) - reach;
-    }
+    LatticeTriangle t = random_giant(random, i % 2 == 0);
     if (i % 3 != 0) t.v[2] = -t.v[0] - t.v[1] + LatticePoint(int64_t(random() % 100000000));
     if (i % 5 == 0) t.v[2] = t.v[0];  // a long segment
     ASSERT_TRUE(judges.holds(t, shift, window)) << i;

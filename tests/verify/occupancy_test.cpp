@@ -94,12 +94,7 @@ TEST(Occupancy, LargeTrianglesAgreeWithRationalClippingInSmallWindows) {
   const int shift = 23;
   int occupied = 0;
   for (int i = 0; i < 300; ++i) {
-    // Beyond 2^41 on every third: the 256-bit code must agree as well.
-    const int64_t reach = i % 3 == 0 ? int64_t(1) << 61 : int64_t(1) << 40;
-    LatticeTriangle t;
-    for (LatticePoint& p : t.v) {
-      for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % uint64_t(2 * reach)) - reach;
-    }
+    LatticeTriangle t = random_giant(random, i % 3 == 0);
     if (i % 2 == 0) t.v[2] = -t.v[0] - t.v[1] + LatticePoint(int64_t(random() % 1000000));
     const VoxelBox window{LatticePoint(-3, -3, -3), LatticePoint(3, 3, 3)};
     const VoxelSet expected = rational_voxels(t, shift, window);

@@ -6,20 +6,17 @@
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
-#include <functional>
-#include <set>
-#include <tuple>
 #include <vector>
 
 #include "io/grid.h"
 #include "io/triangle.h"
+#include "tests/verify/voxels_where.h"
 #include "verify/occupancy.h"
 
 namespace svdag {
 
 using Rational = boost::multiprecision::cpp_rational;
 using RationalPoint = std::array<Rational, 3>;
-using VoxelSet = std::set<std::tuple<int64_t, int64_t, int64_t>>;
 
 // The part of a convex polygon (a point, a segment) where sign * (p[axis] - limit) <= 0.
 inline std::vector<RationalPoint> clip(const std::vector<RationalPoint>& polygon, int axis,
@@ -53,21 +50,8 @@ inline bool rational_touches(const LatticeTriangle& t, int shift, const LatticeP
 
 // All voxels of `window` that the definition says are occupied.
 inline VoxelSet rational_voxels(const LatticeTriangle& t, int shift, const VoxelBox& window) {
-  VoxelSet voxels;
-  LatticePoint low = window.min, high = window.max;
-  for (int a = 0; a < 3; ++a) {  // only what the box can reach, generously
-    const auto [min, max] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    low[a] = std::max(low[a], (min >> shift) - 1);
-    high[a] = std::min(high[a], (max >> shift) + 2);
-  }
-  for (int64_t x = low.x; x < high.x; ++x) {
-    for (int64_t y = low.y; y < high.y; ++y) {
-      for (int64_t z = low.z; z < high.z; ++z) {
-        if (rational_touches(t, shift, {x, y, z})) voxels.emplace(x, y, z);
-      }
-    }
-  }
-  return voxels;
+  return voxels_where(t, shift, window,
+                      [&](const LatticePoint& voxel) { return rational_touches(t, shift, voxel); });
 }
 
 // All voxels of `window` that the judge's clipper finds; a voxel found twice fails the caller.

@@ -93,13 +93,13 @@ inline std::string raw_metadata(const RawDag& raw) {
                                          g.selection.max.x, g.selection.max.y, g.selection.max.z};
   return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + std::to_string(g.levels) +
          ",\"resolution\":" + std::to_string(g.resolution()) + ",\"rule\":\"" +
-         (raw.rule == Rule::kThin ? "thin" : "conservative") +
-         "\",\"fraction_bits\":" + std::to_string(g.fraction()) + ",\"grid\":{\"kind\":\"" +
-         (g.kind == Grid::Kind::kBox ? "box" : "lattice") + "\",\"corner\":" + list(corner) +
-         ",\"voxel_size\":" + std::to_string(g.voxel_size) + ",\"k0\":" + list(k0) +
-         ",\"bounded\":" + (g.bounded ? "true" : "false") + ",\"selection\":" + list(selection) +
-         "},\"voxels\":" + std::to_string(raw.voxels) + ",\"nodes\":" + list(raw.nodes) +
-         ",\"largest_snap\":" + std::to_string(raw.largest_snap) + "}";
+         rule_name(raw.rule) + "\",\"fraction_bits\":" + std::to_string(g.fraction()) +
+         ",\"grid\":{\"kind\":\"" + (g.kind == Grid::Kind::kBox ? "box" : "lattice") +
+         "\",\"corner\":" + list(corner) + ",\"voxel_size\":" + std::to_string(g.voxel_size) +
+         ",\"k0\":" + list(k0) + ",\"bounded\":" + (g.bounded ? "true" : "false") +
+         ",\"selection\":" + list(selection) + "},\"voxels\":" + std::to_string(raw.voxels) +
+         ",\"nodes\":" + list(raw.nodes) + ",\"largest_snap\":" + std::to_string(raw.largest_snap) +
+         "}";
 }
 
 // A file in memory, 8-byte aligned.

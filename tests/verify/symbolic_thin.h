@@ -9,7 +9,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "io/grid.h"
-#include "tests/verify/rational_judge.h"
+#include "tests/verify/voxels_where.h"
 
 namespace svdag {
 
@@ -80,21 +80,8 @@ inline bool symbolic_sets(const LatticeTriangle& t, int shift, const LatticePoin
 
 // All voxels of `window` that the definition sets.
 inline VoxelSet symbolic_voxels(const LatticeTriangle& t, int shift, const VoxelBox& window) {
-  VoxelSet voxels;
-  LatticePoint low = window.min, high = window.max;
-  for (int a = 0; a < 3; ++a) {  // only what the box can reach, generously
-    const auto [min, max] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
-    low[a] = std::max(low[a], (min >> shift) - 1);
-    high[a] = std::min(high[a], (max >> shift) + 2);
-  }
-  for (int64_t x = low.x; x < high.x; ++x) {
-    for (int64_t y = low.y; y < high.y; ++y) {
-      for (int64_t z = low.z; z < high.z; ++z) {
-        if (symbolic_sets(t, shift, {x, y, z})) voxels.emplace(x, y, z);
-      }
-    }
-  }
-  return voxels;
+  return voxels_where(t, shift, window,
+                      [&](const LatticePoint& voxel) { return symbolic_sets(t, shift, voxel); });
 }
 
 }  // namespace svdag

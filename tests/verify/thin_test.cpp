@@ -62,12 +62,7 @@ TEST(Thin, LargeTrianglesAgreeInSmallWindows) {
   const int shift = 23;
   int occupied = 0;
   for (int i = 0; i < 600; ++i) {
-    // Beyond 2^41 on every third: the 256-bit code must agree as well.
-    const int64_t reach = i % 3 == 0 ? int64_t(1) << 61 : int64_t(1) << 40;
-    LatticeTriangle t;
-    for (LatticePoint& p : t.v) {
-      for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % uint64_t(2 * reach)) - reach;
-    }
+    LatticeTriangle t = random_giant(random, i % 3 == 0);
     // The first two decide that the plane passes a centre, exactly or nearly.
     if (i % 2 == 0) t.v[2] = -t.v[0] - t.v[1] + (int64_t(3) << 22) + int64_t(random() % 2);
     const VoxelBox window{LatticePoint(-3), LatticePoint(3)};

@@ -15,7 +15,7 @@ namespace {
 
 void print_json(const DagFile& file, const IntegrityReport& report) {
   const Header& h = file.header();
-  const std::string hash = to_hex({h.content_hash[0], h.content_hash[1]});
+  const std::string hash = to_hex(h.content_hash);
   const nlohmann::json json = {{"command", "check"},      {"file", file.path()},
                                {"ok", report.sound()},    {"defects", report.defects},
                                {"voxels", report.voxels}, {"nodes", report.nodes},

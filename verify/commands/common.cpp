@@ -8,13 +8,9 @@
 
 namespace svdag {
 
-Stopwatch::Stopwatch(const CommonConfig& config)
-    : enabled_(config.verbose), start_(std::chrono::steady_clock::now()) {}
-
 Stopwatch::~Stopwatch() {
   if (!enabled_) return;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  std::fprintf(stderr, "%.2f s, peak memory %s\n", seconds.count(),
+  std::fprintf(stderr, "%.2f s, peak memory %s\n", timer_.lap(),
                format_bytes(peak_resident_bytes()).c_str());
 }
 
@@ -25,18 +21,9 @@ std::string describe_grid(const DagFile& file) {
                      (grid.kind == Grid::Kind::kBox ? "box" : "lattice") + ", voxel size " +
                      format_double(grid.voxel_size) + ", corner (" + format_double(corner.x) +
                      ", " + format_double(corner.y) + ", " + format_double(corner.z) + "), rule " +
-                     (file.rule() == Rule::kThin ? "thin" : "conservative");
+                     rule_name(file.rule());
   if (grid.bounded) text += ", bounded";
   return text;
-}
-
-void print_wrong_voxel(const Grid& grid, const LatticePoint& v, bool missing) {
-  const Point corner = grid.corner();
-  const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
-  std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
-              missing ? "missing" : "extra  ", static_cast<long long>(v.x),
-              static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
-              world(2));
 }
 
 }  // namespace svdag

@@ -1,11 +1,11 @@
 // What the commands share: how they talk, and the shape of each one's configuration.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
 #include "io/grid.h"
+#include "streaming/lap_timer.h"
 #include "streaming/progress.h"
 
 namespace svdag {
@@ -21,19 +21,16 @@ struct CommonConfig {
 // Prints seconds and peak memory on stderr when it dies, if asked to.
 class Stopwatch {
  public:
-  explicit Stopwatch(const CommonConfig& config);
+  explicit Stopwatch(const CommonConfig& config) : enabled_(config.verbose) {}
   ~Stopwatch();
 
  private:
   bool enabled_;
-  std::chrono::steady_clock::time_point start_;
+  LapTimer timer_;
 };
 
 // "1,024^3 box, voxel size 0.5, corner (0, 0, 0), conservative", for people.
 class DagFile;
 std::string describe_grid(const DagFile& file);
-
-// One line about a voxel that a judge found missing or extra, with the place of its centre.
-void print_wrong_voxel(const Grid& grid, const LatticePoint& voxel, bool missing);
 
 }  // namespace svdag

@@ -96,13 +96,8 @@ void add_vdb(CLI::App* app, int* result) {
                                   "Write two mask grids, missing and extra, in the place of GRID"),
               {".vdb"})
       ->type_name("X.vdb");
-  const auto set_most = [config](const std::string& text) {
-    config->write_most = parse_count(text, "--write-most");
-  };
-  command
-      ->add_option_function<std::string>(
-          "--write-most", set_most, "Refuse to write more extra voxels than this (default 10M)")
-      ->type_name("N");
+  add_count(command, "--write-most", &config->write_most,
+            "Refuse to write more extra voxels than this (default 10M)");
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify vdb scene.svdag scene.vdb"});
   command->callback([config, result] { *result = run(*config); });

@@ -10,7 +10,7 @@ namespace {
 
 int run_judge(int argc, char** argv) {
   CLI::App app("Judges .svdag files independently of the builder.", "svdag-verify");
-  app.set_version_flag("--version", "svdag-verify " SVDAG_VERSION, "Print the version and exit");
+  app.set_version_flag("-V,--version", "svdag-verify " SVDAG_VERSION, "Print the version and exit");
   app.require_subcommand(1);
   add_examples(&app, {"svdag-verify check scene.svdag", "svdag-verify mesh scene.svdag scene.ply"});
   int result = 0;

@@ -7,18 +7,14 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/memory_budget.h"
-#include "verify/compare.h"
+#include "verify/commands/judged_scene.h"
 #include "verify/sample.h"
-#include "verify/snapped_scene.h"
 #include "verify/statistics.h"
 
 namespace svdag {
 namespace {
 
-struct Judgement {
-  GridJudgement grid;
-  SceneCounts counts;
+struct Judgement : SceneFacts {
   Comparison comparison;
   bool sampled = false;
   SampleComparison sample;  // only if sampled
@@ -35,17 +31,17 @@ std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t
   return triangles;
 }
 
-void compare_whole(const Scene& scene, const DagFile& file, const JudgeChoice& choice,
-                   MemoryBudget& budget, Executor& executor, Progress& progress,
-                   Judgement* result) {
+void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& choice,
+                   Executor& executor, Judgement* result) {
   const uint64_t count = result->counts.triangles;
   if (count > UINT32_MAX)
     fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
-  const auto reservation = budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
-  progress.phase("reading the scene", 0);
-  const std::vector<LatticeTriangle> triangles = load(scene, file.grid(), count);
+  const auto reservation =
+      judged.budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
+  judged.progress.phase("reading the scene", 0);
+  const std::vector<LatticeTriangle> triangles = load(judged.scene, file.grid(), count);
   Comparison& comparison = result->comparison;
-  comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, progress);
+  comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
   if (comparison.file_voxels != file.header().voxels)
     result->grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
                                    " voxels, the file holds " +
@@ -53,23 +49,18 @@ void compare_whole(const Scene& scene, const DagFile& file, const JudgeChoice& c
 }
 
 Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file) {
-  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
-  const Scene scene(config.scene, &budget);
   const Grid grid = file.grid();
-  Progress progress(config.common.progress);
-  progress.phase("reading the scene's bounds", 0);
-  Judgement result;
-  const Box bounds = scene.bounds(&result.counts);
-  result.grid = judge_grid(grid, bounds);
-  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
-  result.sampled = config.sample > 0;
+  JudgedScene judged(config, grid);
+  Judgement result{judged.facts, {}, false, {}};
+  ParallelExecutor executor(threads_or_all(config.common.threads));
+  result.sampled = config.sample.has_value();
   if (result.sampled) {
-    result.sample = compare_sample(scene, file.view(), grid, config.sample, config.seed, choice,
-                                   executor, progress);
+    result.sample = compare_sample(judged.scene, file.view(), grid, *config.sample, config.seed,
+                                   choice, executor, judged.progress);
     result.comparison = result.sample.comparison;
     if (result.sample.untested && result.grid.defects.empty()) fail_untested();
   } else {
-    compare_whole(scene, file, choice, budget, executor, progress, &result);
+    compare_whole(judged, file, choice, executor, &result);
   }
   return result;
 }
@@ -103,21 +94,13 @@ const char* verdict(const Judgement& j) {
 
 void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
   const Comparison& c = j.comparison;
-  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
-              j.grid.recomputed ? ", as the scene's bounds give it" : "");
-  for (const std::string& defect : j.grid.defects) std::printf("defect     %s\n", defect.c_str());
-  std::printf("judge      %s: %s\n", name_of(choice.kind),
-              description_of(choice.kind, choice.rule));
-  std::printf("triangles  %s", format_count(j.counts.triangles).c_str());
-  if (j.counts.invalid > 0)
-    std::printf(", %s invalid ones skipped", format_count(j.counts.invalid).c_str());
-  std::printf("\nbricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
+  print_facts(file, j,
+              std::string(name_of(choice.kind)) + ": " + description_of(choice.kind, choice.rule));
+  std::printf("bricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
               j.sampled ? "sampled" : "(all)", format_count(c.wrong_bricks).c_str());
   std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
               format_count(c.judge_voxels).c_str());
-  std::printf("missing    %s\nextra      %s\n", format_count(c.missing).c_str(),
-              format_count(c.extra).c_str());
-  for (const WrongVoxel& w : c.first) print_wrong_voxel(file.grid(), w.voxel, w.missing);
+  print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
   if (j.sampled) print_draws(j.sample);
   std::printf("%s\n", verdict(j));
 }
@@ -144,12 +127,13 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
   nlohmann::json json = {{"command", "mesh"},
                          {"file", file.path()},
                          {"ok", j.ok()},
-                         {"rule", choice.rule == Rule::kThin ? "thin" : "conservative"},
+                         {"rule", rule_name(choice.rule)},
                          {"judge", name_of(choice.kind)},
                          {"grid_defects", j.grid.defects},
                          {"grid_recomputed", j.grid.recomputed},
                          {"triangles", j.counts.triangles},
                          {"invalid_triangles", j.counts.invalid},
+                         {"patterns_unmatched", j.counts.unmatched},
                          {"sampled", j.sampled},
                          {"bricks", c.bricks},
                          {"wrong_bricks", c.wrong_bricks},
@@ -166,6 +150,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
 
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
+  if (config.sample == 0) fail_usage("--sample: give at least one");
   const DagFile file = DagFile::open(config.file);
   if (config.judge == "openvdb") return run_sandwich(config, file);
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};

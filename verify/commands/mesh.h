@@ -1,6 +1,8 @@
 // svdag-verify mesh FILE SCENE...: voxelizes the scene again and compares the occupancy.
 #pragma once
 
+#include <optional>
+
 #include "io/scene/scene.h"
 #include "verify/commands/common.h"
 
@@ -10,8 +12,8 @@ struct MeshConfig {
   CommonConfig common;
   std::string file;
   SceneConfig scene;
-  std::string judge = "integer";  // or "cgal", "openvdb"
-  uint64_t sample = 0;            // bricks (openvdb: windows) to draw; 0: compare all
+  std::string judge = "integer";   // or "cgal", "openvdb"
+  std::optional<uint64_t> sample;  // bricks (openvdb: windows) to draw; none: compare all
   uint64_t seed = 1;
   uint64_t memory = 0;  // 0: half of what the machine allows
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/scene/scene.h"
@@ -33,6 +34,8 @@ void add_memory(CLI::App* command, uint64_t* memory);
 // A number as people write it: "10M".
 void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
                const char* type = "N");
+void add_count(CLI::App* command, const std::string& option, std::optional<uint64_t>* count,
+               const char* text, const char* type = "N");
 // "The .svdag file", the first argument of most.
 void add_file(CLI::App* command, std::string* file);
 

@@ -86,10 +86,16 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 
+void refuse_other_pictures(const std::string& name) {
+  for (const char* ending : {".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".exr", ".ppm"}) {
+    if (name.ends_with(ending)) fail_usage(name + ": pictures are PNG: choose a name in .png");
+  }
+}
+
 // The output, or for --fly with "fly.png" and 6 "fly_0007.png".
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
-  if (config.fly == 0) return path;
+  if (!config.fly) return path;
   const size_t dot = path.rfind(".png");
   const bool named = dot != std::string::npos && dot + 4 == path.size();
   char number[16];
@@ -117,17 +123,18 @@ int run(const RenderCommandConfig& config) {
   picture.supersample = config.supersample;
   if (picture.supersample < 1 || picture.supersample > 16)
     fail_usage("--supersample: give 1 to 16 rays across a pixel");
-  if (config.fly < 0 || config.fly > 9999) fail_usage("--fly: give 1 to 9999 frames");
+  const int frames = config.fly.value_or(1);
+  if (frames < 1 || frames > 9999) fail_usage("--fly: give 1 to 9999 frames");
   const size_t up = std::string("xyz").find(config.up);
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   const ShadeMode mode = parse_mode(config.mode);
   picture.beams = mode != ShadeMode::kSteps;  // they would hide the steps
-  const int frames = std::max(config.fly, 1);
   for (int frame = 0; frame < frames; ++frame) {
     const std::string name = picture_name(config, frame);
     if (same_file(config.file, name))
       fail_usage(name + ": is the input; choose another name for the picture");
+    refuse_other_pictures(name);
     AtomicFile::check(name);
   }
 
@@ -138,11 +145,11 @@ int run(const RenderCommandConfig& config) {
   const Camera first = make_camera(config, file, int(up), aspect, box);
   // It stays where it is while the camera moves.
   const Light light = make_shading(mode, first, int(up), box).light;
-  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
   Tree64 tree;
   for (int frame = 0; frame < frames; ++frame) {
-    const Camera camera = config.fly > 0 ? turned(first, box, int(up), frame, config.fly) : first;
+    const Camera camera = config.fly ? turned(first, box, int(up), frame, frames) : first;
     Shading shading = make_shading(mode, camera, int(up), box);
     shading.light = light;
     apply(config, file.grid(), camera, box, picture.height, &shading);

@@ -26,7 +26,7 @@ struct RenderCommandConfig {
   double cone = -1;           // half the angle of such a ray's cone, in degrees; 0: exact;
                               // default: 9 for ao, 0 for soft
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
-  int fly = 0;                    // frames of a turn; 0: one picture
+  std::optional<int> fly;         // frames of a turn; none: one picture
 };
 
 int run(const RenderCommandConfig& config);

@@ -37,7 +37,7 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   const int up = int(std::string("xyz").find(config.up));
   const VoxelBounds box = occupied_bounds(dag);
   const double aspect = double(picture.width) / picture.height;
-  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
   for (const Wanted& wanted : kWanted) {
     const Camera camera = preset_camera(wanted.preset, dag, box, up, Camera::kDefaultFov, aspect);

@@ -9,18 +9,14 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/memory_budget.h"
-#include "verify/commands/mesh.h"
+#include "verify/commands/judged_scene.h"
 #include "verify/sample.h"
-#include "verify/snapped_scene.h"
 #include "verify/window_triangles.h"
 
 namespace svdag {
 namespace {
 
-struct Judgement {
-  GridJudgement grid;
-  SceneCounts counts;
+struct Judgement : SceneFacts {
   Sandwich sandwich;
   bool both_empty = false;  // sampled, and there is nothing to draw from
 
@@ -30,7 +26,7 @@ struct Judgement {
 // Windows around bricks drawn from the file and from the scene, as for a sample of bricks.
 std::vector<VoxelBox> draw_windows(const MeshConfig& config, const Scene& scene,
                                    const DagFile& file, Judgement* result) {
-  const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), config.sample, config.seed);
+  const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), *config.sample, config.seed);
   if (draw.untested() && result->grid.defects.empty()) fail_untested();
   result->both_empty = draw.both_empty();
   std::vector<VoxelBox> windows;
@@ -72,22 +68,18 @@ std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
 }
 
 Judgement judge(const MeshConfig& config, const DagFile& file) {
-  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
-  const Scene scene(config.scene, &budget);
   const Grid grid = file.grid();
-  Progress progress(config.common.progress);
-  progress.phase("reading the scene's bounds", 0);
-  Judgement result;
-  const Box bounds = scene.bounds(&result.counts);
-  result.grid = judge_grid(grid, bounds);
+  JudgedScene judged(config, grid);
+  Judgement result{judged.facts, {}};
+  Progress& progress = judged.progress;
   progress.phase("reading the scene", 0);
   const std::vector<VoxelBox> windows =
-      config.sample > 0 ? draw_windows(config, scene, file, &result) : all_windows(grid);
-  auto held = budget.reserve(0, "snapped triangles");
+      config.sample ? draw_windows(config, judged.scene, file, &result) : all_windows(grid);
+  auto held = judged.budget.reserve(0, "snapped triangles");
   const std::vector<LatticeTriangle> triangles =
-      load_near(scene, grid, windows, config.sample == 0, &held);
+      load_near(judged.scene, grid, windows, !config.sample, &held);
   CubeWalk walk(file.view(), file.header().levels);
-  const size_t threads = config.common.threads ? config.common.threads : available_processors();
+  const size_t threads = threads_or_all(config.common.threads);
   progress.phase("comparing windows", windows.size());
   for (const VoxelBox& window : windows) {
     result.sandwich.append(judge_window(&walk, grid, file.rule(), window, triangles, threads));
@@ -100,21 +92,14 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
 void print_text(const DagFile& file, const Judgement& j, bool sampled) {
   const Sandwich& s = j.sandwich;
   const bool thin = file.rule() == Rule::kThin;
-  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
-              j.grid.recomputed ? ", as the scene's bounds give it" : "");
-  for (const std::string& defect : j.grid.defects) std::printf("defect     %s\n", defect.c_str());
-  std::printf("judge      openvdb: distances of its mesh-to-volume, %s\n",
-              thin ? "file in {d <= 1/2}" : "{d <= 1/2} in file in {d <= sqrt(3)/2}");
-  std::printf("triangles  %s", format_count(j.counts.triangles).c_str());
-  if (j.counts.invalid > 0)
-    std::printf(", %s invalid ones skipped", format_count(j.counts.invalid).c_str());
-  std::printf("\nwindows    %s %s, %s voxels tested\n", format_count(s.windows).c_str(),
+  print_facts(file, j,
+              std::string("openvdb: distances of its mesh-to-volume, ") +
+                  (thin ? "file in {d <= 1/2}" : "{d <= 1/2} in file in {d <= sqrt(3)/2}"));
+  std::printf("windows    %s %s, %s voxels tested\n", format_count(s.windows).c_str(),
               sampled ? "sampled" : "(all)", format_count(s.tested).c_str());
   std::printf("voxels     %s in the file, %s with d <= 1/2\n", format_count(s.file_voxels).c_str(),
               format_count(s.inner).c_str());
-  std::printf("missing    %s\nextra      %s\n", format_count(s.missing).c_str(),
-              format_count(s.extra).c_str());
-  for (const WrongVoxel& w : s.first) print_wrong_voxel(file.grid(), w.voxel, w.missing);
+  print_wrong_voxels(file.grid(), s.missing, s.extra, s.first);
   std::printf("exact      %s on a bound within the error of a float, decided in integers\n",
               format_count(s.exact).c_str());
   if (s.vdb_errors > 0)
@@ -133,12 +118,13 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
   const nlohmann::json json = {{"command", "mesh"},
                                {"file", file.path()},
                                {"ok", j.ok()},
-                               {"rule", file.rule() == Rule::kThin ? "thin" : "conservative"},
+                               {"rule", rule_name(file.rule())},
                                {"judge", "openvdb"},
                                {"grid_defects", j.grid.defects},
                                {"grid_recomputed", j.grid.recomputed},
                                {"triangles", j.counts.triangles},
                                {"invalid_triangles", j.counts.invalid},
+                               {"patterns_unmatched", j.counts.unmatched},
                                {"sampled", sampled},
                                {"windows", s.windows},
                                {"tested", s.tested},
@@ -157,9 +143,9 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
 int run_sandwich(const MeshConfig& config, const DagFile& file) {
   const Judgement judgement = judge(config, file);
   if (config.common.json) {
-    print_json(file, judgement, config.sample > 0);
+    print_json(file, judgement, config.sample.has_value());
   } else if (!config.common.quiet) {
-    print_text(file, judgement, config.sample > 0);
+    print_text(file, judgement, config.sample.has_value());
   }
   return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
 }

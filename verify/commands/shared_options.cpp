@@ -7,6 +7,21 @@
 #include "verify/commands/options.h"
 
 namespace svdag {
+namespace {
+
+template <class Count>
+void add_count_to(CLI::App* command, const std::string& option, Count* count, const char* text,
+                  const char* type) {
+  const std::string name = option.substr(option.find("--"));
+  command
+      ->add_option_function<std::string>(
+          option,
+          [name, count](const std::string& value) { *count = parse_count(value, name.c_str()); },
+          text)
+      ->type_name(type);
+}
+
+}  // namespace
 
 void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
   command->add_flag("-q,--quiet", config->quiet, "Print nothing but errors");
@@ -46,13 +61,12 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
 
 void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,
                const char* type) {
-  const std::string name = option.substr(option.find("--"));
-  command
-      ->add_option_function<std::string>(
-          option,
-          [name, count](const std::string& value) { *count = parse_count(value, name.c_str()); },
-          text)
-      ->type_name(type);
+  add_count_to(command, option, count, text, type);
+}
+
+void add_count(CLI::App* command, const std::string& option, std::optional<uint64_t>* count,
+               const char* text, const char* type) {
+  add_count_to(command, option, count, text, type);
 }
 
 void add_memory(CLI::App* command, uint64_t* memory) {

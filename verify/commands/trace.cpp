@@ -49,8 +49,8 @@ std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, uint64
 }
 
 Traced trace(const TraceConfig& config, const DagFile& file) {
-  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
-  ParallelExecutor executor(config.common.threads ? config.common.threads : available_processors());
+  MemoryBudget budget(memory_or_default(config.memory));
+  ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
   const Grid grid = file.grid();
   const Scene scene(config.scene, &budget);
@@ -89,7 +89,7 @@ uint64_t rays_of_kind(uint64_t rays, size_t kind) {
   return (rays + kRayKinds - 1 - kind) / kRayKinds;
 }
 
-// "< -1", "-1 .. 0", ..., "> 4".
+// "< -1", "-1 .. 0", ..., ">= 4".
 std::string bin_name(size_t bin) {
   if (bin == 0) return "< " + format_double(kDepthBins.front());
   if (bin == kDepthBins.size()) return ">= " + format_double(kDepthBins.back());
@@ -186,7 +186,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
   const nlohmann::json json = {{"command", "trace"},
                                {"file", file.path()},
                                {"ok", r.ok()},
-                               {"rule", file.rule() == Rule::kThin ? "thin" : "conservative"},
+                               {"rule", rule_name(file.rule())},
                                {"resolution", file.grid().resolution()},
                                {"voxel_size", file.grid().voxel_size},
                                {"seed", config.seed},

@@ -37,6 +37,14 @@ void grow(const DagView& dag, uint32_t level, uint32_t node, const Vec3& corner,
 
 }  // namespace
 
+std::array<Vec3, 8> corners_of(const VoxelBounds& box) {
+  std::array<Vec3, 8> corners;
+  for (size_t i = 0; i < 8; ++i)
+    corners[i] = {{i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1],
+                   i & 4 ? box.max[2] : box.min[2]}};
+  return corners;
+}
+
 Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect) {
   Camera camera{position, {}, {}, normalized(target - position), slope_of(fov), aspect};
   Vec3 world_up{};
@@ -57,9 +65,7 @@ Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov
   Camera camera = look_at(center + towards, center, up, fov, aspect);
   // Far enough that every corner of the box projects into the image.
   double distance = 0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{{i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1],
-                       i & 4 ? box.max[2] : box.min[2]}};
+  for (const Vec3& corner : corners_of(box)) {
     const Vec3 d = corner - center;
     const double depth = dot(d, camera.forward);
     const double h = std::abs(dot(d, camera.right)) / (camera.slope * aspect);

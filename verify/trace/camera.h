@@ -1,6 +1,8 @@
 // A pinhole camera in voxel coordinates.
 #pragma once
 
+#include <array>
+
 #include "verify/trace/vector.h"
 
 namespace svdag {
@@ -9,6 +11,8 @@ struct VoxelBounds {
   Vec3 min{{0, 0, 0}};
   Vec3 max{{0, 0, 0}};
 };
+
+std::array<Vec3, 8> corners_of(const VoxelBounds& box);
 
 struct Camera {
   static constexpr double kDefaultFov = 40;  // degrees, vertical

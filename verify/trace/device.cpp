@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <thread>
 
+#include "streaming/lap_timer.h"
 #include "streaming/memory_budget.h"
 #include "verify/trace/processor.h"
 #include "verify/trace/rays.h"
@@ -12,11 +12,6 @@
 
 namespace svdag {
 namespace {
-
-double now() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(since).count();
-}
 
 // body(row) for every row of tiles, on all threads.
 template <typename Body>
@@ -26,10 +21,9 @@ void for_each_row(const Workload& work, const Body& body) {
   const auto loop = [&] {
     for (uint32_t row = next++; row < rows; row = next++) body(row);
   };
-  std::vector<std::thread> threads;
+  std::vector<std::jthread> threads;
   for (unsigned i = 1; i < work.threads; ++i) threads.emplace_back(loop);
   loop();
-  for (std::thread& thread : threads) thread.join();
 }
 
 // The least time of `rounds` runs.
@@ -37,9 +31,9 @@ template <typename Run>
 double least(uint32_t rounds, const Run& run) {
   double best = 1e300;
   for (uint32_t round = 0; round < rounds; ++round) {
-    const double start = now();
+    LapTimer seconds;
     run();
-    best = std::min(best, now() - start);
+    best = std::min(best, seconds.lap());
   }
   return best;
 }

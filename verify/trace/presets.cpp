@@ -15,18 +15,46 @@ bool holds(const VoxelBounds& box, const Vec3& point) {
   return inside;
 }
 
-// From the middle back along the longer horizontal axis, as far as nothing is in the way.
+double free_distance(const DagView& dag, const Vec3& from, int axis, double sign, double most) {
+  Vec3 direction{};
+  direction[axis] = sign;
+  const Hit wall = trace_closest(dag, {from, direction}, {0, most});
+  return wall.found ? wall.t : most;
+}
+
+// From a spot back along the longer horizontal axis, as far as nothing is in the way. The spot is
+// the middle, or, where that has no view (a small room, solid matter), the one of a few that has
+// the longest.
 Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double aspect) {
-  constexpr double kWide = 75, kFarthest = 0.4, kLow = 0.3;
+  constexpr double kWide = 75, kFarthest = 0.4, kEnough = 0.25;
+  constexpr double kHeights[] = {0.3, 0.15, 0.5, 0.75},
+                   kPlaces[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
   const Vec3 size = box.max - box.min;
   const int one = (up + 1) % 3, two = (up + 2) % 3;
-  const int along = size[one] > size[two] ? one : two;
-  Vec3 middle = (box.min + box.max) * 0.5, back{};
-  middle[up] = box.min[up] + kLow * size[up];
+  const int along = size[one] > size[two] ? one : two, across = one + two - along;
+  const double farthest = kFarthest * size[along];
+  Vec3 best{};
+  double longest = -1;
+  for (const double height : kHeights) {
+    for (const double place : kPlaces) {
+      for (const double side : kPlaces) {
+        Vec3 spot = box.min;
+        spot[up] += height * size[up];
+        spot[along] += place * size[along];
+        spot[across] += side * size[across];
+        const double view = free_distance(dag, spot, along, 1, farthest) +
+                            free_distance(dag, spot, along, -1, farthest);
+        if (longest < kEnough * size[along] && view > longest) {
+          longest = view;
+          best = spot;
+        }
+      }
+    }
+  }
+  Vec3 back{};
   back[along] = -1;
-  const Hit wall = trace_closest(dag, {middle, back}, {0, kFarthest * size[along]});
-  const double far = 0.95 * (wall.found ? wall.t : kFarthest * size[along]);
-  return look_at(middle + back * far, middle - back * size[along], up, kWide, aspect);
+  const double far = 0.95 * free_distance(dag, best, along, -1, farthest);
+  return look_at(best + back * far, best - back * size[along], up, kWide, aspect);
 }
 
 }  // namespace

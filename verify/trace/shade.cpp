@@ -59,9 +59,7 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   shading.up[up] = 1;
   shading.near = 1e300;
   shading.far = 0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{{i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1],
-                       i & 4 ? box.max[2] : box.min[2]}};
+  for (const Vec3& corner : corners_of(box)) {
     const double distance = length(corner - camera.position);
     shading.near = std::min(shading.near, distance);
     shading.far = std::max(shading.far, distance);

@@ -4,6 +4,7 @@
 
 #include "io/help/help_text.h"
 #include "streaming/atomic_file.h"
+#include "streaming/file_names.h"
 #include "streaming/program.h"
 #include "streaming/terminal.h"
 #include "verify/trace/device.h"
@@ -112,6 +113,19 @@ int compare(const Answers& cpu, const Answers& gpu) {
   return int(different == 0 ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
+// No output may be the input or the other output, whatever they are called.
+void check_outputs(const TraceOptions& options) {
+  FileNames written;
+  for (const std::string& output : {options.dump, options.picture}) {
+    if (output.empty()) continue;
+    if (same_file(options.file, output))
+      fail_usage(output + ": is the input; choose another name for the output");
+    if (written.find(output) != nullptr)
+      fail_usage(output + ": would be written twice; choose another name for one of the outputs");
+    written.add(output);
+  }
+}
+
 int run(const TraceOptions& options) {
   if (options.help || options.version || options.table) {
     const std::string text = options.help      ? help_text(trace_manual(), text_width(stdout))
@@ -120,10 +134,7 @@ int run(const TraceOptions& options) {
     std::fputs(text.c_str(), stdout);
     return 0;
   }
-  for (const std::string& output : {options.dump, options.picture}) {
-    if (same_file(options.file, output))
-      fail_usage(output + ": is the input; choose another name for the output");
-  }
+  check_outputs(options);
   const PlainFile file = read_plain_file(options.file);
   const Workload work = make_workload(options, file);
   int result = 0;

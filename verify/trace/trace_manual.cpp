@@ -45,10 +45,14 @@ Manual trace_manual() {
             {}, {"*"}),
       value({"--picture"}, "FILE.ppm", "Write a picture of the answers", {}, {".ppm"}),
       flag({"-h", "--help"}, "Print this help message and exit"),
-      flag({"--version"}, "Print the version and exit"),
+      flag({"-V", "--version"}, "Print the version and exit"),
   };
   manual.notes =
-      std::string("Example:\n  svdag-trace city.svdag --preset inside --cone 9\n\n") + kExitCodes;
+      std::string(
+          "Sizes and pointers of the file are proven before a ray is sent, its checksums are not: "
+          "svdag-verify check tells whether it is what was baked.\n\n"
+          "Example:\n  svdag-trace city.svdag --preset inside --cone 9\n\n") +
+      kExitCodes;
   return manual;
 }
 

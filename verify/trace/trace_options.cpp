@@ -54,7 +54,7 @@ void set_size(const std::string& text, TraceOptions* options) {
 bool set_flag(const std::string& name, TraceOptions* options) {
   if (name == "--compare") return options->compare = true;
   if (name == "--help" || name == "-h") return options->help = true;
-  if (name == "--version") return options->version = true;
+  if (name == "-V" || name == "--version") return options->version = true;
   if (name == kManualTable) return options->table = true;
   if (name == "--no-beams") return !(options->beams = false);
   return false;

@@ -39,6 +39,8 @@ bool ends_in(const std::string& path, const char* ending) {
 }
 
 const Row& choose(const ExportConfig& config) {
+  if (config.format.empty() && ends_in(config.output, "svdag"))
+    fail_usage(config.output + ": SymVox has another .svdag than ours: --format symvox writes it");
   std::string names;
   for (const Row& row : kFormats) {
     const bool chosen = config.format.empty() ? ends_in(config.output, row.format.ending)
@@ -94,7 +96,7 @@ int run(const ExportConfig& asked) {
   if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
   refuse_own_input(row, config);
   AtomicFile::check(config.output);
-  MemoryBudget budget(config.memory ? config.memory : default_memory_limit());
+  MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of level %d (%s^3)\n", config.output.c_str(), row.format.name,

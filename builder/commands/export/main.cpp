@@ -51,7 +51,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
 
 int run_command(int argc, char** argv) {
   CLI::App app("Writes the voxels of a .svdag in another format.", "svdag export");
-  app.set_version_flag("--version", "svdag-export " SVDAG_VERSION, "Print the version and exit");
+  app.set_version_flag("-V,--version", "svdag-export " SVDAG_VERSION, "Print the version and exit");
   ExportConfig config;
   set_up(&app, &config);
   if (const auto done = read_command_line(&app, argc, argv)) return *done;

@@ -14,8 +14,8 @@ VdbMetadata about(const Selection& selection) {
   return {{"creator", "svdag"},
           {"svdag_level", std::to_string(selection.grid.levels)},
           {"svdag_levels", std::to_string(h.levels)},
-          {"svdag_rule", selection.file.rule() == Rule::kThin ? "thin" : "conservative"},
-          {"svdag_content_hash", to_hex({h.content_hash[0], h.content_hash[1]})}};
+          {"svdag_rule", rule_name(selection.file.rule())},
+          {"svdag_content_hash", to_hex(h.content_hash)}};
 }
 
 // The memory that the grid will take, counted before any of it is taken.
@@ -38,7 +38,7 @@ uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& c
   writer->begin("occupancy", voxel_centres(selection->grid));
   writer->metadata(about(*selection));
   uint64_t voxels = 0, cubes = 0;
-  selection->walk.visit(selection->grid.selection, [&](const Cube& cube) {
+  selection->walk.visit(selection->grid.selection, [&](const VoxelCube& cube) {
     if (++cubes % 4096 == 0) check_interrupt();
     voxels += cube.count();
     writer->add(cube);

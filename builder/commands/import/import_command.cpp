@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "builder/commands/import/vdb.h"
+#include "builder/run/bake_output.h"
 #include "io/dag/format.h"
 #include "io/dag/symvox_header.h"
 #include "io/formats/binvox.h"
@@ -103,26 +104,29 @@ std::vector<std::string> import_formats() {
 int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
+  refuse_foreign_name(config.import.output);
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
   const Row& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
-  ParallelExecutor executor(config.threads != 0 ? config.threads : available_processors());
+  ImportConfig import = config.import;
+  import.source = config.file;
+  ParallelExecutor executor(threads_or_all(config.threads));
   ImportReport report;
   if (row.graph != nullptr) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    report = import_graph(graph.get(), config.import, &executor);
+    report = import_graph(graph.get(), import, &executor);
   } else if (row.voxels != nullptr) {
     report = import_voxels(
-        [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); },
-        config.import, &executor);
+        [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); }, import,
+        &executor);
   } else {
     std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
     refuse_needless_range(*grid, config.iso);
     const VdbVoxels voxels(std::move(grid), config.file);
     report = import_voxels(
         [&](const VoxelSink& sink, const FullCubeSink& cubes) { return voxels.read(sink, cubes); },
-        config.import, &executor, voxels.count());
+        import, &executor, voxels.count());
   }
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",

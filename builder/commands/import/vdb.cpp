@@ -26,12 +26,12 @@ VoxelPlace place_of(const std::string& path, const IndexToWorld& centres,
   return place;
 }
 
-bool is_full(const Cube& cube) {
+bool is_full(const VoxelCube& cube) {
   return cube.side > kBlockSide || cube.block == Block::full();
 }
 
 // The voxels of a block, from `first` on.
-void add_block(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
+void add_block(const VoxelCube& cube, const LatticePoint& first, VoxelBatch* batch) {
   const LatticePoint at = cube.origin - first;
   for (int64_t x = 0; x < kBlockSide; ++x)
     for (int64_t y = 0; y < kBlockSide; ++y)
@@ -46,7 +46,7 @@ void add_block(const Cube& cube, const LatticePoint& first, VoxelBatch* batch) {
 VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
     : grid_(std::move(grid)) {
   int64_t side = kBlockSide;  // of the largest cube
-  grid_->visit([&](const Cube& cube) {
+  grid_->visit([&](const VoxelCube& cube) {
     side = std::max(side, cube.side);
     if (!is_full(cube)) count_ += cube.count();
     return true;
@@ -64,7 +64,7 @@ VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
 
 VoxelPlace VdbVoxels::read(const VoxelSink& voxels, const FullCubeSink& cubes) const {
   VoxelBatch batch(voxels);
-  grid_->visit([&](const Cube& cube) {
+  grid_->visit([&](const VoxelCube& cube) {
     check_interrupt();
     const LatticePoint at = cube.origin - first_;
     if (is_full(cube))

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "builder/cell.h"
+#include "builder/octree/morton.h"
 #include "io/brick.h"
 
 namespace svdag::bench {

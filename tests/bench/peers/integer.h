@@ -1,11 +1,12 @@
-// The builder's own formulas (builder/triangle_setup.h) on the snapped triangle, every value in
-// 128-bit integers: what exactness costs without the floating-point filter. Needs |q| < 2^41.
+// The builder's own formulas (builder/overlap/triangle_setup.h) on the snapped triangle, every
+// value in 128-bit integers: what exactness costs without the floating-point filter. |q| must be
+// less than 2^41.
 #pragma once
 
 #include <algorithm>
 
-#include "builder/exact_formulas.h"
-#include "builder/overlap.h"
+#include "builder/overlap/exact_formulas.h"
+#include "builder/overlap/overlap.h"
 
 namespace svdag::bench {
 
@@ -45,7 +46,7 @@ class IntegerTest {
   bool operator()(const Setup& s, const LatticePoint& voxel, int64_t voxels) const {
     const int64_t side = voxels << fraction_;
     const LatticePoint p(voxel.x << fraction_, voxel.y << fraction_, voxel.z << fraction_);
-    if (!boxes_meet(s.base, p, side)) return false;
+    if (!s.base.box.meets({p, p + side})) return false;
     const LatticePoint r = p - s.base.triangle.v[0];
     const Int f = s.normal[0] * r.x + s.normal[1] * r.y + s.normal[2] * r.z;
     if (f + side * s.low > 0 || f + side * s.high < 0) return false;

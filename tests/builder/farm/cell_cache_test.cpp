@@ -13,6 +13,7 @@
 #include "builder/farm/cell_key.h"
 #include "tests/builder/bakes.h"
 #include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -62,7 +63,7 @@ class Cache : public ::testing::Test {
     return keys;
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   CellCacheConfig cache_{folder_.file("cache")};
   std::string expected_;
 };

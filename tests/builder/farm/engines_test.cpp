@@ -1,7 +1,10 @@
 // The engines, asked with programs that only pretend: what is run, when, and what of failures.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
 
 #include "builder/farm/process.h"
 #include "builder/farm/run_local.h"
@@ -10,6 +13,7 @@
 #include "builder/farm/submit_slurm.h"
 #include "streaming/scratch_dir.h"
 #include "tests/builder/farm/plans.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -30,6 +34,10 @@ class Engines : public ::testing::Test {
   }
   // The commands that were asked for, a line each.
   std::string asked() const { return read_bytes(folder_.file("asked")); }
+  ptrdiff_t times_asked(const std::string& shard) const {
+    std::istringstream lines(asked());
+    return std::count(std::istream_iterator<std::string>(lines), {}, shard);
+  }
   // What sbatch was asked for by `submit`, a line each; a job's number is that of its line.
   std::vector<std::string> submitted(const SlurmConfig& config = {}) const {
     const std::string log = folder_.file("asked");
@@ -56,7 +64,7 @@ class Engines : public ::testing::Test {
     run_local(plan_, config);
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   Plan plan_;
 };
 
@@ -76,11 +84,37 @@ TEST_F(Engines, TryAgainOnceWhatMayPass) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 1);
 }
 
-TEST_F(Engines, WaitForAStepThatAnotherProcessDoes) {
-  const ScratchDir others(plan_.path(plan_.steps[1].output) + ".scratch");
-  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("asked") + ") = 5 ] || exit 4");
-  const std::string lines = asked();
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 4);
+TEST_F(Engines, CountNoAttemptAtAStepThatAnotherProcessDoes) {
+  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("asked") + ") = 4 ] || exit 75");
+  EXPECT_EQ(times_asked("2"), 4);
+}
+
+TEST_F(Engines, DoTheOtherStepsWhileAnotherProcessDoesOne) {
+  std::optional<ScratchDir> others(plan_.path(plan_.steps[0].output) + ".scratch");
+  const std::jthread end([&] {
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (times_asked("merge-2") == 0 && std::chrono::steady_clock::now() < patience)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    others.reset();
+  });
+  run("");
+  const std::string lines = "\n" + asked();
+  EXPECT_GT(lines.find("\n1\n"), lines.find("\nmerge-2\n")) << lines;
+  EXPECT_EQ(times_asked("1"), 1) << "no process is started in vain";
+}
+
+// Shard 2 fails by itself, each time when somebody else has just begun it.
+TEST_F(Engines, CountTheAttemptsThatFailWhileAnotherProcessBeginsTheStep) {
+  const std::string scratch = plan_.path(plan_.steps[1].output) + ".scratch";
+  const std::string owner = scratch + "/owner";
+  const std::string tries = "$(grep -c '^2$' " + folder_.file("asked") + ")";
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" = 2 ] && [ " + tries + " -le 5 ] || exit 0\n" +  //
+                         "mkdir -p " + scratch + "\n" +                             //
+                         "flock " + owner + " sleep 1 &\n" +                        //
+                         "while flock -n " + owner + " true; do :; done\n" +        //
+                         "exit 4"),
+                     ExitCode::kOutput, "shard-2 failed");
+  EXPECT_EQ(times_asked("2"), 2);
 }
 
 TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {

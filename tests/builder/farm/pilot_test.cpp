@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/builder/farm/plans.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -13,7 +14,7 @@ class Pilots : public ::testing::Test {
  protected:
   void judge(const std::vector<Triangle>& triangles, double factor) {
     constexpr int kLevels = 12;
-    TemporaryFolder folder;
+    TempFolder folder;
     const std::string scene = folder.file("scene.stl");
     write_stl(scene, triangles);
     const Plan plan = plan_of(plan_config(scene, kLevels, folder.file("plan"), 4));

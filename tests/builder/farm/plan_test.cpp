@@ -9,6 +9,7 @@
 
 #include "builder/farm/leaf_bins.h"
 #include "tests/builder/farm/plans.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -20,7 +21,7 @@ class Plans : public ::testing::Test {
     return plan_config(scene_, 9, folder_.file("plan"), shards);
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   std::string scene_ = folder_.file("scene.stl");
 };
 
@@ -125,6 +126,25 @@ TEST_F(Plans, ThatAreDamagedSaySo) {
   write(index, flipped);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "index");
   EXPECT_SVDAG_ERROR(load_plan(folder_.path(), true), ExitCode::kBadInput, "is no plan");
+}
+
+TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
+  plan_of(config());
+  const std::string json = folder_.file("plan/plan.json"), text = read_bytes(json);
+  const std::vector<std::pair<std::string, std::string>> numbers = {
+      {"levels", "4294967305"},  // 9, as it is, if cut to 32 bits
+      {"levels", "9.0"},
+      {"triangles", "1e24"},
+      {"memory_bytes", "-1"},
+      {"threads", "1.5"},
+      {"bytes", "18446744073709551616"}};
+  for (const auto& [key, number] : numbers) {
+    const size_t value = text.find("\"" + key + "\": ") + key.size() + 4;
+    std::string changed = text;
+    changed.replace(value, changed.find_first_of(",}\n", value) - value, number);
+    std::ofstream(json, std::ios::binary) << changed;
+    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "does not fit");
+  }
 }
 
 TEST_F(Plans, ThatWereWrittenOverAreReadOrRefused) {

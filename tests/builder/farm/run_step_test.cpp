@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "builder/checkpoint.h"
 #include "builder/description.h"
 #include "tests/builder/farm/plans.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -27,7 +30,7 @@ class Steps : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << bytes;
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   std::string scene_ = folder_.file("scene.stl");
   std::string expected_;
   int levels_ = 0;
@@ -95,7 +98,7 @@ TEST_F(Steps, ThatAnotherProcessDoesMayBeAskedForAgain) {
     {
       const ScratchDir others(plan.path(step.output) + ".scratch");
       EXPECT_TRUE(is_being_done(plan, step, {}));
-      EXPECT_SVDAG_ERROR(do_step(plan, step), ExitCode::kOutput,
+      EXPECT_SVDAG_ERROR(do_step(plan, step), kDoneElsewhere,
                          "another process is doing " + step.name);
     }
     EXPECT_FALSE(is_being_done(plan, step, {}));
@@ -127,19 +130,89 @@ TEST_F(Steps, DiscardWhatAnotherPlanLeftInTheirScratch) {
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
 }
 
+std::string description_of(const Plan& plan, const PlanStep& shard) {
+  const ReadySplit ready{plan.description, plan.grid, {}, {}, nullptr};
+  BuildConfig own;
+  own.ready = &ready;
+  own.part = shard.cells;
+  return describe(own, {});
+}
+
+// What a killed shard leaves behind that had saved its first brick.
+void leave_a_brick(const Plan& plan, const PlanStep& shard) {
+  ScratchDir folder(plan.path(shard.output) + ".scratch");
+  MemoryBudget budget;
+  Scratch scratch(&folder, &budget);
+  Checkpoint checkpoint(&scratch);
+  checkpoint.begin(description_of(plan, shard), plan.grid);
+  const auto spill = [&](const std::string& bytes) {
+    SpillWriter writer(scratch.runs(), scratch.new_streams(), &budget);
+    writer.append(std::as_bytes(std::span(bytes)));
+    return writer.finish();
+  };
+  const int bricks = plan.grid.levels - 2;
+  const uint64_t morton = shard.cells.begin << 3 * (bricks - shard.cells.level);
+  BakedRun baked;
+  baked.run.bricks.spilled = spill("8 bytes.");
+  baked.run.nodes.resize(size_t(bricks));
+  for (auto& level : baked.run.nodes) level.spilled = spill("");
+  baked.roots = {{morton, bricks, 0, 0}};
+  baked.finished = {{morton << 6, (morton + 1) << 6}};
+  checkpoint.save_run(baked);
+  folder.keep();
+}
+
+// A journal of one record, four zeros.
+void write_journal(const std::string& scratch, SavedKind kind) {
+  ScratchDir folder(scratch);
+  folder.keep();
+  std::vector<JournalRecord> none;
+  Journal journal(folder.create("journal"), &none);
+  journal.append(uint32_t(kind), std::vector<std::byte>(4));
+}
+
+// Nobody is there who would say --restart: svdag run and farms ask for a step as it is.
+TEST_F(Steps, BeginAfreshWhereTheirScratchIsDamaged) {
+  prepare(bumpy_sphere(40), 8);
+  const Plan plan = plan_of(config("plan", 2));
+  const PlanStep& shard = plan.steps[0];
+  const std::string output = plan.path(shard.output), scratch = output + ".scratch";
+  do_step(plan, shard);
+  const std::string bytes = read_bytes(output);
+  const std::map<std::string, std::function<void()>> damages = {
+      {"a block of a run",
+       [&] {
+         std::string runs = read_bytes(scratch + "/runs");
+         runs[64] ^= 1;
+         write(scratch + "/runs", runs);
+       }},
+      {"runs cut short", [&] { std::filesystem::resize_file(scratch + "/runs", 4096); }},
+      {"no runs", [&] { std::filesystem::remove(scratch + "/runs"); }},
+      {"a journal of nonsense", [&] { write_journal(scratch, SavedKind::kRun); }},
+      {"a journal of another version", [&] { write_journal(scratch, SavedKind::kBake); }}};
+  for (const auto& [what, damage] : damages) {
+    std::filesystem::remove(output);
+    leave_a_brick(plan, shard);
+    damage();
+    do_step(plan, shard);
+    EXPECT_EQ(read_bytes(output), bytes) << what;
+    EXPECT_FALSE(std::filesystem::exists(scratch)) << what;
+  }
+  std::filesystem::remove(output);
+  leave_a_brick(plan, shard);
+  do_step(plan, shard);
+  EXPECT_NE(read_bytes(output), bytes) << "what is whole is gone on with";
+}
+
 TEST_F(Steps, BeginAnewIfTheyAreToldTo) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   const PlanStep& shard = plan.steps[0];
   do_step(plan, shard);
   const std::string bytes = read_bytes(plan.path(shard.output));
-  const ReadySplit ready{plan.description, plan.grid, {}, {}, nullptr};
-  BuildConfig own;
-  own.ready = &ready;
-  own.part = shard.cells;
   for (const bool restart : {false, true}) {
     std::filesystem::remove(plan.path(shard.output));
-    leave_unfinished(plan.path(shard.output) + ".scratch", describe(own, {}), plan.grid);
+    leave_unfinished(plan.path(shard.output) + ".scratch", description_of(plan, shard), plan.grid);
     StepConfig config;
     config.restart = restart;
     do_step(plan, shard, config);

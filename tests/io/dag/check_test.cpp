@@ -12,6 +12,7 @@
 #include "streaming/error.h"
 #include "tests/repair_checksums.h"
 #include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -59,7 +60,7 @@ bool is_sound(const std::string& path) {
 }
 
 TEST(CheckDag, FindsEveryFlippedBit) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   std::string bytes = make_file(path);
   ASSERT_GE(bytes.size(), 16384U);
@@ -78,7 +79,7 @@ TEST(CheckDag, FindsEveryFlippedBit) {
 }
 
 TEST(CheckDag, FindsEveryTruncationAndEveryAppendedLength) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   const std::string bytes = make_file(path, 4, 20);
   for (size_t length = 0; length < bytes.size(); ++length) {
@@ -99,7 +100,7 @@ void forge(std::string bytes, const std::string& path, size_t offset, uint32_t w
 }
 
 TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   const std::string bytes = make_file(path, 5, 30);
   Header h;
@@ -125,7 +126,7 @@ TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
 }
 
 TEST(CheckDag, SaysWhatTheFileIsInstead) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   write_bytes(path, std::string(5000, 'x'));
   try {

@@ -26,7 +26,7 @@ VoxelSet inside(const VoxelSet& set, const VoxelBox& box) {
 VoxelSet walked(CubeWalk* walk, const VoxelBox& box, int64_t* largest = nullptr) {
   VoxelSet set;
   uint64_t count = 0;
-  walk->visit(box, [&](const Cube& cube) {
+  walk->visit(box, [&](const VoxelCube& cube) {
     add_cube(&set, cube);
     count += cube.count();
     if (largest != nullptr) *largest = std::max(*largest, cube.side);
@@ -69,7 +69,7 @@ TEST_P(CubeWalkOf, ABlockAnywhereIsWhatStandsThere) {
   std::mt19937_64 random(uint64_t(GetParam()) + 200);
   CubeWalk walk(file_.view(), 6);
   for (int i = 0; i < 200; ++i) {
-    Cube cube;
+    VoxelCube cube;
     for (int a = 0; a < 3; ++a) cube.origin[a] = int64_t(random() % 80) - 8;
     cube.block = walk.block(cube.origin);
     VoxelSet set;
@@ -89,7 +89,7 @@ TEST(CubeWalk, FullCubesAreHandedOutWhole) {
   int64_t largest = 0;
   int cubes = 0;
   EXPECT_EQ(walked(&walk, test_grid(6).whole(), &largest), voxels);
-  walk.visit(test_grid(6).whole(), [&](const Cube&) { return ++cubes > 0; });
+  walk.visit(test_grid(6).whole(), [&](const VoxelCube&) { return ++cubes > 0; });
   EXPECT_EQ(largest, 32);
   EXPECT_EQ(cubes, 2);
 }
@@ -98,7 +98,7 @@ TEST(CubeWalk, StopsWhenTheSinkHasEnough) {
   const RawFile file(raw_dag(test_grid(6), bodies(6, 9)));
   CubeWalk walk(file.view(), 6);
   int cubes = 0;
-  EXPECT_FALSE(walk.visit(test_grid(6).whole(), [&](const Cube&) { return ++cubes < 3; }));
+  EXPECT_FALSE(walk.visit(test_grid(6).whole(), [&](const VoxelCube&) { return ++cubes < 3; }));
   EXPECT_EQ(cubes, 3);
 }
 

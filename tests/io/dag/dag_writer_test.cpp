@@ -6,7 +6,7 @@
 #include "io/dag/dag_stats.h"
 #include "streaming/error.h"
 #include "tests/expect_error.h"
-#include "tests/soup.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -39,7 +39,7 @@ void write_two_voxels(const std::string& path) {
 }
 
 TEST(DagWriter, WhatIsWrittenIsRead) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_two_voxels(folder.file("a.svdag"));
   const DagFile file = DagFile::open(folder.file("a.svdag"));
   EXPECT_EQ(file.grid(), small_grid());
@@ -59,7 +59,7 @@ TEST(DagWriter, WhatIsWrittenIsRead) {
 }
 
 TEST(DagStats, CountTreeAndDag) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_two_voxels(folder.file("a.svdag"));
   const DagStats stats = compute_stats(DagFile::open(folder.file("a.svdag")));
   EXPECT_EQ(stats.voxels, 2U);
@@ -69,7 +69,7 @@ TEST(DagStats, CountTreeAndDag) {
 }
 
 TEST(DagWriter, ASectionThatIsFullIsToldOf) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, 4);
   writer.begin_level(2);
   for (Brick brick = 1; brick <= 4; ++brick) writer.add_brick(brick);
@@ -82,7 +82,7 @@ TEST(DagWriter, ASectionThatIsFullIsToldOf) {
 }
 
 TEST(DagWriter, RefusesWhatTheFormatForbids) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative);
   EXPECT_THROW(writer.begin_level(1), Error);
   writer.begin_level(2);

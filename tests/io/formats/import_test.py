@@ -43,6 +43,11 @@ class Import(unittest.TestCase):
         BAKERY.run("svdag-verify", "check", "imported.svdag", "-q")
         return BAKERY.dag("imported.svdag")
 
+    def dense(self):
+        volume = numpy.zeros((32, 32, 32), bool)
+        volume[tuple(self.few.T)] = True
+        return volume
+
     def expect_place(self, dag, corner, voxel_size):
         self.assertAlmostEqual(dag.voxel_size / voxel_size, 1, delta=1e-6)
         for got, own in zip(dag.corner, corner):
@@ -98,8 +103,7 @@ class Import(unittest.TestCase):
         chance = random.Random(3)
         rows = self.few.tolist() + self.few[::3].tolist()  # repetitions
         chance.shuffle(rows)
-        dense = numpy.zeros((32, 32, 32), bool)
-        dense[tuple(self.few.T)] = True
+        dense = self.dense()
         places = {"corner": numpy.array([1.5, -2, 3]), "voxel_size": numpy.float64(0.125)}
         for name, arrays in {
                 "i4": {"coordinates": numpy.array(rows, "<i4")}, "i8": {"points": numpy.array(rows, "<i8")},
@@ -113,6 +117,22 @@ class Import(unittest.TestCase):
                     self.expect_place(dag, (1.5, -2, 3), 0.125)
         numpy.save(BAKERY.folder / "lone.npy", numpy.array(rows, "<i4"))
         self.assertEqual(nodes_of(self.imported("lone.npy", "-r", "32")), nodes_of(self.small))
+
+    def test_coordinates_column_by_column_in_every_type(self):
+        rows = numpy.argwhere(self.dense())
+        self.assertTrue(rows.flags.f_contiguous and not rows.flags.c_contiguous)
+        for kind in ("i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"):
+            with self.subTest(kind=kind):
+                columns = numpy.asfortranarray(rows.astype(kind))
+                self.assertIn(b"'fortran_order': True", write_foreign.npz(x=columns))
+                dag = self.read(write_foreign.npz(x=columns), "f.npz", "-r", "32")
+                self.assertEqual(nodes_of(dag), nodes_of(self.small))
+                self.assertEqual(dag.voxel_count, len(self.few))
+        for kind in ("i1", "<i2", "<i4", "<i8"):
+            with self.subTest(negative=kind):
+                columns = numpy.array([[0, 1, 2], [0, -1, 2], [3, 3, 3]], kind, order="F")
+                (BAKERY.folder / "n.npz").write_bytes(write_foreign.npz(x=columns))
+                self.assertIn("0 ... 1M - 1", BAKERY.run("svdag", "import", "n.npz", "-o", "n.svdag", code=3))
 
     def test_negative_coordinates_of_every_width_are_refused(self):
         for width in ("i1", "<i2", "<i4", "<i8"):
@@ -146,6 +166,14 @@ class Import(unittest.TestCase):
             with self.subTest(name=name, array=array):
                 (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(x=x, **{name: array}))
                 self.assertIn(name, BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
+    def test_an_impossible_place_is_refused_by_the_name_of_the_file(self):
+        for size in (0.0, -1.0, float("nan"), float("inf")):
+            with self.subTest(size=size):
+                (BAKERY.folder / "w.npz").write_bytes(
+                    write_foreign.npz(x=numpy.array(self.few, "<i4"), voxel_size=numpy.float64(size)))
+                self.assertIn("w.npz: puts its voxels at an impossible place",
+                              BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
     def test_a_binvox_that_is_no_cube(self):
         high = self.few.max(0) + 1

@@ -23,7 +23,7 @@ TEST(Nvdb, HoldsTheVoxelsAndTheirCentres) {
   CubeWalk walk(file.view(), 8);
   const auto writer = make_vdb_writer();
   writer->begin("occupancy", voxel_centres(grid));
-  walk.visit(grid.whole(), [&](const Cube& cube) {
+  walk.visit(grid.whole(), [&](const VoxelCube& cube) {
     writer->add(cube);
     return true;
   });

@@ -79,7 +79,7 @@ TEST(SentCubes, EveryVoxelIsFoundInWhateverOrderItsCubeCame) {
   for (int run = 0; run < 5; ++run) {
     const SentCubes cubes = received(records);
     uint64_t count = 0;
-    cubes.visit([&](const Cube& cube) { return count += cube.count(); });
+    cubes.visit([&](const VoxelCube& cube) { return count += cube.count(); });
     EXPECT_EQ(count, (1U << 21) + 512 + 6 * 4 * 2);
     EXPECT_EQ(cubes.bounds().min, LatticePoint(-4096, 0, -8));
     EXPECT_EQ(cubes.bounds().max, LatticePoint(4104, 256, 136));

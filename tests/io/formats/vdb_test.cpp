@@ -29,26 +29,26 @@ class Vdb : public ::testing::Test {
   }
 
   // One grid with these cubes.
-  void write(const std::string& name, const std::vector<Cube>& cubes, VdbFormat format,
+  void write(const std::string& name, const std::vector<VoxelCube>& cubes, VdbFormat format,
              const IndexToWorld& centres = voxel_centres(test_grid(6))) {
     const auto writer = make_vdb_writer();
     writer->begin("occupancy", centres);
-    for (const Cube& cube : cubes) writer->add(cube);
+    for (const VoxelCube& cube : cubes) writer->add(cube);
     writer->write(path(name), format);
   }
 
-  static std::vector<Cube> blocks_of(const VoxelSet& voxels) {
+  static std::vector<VoxelCube> blocks_of(const VoxelSet& voxels) {
     std::map<std::array<int64_t, 3>, Block> blocks;
     for (const auto& [x, y, z] : voxels)
       blocks[{x & ~7, y & ~7, z & ~7}].set(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
-    std::vector<Cube> cubes;
+    std::vector<VoxelCube> cubes;
     for (const auto& [at, block] : blocks) cubes.push_back({{at[0], at[1], at[2]}, 8, block});
     return cubes;
   }
 
   static VoxelSet voxels_of(const VdbGrid& grid) {
     VoxelSet set;
-    grid.visit([&](const Cube& cube) {
+    grid.visit([&](const VoxelCube& cube) {
       add_cube(&set, cube);
       return true;
     });
@@ -74,17 +74,17 @@ TEST_F(Vdb, VoxelsComeBackFromBothTypes) {
 }
 
 TEST_F(Vdb, FullCubesStayTiles) {
-  const std::vector<Cube> cubes{
+  const std::vector<VoxelCube> cubes{
       {{0, 0, 0}, 8, Block::full()}, {{128, 0, 256}, 128, {}}, {{4096, 0, 8192}, 4096, {}}};
   write("tiles.vdb", cubes, VdbFormat::kMask);
   EXPECT_LT(std::filesystem::file_size(path("tiles.vdb")), 100'000U);
   std::map<int64_t, LatticePoint> found;
-  read_vdb(path("tiles.vdb"), "", {})->visit([&](const Cube& cube) {
+  read_vdb(path("tiles.vdb"), "", {})->visit([&](const VoxelCube& cube) {
     found[cube.side] = cube.origin;
     return true;
   });
   ASSERT_EQ(found.size(), 3U);
-  for (const Cube& cube : cubes) EXPECT_EQ(found[cube.side], cube.origin);
+  for (const VoxelCube& cube : cubes) EXPECT_EQ(found[cube.side], cube.origin);
 }
 
 TEST_F(Vdb, CubesOfOtherSizesFillTheirVoxels) {
@@ -195,17 +195,17 @@ TEST_F(Vdb, TheSandboxDecidesNothing) {
 
 TEST_F(Vdb, ScatteredVoxelsAreNotTooMuch) {
   // The most that OpenVDB takes for what is in a file: a node of every size for each of them.
-  std::vector<Cube> cubes;
+  std::vector<VoxelCube> cubes;
   for (int64_t i = 0; i < 700; ++i)
     cubes.push_back({{i % 10 * 4096, i / 10 % 10 * 4096, i / 100 * 4096}, 8, {}});
-  for (Cube& cube : cubes) cube.block.set(1, 2, 3);
+  for (VoxelCube& cube : cubes) cube.block.set(1, 2, 3);
   write("a.vdb", cubes, VdbFormat::kMask);
   EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {})).size(), 700U);
 }
 
 TEST_F(Vdb, ManyTilesAreNotTooMuch) {
   // Each is one bit of a mask in the file.
-  std::vector<Cube> cubes;
+  std::vector<VoxelCube> cubes;
   for (int64_t x = 0; x < 64; ++x)
     for (int64_t y = 0; y < 32; ++y)
       for (int64_t z = 0; z < 32; ++z)
@@ -213,7 +213,9 @@ TEST_F(Vdb, ManyTilesAreNotTooMuch) {
   write("a.vdb", cubes, VdbFormat::kMask);
   EXPECT_LT(std::filesystem::file_size(path("a.vdb")), 30'000U);
   uint64_t found = 0;
-  read_vdb(path("a.vdb"), "", {})->visit([&](const Cube& cube) { return found += cube.count(); });
+  read_vdb(path("a.vdb"), "", {})->visit([&](const VoxelCube& cube) {
+    return found += cube.count();
+  });
   EXPECT_EQ(found, cubes.size() << 21);
 }
 

@@ -2,41 +2,18 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "io/scene/mesh_reader.h"
 #include "streaming/error.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
-
-// A folder that vanishes with the test.
-class TestFolder {
- public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "svdag_gltf_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TestFolder() { std::filesystem::remove_all(path_); }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ + "/" + name, std::ios::binary) << bytes;
-    return path_ + "/" + name;
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 // A glTF document under construction: one buffer, a view and an accessor for each array.
 class GltfBuilder {
@@ -134,7 +111,7 @@ inline Corners read_corners(const std::string& path, const NameFilter& filter = 
 
 inline Corners read_corners(const GltfBuilder& gltf, const NameFilter& filter = {},
                             std::vector<std::string>* names = nullptr) {
-  const TestFolder folder;
+  const TempFolder folder;
   return read_corners(folder.write("scene.glb", gltf.glb()), filter, names);
 }
 
@@ -151,7 +128,7 @@ inline std::string failure(const std::string& path) {
 }
 
 inline std::string failure(const GltfBuilder& gltf) {
-  const TestFolder folder;
+  const TempFolder folder;
   return failure(folder.write("scene.glb", gltf.glb()));
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/io/scene/gltf_builder.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -32,7 +33,7 @@ class GltfUri : public testing::Test {
   }
   void place(const std::string& name) const { folder_.write(name, gltf_.bytes); }
 
-  TestFolder folder_;
+  TempFolder folder_;
   GltfBuilder gltf_ = indexed_triangle();
 };
 
@@ -166,7 +167,7 @@ TEST_F(GltfUri, BuffersMayBeEmbeddedAsBase64) {
 }
 
 TEST(GltfHostile, EveryTruncationIsAnError) {
-  const TestFolder folder;
+  const TempFolder folder;
   const std::string whole = indexed_triangle().glb();
   for (size_t size = 0; size < whole.size(); ++size) {
     EXPECT_NE(failure(folder.write("cut.glb", whole.substr(0, size))), "") << size;
@@ -247,7 +248,7 @@ TEST(GltfHostile, ARequiredExtensionThatChangesGeometryIsNamed) {
 }
 
 TEST(GltfHostile, WhatIsNotGltf2IsRefused) {
-  const TestFolder folder;
+  const TempFolder folder;
   GltfBuilder gltf = indexed_triangle();
   gltf.json["asset"]["version"] = "1.0";
   EXPECT_THAT(failure(gltf), HasSubstr("glTF 2"));
@@ -263,7 +264,7 @@ TEST(GltfHostile, ABudgetIsKeptAndGivenBack) {
   GltfBuilder gltf;
   const int positions = gltf.accessor(std::vector<float>(3 * 100000, 1.0f), "VEC3");
   gltf.show(gltf.mesh(positions, gltf.accessor(std::vector<uint32_t>{0, 1, 2}, "SCALAR")));
-  const TestFolder folder;
+  const TempFolder folder;
   const File file = File::open_read(folder.write("a.glb", gltf.glb()));
   const NameFilter all;
   MemoryBudget small(uint64_t(1) << 20);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/io/scene/gltf_builder.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -59,7 +60,7 @@ TEST(GltfKept, InstancesOfASharedMeshAreAllDrawn) {
 }
 
 TEST(GltfKept, LittleMemoryKeepsNothing) {
-  const TestFolder folder;
+  const TempFolder folder;
   const std::string path = folder.write("scene.glb", scene_of(50, 4, true).glb());
   const auto peak = [&](uint64_t limit) {
     MemoryBudget budget(limit);

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/scene/scene.h"
 #include "tests/io/scene/gltf_builder.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -66,6 +68,24 @@ TEST(Gltf, PointsAndLinesHaveNoTriangles) {
     gltf.show(gltf.mesh(gltf.accessor(kFive, "VEC3"), -1, mode));
     EXPECT_TRUE(read_corners(gltf).empty()) << "mode " << mode;
   }
+}
+
+// Morph targets whose weights are all zero, as most files have them, change nothing.
+TEST(Gltf, TrianglesThatASkinOrWeightsDeformAreCounted) {
+  const auto undeformed = [](const json& node, const json& mesh) {
+    GltfBuilder gltf = one_triangle();
+    gltf.json["nodes"][0].update(node);
+    gltf.json["meshes"][0].update(mesh);
+    const TempFolder folder;
+    MemoryBudget budget;
+    const Scene scene({{folder.write("scene.glb", gltf.glb())}}, &budget);
+    return scene.stream([](const TriangleBatch&) {}).undeformed;
+  };
+  EXPECT_EQ(undeformed(json::object(), json::object()), 0u);
+  EXPECT_EQ(undeformed({{"skin", 0}}, json::object()), 1u);
+  EXPECT_EQ(undeformed(json::object(), {{"weights", {0, 0.5}}}), 1u);
+  EXPECT_EQ(undeformed(json::object(), {{"weights", {0, 0.0}}}), 0u);
+  EXPECT_EQ(undeformed({{"weights", {0, 0}}}, {{"weights", {0, 0.5}}}), 0u);
 }
 
 TEST(Gltf, ListsBeyondOneWindowComeWhole) {

@@ -10,13 +10,14 @@
 #include "io/scene/draco.h"
 #include "tests/io/scene/gltf_builder.h"
 #include "tests/shared_scenes.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
 
 // The corners of unindexed triangles, as a scene.
 MeshStats stats_of(const std::vector<float>& corners) {
-  const TestFolder folder;
+  const TempFolder folder;
   GltfBuilder gltf;
   gltf.show(gltf.mesh(gltf.accessor(corners, "VEC3")));
   MemoryBudget budget;
@@ -88,7 +89,7 @@ TEST(MeshStats, ATorusOfQuadsIsClosedAtAnySize) {
 }
 
 TEST(MeshStats, TheBudgetIsKept) {
-  const TestFolder folder;
+  const TempFolder folder;
   GltfBuilder gltf;
   gltf.show(gltf.mesh(gltf.accessor(kTetrahedron, "VEC3")));
   MemoryBudget budget, small(1000);

@@ -9,6 +9,7 @@
 
 #include "io/scene/mesh_stats.h"
 #include "tests/io/scene/gltf_builder.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -36,7 +37,7 @@ Mesh sheet(int n, bool holes) {
   return mesh;
 }
 
-std::string save(const TestFolder& folder, const Mesh& mesh) {
+std::string save(const TempFolder& folder, const Mesh& mesh) {
   const std::string path = folder.path() + "/mesh.om";
   omlog().disable();
   EXPECT_TRUE(
@@ -65,7 +66,7 @@ TEST(OpenMesh, PolygonsComeAsFansOfTheirExactDoubles) {
              c = mesh.add_vertex(p(3, 1)), d = mesh.add_vertex(p(2, 2)),
              e = mesh.add_vertex(p(0, 2));
   mesh.add_face(std::vector<Mesh::VertexHandle>{a, b, c, d, e});
-  const TestFolder folder;
+  const TempFolder folder;
   const Corners corners = read_om(save(folder, mesh));
   ASSERT_EQ(corners.size(), 9u);
   double area = 0;
@@ -84,7 +85,7 @@ TEST(OpenMesh, ConcavePolygonsAreFilledInsideOfTheirOutline) {
   for (const auto& [x, y] : {std::pair(4, 0), {0, 1}, {-4, 0}, {0, 4}})
     dart.push_back(mesh.add_vertex({double(x), double(y), 0}));
   mesh.add_face(dart);
-  const TestFolder folder;
+  const TempFolder folder;
   const Corners corners = read_om(save(folder, mesh));
   ASSERT_EQ(corners.size(), 6u);
   double area = 0;
@@ -96,7 +97,7 @@ TEST(OpenMesh, ConcavePolygonsAreFilledInsideOfTheirOutline) {
 }
 
 TEST(OpenMesh, ALimitedChildReadsTheSame) {
-  const TestFolder folder;
+  const TempFolder folder;
   const std::string path = save(folder, sheet(100, true));
   const Corners corners = read_om(path);
   EXPECT_GT(corners.size(), 3 * BatchWriter::kBatch);
@@ -104,7 +105,7 @@ TEST(OpenMesh, ALimitedChildReadsTheSame) {
 }
 
 TEST(OpenMesh, ACutFileIsAnError) {
-  const TestFolder folder;
+  const TempFolder folder;
   const std::string path = save(folder, sheet(5, false));
   const auto size = std::filesystem::file_size(path);
   for (uintmax_t cut : {uintmax_t(0), uintmax_t(8), uintmax_t(16), size / 2, size - 40}) {
@@ -116,7 +117,7 @@ TEST(OpenMesh, ACutFileIsAnError) {
 }
 
 TEST(OpenMesh, AHugeCountIsRefusedBeforeAllocation) {
-  const TestFolder folder;
+  const TempFolder folder;
   std::string bytes("OMP\x14", 4);
   bytes += GltfBuilder::u32(0xfffffff0) + GltfBuilder::u32(0xfffffff0) + GltfBuilder::u32(7);
   try {
@@ -133,7 +134,7 @@ TEST(OpenMesh, AgreesWithTheDiagnosticsOnManifoldMeshes) {
     const Mesh mesh = sheet(21, holes);
     uint64_t boundary = 0;
     for (const auto edge : mesh.edges()) boundary += mesh.is_boundary(edge);
-    const TestFolder folder;
+    const TempFolder folder;
     MemoryBudget budget;
     const Scene scene({{save(folder, mesh)}, {}, false}, &budget);
     const MeshStats stats = compute_mesh_stats(scene, &budget);

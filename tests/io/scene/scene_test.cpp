@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "streaming/error.h"
 #include "tests/shared_scenes.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -15,16 +14,8 @@ namespace {
 // Files in a folder that goes with the test.
 class SceneFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = ::testing::TempDir() + "svdag_scene_XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
+    return folder_.write(name, text);
   }
   std::string triangle_obj(const std::string& name, const std::string& x) const {
     return write(name, "v " + x + " 0 0\nv 1 0 0\nv 1 2 3\nv 9 9 9\nf 1 2 3\n");
@@ -43,7 +34,7 @@ class SceneFiles : public ::testing::Test {
     return {};
   }
 
-  std::filesystem::path folder_;
+  TempFolder folder_;
   MemoryBudget budget_;
 };
 
@@ -100,8 +91,9 @@ TEST_F(SceneFiles, ASceneWithoutTrianglesHasNoBounds) {
 TEST_F(SceneFiles, UnknownAndMissingFilesAreRefused) {
   EXPECT_NE(refusal({{write("a.txt", "hello")}, {}, false}).find("no scene file"),
             std::string::npos);
-  EXPECT_NE(refusal({{folder_ / "none.ply"}, {}, false}).find("no such file"), std::string::npos);
-  EXPECT_NE(refusal({{folder_}, {}, false}).find("not a regular file"), std::string::npos);
+  EXPECT_NE(refusal({{folder_.file("none.ply")}, {}, false}).find("no such file"),
+            std::string::npos);
+  EXPECT_NE(refusal({{folder_.path()}, {}, false}).find("not a regular file"), std::string::npos);
 }
 
 TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {

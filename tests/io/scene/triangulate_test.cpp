@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
+#include "tests/expect_error.h"
+#include "tests/io/scene/plain_triangulation.h"
 #include "tests/io/scene/triangulated.h"
 
 namespace svdag {
@@ -101,11 +104,117 @@ RC_GTEST_PROP(Triangulate, StarShapedPolygonsAreCoveredExactly, ()) {
   RC_ASSERT(!::testing::Test::HasFailure());
 }
 
-TEST(Triangulate, LargePolygonsEndInTime) {
-  std::vector<Point> saw;  // 20,000 corners, every second one reflex
-  for (int i = 0; i < 20000; ++i) saw.push_back({double(i), i % 2 ? 1.0 : 0.0, 0});
-  saw.push_back({10000, 1e6, 0});
-  EXPECT_EQ(triangulate(saw).size(), saw.size() - 2);
+// A place of whole numbers, so that areas are exact.
+Point polar(double angle, double radius) {
+  return {std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle)), 0};
+}
+
+// Outlines, crossings, slits and repeats of few different places, and of rounded ones in a row.
+std::vector<Point> any_polygon(std::mt19937* random) {
+  const auto below = [&](uint32_t n) { return uint32_t((*random)() % n); };
+  const uint32_t kind = below(4), places = below(8) + 3, corners = below(60) + 4;
+  std::vector<Point> polygon;
+  for (uint32_t i = 0; i < corners; ++i) {
+    const double angle = 6.283185307179586 * i / corners;
+    if (kind == 0) polygon.push_back({double(below(places)), double(below(places)), 0});
+    if (kind == 1) polygon.push_back(polar(angle, below(100000) + 20000));
+    if (kind == 2) polygon.push_back({std::cos(angle) * (below(9) + 1), std::sin(angle), 0});
+    if (kind == 3) {  // a star of `places` spikes, with corners along its edges
+      const uint32_t edge = i * places / corners;
+      const double along = double(i * places % corners) / corners;
+      const auto spike = [&](uint32_t k) {
+        const double at = 6.283185307179586 * k / places, far = k % 2 == 0 ? 1 : 0.3;
+        return Point(1000.1 + far * std::cos(at), far * std::sin(at), 0);
+      };
+      const Point a = spike(edge), b = spike((edge + 1) % places);
+      polygon.push_back(a + (b - a) * along);
+    }
+    if (below(10) == 0) polygon.push_back(polygon.back());
+    if (polygon.size() > 2 && below(10) == 0) polygon.push_back(polygon[polygon.size() - 2]);
+  }
+  return polygon;
+}
+
+TEST(Triangulate, GivesTheTrianglesOfAskingEachCornerAboutAllOthers) {
+  std::mt19937 random(1);
+  int compared = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::vector<Point> polygon = any_polygon(&random);
+    const auto expected = PlainTriangulation::of(polygon);
+    if (!expected) continue;
+    ++compared;
+    const auto triangles = triangulate(polygon);
+    ASSERT_EQ(triangles.size(), expected->size());
+    for (size_t t = 0; t < triangles.size(); ++t) {
+      for (size_t k = 0; k < 3; ++k) ASSERT_EQ(triangles[t].v[k], (*expected)[t].v[k]);
+    }
+  }
+  EXPECT_GT(compared, 10000);
+}
+
+// A band wound up: its corners on one side outwards, then those on the other side back.
+std::vector<Point> spiral(int corners) {
+  std::vector<Point> polygon;
+  for (int i = 0; i < corners / 2; ++i) polygon.push_back(polar(0.05 * i, 512 * (0.05 * i + 1)));
+  for (int i = corners / 2; i-- > 0;) polygon.push_back(polar(0.05 * i, 512 * (0.05 * i + 1.5)));
+  return polygon;
+}
+
+std::vector<Point> star(int corners) {
+  std::mt19937 random(1);
+  std::vector<Point> polygon;
+  for (int i = 0; i < corners; ++i)
+    polygon.push_back(polar(6.283185307179586 * i / corners, 0x1p20 + double(random() % 0x200000)));
+  return polygon;
+}
+
+std::vector<Point> saw(int corners) {
+  std::vector<Point> polygon;
+  for (int i = 1; i < corners; ++i) polygon.push_back({double(i), i % 2 ? 1.0 : 0.0, 0});
+  polygon.push_back({corners / 2.0, 1e6, 0});
+  return polygon;
+}
+
+// A large square, and a fine saw along a part of a side.
+std::vector<Point> fine_side(int corners) {
+  std::vector<Point> polygon = {{0x1p24, 0, 0}, {0x1p24, 0x1p24, 0}, {0, 0x1p24, 0}};
+  for (int i = corners; i-- > 0;) polygon.push_back({i % 2 ? 1.0 : 2.0, double(i), 0});
+  return polygon;
+}
+
+TEST(Triangulate, LargeOutlinesAreCoveredExactlyInAFewHundredStepsPerCorner) {
+  for (const auto& make : {spiral, star, saw, fine_side}) {
+    for (const int corners : {5000, 100000}) {
+      const std::vector<Point> polygon = make(corners);
+      uint64_t steps = 0;
+      expect_partition(polygon, &steps);
+      EXPECT_GT(steps, 0U);
+      EXPECT_LT(steps, 400 * polygon.size());
+    }
+  }
+}
+
+TEST(Triangulate, RepeatedCornersTakeAStepEach) {
+  std::vector<Point> doubled;
+  uint64_t plain = 0, steps = 0;
+  for (const Point& p : star(10000)) doubled.insert(doubled.end(), 10, p);
+  expect_partition(star(10000), &plain);
+  expect_partition(doubled, &steps);
+  EXPECT_LT(steps, plain + 2 * doubled.size());
+}
+
+TEST(Triangulate, APolygonThatTakesTooManyStepsIsAnError) {
+  const auto cut = [](uint64_t steps) {
+    const TriangleSink sink = [](const TriangleBatch&) {};
+    BatchWriter writer(sink);
+    MemoryBudget budget;
+    Triangulator triangulator(&budget, "scene.off", steps);
+    for (const Point& p : star(2000)) triangulator.corner(p);
+    triangulator.finish(writer);
+  };
+  cut(400);
+  EXPECT_SVDAG_ERROR(cut(2), ExitCode::kBadInput,
+                     "scene.off: a polygon of 2,000 corners is too entangled");
 }
 
 }  // namespace

@@ -241,6 +241,30 @@ TEST(WeaklySimple, RepeatedCornersOfAConcavePolygonChangeNothing) {
   }
 }
 
+TEST(WeaklySimple, ARepeatHidesNoReflexCorner) {
+  Ring ring = {{4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 2, 0}, {1, 2, 0}, {1, 2, 0}};
+  for (size_t turns = 0; turns < ring.size(); ++turns) {
+    expect_partition(ring);
+    expect_same_points(ring);
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+  }
+}
+
+TEST(WeaklySimple, RepeatsChangeNothingOfRandomPolygons) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 10000; ++i) {
+    Ring ring = RandomPolygon(&random).make();
+    for (auto repeats = random() % 6 + 1; repeats > 0; --repeats) {
+      const size_t k = random() % ring.size();
+      ring.insert(ring.begin() + ptrdiff_t(k), ring[k]);
+    }
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+    expect_partition(ring);
+    expect_same_points(ring);
+    ASSERT_FALSE(HasFailure()) << text(ring);
+  }
+}
+
 TEST(WeaklySimple, RandomPolygonsWithHolesAndSlitsAreCoveredExactly) {
   std::mt19937 random(1);
   size_t repeated = 0;

@@ -57,6 +57,29 @@ TEST(Camera, InsideStandsInTheOpen) {
   EXPECT_GT(camera.forward[0], 0.99);
 }
 
+TEST(Camera, InsideLeavesASmallRoomInTheMiddle) {
+  VoxelSet voxels;
+  for (int64_t i = 0; i < 64; ++i) {
+    for (int64_t k = 0; k < 64; ++k) voxels.emplace(i, 0, k);
+  }
+  voxels.emplace(0, 63, 0);
+  for (int64_t x = 30; x <= 34; ++x) {
+    for (int64_t y = 10; y <= 30; ++y) {
+      for (int64_t z = 30; z <= 34; ++z) {
+        if (x == 30 || x == 34 || y == 10 || y == 30 || z == 30 || z == 34) voxels.emplace(x, y, z);
+      }
+    }
+  }
+  const RawFile file(raw_dag(test_grid(6), voxels));
+  const Camera camera =
+      preset_camera("inside", file.view(), occupied_bounds(file.view()), 1, 40, 1.5);
+  bool in_room = true;
+  for (int a = 0; a < 3; ++a)
+    in_room = in_room && camera.position[a] >= (a == 1 ? 10 : 30) &&
+              camera.position[a] <= (a == 1 ? 31 : 35);
+  EXPECT_FALSE(in_room);
+}
+
 TEST(Camera, TurnsAroundWhatItSeesFromOutsideAndOnTheSpotWithin) {
   const VoxelBounds box{{{0, 0, 0}}, {{64, 32, 64}}};
   const Camera outside = preset_camera("front", DagView(), box, 1, 40, 1.5);

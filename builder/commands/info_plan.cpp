@@ -1,0 +1,25 @@
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/farm/plan_folder.h"
+#include "builder/farm/print_plan.h"
+#include "builder/farm/receipt.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+void info_plan(const InfoCommandConfig& config) {
+  const Plan plan = load_plan(config.paths.front(), true);
+  if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
+  print_plan(plan, config.levels);
+  size_t done = 0;
+  for (const PlanStep& step : plan.steps)
+    done += state_of(plan, step, plan.path(step.output), false) == OutputState::kValid;
+  for (const PlanInput& input : plan.inputs)
+    std::printf("  input %s, %s, content %s\n", input.path.c_str(),
+                format_bytes(input.bytes).c_str(), input.hash.c_str());
+  std::printf("  %zu of %zu steps are done\n", done, plan.steps.size());
+}
+
+}  // namespace svdag

@@ -1,0 +1,34 @@
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/farm/plan_folder.h"
+#include "builder/farm/run_local.h"
+#include "builder/farm/shell.h"
+#include "streaming/interrupt.h"
+#include "streaming/terminal.h"
+
+namespace svdag {
+
+int run_run(const RunCommandConfig& config) {
+  const Plan plan = load_plan(config.plan, false);
+  RunLocalConfig local;
+  local.processes = threads_or_all(config.processes);
+  local.scratch = config.scratch;
+  local.quiet = config.output.quiet;
+  local.table = config.output.progress == Progress::Mode::kOn ||
+                (config.output.progress == Progress::Mode::kAuto && is_lively(stderr));
+  try {
+    run_local(plan, local);
+  } catch (const Interrupted& interrupted) {
+    std::vector<std::string> again = {"svdag", "run", config.plan};
+    if (config.processes != 0) again.insert(again.end(), {"-j", std::to_string(config.processes)});
+    if (!config.scratch.empty()) again.insert(again.end(), {"--scratch", config.scratch});
+    std::fprintf(stderr, "svdag: stopped; this goes on with what is left: %s\n",
+                 shell_words(again).c_str());
+    return 128 + interrupted.signal;
+  }
+  if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

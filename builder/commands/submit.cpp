@@ -1,0 +1,40 @@
+#include <cstdio>
+
+#include "builder/commands/command_files.h"
+#include "builder/commands/commands.h"
+#include "builder/farm/submit_openjd.h"
+#include "builder/farm/submit_slurm.h"
+#include "streaming/atomic_file.h"
+#include "streaming/error.h"
+#include "streaming/interrupt.h"
+
+namespace svdag {
+
+int run_submit(const SubmitCommandConfig& config) {
+  const Plan plan = load_plan(config.plan, false);
+  if (config.engine == "slurm") {
+    try {
+      submit_slurm(
+          plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
+    } catch (const Interrupted& interrupted) {  // it has told what goes on
+      return 128 + interrupted.signal;
+    }
+    return int(ExitCode::kOk);
+  }
+  if (config.wait || !config.options.empty())
+    fail_usage(
+        "--engine openjd writes a template and starts nothing: leave --wait and engine "
+        "options out");
+  const std::string path =
+      config.template_path.empty() ? plan.path("openjd.json") : config.template_path;
+  CommandFiles files;
+  files.read(plan);
+  files.write(path);
+  AtomicFile file(path);
+  file.append(openjd_template(plan, {config.program, config.scratch, path}));
+  file.commit();
+  if (!config.output.quiet) std::printf("%s\n", path.c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

@@ -1,0 +1,57 @@
+#include "builder/descend/dense_cube.h"
+
+#include <atomic>
+#include <bit>
+
+#include "builder/descend/window.h"
+
+namespace svdag {
+
+DenseCube::DenseCube(const Grid& grid, const Cube& cube, MemoryBudget* budget)
+    : grid_(grid), cube_(cube), budget_(budget) {
+  const int log2 = grid.levels - cube.level - 2;  // of the side in bricks
+  SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= kLargestLog2);
+  const uint64_t bricks = uint64_t(1) << (3 * log2);
+  reservation_ = budget->reserve(bricks * sizeof(Brick), "voxels of a dense cube");
+  bricks_.assign(bricks, 0);
+}
+
+void DenseCube::add(std::span<const LatticeTriangle> triangles, const DescentConfig& config,
+                    Executor* executor) {
+  const size_t parts = executor->workers();
+  const uint64_t first = morton(cube_.coordinate) * bricks_.size();
+  executor->for_each(parts, [&](size_t, size_t i) {
+    const size_t begin = triangles.size() * i / parts, end = triangles.size() * (i + 1) / parts;
+    voxelize_window(
+        grid_, config, cube_, triangles.subspan(begin, end - begin),
+        [&](const LatticePoint& at, Brick brick) {
+          std::atomic_ref(bricks_[morton(at) - first]).fetch_or(brick, std::memory_order_relaxed);
+        },
+        budget_);
+  });
+}
+
+SubDag DenseCube::reduce(NodeTable* table) const {
+  return reduce(table, cube_, 0);
+}
+
+// `first`: where the bricks of `cube` begin.
+SubDag DenseCube::reduce(NodeTable* table, const Cube& cube, uint64_t first) const {
+  if (cube.level == table->brick_level()) {
+    const Brick brick = bricks_[first];
+    if (brick == 0) return {};
+    return {table->add_brick(brick), uint64_t(std::popcount(brick))};
+  }
+  NodeKey children{};
+  uint64_t voxels = 0;
+  const uint64_t step = uint64_t(1) << (3 * (table->brick_level() - cube.level - 1));
+  for (unsigned c = 0; c < 8; ++c) {
+    const SubDag child = reduce(table, cube.child(c), first + c * step);
+    children[c] = child.root;
+    voxels += child.voxels;
+  }
+  if (voxels == 0) return {};
+  return {table->add_node(cube.level, children), voxels};
+}
+
+}  // namespace svdag

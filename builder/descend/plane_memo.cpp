@@ -1,0 +1,342 @@
+#include "builder/descend/plane_memo.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "builder/overlap/brick_tables.h"
+
+namespace svdag {
+namespace {
+
+constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
+constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
+constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that may be asked for
+constexpr double kAdmitted = 16;    // bricks per content, in `repeats`, from which a plane repays
+constexpr int64_t kSpan = 3;        // buckets on either side in which an entry is found, too
+constexpr int kLargestTable = 19;   // log2 of its entries
+
+uint64_t mix(uint64_t a, uint64_t b) noexcept {
+  const unsigned __int128 product =
+      static_cast<unsigned __int128>(a ^ 0xa0761d6478bd642f) * (b ^ 0xe7037ed1a0b428db);
+  return uint64_t(product) ^ uint64_t(product >> 64);
+}
+
+// Neighbouring buckets of a plane stand side by side.
+uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
+  const uint64_t hash = mix(plane, uint64_t(bucket >> 3) * 0x9e3779b97f4a7c15);
+  return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
+}
+
+uint32_t pack(uint32_t x, uint32_t y, uint32_t z) noexcept {
+  return x | y << 10 | z << 20;
+}
+
+}  // namespace
+
+PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
+  asked += other.asked;
+  answered += other.answered;
+  hits += other.hits;
+  computed += other.computed;
+  return *this;
+}
+
+PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
+                     NodeTable* table, uint64_t bytes)
+    : levels_(levels),
+      rule_(rule),
+      kernels_(kernels),
+      repeats_(repeats),
+      table_(table),
+      tables_(size_t(levels - 1)),
+      slots_(1024),
+      most_(std::min({bytes, table->budget()->limit() / 32, uint64_t(1) << 29})),
+      reservation_(table->budget()->reserve(0, "plane memo")) {
+  for (int level = 0; level <= levels - 2; ++level) {
+    const int log2 = std::min(14 + 2 * (levels - 2 - level), kLargestTable);
+    tables_[size_t(level)].limit = size_t(1) << log2;
+  }
+}
+
+std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
+  const double whole = t.extent / double(int64_t(1) << fraction_bits(levels_));
+  const double width = std::min(whole, side);
+  if (width < kNarrowest && repeats_ > 0) return std::nullopt;
+  const std::optional<LatticePlane> plane = lattice_plane(t);
+  if (!plane || crowded_) return std::nullopt;
+  Normal& n = *normal(*plane);
+  n.area += 0.5 * width * width;
+  const double area = std::max(n.area, 0.5 * whole * whole);  // what is to come counts as well
+  const auto repeats = [&](int level) {
+    const double s = double(int64_t(1) << (levels_ - level));
+    return area >= repeats_ * contents(n.n, level).count * s * s;
+  };
+  int stored_from = levels_ - 2;
+  if (area < kAdmitted * repeats_ * contents(n.n, stored_from).count * 16) return std::nullopt;
+  while (stored_from > 0 && repeats(stored_from - 1)) --stored_from;
+  if (n.number == 0) {
+    add_plane(n);
+    n.number = uint32_t(planes_.size());
+  }
+  return Known{*plane, n.number - 1, first_level(*plane), stored_from};
+}
+
+// Offsets of exact planes fit 63 bits up to here. Of the others most ranges straddle some value in
+// large cubes, unless the values lie in few clusters.
+int PlaneMemo::first_level(const LatticePlane& plane) const {
+  const int exact = std::max(0, levels_ - (kLargestExact - fraction_bits(levels_)));
+  if (plane.exact) return exact;
+  int level = std::max(exact, levels_ - kLargestRounded);
+  while (level > exact && contents(plane.n, level - 1).dimensions == 1) --level;
+  return level;
+}
+
+void PlaneMemo::forget() {
+  if (!crowded_) return;
+  crowded_ = false;
+  normals_ = {};
+  planes_ = {};
+  std::fill(slots_.begin(), slots_.end(), 0);
+  drop_contents();
+  for (Table& table : tables_) table.entries = {};
+  reservation_.resize(0, "plane memo");
+}
+
+bool PlaneMemo::charge(uint64_t bytes) {
+  const uint64_t wanted = reservation_.bytes() + bytes;
+  return wanted <= most_ && reservation_.try_resize(wanted);
+}
+
+PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
+  const auto slot_of = [&](const int64_t n[3]) {
+    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (slots_.size() - 1);
+  };
+  if (2 * (normals_.size() + 1) > slots_.size()) {
+    slots_.assign(2 * slots_.size(), 0);
+    for (size_t i = 0; i < normals_.size(); ++i) {
+      size_t slot = slot_of(normals_[i].n);
+      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = uint32_t(i + 1);
+    }
+  }
+  size_t slot = slot_of(p.n);
+  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
+    Normal& other = normals_[slots_[slot] - 1];
+    if (std::equal(p.n, p.n + 3, other.n)) return &other;
+  }
+  // Half as much again for the slots and for room to grow; a plane may be added to each later.
+  crowded_ = !charge((sizeof(Normal) + sizeof(Plane)) * 3 / 2);
+  normals_.push_back({{p.n[0], p.n[1], p.n[2]}, 0, 0});
+  slots_[slot] = uint32_t(normals_.size());
+  return &normals_.back();
+}
+
+// How many contents a cube of the level has that matter, and the length of their intervals.
+//
+// The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
+// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums lie in s + 1
+// clusters: between them are the few long intervals that almost every cube falls into; likewise
+// (s + 1)^2 clusters where only a is small.
+PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
+  double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
+  std::sort(c, c + 3);
+  const double s = double(int64_t(1) << (levels_ - level));
+  const double voxel = double(int64_t(1) << fraction_bits(levels_));
+  const double gap = c[2], gap2 = (c[1] + c[2]) * s / ((s + 1) * (s + 1));
+  const double most = 2 * (c[0] + c[1] + c[2]) * s + 1;  // whole numbers: no more fit
+  if ((c[0] + c[1]) * s < gap / 4) return {1, std::min(2 * (s + 1), most), gap * voxel};
+  if (c[0] * s < gap2 / 4) return {2, std::min(2 * (s + 1) * (s + 1), most), gap2 * voxel};
+  const double all = std::min(2 * (s + 1) * (s + 1) * (s + 1), most);
+  return {3, all, (c[0] + c[1] + c[2]) * s * voxel / all};
+}
+
+void PlaneMemo::add_plane(const Normal& normal) {
+  Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}};
+  for (const int64_t n : plane.n) (n < 0 ? plane.negative : plane.positive) += n;
+  for (int level = 0; level <= levels_ - 2; ++level) {
+    const int log2 = std::ilogb(contents(plane.n, level).length);
+    plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
+  }
+  plane.brick = plane_brick(plane);
+  planes_.push_back(plane);
+}
+
+PlaneBrick PlaneMemo::plane_brick(const Plane& p) const {
+  const int fraction = fraction_bits(levels_);
+  // The offsets that set the voxel at the corner.
+  int64_t first = p.negative << fraction, last = p.positive << fraction;
+  if (rule_ == Rule::kThin) {
+    const int64_t dominant = std::max({std::abs(p.n[0]), std::abs(p.n[1]), std::abs(p.n[2])});
+    const int64_t centre = (p.negative + p.positive) << (fraction - 1);
+    first = centre - (dominant << (fraction - 1)) + 1;
+    last = centre + (dominant << (fraction - 1));
+  }
+  PlaneBrick brick;
+  brick.span = last - first;
+  for (unsigned c = 0; c < 8; ++c) {
+    const int64_t step = (c >> 2 & 1) * p.n[0] + (c >> 1 & 1) * p.n[1] + (c & 1) * p.n[2];
+    brick.inner[c] = first + (step << fraction);
+    brick.outer[c] = step << (fraction + 1);
+  }
+  return brick;
+}
+
+std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
+  const int64_t side = int64_t(1) << cube.side_log2(levels_);
+  const auto range = offsets_in_column(known.plane, cube.corner(levels_), side);
+  if (!range) return std::nullopt;
+  Witness witness;
+  return find(known, cube, *range, &witness);
+}
+
+std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
+                                      const OffsetRange& range, Witness* witness) {
+  ++counts_.asked;
+  stored_from_ = known.stored_from;
+  Answer answer;
+  if (!node(known.number, cube.level, range, &answer)) return std::nullopt;
+  ++counts_.answered;
+  *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
+  return SubDag{answer.node, answer.voxels};
+}
+
+bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+  if (level < stored_from_) return compute(number, level, range, out);
+  Table& table = tables_[size_t(level)];
+  if (table.entries.empty()) {
+    grow(&table);
+    if (table.entries.empty()) return compute(number, level, range, out);
+  }
+  const int log2 = planes_[number].bucket_log2[size_t(level)];
+  const int64_t bucket = range.low >> log2;
+  const Entry* set = set_of(&table, tag_of(number, bucket));
+  for (size_t way = 0; way < kWays; ++way) {
+    const Entry& e = set[way];
+    if (e.plane == number + 1 && e.low <= range.low && range.high <= e.high) {
+      ++counts_.hits;
+      *out = {e.low, e.high, e.node, e.voxels, e.witness};
+      return true;
+    }
+  }
+  if (!compute(number, level, range, out)) return false;
+  // Into every bucket that the interval meets, near the one that was asked for.
+  const int64_t first = std::max(out->low >> log2, bucket - kSpan);
+  const int64_t last = std::min(out->high >> log2, bucket + kSpan);
+  for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);
+  return true;
+}
+
+void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset) {
+  Table& table = tables_[size_t(level)];
+  if (level < stored_from_ || table.entries.empty()) return;
+  const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
+  const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(number, bucket)));
+  __builtin_prefetch(set);
+  __builtin_prefetch(set + 64);
+}
+
+bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+  if (level == levels_ - 2) return compute_brick(planes_[number], range, out);
+  const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
+  const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
+                           planes_[number].n[2] << half_log2};
+  NodeKey key{};
+  // Beyond these offsets the plane passes a child.
+  const int64_t low = planes_[number].negative << half_log2;
+  const int64_t high = planes_[number].positive << half_log2;
+  *out = {-kFarOffset, kFarOffset, 0, 0, 0};
+  const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
+  int64_t shift[8];
+  unsigned met = 0;
+  for (unsigned c = 0; c < 8; ++c) {
+    shift[c] = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
+    if (range.high - shift[c] < low) {
+      out->high = std::min(out->high, low - 1 + shift[c]);
+    } else if (range.low - shift[c] > high) {
+      out->low = std::max(out->low, high + 1 + shift[c]);
+    } else {
+      met |= 1U << c;
+      prefetch(number, level + 1, range.low - shift[c]);
+    }
+  }
+  for (; met != 0; met &= met - 1) {
+    const unsigned c = unsigned(std::countr_zero(met));
+    Answer child;
+    if (!node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
+      return false;
+    out->low = std::max(out->low, child.low + shift[c]);
+    out->high = std::min(out->high, child.high + shift[c]);
+    if (child.node == 0) continue;
+    key[c] = child.node;
+    out->voxels += child.voxels;
+    out->witness = child.witness + pack((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
+  }
+  if (out->voxels == 0) return true;
+  ++counts_.computed;
+  out->node = table_->add_node(level, key);
+  return true;
+}
+
+bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answer* out) {
+  const PlaneVoxels found = kernels_->plane(plane.brick, range.low, range.high);
+  if (found.straddles) return false;
+  *out = {found.low, found.high, 0, uint32_t(std::popcount(found.voxels)), 0};
+  if (found.voxels == 0) return true;
+  ++counts_.computed;
+  const uint8_t* at = kBrickTables.coordinate[std::countr_zero(found.voxels)];
+  out->witness = pack(at[0], at[1], at[2]);
+  out->node = table_->add_brick(found.voxels);
+  return true;
+}
+
+PlaneMemo::Entry* PlaneMemo::set_of(Table* table, uint32_t tag) {
+  return &table->entries[(tag & table->mask) * kWays];
+}
+
+void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer) {
+  if (2 * table->used > table->entries.size()) grow(table);
+  Entry* set = set_of(table, tag);
+  size_t way = 0;
+  while (way < kWays && set[way].plane != 0) ++way;
+  if (way == kWays) {
+    way = (tag ^ tag >> 16) >> 3 & 3;  // full: one of them goes
+  } else {
+    ++table->used;
+  }
+  set[way] = {answer.low, answer.high, answer.node, answer.voxels, answer.witness, plane + 1};
+  if (answer.node > kPending)
+    table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
+}
+
+void PlaneMemo::settle() {
+  for (int level = 0; level <= levels_ - 2; ++level) {
+    Table& table = tables_[size_t(level)];
+    for (const uint32_t i : table.unsettled)
+      table.entries[i].node = table_->settled(level, table.entries[i].node);
+    table.unsettled.clear();
+  }
+}
+
+void PlaneMemo::drop_contents() {
+  for (Table& table : tables_) {
+    std::fill(table.entries.begin(), table.entries.end(), Entry{});
+    table.unsettled.clear();
+    table.used = 0;
+  }
+}
+
+// Starts again with a larger table, if there is room: entries do not know all their buckets, and a
+// table grows only a few times.
+void PlaneMemo::grow(Table* table) {
+  const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
+  if (size == table->entries.size()) return;
+  if (!charge((size - table->entries.size()) * sizeof(Entry))) return;
+  table->entries.assign(size, Entry{});
+  table->mask = uint32_t(size / kWays - 1);
+  table->unsettled.clear();
+  table->used = 0;
+}
+
+}  // namespace svdag

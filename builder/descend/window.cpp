@@ -1,0 +1,38 @@
+#include "builder/descend/window.h"
+
+#include "builder/overlap/overlap.h"
+
+namespace svdag {
+namespace {
+
+void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSink& sink) {
+  if (node == 0) return;
+  if (cube.level == table.brick_level()) return sink(cube.coordinate, table.brick(node - 1));
+  const NodeKey& children = table.node(cube.level, node - 1);
+  for (unsigned c = 0; c < 8; ++c) emit(table, cube.child(c), children[c], sink);
+}
+
+}  // namespace
+
+uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
+                         std::span<const LatticeTriangle> triangles, const BrickSink& sink,
+                         MemoryBudget* budget) {
+  MemoryBudget unlimited;
+  NodeTable table(grid.levels, budget != nullptr ? budget : &unlimited);
+  std::vector<TriangleSetup> setups;
+  setups.reserve(triangles.size());
+  EntryList list;
+  const LatticeBox closed = window.closed(grid.levels);
+  for (const LatticeTriangle& triangle : triangles) {
+    setups.push_back(make_setup(triangle));
+    if (setups.back().box.meets(closed)) list.push_back({&setups.back(), setups.back().edges});
+  }
+  Descent descent(grid, config, &table);
+  descent.run(window, list);
+  descent.settle();
+  if (descent.roots().empty()) return 0;
+  emit(table, window, descent.roots().front().node, sink);
+  return descent.voxels();
+}
+
+}  // namespace svdag

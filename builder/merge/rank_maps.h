@@ -1,0 +1,69 @@
+// The maps of one merged level: for each source, rank in the source -> index in the output.
+//
+// Maps ascend, so they are written and read in order; only looking children up is random, and that
+// needs the map of one run at a time. In memory, or spilled one stream per source.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "builder/spill/scratch.h"
+#include "streaming/huge_vector.h"
+
+namespace svdag {
+
+// A map in memory, or a window of one, counted.
+struct RankMap {
+  HugeVector<uint32_t> indices;
+  MemoryBudget::Reservation reservation;
+  uint64_t first = 0;  // rank of indices[0]
+
+  bool holds(uint64_t rank) const { return rank - first < indices.size(); }
+  uint32_t operator[](uint64_t rank) const { return indices[rank - first]; }
+};
+
+class RankMaps {
+ public:
+  RankMaps() = default;
+  // For sources of `counts` keys; spilled if `scratch` is given.
+  RankMaps(std::span<const uint64_t> counts, Scratch* scratch, MemoryBudget* budget);
+  RankMaps(RankMaps&&) = default;
+  RankMaps& operator=(RankMaps&&) = default;
+  // Spilled, without sources yet.
+  static RankMaps none(Scratch* scratch, MemoryBudget* budget) { return {{}, scratch, budget}; }
+
+  // The index of the next key of `source`.
+  void push(size_t source, uint32_t index) {
+    if (writers_.empty()) {
+      maps_[source].indices.push_back(index);
+    } else {
+      writers_[source].append(std::as_bytes(std::span(&index, 1)));
+    }
+  }
+  // No more is pushed.
+  void finish();
+  // Adds the map of one more source: what `member` of *into maps to, mapped by `group` of out_of.
+  // All are spilled; that of `member` is freed.
+  void append_composed(RankMaps* into, size_t member, const RankMaps& out_of, size_t group);
+
+  bool spilled() const { return scratch_ != nullptr; }
+  size_t size() const { return spilled() ? streams_.size() : maps_.size(); }
+  const RankMap& resident(size_t source) const { return maps_[source]; }
+  // Of a spilled map, the indices of ranks `begin` to `end` at most, into memory.
+  RankMap load(size_t source, uint64_t begin = 0, uint64_t end = UINT64_MAX) const;
+  // Ranks of a spilled map.
+  uint64_t count(size_t source) const { return streams_[source].bytes / sizeof(uint32_t); }
+  uint64_t resident_bytes() const;
+  // Frees a spilled map.
+  void free(size_t source) const { scratch_->passing()->free(streams_[source]); }
+
+ private:
+  Scratch* scratch_ = nullptr;
+  MemoryBudget* budget_ = nullptr;
+  std::vector<RankMap> maps_;
+  std::vector<SpillWriter> writers_;
+  std::vector<SpillStream> streams_;
+};
+
+}  // namespace svdag

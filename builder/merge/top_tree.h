@@ -1,0 +1,55 @@
+// The octree above the cells, built upwards while the merge goes from level to level, up to the
+// tops of the part that is merged: the root of the grid if that is all.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "builder/octree/part.h"
+#include "builder/octree/sub_dag_root.h"
+#include "io/dag/dag_writer.h"
+
+namespace svdag {
+
+class TopTree {
+ public:
+  // The roots lie in `part`, which must outlive the tree.
+  TopTree(std::vector<SubDagRoot> roots, const Part& part);
+
+  // After level `level` was merged, in this order: resolve_own() with the indices of what
+  // sorted_nodes() returned; resolve_run() for each run with its map from rank to index, or once
+  // per window of that map; end_level().
+  template <class Map>
+  void resolve_own(const Map& indices) {
+    for (Place& place : places_) place.index = indices[place.index];
+  }
+  template <class Map>
+  void resolve_run(int level, uint32_t run, const Map& map) {
+    for (auto [root, end] = roots_of(level, run); root != end; ++root)
+      if (map.holds(root->rank)) places_.push_back({root->morton, map[root->rank]});
+  }
+  void end_level(int level);
+
+  // The parents of the cubes resolved last, as nodes, ascending without repeats.
+  const std::vector<NodeKey>& sorted_nodes();
+
+  // After the end of level 0: the tops of the part that are not empty, with `rank` the index.
+  std::vector<SubDagRoot> take_tops() { return std::move(tops_); }
+
+ private:
+  struct Place {
+    uint64_t morton;  // of the cube at the current level
+    uint32_t index;   // resolved: global index; between the calls: position in nodes_
+  };
+  using Roots = std::vector<SubDagRoot>::const_iterator;
+
+  std::pair<Roots, Roots> roots_of(int level, uint32_t run) const;
+
+  std::vector<SubDagRoot> roots_;  // by level and run
+  const Part& part_;
+  std::vector<SubDagRoot> tops_;
+  std::vector<Place> places_;   // occupied cubes of the current level, ascending
+  std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats
+};
+
+}  // namespace svdag

@@ -1,0 +1,25 @@
+// The exact answers for single voxels, where double cannot tell.
+#pragma once
+
+#include "builder/overlap/triangle_setup.h"
+
+namespace svdag {
+
+// Conservative: does the projected closed square of column 4i + j (i on axis w+1, j on axis w+2,
+// w = k / 3) of the brick at `corner` reach the inner side of edge function k?
+bool column_reaches(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
+                    unsigned column) noexcept;
+// Conservative: does the plane meet the closed voxel `bit` of the brick?
+bool voxel_meets_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
+                       unsigned bit) noexcept;
+
+// Thin: is edge function k positive at the centre of the column, shifted symbolically?
+bool column_centre_holds(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
+                         unsigned column) noexcept;
+// Thin: is n . (x - v0) positive at x, shifted symbolically?
+bool is_above_plane(const TriangleSetup& t, const LatticePoint& x) noexcept;
+// The same where x is an end of the centre segment along axis w of voxel `bit`.
+bool end_is_above_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
+                        unsigned bit, int w, bool upper) noexcept;
+
+}  // namespace svdag

@@ -1,0 +1,61 @@
+// What a merge writes: a `.svdag`, or a `.run` that is merged again.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "builder/octree/part.h"
+#include "builder/octree/sub_dag_root.h"
+#include "io/dag/dag_writer.h"
+
+namespace svdag {
+
+class BakeOutput {
+ public:
+  virtual ~BakeOutput() = default;
+  // Levels come from L-2 to 0, each once. Keys come ascending without repeats; what is returned is
+  // what the level above calls the key by, and ascends like the keys.
+  virtual void begin_level(int level) = 0;
+  virtual uint32_t add_brick(Brick brick) = 0;
+  virtual uint32_t add_node(const NodeKey& children) = 0;
+  // Gives the file its name. `roots` stand at the tops of the part that are not empty.
+  virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) = 0;
+
+  // Of the finished file.
+  virtual std::vector<uint64_t> keys() const = 0;  // per level; the last entry counts bricks
+  virtual uint64_t file_bytes() const = 0;
+  virtual std::string content_hash() const = 0;  // 32 hex digits
+};
+
+class DagOutput final : public BakeOutput {
+ public:
+  DagOutput(const std::string& path, const Grid& grid, Rule rule) : writer_(path, grid, rule) {}
+
+  void begin_level(int level) override { writer_.begin_level(level); }
+  uint32_t add_brick(Brick brick) override { return writer_.add_brick(brick); }
+  uint32_t add_node(const NodeKey& children) override { return writer_.add_node(children); }
+  void finish(std::span<const SubDagRoot>, uint64_t voxels, double largest_snap) override {
+    writer_.finish(voxels, largest_snap);
+  }
+  uint64_t voxels() const { return writer_.header().voxels; }
+  std::vector<uint64_t> keys() const override;
+  uint64_t file_bytes() const override { return writer_.header().file_bytes; }
+  std::string content_hash() const override;
+
+ private:
+  DagWriter writer_;
+};
+
+// A name that promises a file of another program (".vdb", ".ply") is an Error (kUsage).
+void refuse_foreign_name(const std::string& path);
+
+// Whether `path` is the name of a run: it ends in ".run".
+bool names_run(const std::string& path);
+
+// The output for `part`, by the name; a `.svdag` holds the whole grid.
+std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
+                                        const Part& part);
+
+}  // namespace svdag

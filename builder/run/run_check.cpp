@@ -1,0 +1,188 @@
+#include "builder/run/run_check.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "io/brick.h"
+#include "io/dag/dag_writer.h"
+#include "streaming/interrupt.h"
+
+namespace svdag {
+namespace {
+
+// The payload, piece by piece.
+class Payload {
+ public:
+  Payload(const RunFile& run, MemoryBudget* budget)
+      : reader_(run.file(), run.header(), {0, run.layout().payload}, budget) {}
+
+  uint64_t position() const { return position_; }
+  // What comes next, `most` bytes at most; not at the end.
+  std::span<const std::byte> take(uint64_t most) {
+    if (rest_.empty()) {
+      rest_ = reader_.next();
+      const uint64_t checksum = reader_.checksum();
+      hasher_.update(std::as_bytes(std::span(&checksum, 1)));
+      check_interrupt();
+    }
+    const auto piece = rest_.first(std::min<uint64_t>(most, rest_.size()));
+    rest_ = rest_.subspan(piece.size());
+    position_ += piece.size();
+    return piece;
+  }
+  Hasher128* hasher() { return &hasher_; }
+
+ private:
+  RunReader reader_;
+  std::span<const std::byte> rest_;
+  uint64_t position_ = 0;
+  Hasher128 hasher_;
+};
+
+// Where byte `position` of the payload stands in the file.
+uint64_t offset_of(uint64_t position) {
+  return sizeof(RunHeader) + position / kRunPayload * kRunBlockBytes + kSpillHeader +
+         position % kRunPayload;
+}
+
+// Which keys of a level are reached, of those with a rank in a window.
+class Marks {
+ public:
+  static constexpr const char* kPurpose = "the check of a run";
+
+  Marks(uint64_t bytes, MemoryBudget* budget)
+      : most_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
+
+  uint64_t end() const { return first_ + marked_.size(); }
+  // A window that begins with rank `first` of `count`; nothing in it is marked.
+  void begin(uint64_t first, uint64_t count) {
+    first_ = first;
+    marked_ = {};
+    const uint64_t size = std::min(most_, count - first);
+    counted_.resize((size + 7) / 8, kPurpose);
+    marked_.resize(size);
+  }
+  void mark(uint64_t rank) {
+    if (rank - first_ < marked_.size()) marked_[rank - first_] = true;
+  }
+  bool all() const { return std::find(marked_.begin(), marked_.end(), false) == marked_.end(); }
+
+ private:
+  uint64_t most_;  // ranks in a window
+  uint64_t first_ = 0;
+  MemoryBudget::Reservation counted_;
+  std::vector<bool> marked_;
+};
+
+class Check {
+ public:
+  Check(const RunFile& run, uint64_t bitmap_bytes, MemoryBudget* budget)
+      : run_(run), budget_(budget), payload_(run, budget), marks_(bitmap_bytes, budget) {}
+
+  void run() {
+    const int brick_level = int(run_.header().levels) - 2;
+    scan<Brick>(brick_level);
+    for (int level = brick_level - 1; level >= 0; --level) {
+      begin_marks(level + 1, 0);
+      scan<NodeKey>(level);
+      require_reached(level + 1);
+    }
+    begin_marks(0, 0);
+    require(marks_.all() && run_.keys(0) <= 1, kNotReached, offset_of(payload_.position()));
+    skip_to(run_.layout().roots.begin);
+    pass(run_.layout().roots.end);
+    skip_to(run_.layout().ranges.begin);
+    pass(run_.layout().payload);
+    const RunHeader& header = run_.header();
+    require(content_hash_of(header, payload_.hasher()) ==
+                Hash128{header.content_hash[0], header.content_hash[1]},
+            "the blocks do not match the content hash", offsetof(RunHeader, content_hash));
+  }
+
+ private:
+  static constexpr const char* kNotReached = "a node is not reached from any root";
+
+  void require(bool condition, const char* sentence, uint64_t offset) const {
+    require_run(condition, run_.file(), sentence, offset);
+  }
+  // Of the piece that was taken last.
+  void require_here(bool condition, const char* sentence) const {
+    require(condition, sentence, offset_of(piece_));
+  }
+  std::span<const std::byte> take_to(uint64_t position) {
+    piece_ = payload_.position();
+    return payload_.take(position - piece_);
+  }
+
+  // Zeros up to `position`.
+  void skip_to(uint64_t position) {
+    while (payload_.position() < position) {
+      for (const std::byte byte : take_to(position))
+        require_here(byte == std::byte(0), "the gap between two sections is not zero");
+    }
+  }
+  // Bytes that open() has looked at.
+  void pass(uint64_t position) {
+    while (payload_.position() < position) take_to(position);
+  }
+
+  template <class Key>
+  void scan(int level) {
+    const RunSection& section = run_.layout().levels[level];
+    skip_to(section.begin);
+    Key last{};  // below all keys, since no key is empty
+    while (payload_.position() < section.end) {
+      const auto piece = take_to(section.end);
+      for (const Key& key :
+           std::span(reinterpret_cast<const Key*>(piece.data()), piece.size() / sizeof(Key))) {
+        require_here(last < key, "nodes are empty or do not ascend");
+        last = key;
+        if constexpr (std::is_same_v<Key, NodeKey>) check_children(level, key);
+      }
+    }
+  }
+
+  void check_children(int level, const NodeKey& key) {
+    for (const uint32_t child : key) {
+      require_here(child <= run_.keys(level + 1), "a child is outside of the run");
+      if (child != 0) marks_.mark(child - 1);
+    }
+  }
+
+  void begin_marks(int level, uint64_t first) {
+    marks_.begin(first, run_.keys(level));
+    for (const SubDagRoot& root : run_.roots()) {
+      if (root.level == level) marks_.mark(root.rank);
+    }
+  }
+
+  // The first window of `level` is marked, by the level above; that is read again for the others.
+  void require_reached(int level) {
+    for (;;) {
+      require(marks_.all(), kNotReached, offset_of(run_.layout().levels[level].begin));
+      if (marks_.end() == run_.keys(level)) return;
+      begin_marks(level, marks_.end());
+      const std::unique_ptr<BlockSource> above = run_.read(level - 1, budget_);
+      for (auto block = above->next(); !block.empty(); block = above->next()) {
+        check_interrupt();
+        for (const NodeKey& key : std::span(reinterpret_cast<const NodeKey*>(block.data()),
+                                            block.size() / sizeof(NodeKey)))
+          check_children(level - 1, key);
+      }
+    }
+  }
+
+  const RunFile& run_;
+  MemoryBudget* budget_;
+  Payload payload_;
+  uint64_t piece_ = 0;  // where the piece of the payload begins that was taken last
+  Marks marks_;         // of the level below the one that is scanned
+};
+
+}  // namespace
+
+void check_run(const RunFile& run, uint64_t bitmap_bytes, MemoryBudget* budget) {
+  Check(run, bitmap_bytes, budget).run();
+}
+
+}  // namespace svdag

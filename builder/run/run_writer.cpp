@@ -1,0 +1,126 @@
+#include "builder/run/run_writer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "io/dag/grid_fields.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+std::vector<StoredRange> stored(const std::vector<MortonRange>& ranges) {
+  std::vector<StoredRange> out;
+  for (const MortonRange& range : ranges) out.push_back({range.begin, range.end});
+  return out;
+}
+
+}  // namespace
+
+RunWriter::RunWriter(const std::string& path, const Grid& grid, Rule rule, Part part)
+    : file_(path), part_(std::move(part)), level_(grid.levels - 1), block_(kRunBlockBytes) {
+  static_assert(std::endian::native == std::endian::little, "the format is little-endian");
+  std::memcpy(header_.magic, kRunMagic, sizeof kRunMagic);
+  header_.version = kRunVersion;
+  header_.header_bytes = sizeof(RunHeader);
+  put_grid(grid, rule, &header_);
+  header_.block_bytes = kRunBlockBytes;
+  for (int a = 0; a < 3; ++a) header_.origin[a] = grid.origin[a];
+  header_.ranges = part_.ranges().size();
+  header_.run = run_number(header_, stored(part_.ranges()));
+  file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
+}
+
+void RunWriter::begin_level(int level) {
+  SVDAG_ASSERT(level == level_ - 1 && level >= 0);
+  align();
+  level_ = level;
+  last_node_ = {};
+}
+
+uint32_t RunWriter::add_brick(Brick brick) {
+  SVDAG_ASSERT(last_brick_ < brick);
+  last_brick_ = brick;
+  return add(&brick, sizeof brick);
+}
+
+uint32_t RunWriter::add_node(const NodeKey& children) {
+  SVDAG_ASSERT(last_node_ < children);
+  last_node_ = children;
+  return add(&children, sizeof children);
+}
+
+uint32_t RunWriter::add(const void* key, size_t size) {
+  uint64_t& count = header_.keys[level_];
+  if (count >= kMostRunKeys)
+    throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
+                                       " needs more than 2^32 - 2 nodes, which a run cannot hold: "
+                                       "lower the resolution or bake smaller parts");
+  append(key, size);
+  return uint32_t(count++);
+}
+
+// Sections are aligned and their items divide a payload: no item straddles two blocks.
+void RunWriter::append(const void* bytes, size_t size) {
+  std::memcpy(block_.data() + kSpillHeader + filled_, bytes, size);
+  filled_ += size;
+  if (filled_ == kRunPayload) flush();
+}
+
+void RunWriter::align() {
+  const size_t gap = (kRunAlignment - filled_ % kRunAlignment) % kRunAlignment;
+  static constexpr std::byte kZeros[kRunAlignment] = {};
+  append(kZeros, gap);
+}
+
+void RunWriter::flush() {
+  const std::span<std::byte> block = std::span(block_).first(kSpillHeader + filled_);
+  const uint64_t checksum = seal_block(block, {header_.run, blocks_, uint32_t(filled_)});
+  hasher_.update(std::as_bytes(std::span(&checksum, 1)));
+  file_.write_at(sizeof header_ + blocks_ * kRunBlockBytes, block);
+  ++blocks_;
+  filled_ = 0;
+}
+
+void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
+  std::vector<SubDagRoot> sorted(roots.begin(), roots.end());
+  const auto position = [this](const SubDagRoot& root) {
+    return root.morton << 3 * (part_.levels() - root.level);
+  };
+  std::sort(sorted.begin(), sorted.end(),
+            [&](const SubDagRoot& a, const SubDagRoot& b) { return position(a) < position(b); });
+  for (const SubDagRoot& root : sorted) {
+    SVDAG_ASSERT(part_.is_top(root.level, root.morton));
+    const StoredRoot out = {root.morton, uint32_t(root.level), root.rank};
+    append(&out, sizeof out);
+  }
+  header_.roots = sorted.size();
+}
+
+void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) {
+  SVDAG_ASSERT(level_ == 0);
+  header_.voxels = voxels;
+  header_.largest_snap = largest_snap;
+  align();
+  append_roots(roots);
+  align();
+  for (const StoredRange& range : stored(part_.ranges())) append(&range, sizeof range);
+  if (filled_ > 0) flush();
+  header_.file_bytes = RunLayout(header_).file_bytes;
+  const Hash128 hash = content_hash_of(header_, &hasher_);
+  std::copy(hash.begin(), hash.end(), header_.content_hash);
+  header_.header_checksum = checksum_of(header_);
+  file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
+  file_.commit();
+}
+
+std::vector<uint64_t> RunWriter::keys() const {
+  return {header_.keys, header_.keys + header_.levels - 1};
+}
+
+std::string RunWriter::content_hash() const {
+  return to_hex(header_.content_hash);
+}
+
+}  // namespace svdag

@@ -1,0 +1,58 @@
+// Writes a `.run` level by level, bricks first, in one sequential pass (docs/run-format.md).
+//
+// The bytes are canonical: they depend on the grid, the rule, the part and the voxels in it, and on
+// nothing else. For
+//   the sub-DAG of a cube is one (it is minimal), and which cubes have roots follows from the part
+//   (its tops, builder/octree/part.h), not from how it was baked;
+//   every node is reached from a root, since a merge of closed runs adds none that is not;
+//   nodes are numbered by their rank in content order, roots and ranges stand in Morton order;
+//   the largest snap move is that of all triangles that meet the closed part, and a maximum over
+//   parts is that of the whole (Part::meets);
+//   blocks are filled without gaps, and nothing is written of who wrote, when, or with what.
+// So the hash over them names the content, whatever threads, memory or tree of merges made it.
+// Rejected: compressed blocks (their bytes would be those of a version of the compressor).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "builder/run/bake_output.h"
+#include "builder/run/run_format.h"
+#include "streaming/atomic_file.h"
+#include "streaming/checksum.h"
+
+namespace svdag {
+
+class RunWriter final : public BakeOutput {
+ public:
+  RunWriter(const std::string& path, const Grid& grid, Rule rule, Part part);
+
+  void begin_level(int level) override;
+  uint32_t add_brick(Brick brick) override;
+  uint32_t add_node(const NodeKey& children) override;
+  void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) override;
+
+  std::vector<uint64_t> keys() const override;
+  uint64_t file_bytes() const override { return header_.file_bytes; }
+  std::string content_hash() const override;
+
+ private:
+  uint32_t add(const void* key, size_t size);
+  void append(const void* bytes, size_t size);
+  void align();
+  void flush();
+  void append_roots(std::span<const SubDagRoot> roots);
+
+  AtomicFile file_;
+  Part part_;
+  RunHeader header_{};
+  int level_;
+  Brick last_brick_ = 0;  // the keys before, to assert their order
+  NodeKey last_node_{};
+  std::vector<std::byte> block_;
+  size_t filled_ = 0;    // of its payload
+  uint64_t blocks_ = 0;  // written
+  Hasher128 hasher_;     // of their checksums
+};
+
+}  // namespace svdag

@@ -1,0 +1,59 @@
+#include "builder/split/bin_record.h"
+
+namespace svdag {
+namespace {
+
+bool is_possible(const TriangleBin& bin, int levels) {
+  const Cube& cube = bin.cube;
+  if (cube.level < 0 || cube.level > levels - 2) return false;
+  for (int a = 0; a < 3; ++a) {
+    if (cube.coordinate[a] < 0 || cube.coordinate[a] >> cube.level != 0) return false;
+  }
+  const MortonRange inner = morton_range(cube, levels);
+  return bin.range.begin <= inner.begin && inner.end <= bin.range.end &&
+         bin.range.end <= uint64_t(1) << 3 * levels;
+}
+
+}  // namespace
+
+void put_stream(const SpillStream& stream, RecordWriter* out) {
+  out->put(stream.number);
+  out->put(stream.bytes);
+  out->put(stream.blocks);
+}
+
+SpillStream get_stream(RecordReader* in) {
+  SpillStream stream;
+  in->get(&stream.number);
+  in->get(&stream.bytes);
+  in->get(&stream.blocks);
+  in->require(stream.bytes <= stream.blocks.size() * Scratch::kLargestBlock, "impossible size");
+  for (const uint32_t block : stream.blocks) in->require(block != UINT32_MAX, "impossible block");
+  return stream;
+}
+
+void put_bins(const std::vector<TriangleBin>& bins, RecordWriter* out) {
+  out->put(uint64_t(bins.size()));
+  for (const TriangleBin& bin : bins) {
+    out->put(bin.cube);
+    out->put(bin.range);
+    out->put(bin.triangles);
+    put_stream(bin.stream, out);
+  }
+}
+
+std::vector<TriangleBin> get_bins(RecordReader* in, int levels) {
+  std::vector<TriangleBin> bins;
+  uint64_t count = 0;
+  for (in->get(&count); count > 0; --count) {
+    TriangleBin& bin = bins.emplace_back();
+    in->get(&bin.cube);
+    in->get(&bin.range);
+    in->get(&bin.triangles);
+    bin.stream = get_stream(in);
+    in->require(is_possible(bin, levels), "its triangles are not in the grid");
+  }
+  return bins;
+}
+
+}  // namespace svdag

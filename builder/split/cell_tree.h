@@ -1,0 +1,98 @@
+// The top of the octree, filled by the split: which triangles concern which cells.
+//
+// A cell is a cube of level `cell_level`, the unit of work. A triangle whose box is larger than
+// half of an inner cube stays at that cube instead of being copied into thousands of cells below;
+// the others go down to each child that their box meets. Lists at inner nodes are divided on the
+// way to a cell (CellCursor). Rejected: a flat list per cell (a floor of two triangles would stand
+// in every cell it crosses).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "builder/descend/descend.h"
+#include "builder/octree/octree_cube.h"
+#include "builder/overlap/entry.h"
+#include "streaming/memory_budget.h"
+#include "streaming/segmented_array.h"
+
+namespace svdag {
+
+class CellTree {
+ public:
+  // The part of the octree below `root`; root.level <= cell_level.
+  CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget);
+  ~CellTree();
+
+  // Adds a triangle whose box meets the closed root cube.
+  void add(const LatticeTriangle& triangle);
+  // Prepares the triangles of inner nodes; none may be added after this.
+  void seal();
+
+  const Grid& grid() const { return grid_; }
+  int cell_level() const { return cell_level_; }
+  const Cube& root() const { return root_cube_; }
+  uint64_t triangles() const { return triangles_.size(); }
+  const LatticeTriangle& triangle(uint64_t i) const { return triangles_[i]; }
+  // Memory that the tree and `workers` workers take, each in the heaviest cell.
+  uint64_t bytes(size_t workers) const;
+  // The cells that triangles may touch, in Morton order; a cell in which more than `most` triangles
+  // begin is replaced by its children, so that one worker does not keep the others waiting.
+  std::vector<Cube> occupied_cells(uint64_t most = UINT64_MAX) const;
+
+ private:
+  friend class CellCursor;
+  struct Node;
+
+  void insert(Node* node, const Cube& cube, uint32_t triangle, const LatticeBox& box);
+  void prepare(Node* node, int level);
+  void collect(const Node* node, const Cube& cube, EntryList list, uint64_t most,
+               std::vector<Cube>* cells) const;
+  void charge(uint64_t bytes);
+
+  Grid grid_;
+  Cube root_cube_;
+  int cell_level_;
+  std::unique_ptr<Node> root_;
+  SegmentedArray<LatticeTriangle> triangles_;
+  MemoryBudget::Reservation reservation_;
+  uint64_t used_ = 0;
+  uint64_t heaviest_ = 0;                 // triangles that begin in one cell, at most
+  uint64_t inner_ = 0;                    // triangles that stand at inner nodes
+  std::vector<uint64_t> heaviest_inner_;  // [level]: at one inner node of it, at most
+};
+
+// Gives a worker the lists of cells, one after the other. Cells in Morton order share most of their
+// path, so the divided lists along the path are kept from one cell to the next.
+class CellCursor {
+ public:
+  CellCursor(const CellTree& tree, const DescentConfig& config);
+
+  // The list of `cube`, a cell or a cube in one; valid until the next call.
+  const EntryList& list(const Cube& cube);
+
+ private:
+  struct Step {
+    Cube cube;
+    const CellTree::Node* node;  // null: nothing of its own here and below
+    EntryList list;              // what concerns the cube from inner nodes
+    bool divided = false;        // `children` holds the divided list
+    std::array<EntryList, 8> children;
+  };
+
+  void enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited);
+  const Step& path_to(const Cube& cell);
+  void prepare(const Step& cell);
+
+  const CellTree& tree_;
+  DescentConfig config_;
+  std::vector<Step> path_;             // [k] is at level k
+  int depth_;                          // path_[root level .. depth_] are valid
+  std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
+  EntryList list_;
+  std::array<EntryList, 8> parts_;  // of list_, on the way to a cube in the cell
+};
+
+}  // namespace svdag

@@ -1,0 +1,103 @@
+#include "builder/split/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "builder/overlap/exact.h"
+#include "io/lattice.h"
+
+namespace svdag {
+namespace {
+
+enum class Place { kInside, kClipped, kOutside };
+
+// Where the triangle's box lies in relation to the closed box of the voxels that may be set;
+// outside, too, if it misses the closed part.
+Place place_of(const LatticeTriangle& t, const Grid& grid, const Part* part) {
+  const LatticeBox selection = grid.closed(grid.selection), box = box_of(t);
+  if (!box.meets(selection) || (part != nullptr && !part->meets(box))) return Place::kOutside;
+  return selection.holds(box) ? Place::kInside : Place::kClipped;
+}
+
+bool zero_area(const LatticeTriangle& t) {
+  const LatticePoint p = t.v[1] - t.v[0], q = t.v[2] - t.v[0];
+  for (int u = 0; u < 3; ++u) {
+    const int v = (u + 1) % 3;
+    if (__int128(p[u]) * q[v] != __int128(p[v]) * q[u]) return false;
+  }
+  return true;
+}
+
+// Where triangles go: to the tree, or, once that was too much, to bins.
+class Store {
+ public:
+  Store(const Grid& grid, const SplitConfig& config, MemoryBudget* budget)
+      : grid_(grid),
+        config_(config),
+        tree_(std::make_unique<CellTree>(grid, Cube(), config.cell_level, budget)) {}
+
+  void add(const LatticeTriangle& triangle) {
+    if (bins_) return bins_->add(triangle);
+    tree_->add(triangle);
+    if (tree_->triangles() % kLook == 0) look();
+  }
+
+  void finish(SplitScene* scene) {
+    if (!bins_) look();
+    if (bins_) {
+      scene->bins = bins_->finish();
+    } else {
+      tree_->seal();
+      scene->tree = std::move(tree_);
+    }
+  }
+
+ private:
+  static constexpr uint64_t kLook = 1024;  // triangles between two looks at the memory
+
+  void look() {
+    if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
+      return;
+    if (config_.on_spill) config_.on_spill();
+    const int depth =
+        TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
+    bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
+    for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
+    tree_.reset();
+  }
+
+  const Grid& grid_;
+  const SplitConfig& config_;
+  std::unique_ptr<CellTree> tree_;
+  std::optional<TriangleBins> bins_;
+};
+
+}  // namespace
+
+SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
+                 MemoryBudget* budget) {
+  const Lattice lattice(grid);
+  SplitScene result;
+  SplitCounts& counts = result.counts;
+  Store store(grid, config, budget);
+  double largest_move = 0;
+  counts.scene = scene.stream([&](const TriangleBatch& batch) {
+    for (const Triangle& triangle : batch.triangles) {
+      LatticeTriangle snapped;
+      double move = 0;
+      for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
+      const Place place = place_of(snapped, grid, config.part);
+      counts.outside += place == Place::kOutside;
+      counts.clipped += place == Place::kClipped;
+      if (place == Place::kOutside) continue;
+      counts.degenerate += zero_area(snapped);
+      largest_move = std::max(largest_move, move);
+      store.add(snapped);
+    }
+  });
+  store.finish(&result);
+  counts.largest_snap = std::ldexp(largest_move, -grid.fraction());
+  return result;
+}
+
+}  // namespace svdag

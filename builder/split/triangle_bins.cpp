@@ -1,0 +1,171 @@
+#include "builder/split/triangle_bins.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "builder/overlap/overlap.h"
+#include "io/lattice.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kLongest = 90;  // bytes of nine numbers
+
+uint8_t* put(int64_t value, uint8_t* out) {
+  uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
+  for (; code >= 0x80; code >>= 7) *out++ = uint8_t(code | 0x80);
+  *out++ = uint8_t(code);
+  return out;
+}
+
+}  // namespace
+
+TriangleBins::TriangleBins(const Grid& grid, const Cube& parent, int depth, SpillFile* file,
+                           Scratch* scratch)
+    : grid_(grid),
+      parent_(parent),
+      bin_level_(parent.level + depth),
+      file_(file),
+      scratch_(scratch),
+      bins_(size_t(1) << (3 * depth)) {
+  SVDAG_ASSERT(depth >= 1 && depth <= kDeepest && bin_level_ <= grid.levels - 2);
+}
+
+int TriangleBins::depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
+                            const Cube& parent) {
+  const int most = std::min(kDeepest, grid.levels - 2 - parent.level);
+  int depth = 1;
+  while (depth < most && scratch.block_bytes() << (3 * (depth + 1)) <= bytes) ++depth;
+  return depth;
+}
+
+void TriangleBins::add(const LatticeTriangle& triangle) {
+  const LatticeBox box = box_of(triangle);
+  const int shift = Cube{bin_level_, {}}.side_log2(grid_.levels);
+  LatticePoint first, last;
+  for (int a = 0; a < 3; ++a) {
+    const int64_t begin = parent_.coordinate[a] << (bin_level_ - parent_.level);
+    const int64_t end = begin + (int64_t(1) << (bin_level_ - parent_.level)) - 1;
+    first[a] = std::clamp(first_touched(box.min[a], shift), begin, end);
+    last[a] = std::clamp(last_touched(box.max[a], shift), begin, end);
+  }
+  if (first == last) return append({bin_level_, first}, triangle, box);
+  deal(triangle, make_setup(triangle), parent_);
+}
+
+void TriangleBins::deal(const LatticeTriangle& triangle, const TriangleSetup& setup,
+                        const Cube& cube) {
+  if (cube.level == bin_level_) return append(cube, triangle, setup.box);
+  const Entry entry{&setup, setup.edges};
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const ChildOverlap overlap = overlap_children(entry, cube.corner(grid_.levels), side);
+  for (unsigned c = 0; c < 8; ++c) {
+    if (overlap.touched >> c & 1) deal(triangle, setup, cube.child(c));
+  }
+}
+
+void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
+                          const LatticeBox& box) {
+  Open& bin = bins_[morton(cube.coordinate) % bins_.size()];
+  if (!bin.writer) {
+    bin.writer.emplace(file_, scratch_->new_streams(), scratch_->budget());
+    bin.box = box;
+  }
+  bin.box.add(box);
+  uint8_t bytes[kLongest];
+  uint8_t* end = bytes;
+  for (int a = 0; a < 3; ++a) end = put(triangle.v[0][a], end);
+  for (int i = 1; i < 3; ++i) {
+    for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
+  }
+  bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
+  ++bin.triangles;
+}
+
+std::vector<TriangleBin> TriangleBins::finish() {
+  std::vector<TriangleBin> bins;
+  const uint64_t first = morton(parent_.coordinate) * bins_.size();
+  for (uint64_t i = 0; i < bins_.size(); ++i) {
+    Open& bin = bins_[i];
+    if (!bin.writer) continue;
+    const Cube cube{bin_level_, unmorton(first + i)};
+    bins.push_back(
+        {shrink(cube, bin), morton_range(cube, grid_.levels), bin.triangles, bin.writer->finish()});
+    bin.writer.reset();
+  }
+  return bins;
+}
+
+// The smallest cube that holds all voxels of `cube` that the boxes touch.
+Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
+  const int f = grid_.fraction();
+  const VoxelBox voxels = cube.voxels(grid_.levels);
+  LatticePoint low, high;
+  for (int a = 0; a < 3; ++a) {
+    low[a] = std::clamp(first_touched(bin.box.min[a], f), voxels.min[a], voxels.max[a] - 1);
+    high[a] = std::clamp(last_touched(bin.box.max[a], f), voxels.min[a], voxels.max[a] - 1);
+  }
+  Cube least = cube;
+  for (int level = cube.level + 1; level <= grid_.levels - 2; ++level) {
+    const int up = grid_.levels - level;
+    for (int a = 0; a < 3; ++a) {
+      if (low[a] >> up != high[a] >> up) return least;
+    }
+    least = {level, {low.x >> up, low.y >> up, low.z >> up}};
+  }
+  return least;
+}
+
+namespace {
+
+// No vertex is farther from the grid's corner (io/lattice.cpp).
+bool on_lattice(const LatticeTriangle& t) noexcept {
+  constexpr int64_t kFarthest = int64_t(1) << 62;
+  bool near = true;
+  for (const LatticePoint& p : t.v) {
+    for (int a = 0; a < 3; ++a) near &= p[a] >= -kFarthest && p[a] <= kFarthest;
+  }
+  return near;
+}
+
+}  // namespace
+
+BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
+    : reader_(file, bin.stream, budget), left_(bin.triangles) {}
+
+uint8_t BinReader::byte() {
+  if (at_ == end_) {
+    const std::span<std::byte> block = reader_.next();
+    if (block.empty()) reader_.fail_damaged();
+    at_ = reinterpret_cast<const uint8_t*>(block.data());
+    end_ = at_ + block.size();
+  }
+  return *at_++;
+}
+
+int64_t BinReader::number() {
+  uint64_t code = 0;
+  for (int shift = 0;; shift += 7) {
+    if (shift > 63) reader_.fail_damaged();
+    const uint8_t b = byte();
+    code |= uint64_t(b & 0x7f) << shift;
+    if (b < 0x80) break;
+  }
+  return int64_t(code >> 1) ^ -int64_t(code & 1);
+}
+
+bool BinReader::read(size_t most, std::vector<LatticeTriangle>* out) {
+  if (left_ == 0) return false;
+  for (; most > 0 && left_ > 0; --most, --left_) {
+    LatticeTriangle& t = out->emplace_back();
+    for (int a = 0; a < 3; ++a) t.v[0][a] = number();
+    for (size_t i = 1; i < 3; ++i) {
+      for (int a = 0; a < 3; ++a) t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(number()));
+    }
+    if (!on_lattice(t)) reader_.fail_damaged();
+  }
+  return true;
+}
+
+}  // namespace svdag

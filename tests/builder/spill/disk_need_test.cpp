@@ -1,0 +1,54 @@
+// What a bake will take of the disk is told before it takes it.
+#include "builder/spill/disk_need.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/builder/bakes.h"
+#include "tests/expect_error.h"
+#include "tests/soup.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+constexpr uint64_t kMiB = 1 << 20;
+
+TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
+  const TempFolder directory;
+  MemoryBudget budget;
+  ScratchDir folder(directory.file("scratch"));
+  Scratch scratch(&folder, &budget);
+  DiskNeed need(&scratch);
+  const uint64_t free = folder.free_bytes();
+  need.expect_triangles(1000, kMiB);  // they stay in memory
+  EXPECT_EQ(need.estimate(), 0U);
+  need.expect_triangles(100'000, kMiB);
+  EXPECT_GT(need.estimate(), 100'000U * 30);
+  EXPECT_SVDAG_ERROR(need.expect_triangles(free, kMiB), ExitCode::kOutput, "only");
+  DiskNeed records(&scratch);
+  records.expect_records(kMiB, kMiB, "voxels");  // they stay in memory
+  EXPECT_EQ(records.estimate(), 0U);
+  records.expect_records(free / 2, kMiB, "voxels");
+  EXPECT_EQ(records.estimate(), free / 2);
+  EXPECT_SVDAG_ERROR(records.expect_records(2 * free, kMiB, "voxels"), ExitCode::kOutput, "voxels");
+  DiskNeed runs(&scratch);
+  runs.expect_runs(free, 0.1);  // too early to tell
+  runs.expect_runs(free / 4, 0.5);
+  EXPECT_EQ(runs.estimate(), free / 4 * 2);
+  EXPECT_SVDAG_ERROR(runs.expect_runs(4 * free, 0.5), ExitCode::kOutput, "free");
+}
+
+// A triangle that crosses the grid takes more than its corners: it stands in lists on every level.
+TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
+  const TempFolder folder;
+  write_stl(folder.file("scene.stl"), random_soup(8000, 4, 19));
+  BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.svdag"), 7);
+  config.memory = 10 * kMiB;
+  ASSERT_LT(8000 * sizeof(LatticeTriangle), config.memory / 4);
+  const BuildReport report = bake(config);
+  EXPECT_GT(report.scratch.written, 0U);
+  EXPECT_EQ(report.scratch.estimated, 8000U * 48);
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,34 @@
+# What a killed dry run left behind goes with the next bake of its output, unless it is in use or no dry run's.
+svdag-scene speck -n 100 -q -o s.ply
+mkdir elsewhere
+left() { mkdir -p -m 700 $1; touch $1/owner; echo spilled > $1/passing; }
+
+left s.svdag.dry-run.scratch
+svdag build s.ply -r 64 -o s.svdag -q
+left s.svdag.dry-run.scratch
+svdag build s.ply -r 64 -o s.svdag -q --dry-run
+echo '[{"scene": "s.ply", "output": "s.svdag", "resolution": 64}]' > list.json
+left s.svdag.dry-run.scratch
+svdag build --batch list.json -q
+find . -name '*.scratch'
+
+# Under --scratch it has the name that the dry run gave it.
+svdag-scene scan -n 70K -q -o scan.ply
+svdag build scan.ply -r 8K -o scan.svdag -q -m 8M --dry-run --scratch elsewhere &
+until test -n "$(find elsewhere -name owner)"; do sleep 0.02; done
+kill -s KILL $!
+wait $! 2>/dev/null || true
+find elsewhere -name '*.scratch' | sed 's/-[0-9a-f]*\.scratch/-HASH.scratch/'
+svdag build scan.ply -r 64 -o scan.svdag -q --scratch elsewhere
+find elsewhere -name '*.scratch'
+
+left s.svdag.dry-run.scratch
+flock s.svdag.dry-run.scratch/owner svdag build s.ply -r 64 -o s.svdag -q
+ls s.svdag.dry-run.scratch
+rm s.svdag.dry-run.scratch/owner
+svdag build s.ply -r 64 -o s.svdag -q
+ls s.svdag.dry-run.scratch
+left s.svdag.dry-run.scratch
+touch s.svdag.dry-run.scratch/journal
+svdag build s.ply -r 64 -o s.svdag -q
+ls s.svdag.dry-run.scratch

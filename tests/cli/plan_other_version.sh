@@ -1,0 +1,13 @@
+# A plan that another version of svdag made is known as such by whoever reads it; it stays, as any plan does.
+svdag-scene speck -n 100 -q -o s.ply
+svdag plan s.ply -r 64 --shards 2 -o p -q
+sed -i 's/"format": 3/"format": 2/; /"undeformed"/d' p/plan.json
+cp p/plan.json kept.json
+svdag run p -j 1 2>&1 || echo "exit $?"
+svdag build p --shard 1 2>&1 || echo "exit $?"
+svdag info p 2>&1 || echo "exit $?"
+svdag plan s.ply -r 64 --shards 2 -o p 2>&1 || echo "exit $?"
+cmp kept.json p/plan.json
+rm p/plan.json
+svdag plan s.ply -r 64 --shards 2 -o p -q
+svdag run p -q -j 1

@@ -1,0 +1,49 @@
+#include "verify/commands/judged_scene.h"
+
+#include <cstdio>
+
+#include "io/dag/dag_file.h"
+#include "io/units.h"
+#include "streaming/printable.h"
+
+namespace svdag {
+
+JudgedScene::JudgedScene(const MeshConfig& config, const Grid& grid)
+    : budget(memory_or_default(config.memory)),
+      scene(config.scene, &budget),
+      progress(config.common.progress) {
+  progress.phase("reading the scene's bounds", 0);
+  const Box bounds = scene.bounds(&facts.counts);
+  facts.grid = judge_grid(grid, bounds);
+}
+
+void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge) {
+  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
+              facts.grid.recomputed ? ", as the scene's bounds give it" : "");
+  for (const std::string& defect : facts.grid.defects)
+    std::printf("defect     %s\n", defect.c_str());
+  std::printf("judge      %s\n", judge.c_str());
+  std::printf("triangles  %s", format_count(facts.counts.triangles).c_str());
+  if (facts.counts.invalid > 0)
+    std::printf(", %s invalid ones skipped", format_count(facts.counts.invalid).c_str());
+  std::printf("\n");
+  for (const std::string& pattern : facts.counts.unmatched)
+    std::printf("unmatched  %s\n", printable(pattern).c_str());
+}
+
+void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,
+                        const std::vector<WrongVoxel>& first) {
+  std::printf("missing    %s\nextra      %s\n", format_count(missing).c_str(),
+              format_count(extra).c_str());
+  const Point corner = grid.corner();
+  for (const WrongVoxel& wrong : first) {
+    const LatticePoint& v = wrong.voxel;
+    const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
+    std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
+                wrong.missing ? "missing" : "extra  ", static_cast<long long>(v.x),
+                static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
+                world(2));
+  }
+}
+
+}  // namespace svdag

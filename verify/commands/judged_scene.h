@@ -1,0 +1,40 @@
+// How a judgement of a file by its scene begins, and the lines that it prints in the same words
+// whoever judges.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "streaming/memory_budget.h"
+#include "verify/commands/mesh.h"
+#include "verify/compare.h"
+#include "verify/snapped_scene.h"
+
+namespace svdag {
+
+// What every judgement says of a scene.
+struct SceneFacts {
+  GridJudgement grid;
+  SceneCounts counts;
+};
+
+// The scene that the file is judged by: opened, with its bounds read and the grid held against
+// them.
+struct JudgedScene {
+  JudgedScene(const MeshConfig& config, const Grid& grid);
+
+  MemoryBudget budget;
+  Scene scene;
+  Progress progress;
+  SceneFacts facts;
+};
+
+// Grid and its defects, who judges ("integer: exact clipping"), the triangles, and what --include
+// and --exclude named in vain.
+void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
+
+// How many voxels are wrong, and the first of them.
+void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,
+                        const std::vector<WrongVoxel>& first);
+
+}  // namespace svdag
