@@ -112,7 +112,7 @@ def by_slurm(farm, name, resolution, with_accident):
                 running = cluster.running()
                 if running:
                     job, node = running[-1]
-                    if cluster.kill_node(node, job) > 0:
+                    if cluster.kill_node(node, job):
                         killed = (job, node)
                         say(f"  node {node} was killed while it ran job {job}; "
                             f"{len(farm.done(plan))} of {len(farm.steps(plan))} steps were done")

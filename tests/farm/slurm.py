@@ -61,6 +61,28 @@ def free_ports(count):
     raise RuntimeError("no free ports")
 
 
+def signal_all(processes, number):
+    for process in processes:
+        try:
+            os.kill(process, number)
+        except ProcessLookupError:
+            pass
+
+
+def has_stopped(process):
+    """Whether a process that was told to stop has, rather than ended before."""
+    deadline = time.monotonic() + 5
+    while time.monotonic() < deadline:
+        try:
+            state = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            return False
+        if state in "TZX":
+            return state == "T"
+        time.sleep(0.001)
+    return False
+
+
 class Cluster:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder).resolve()
@@ -128,7 +150,7 @@ class Cluster:
         """[(job, node)] of what runs now."""
         return [line.split() for line in self.ask("squeue", "-h", "-t", "R", "-o", "%A %N").splitlines()]
 
-    def begun(self, test=lambda environment: True):
+    def begun(self, test=lambda entry, environment: True):
         """Processes that the daemons started, daemons themselves left out."""
         mark = f"SLURM_CONF={self.folder / 'slurm.conf'}".encode()
         own = {daemon.pid for daemon in self.daemons.values()} | {os.getpid()}
@@ -138,27 +160,28 @@ class Cluster:
                 continue
             try:
                 environment = (entry / "environ").read_bytes().split(b"\0")
-            except OSError:
+                if mark in environment and test(entry, environment):
+                    found.append(int(entry.name))
+            except OSError:  # it has ended
                 continue
-            if mark in environment and test(entry, environment):
-                found.append(int(entry.name))
         return found
 
     def kill_node(self, node, job):
-        """What a power cut does to a node: its daemon and its job end at once."""
+        """What a power cut does to a node: its daemon and its job end at once. False, and nothing is killed, if
+        the job is not in its middle: all of it is stopped first, its overseer before its script, and only where
+        the script is still there then can the job not have told anyone that it was done."""
+        overseers = self.begun(lambda entry, _: f"slurmstepd: [{job}".encode() in (entry / "cmdline").read_bytes())
+        signal_all(overseers, signal.SIGSTOP)
+        script = self.begun(lambda _, environment: f"SLURM_JOB_ID={job}".encode() in environment)
+        script = [process for process in script if process not in overseers]
+        signal_all(script, signal.SIGSTOP)
+        if not overseers or not all(map(has_stopped, overseers)) or not any(map(has_stopped, script)):
+            signal_all(overseers + script, signal.SIGCONT)
+            return False
         self.daemons[node].kill()
         self.daemons[node].wait()
-
-        def of_job(entry, environment):
-            title = (entry / "cmdline").read_bytes()
-            return f"SLURM_JOB_ID={job}".encode() in environment or f"slurmstepd: [{job}".encode() in title
-        processes = self.begun(of_job)
-        for process in processes:
-            try:
-                os.kill(process, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
-        return len(processes)
+        signal_all(overseers + script, signal.SIGKILL)
+        return True
 
     def stop(self):
         for name in reversed(list(self.daemons)):
@@ -169,10 +192,6 @@ class Cluster:
             except subprocess.TimeoutExpired:
                 daemon.kill()
                 daemon.wait()
-        for process in self.begun(lambda *_: True):
-            try:
-                os.kill(process, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
+        signal_all(self.begun(), signal.SIGKILL)
         if self.short:
             shutil.rmtree(self.short, ignore_errors=True)
