@@ -23,7 +23,7 @@ import bakes
 PHASES = ["split", "voxelize", "merge", "write"]
 AFTER_VOXELIZE = ["merge", "write"]  # what was voxelized is all on disk by then
 KILLS = 10 if bakes.LONG else 2  # of each phase
-TRIES = 5  # a short phase may be over before the signal arrives
+TRIES = 12  # a short phase may be over before the signal arrives, most of all on a busy machine
 MOST_REPEATED = 0.10 if bakes.LONG else 0.25  # median over all kills
 SLACK = 1.1  # of the decisions that are left by right
 REPORT = ["--report", "report.json"]
@@ -83,10 +83,11 @@ def undisturbed(kitchen):
 
 def killed_in(kitchen, phase, length):
     """(folder, Life) of a bake that was killed in `phase`, before its output was there; the folder is None if none
-    could be."""
+    could be. Each try that came too late makes the next one come sooner."""
     for _ in range(TRIES):
         folder = kitchen.table()
         life = live(kitchen.bake.command(), folder, phase, random.uniform(0, length))
+        length /= 2
         if life.code != 0 and list(life.begun)[-1] == phase and kitchen.state(folder) == "old":
             return folder, life
         shutil.rmtree(folder)
