@@ -62,6 +62,17 @@ class Page {
  private:
   uint64_t count(const char* key) const { return whole_number<uint64_t>(bake_.at(key)); }
   double number(const char* key) const { return bake_.at(key).get<double>(); }
+  std::vector<uint64_t> divided_per_level() const {
+    std::vector<uint64_t> counts;
+    for (const Json& one : bake_.at("cubes_divided"))
+      counts.push_back(whole_number<uint64_t>(one));
+    return counts;
+  }
+  size_t cell_level() const {
+    const uint64_t level = count("cell_level");
+    if (level <= stats_.levels.size()) return level;
+    throw Error(ExitCode::kBadInput, "has a \"cell_level\" below the finest level");
+  }
 
   void box(const char* kind, const std::string& text) {
     out_ += std::string("<p class=\"verdict ") + kind + "\">" + text + "</p>\n";
@@ -174,7 +185,7 @@ class Page {
     PlotLine svo{"octree nodes", "one", {}}, dag{"DAG nodes", "two", {}};
     PlotLine divided{"cubes that the bake divided", "three", {}};
     std::vector<PlotColumn> bytes;
-    const auto work = bake_.at("cubes_divided").get<std::vector<uint64_t>>();
+    const auto work = divided_per_level();
     for (size_t k = 0; k < stats_.levels.size(); ++k) {
       const LevelStats& level = stats_.levels[k];
       svo.values.push_back(level.svo_nodes);
@@ -235,11 +246,10 @@ class Page {
     const Json& memo = bake_.at("plane_memo");
     const auto asked = whole_number<uint64_t>(memo.at("asked")),
                answered = whole_number<uint64_t>(memo.at("answered"));
-    const size_t cell_level = count("cell_level");
-    const uint64_t grid_cells = uint64_t(1) << (3 * cell_level), cells = count("cells");
-    const auto work = bake_.at("cubes_divided").get<std::vector<uint64_t>>();
+    const auto work = divided_per_level();
+    const uint64_t grid_cells = uint64_t(1) << (3 * cell_level()), cells = count("cells");
     uint64_t octree = 0, divided = 0;
-    for (size_t k = cell_level; k + 1 < stats_.levels.size() && k < work.size(); ++k) {
+    for (size_t k = cell_level(); k + 1 < stats_.levels.size() && k < work.size(); ++k) {
       octree += stats_.levels[k].svo_nodes;
       divided += work[k];
     }

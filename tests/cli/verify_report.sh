@@ -17,4 +17,8 @@ echo 'no JSON' > c.json
 svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 sed 's/"fraction_bits": *[0-9]*/"fraction_bits": 1e24/' a.json >c.json
 svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
+sed 's/"cell_level": *[0-9]*/"cell_level": 40/' a.json >c.json
+svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
+tr -d ' \n' < a.json | sed 's/"cubes_divided":\[[0-9]*/"cubes_divided":[1e24/' >c.json
+svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 svdag-verify report a.svdag a.json -o a.json 2>&1 || echo "exit $?"
