@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "builder/overlap/brick_tables.h"
 
@@ -16,6 +17,7 @@ constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube t
 constexpr double kAdmitted = 16;    // bricks per content, in `repeats`, from which a plane repays
 constexpr int64_t kSpan = 3;        // buckets on either side in which an entry is found, too
 constexpr int kLargestTable = 19;   // log2 of its entries
+constexpr size_t kLine = 64;        // bytes of a line of the cache; a set fills two of them
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -100,7 +102,7 @@ void PlaneMemo::forget() {
   planes_ = {};
   std::fill(slots_.begin(), slots_.end(), 0);
   drop_contents();
-  for (Table& table : tables_) table.entries = {};
+  for (Table& table : tables_) table.entries = {}, table.memory = {};
   reservation_.resize(0, "plane memo");
 }
 
@@ -333,7 +335,13 @@ void PlaneMemo::grow(Table* table) {
   const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
   if (size == table->entries.size()) return;
   if (!charge((size - table->entries.size()) * sizeof(Entry))) return;
-  table->entries.assign(size, Entry{});
+  table->entries = {};
+  table->memory = {};  // the old ones go before the new ones come
+  size_t bytes = size * sizeof(Entry) + kLine;
+  table->memory = HugePages(bytes);  // zeros: free entries
+  void* begin = table->memory.data();
+  begin = std::align(kLine, size * sizeof(Entry), begin, bytes);
+  table->entries = {static_cast<Entry*>(begin), size};
   table->mask = uint32_t(size / kWays - 1);
   table->unsettled.clear();
   table->used = 0;

@@ -25,6 +25,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "builder/descend/node_table.h"
@@ -33,6 +34,7 @@
 #include "builder/overlap/kernels.h"
 #include "builder/overlap/lattice_plane.h"
 #include "io/dag/format.h"
+#include "streaming/huge_pages.h"
 
 namespace svdag {
 
@@ -100,7 +102,8 @@ class PlaneMemo {
   };
   // The entries of one level: small cubes have few contents, so their table stays in the cache.
   struct Table {
-    std::vector<Entry> entries;
+    HugePages memory;
+    std::span<Entry> entries;         // in `memory`; a set begins at a line of the cache
     std::vector<uint32_t> unsettled;  // entries written since the last flush
     size_t used = 0, limit = 0;
     uint32_t mask = 0;  // sets - 1
