@@ -64,8 +64,7 @@ class Page {
   double number(const char* key) const { return bake_.at(key).get<double>(); }
   std::vector<uint64_t> divided_per_level() const {
     std::vector<uint64_t> counts;
-    for (const Json& one : bake_.at("cubes_divided"))
-      counts.push_back(whole_number<uint64_t>(one));
+    for (const Json& one : bake_.at("cubes_divided")) counts.push_back(whole_number<uint64_t>(one));
     return counts;
   }
   size_t cell_level() const {
