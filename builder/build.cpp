@@ -133,7 +133,9 @@ void Bake::choose_grid() {
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
     disk_need_.expect_triangles(counts.triangles, shares_.triangles);
-    split_config_.on_spill = [this, counts] { disk_need_.expect_spilled(counts.triangles); };
+    split_config_.on_spill = [this, counts](uint64_t triangles, uint64_t bytes) {
+      disk_need_.expect_spilled(counts.triangles, triangles, bytes);
+    };
   }
   const int levels = report_.grid.levels;
   part_ = config_.part ? Part::of_cells(*config_.part, levels) : Part::whole(levels);

@@ -1,5 +1,7 @@
 #include "builder/spill/disk_need.h"
 
+#include <algorithm>
+
 #include "io/triangle.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -7,7 +9,7 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle = 48;  // in bins, those on borders twice
+constexpr uint64_t kBytesPerTriangle = 48;  // in bins, small ones, those on borders twice
 constexpr double kEarliest = 0.2;           // share of the work that tells about the rest
 
 }  // namespace
@@ -23,12 +25,15 @@ void DiskNeed::check(uint64_t certain, uint64_t more, const char* purpose) const
 }
 
 void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
-  if (count > triangle_bytes / sizeof(LatticeTriangle)) expect_spilled(count);
-}
-
-void DiskNeed::expect_spilled(uint64_t count) {
+  if (count <= triangle_bytes / sizeof(LatticeTriangle)) return;
   triangles_ = count * kBytesPerTriangle;
   check(triangles_ / 2, triangles_, "triangles");
+}
+
+void DiskNeed::expect_spilled(uint64_t count, uint64_t spilled, uint64_t bytes) {
+  count = std::max(count, spilled);
+  triangles_ = uint64_t(double(bytes) * double(count) / double(spilled));
+  check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
 }
 
 void DiskNeed::expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose) {

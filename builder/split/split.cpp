@@ -58,11 +58,11 @@ class Store {
   void look() {
     if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
       return;
-    if (config_.on_spill) config_.on_spill();
     const int depth =
         TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
     for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
+    if (config_.on_spill) config_.on_spill(tree_->triangles(), bins_->bytes());
     tree_.reset();
   }
 

@@ -80,6 +80,7 @@ void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
     for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
   }
   bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
+  bytes_ += uint64_t(end - bytes);
   ++bin.triangles;
 }
 

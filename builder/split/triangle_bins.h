@@ -37,6 +37,8 @@ class TriangleBins {
 
   // A triangle whose box meets the closed parent.
   void add(const LatticeTriangle& triangle);
+  // What the triangles so far take in bins: a large one stands in each that it meets.
+  uint64_t bytes() const { return bytes_; }
   // The bins that triangles met, in Morton order.
   std::vector<TriangleBin> finish();
 
@@ -57,6 +59,7 @@ class TriangleBins {
   SpillFile* file_;
   Scratch* scratch_;
   std::vector<Open> bins_;  // in Morton order
+  uint64_t bytes_ = 0;
 };
 
 // Reads the triangles of a bin, in the order they were added. Bytes that are no triangles on the
