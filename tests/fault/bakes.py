@@ -62,12 +62,6 @@ A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G"
 SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "128M", "-j", "2"])
 
 
-def knows(option):
-    """Whether svdag build has the option."""
-    told = subprocess.run([BUILD / "svdag", "build", "--help"], capture_output=True, text=True).stdout
-    return re.search(rf"{option}\b", told) is not None
-
-
 class Kitchen:
     """A scene, an old file and the bytes that an undisturbed bake gives; copies of it are where bakes run."""
 

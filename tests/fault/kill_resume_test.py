@@ -2,7 +2,6 @@
 """kill -9 at any moment, some bakes killed again while they resume: --resume gives the same bytes.
 
 Without --resume, a bake that can be resumed is a sentence and exit 2; --restart begins again.
-Waits for the option: as long as svdag build does not know --resume, this test is skipped.
 """
 import shutil
 import signal
@@ -63,9 +62,6 @@ def kill_and_resume(kitchen, moments, n):
 
 def main():
     report = bakes.Report()
-    if not bakes.knows("--resume"):
-        report.skip("svdag build has no --resume yet")
-        report.finish()
     for bake, runs in BAKES:
         with bakes.Kitchen(bake) as kitchen:
             folder = kitchen.table()

@@ -7,14 +7,12 @@ import subprocess
 import bakes
 from moments import Moments, hit, time_of
 
-# False: the program ends itself, with status 128 + n.
-DEATH_BY_THE_SIGNAL_ITSELF = False
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 # Bakes, and how often each signal hits them.
 BAKES = [(bakes.A_SECOND, 300), (bakes.SECONDS, 34)] if bakes.LONG else [(bakes.A_SECOND, 3)]
 START = 0.05  # seconds in which the system loads the program: until then it dies by the signal itself
 AT_MOST = 1.0  # seconds from the signal to the end
-LEFT = bakes.LEFT_BY_KILL if DEATH_BY_THE_SIGNAL_ITSELF else [bakes.OF_SCRATCH]
+LEFT = [bakes.OF_SCRATCH]
 
 
 def complaints_about(kitchen, folder, number, ending, twice, moment):
@@ -22,8 +20,9 @@ def complaints_about(kitchen, folder, number, ending, twice, moment):
         return bakes.leftovers(folder) + (["not begun, but no old file"] if kitchen.state(folder) != "old" else [])
     if ending.code == 0:  # it was faster, or the file was already there
         return bakes.leftovers(folder) + (["no new file"] if kitchen.state(folder) != "new" else [])
-    found, itself = [], DEATH_BY_THE_SIGNAL_ITSELF or twice
-    if ending.code not in ({128 + number} | ({-number} if itself else set())):
+    found = []
+    # The program ends itself, with status 128 + n; the second signal ends it at once.
+    if ending.code not in ({128 + number} | ({-number} if twice else set())):
         found.append(f"exit {ending.code}; {ending.stderr!r}")
     if ending.seconds > AT_MOST:
         found.append(f"took {ending.seconds:.2f} s to end")
@@ -34,8 +33,7 @@ def complaints_about(kitchen, folder, number, ending, twice, moment):
 
 
 def complaints_about_the_next(kitchen, folder):
-    more = ["--resume"] if bakes.knows("--resume") else []
-    done = subprocess.run(kitchen.bake.command(*more), cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(kitchen.bake.command("--resume"), cwd=folder, capture_output=True, text=True)
     if done.returncode != 0 or kitchen.state(folder) != "new":
         return [f"the next bake: exit {done.returncode}, {done.stderr!r}, the output is {kitchen.state(folder)}"]
     return bakes.scratch_left(folder)
