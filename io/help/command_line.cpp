@@ -13,14 +13,22 @@
 namespace svdag {
 namespace {
 
-// CLI11 keeps a hint as the name of a validator that accepts everything.
+// CLI11 keeps a hint as the name of a validator.
 constexpr const char* kChoices = "choices ";
 constexpr const char* kEndings = "endings ";
 
-CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words) {
+constexpr uint64_t kLeastMemory = 1 << 20;  // with less not even small scenes can be read
+
+CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words,
+                  CLI::Validator validator = CLI::Validator("")) {
   std::string name = kind;
   for (const std::string& word : words) name += word + " ";
-  return option->check(CLI::Validator("").name(name));
+  return option->check(validator.name(name));
+}
+
+// An empty name is one that was lost on its way: a script's "$OUT" that was never set.
+std::string refuse_empty(const std::string& name) {
+  return name.empty() ? "the name is empty" : "";
 }
 
 std::vector<std::string> hinted(const CLI::Option& option, const std::string& kind) {
@@ -185,11 +193,11 @@ CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices
 }
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
-  return hint(option, kEndings, endings);
+  return hint(option, kEndings, endings, CLI::Validator(refuse_empty, ""));
 }
 
 CLI::Option* takes_folder(CLI::Option* option) {
-  return hint(option, kEndings, {"/"});
+  return takes_files(option, {"/"});
 }
 
 CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
@@ -203,7 +211,8 @@ CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
 void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& text) {
   const auto read = [bytes](const std::string& value) {
     *bytes = parse_count(value, "--memory");
-    if (*bytes == 0) fail_usage("--memory: 0 is not a size");
+    if (*bytes < kLeastMemory)
+      fail_usage("--memory: " + value + " is less than 1M: give a size such as 512M or 4G");
   };
   command
       ->add_option_function<std::string>("-m,--memory", read,

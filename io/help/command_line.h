@@ -30,7 +30,7 @@ CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& en
 CLI::Option* takes_folder(CLI::Option* option);
 CLI::Option* from_to(CLI::Option* option, size_t least, size_t most);  // whole numbers
 
-// -m, the memory budget of a command, with the text of its help; 0 bytes are an Error (kUsage).
+// -m, the memory budget of a command, with the text of its help; less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,
                        const std::string& text = "Memory budget in bytes");
 

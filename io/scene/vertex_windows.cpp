@@ -37,7 +37,10 @@ VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool
       single_(single),
       position_bytes_(3 * (single ? sizeof(float) : sizeof(double))) {
   const uint64_t stream_bytes = kBlocksPerStream * file_->block_bytes();
-  SVDAG_ASSERT(space.share >= 8 * stream_bytes);
+  if (space.share < 8 * stream_bytes)
+    throw Error(ExitCode::kMemory,
+                "the vertices of a mesh cannot be spilled in this memory budget: give more with "
+                "--memory");
   // References are 32 bits.
   const uint64_t fit = (space.share - 2 * stream_bytes) / position_bytes_;
   shift_ = std::min(int(std::bit_width(fit)) - 1, 32);

@@ -9,6 +9,7 @@ for command in 'svdag build r.ply -r 64 -o x.svdag' 'svdag plan r.ply -r 64 --sh
     'svdag info r.ply' 'svdag export r.svdag -o r.vdb' 'svdag import r.npz -o x.svdag' \
     'svdag-verify mesh r.svdag r.ply'; do
   refused $command -m 0
+  refused $command -m 16
 done
 for seconds in 0 -1 nan; do
   refused svdag build r.ply -r 64 -o x.svdag --checkpoint=$seconds

@@ -33,6 +33,7 @@ uint64_t parse_triangles(const std::string& text) {
 }
 
 void run(const Config& config) {
+  if (config.output.empty()) fail_usage("--output: the name is empty");
   const auto mesh =
       scenes::make_scene(config.kind, parse_triangles(config.triangles), config.ply.seed);
   scenes::write_ply(*mesh, config.ply, config.output);

@@ -61,6 +61,7 @@ bool set_flag(const std::string& name, TraceOptions* options) {
 }
 
 void set_option(const std::string& name, const std::string& value, TraceOptions* options) {
+  if (value.empty()) fail_usage(name + ": the value is empty");
   if (name == "--device") {
     if (value != "cpu" && value != "cuda")
       fail_usage("--device: \"" + value + "\" is not cpu or cuda");
