@@ -1,5 +1,6 @@
-// svdag-scene: makes test scenes of any size. Not installed.
+// svdag-scene: makes test scenes of any size. In the bundle, in no package.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "io/units.h"
@@ -34,6 +35,7 @@ uint64_t parse_triangles(const std::string& text) {
 
 void run(const Config& config) {
   if (config.output.empty()) fail_usage("--output: the name is empty");
+  if (!(std::abs(config.ply.yaw) <= 360)) fail_usage("--yaw: give -360 to 360 degrees");
   const auto mesh =
       scenes::make_scene(config.kind, parse_triangles(config.triangles), config.ply.seed);
   scenes::write_ply(*mesh, config.ply, config.output);

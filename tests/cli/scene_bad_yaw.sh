@@ -1,0 +1,1 @@
+svdag-scene hairball -n 2K --yaw nan -o t.ply
