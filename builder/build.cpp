@@ -133,8 +133,8 @@ void Bake::choose_grid() {
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
     disk_need_.expect_triangles(counts.triangles, shares_.triangles);
-    split_config_.on_spill = [this, counts](uint64_t triangles, uint64_t bytes) {
-      disk_need_.expect_spilled(counts.triangles, triangles, bytes);
+    split_config_.on_spill = [this, counts](uint64_t read, uint64_t bytes) {
+      disk_need_.expect_spilled(counts.triangles, read, bytes);
     };
   }
   const int levels = report_.grid.levels;

@@ -30,9 +30,9 @@ void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
   check(triangles_ / 2, triangles_, "triangles");
 }
 
-void DiskNeed::expect_spilled(uint64_t count, uint64_t spilled, uint64_t bytes) {
-  count = std::max(count, spilled);
-  triangles_ = uint64_t(double(bytes) * double(count) / double(spilled));
+void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
+  count = std::max(count, read);  // 0: nobody has counted them
+  triangles_ = uint64_t(double(bytes) * double(count) / double(read));
   check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
 }
 

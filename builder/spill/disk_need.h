@@ -1,10 +1,10 @@
 // How much scratch a bake or an import will take, told before hours of work instead of after them.
 //
 // What triangles take at the least is known as soon as they were counted, and better once the first
-// stand in bins, a large one in many. How much a scene repeats itself nobody
-// knows before it is baked, so what runs will take is reckoned from those there are and the share
-// of the cells that is done, once that is a fifth. Cells differ, so only a disk that cannot hold
-// half of what was reckoned is an Error (kOutput).
+// stand in bins, a large one in many. How much a scene repeats itself nobody knows before it is
+// baked, so what runs will take is reckoned from those there are and the share of the cells that is
+// done, once that is a fifth. Cells differ, so only a disk that cannot hold half of what was
+// reckoned is an Error (kOutput).
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ class DiskNeed {
   // `count` triangles will be spilled, if they take more than `triangle_bytes` in memory. What the
   // split needs beside them depends on where they lie, so they may be all the same.
   void expect_triangles(uint64_t count, uint64_t triangle_bytes);
-  // The first `spilled` of `count` triangles took `bytes`. Others may be smaller.
-  void expect_spilled(uint64_t count, uint64_t spilled, uint64_t bytes);
+  // The first `read` of `count` triangles took `bytes` where they were spilled. Others may be
+  // smaller.
+  void expect_spilled(uint64_t count, uint64_t read, uint64_t bytes);
   // `bytes` of records will be sorted, all of which are spilled if they take more than `in_memory`.
   // Their number is known, so a disk that cannot hold them all is an Error.
   void expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose);

@@ -31,9 +31,12 @@ bool zero_area(const LatticeTriangle& t) {
 // Where triangles go: to the tree, or, once that was too much, to bins.
 class Store {
  public:
-  Store(const Grid& grid, const SplitConfig& config, MemoryBudget* budget)
+  // `counts` tells of the triangles that were dropped on the way here.
+  Store(const Grid& grid, const SplitConfig& config, const SplitCounts& counts,
+        MemoryBudget* budget)
       : grid_(grid),
         config_(config),
+        counts_(counts),
         tree_(std::make_unique<CellTree>(grid, Cube(), config.cell_level, budget)) {}
 
   void add(const LatticeTriangle& triangle) {
@@ -62,12 +65,13 @@ class Store {
         TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
     for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
-    if (config_.on_spill) config_.on_spill(tree_->triangles(), bins_->bytes());
+    if (config_.on_spill) config_.on_spill(tree_->triangles() + counts_.outside, bins_->bytes());
     tree_.reset();
   }
 
   const Grid& grid_;
   const SplitConfig& config_;
+  const SplitCounts& counts_;
   std::unique_ptr<CellTree> tree_;
   std::optional<TriangleBins> bins_;
 };
@@ -79,7 +83,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   const Lattice lattice(grid);
   SplitScene result;
   SplitCounts& counts = result.counts;
-  Store store(grid, config, budget);
+  Store store(grid, config, counts, budget);
   double largest_move = 0;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     for (const Triangle& triangle : batch.triangles) {

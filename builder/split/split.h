@@ -22,8 +22,9 @@ struct SplitConfig {
   uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
   Scratch* scratch = nullptr;            // null: they never are
   const Part* part = nullptr;            // triangles that miss it are dropped; null: the whole grid
-  // Called once, when so many triangles have become so many bytes in bins, and more will.
-  std::function<void(uint64_t triangles, uint64_t bytes)> on_spill = {};
+  // Called once, when the first `read` triangles, dropped ones among them, have become so many
+  // bytes in bins, and more will.
+  std::function<void(uint64_t read, uint64_t bytes)> on_spill = {};
 };
 
 struct SplitCounts {

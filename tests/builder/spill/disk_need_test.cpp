@@ -54,5 +54,18 @@ TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
 }
 
+// Triangles that miss the part are counted with the others, and take nothing.
+TEST(DiskNeed, OfAPartIsThatOfItsTriangles) {
+  const TempFolder folder;
+  write_stl(folder.file("scene.stl"), random_soup(100'000, 0.05, 23));
+  BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.run"), 8);
+  config.memory = 4 * kMiB;
+  config.part = Part::share(1, 4);
+  const BuildReport report = bake(config);
+  EXPECT_GT(report.split.outside, 50'000U);
+  EXPECT_GT(report.scratch.written, 0U);
+  EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
+}
+
 }  // namespace
 }  // namespace svdag

@@ -54,6 +54,15 @@ uint64_t expect_same_bounds(const std::string& name, const std::string& bytes) {
   return written;
 }
 
+TEST(SpilledBounds, AShareOfLessThanAFewBlocksIsSaid) {
+  std::mt19937_64 random(1);
+  const TempFolder folder;
+  const std::string path = folder.write("a.off", RandomMesh(random, 5000, 9000).off());
+  TestSpill spill(4096);
+  const Bounds bounds = bounds_of(path, false, spill.space());
+  EXPECT_NE(bounds.error.find("give more with --memory"), std::string::npos) << bounds.error;
+}
+
 TEST(SpilledBounds, RandomMeshesInEveryFormat) {
   std::mt19937_64 random(1);
   for (int round = 0; round < 6; ++round) {
