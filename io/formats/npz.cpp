@@ -31,7 +31,7 @@ void begin_array(ZipWriter* zip, const std::string& name, const std::string& typ
 
 // An array of a file: its type and shape, and the place of its elements.
 struct Array {
-  char kind = 0;       // 'b' bool, 'u', 'i', 'f'
+  char kind = 0;       // 'b' bool, 'u', 'i', 'f'; 0: another type, and nothing else is known
   uint64_t bytes = 0;  // of an element
   bool fortran_order = false;
   std::vector<uint64_t> shape;
@@ -91,7 +91,7 @@ Array read_header(const File& file, uint64_t offset, uint64_t end) {
   const std::string_view type = value_of(header, "'descr'", file, offset);
   if (type.size() < 5 || (type[1] != '<' && type[1] != '|') || type[3] < '1' || type[3] > '8' ||
       type[4] != type[0])
-    fail_input(file.path(), "has an array of a type that is not read", offset);
+    return array;
   array.kind = type[2];
   array.bytes = uint64_t(type[3] - '0');
   array.fortran_order = value_of(header, "'fortran_order'", file, offset).starts_with("True");
@@ -239,17 +239,20 @@ VoxelPlace read_npz(const File& file, const VoxelSink& sink) {
   }
   VoxelPlace place;
   std::optional<Array> voxels;
+  std::string unread;  // the arrays of other types, which are none of ours
   for (const ZipEntry& entry : entries) {
     if (!entry.name.ends_with(".npy")) continue;
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_place(file, name, array, &place);
+    if (array.kind == 0) unread += (unread.empty() ? "" : ", ") + std::string(name);
     if (!is_coordinates(array) && !is_dense(array)) continue;
     if (voxels) fail_input(file.path(), "has more than one array that may be the voxels");
     voxels = array;
   }
   if (!voxels)
-    fail_input(file.path(), "has no array of N x 3 integers, and none of three dimensions of bool");
+    fail_input(file.path(), "has no array of N x 3 integers, and none of three dimensions of bool" +
+                                (unread.empty() ? "" : "; of a type that is not read: " + unread));
   if (is_dense(*voxels)) {
     for (const uint64_t side : voxels->shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, *voxels, sink);

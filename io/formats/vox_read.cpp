@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "io/formats/vox.h"
@@ -10,15 +11,26 @@ namespace svdag {
 namespace {
 
 using Offset = std::array<int64_t, 3>;
+using Dictionary = std::map<std::string, std::string>;
+
+constexpr uint32_t kNoLayer = ~0u;
+
+bool is_hidden(const Dictionary& attributes) {
+  const auto found = attributes.find("_hidden");
+  return found != attributes.end() && found->second == "1";
+}
 
 struct Model {
   std::array<uint32_t, 3> size;
   uint64_t offset, count;  // of its voxels in the file
 };
 
-// A node of the scene graph: a place (one child), a group (its children), or a shape (its models).
+// A node of the scene graph: a place (one child), a group (its children), or a shape (its models,
+// the frames of an animation: the first is read).
 struct Node {
   Offset place{};
+  uint32_t layer = kNoLayer;
+  bool hidden = false;
   std::vector<uint32_t> children, models;
   size_t visits = 0;  // of nodes, from this one on; 0: not counted
 };
@@ -48,8 +60,8 @@ class ChunkReader {
     if (n > left_ / 4) fail();
     return n;
   }
-  std::map<std::string, std::string> dictionary() {
-    std::map<std::string, std::string> entries;
+  Dictionary dictionary() {
+    Dictionary entries;
     for (uint32_t n = count(); n > 0; --n) {
       const std::string key = text();
       entries[key] = text();
@@ -140,22 +152,27 @@ class VoxReader {
       models_.push_back({*size, chunk->offset(), count});
     } else if (name == "nTRN") {
       const uint32_t id = chunk->number();
-      chunk->dictionary();
-      Node node{{}, {chunk->number()}, {}, 0};
-      for (int i = 0; i < 2; ++i) chunk->number();  // reserved, layer
+      Node node;
+      node.hidden = is_hidden(chunk->dictionary());
+      node.children = {chunk->number()};
+      chunk->number();  // reserved
+      node.layer = chunk->number();
       if (chunk->count() > 0) read_frame(chunk->dictionary(), &node);
       nodes_[id] = std::move(node);
     } else if (name == "nGRP" || name == "nSHP") {
       Node& node = nodes_[chunk->number()];
-      chunk->dictionary();
+      node.hidden = is_hidden(chunk->dictionary());
       for (uint32_t n = chunk->count(); n > 0; --n) {
         (name == "nGRP" ? node.children : node.models).push_back(chunk->number());
         if (name == "nSHP") chunk->dictionary();
       }
+    } else if (name == "LAYR") {
+      const uint32_t layer = chunk->number();
+      if (is_hidden(chunk->dictionary())) hidden_layers_.insert(layer);
     }
   }
 
-  void read_frame(const std::map<std::string, std::string>& frame, Node* node) const {
+  void read_frame(const Dictionary& frame, Node* node) const {
     if (const auto r = frame.find("_r"); r != frame.end() && r->second != "4")
       fail_input(file_.path(), "has rotated models, which are not read");
     const auto t = frame.find("_t");
@@ -193,10 +210,11 @@ class VoxReader {
 
   void place_node(uint32_t id, const Offset& from, int depth) {
     const Node& node = node_of(id, depth);
+    if (node.hidden || hidden_layers_.contains(node.layer)) return;
     Offset at;
     for (size_t a = 0; a < 3; ++a) at[a] = from[a] + node.place[a];
     for (const uint32_t child : node.children) place_node(child, at, depth + 1);
-    for (const uint32_t model : node.models) place_model(model, at);
+    if (!node.models.empty()) place_model(node.models.front(), at);
   }
 
   // With voxel size/2 of it at `middle`.
@@ -230,6 +248,7 @@ class VoxReader {
   const File& file_;
   std::vector<Model> models_;
   std::map<uint32_t, Node> nodes_;
+  std::set<uint32_t> hidden_layers_;
   std::vector<std::pair<uint32_t, Offset>> placed_;  // models and their corners
   uint64_t voxels_ = 0;                              // of placed_
 };

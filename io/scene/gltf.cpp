@@ -3,10 +3,10 @@
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
 // triangles. Only the positions of an indexed primitive are held (or joined: corners.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
-// windows. Skins are not applied: a skinned mesh comes as stored, under its node's transform (joints
-// alone would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as undeformed.
-// Points and lines are left out. A Draco primitive that also has plain data is read from the plain
-// data, which is exact.
+// windows. Skins are not applied: a skinned mesh comes as stored, under its node's transform
+// (joints alone would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as
+// undeformed. Points and lines are left out. A Draco primitive that also has plain data is read
+// from the plain data, which is exact.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -77,11 +77,17 @@ class GltfReader {
     });
   }
 
+  // Elsewhere than in Draco's data.
+  bool has_data(uint64_t accessor) const {
+    return document_.element("accessors", accessor).has("bufferView");
+  }
+
   // `key`: the JSON value behind `primitive`.
   void read_primitive(const nlohmann::json& key, const JsonObject& primitive, uint64_t mode,
                       InstanceStream instances) {
     const uint64_t index = primitive.object("attributes").count("POSITION");
-    const bool plain = document_.element("accessors", index).has("bufferView");
+    const bool plain =
+        has_data(index) && (!primitive.has("indices") || has_data(primitive.count("indices")));
     if (const auto draco = primitive.extension("KHR_draco_mesh_compression"); draco && !plain) {
       return read_draco_primitive(*draco, index, std::move(instances));
     }

@@ -10,6 +10,7 @@ namespace svdag {
 namespace {
 
 constexpr int kMaxDepth = 1000;
+constexpr double kNoise = 1e-5;  // in the last row of a matrix: of float inverses, for example
 
 // A quaternion that can be normalised: its squared length neither vanishes nor overflows.
 void check_rotation(const Trs& trs, const std::string& path) {
@@ -25,8 +26,9 @@ Affine local_transform(const JsonObject& node) {
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 4; ++c) a.m[r][c] = columns[size_t(4 * c + r)];
     }
-    if (columns[3] != 0 || columns[7] != 0 || columns[11] != 0 || columns[15] != 1) {
-      fail_input(node.path(), "has a node whose matrix is a projection");
+    for (const size_t c : {3u, 7u, 11u, 15u}) {
+      if (!(std::abs(columns[c] - (c == 15)) <= kNoise))
+        fail_input(node.path(), "has a node whose matrix is a projection");
     }
     return a;
   }

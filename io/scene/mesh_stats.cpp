@@ -18,23 +18,29 @@ using Face = std::array<uint32_t, 3>;
 
 constexpr double kLargeCoordinate = 1e5;
 
-// The rounded mean of all corners if a coordinate is large, else the origin.
+// What to subtract on each axis: the rounded mean of all corners if a coordinate is large, or if
+// all are far from 0 for their extent; else nothing.
 Point find_centre(const Scene& scene) {
   Point sum{0};
-  double largest = 0;
+  Box box;
   uint64_t corners = 0;
   scene.stream([&](const TriangleBatch& batch) {
     for (const Triangle& t : batch.triangles) {
       for (const Point& p : t.v) {
         sum += p;
-        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        box.add(p);
       }
     }
     corners += 3 * batch.triangles.size();
   });
-  if (largest <= kLargeCoordinate) return Point(0);
-  const double n = double(corners);
-  return {std::nearbyint(sum.x / n), std::nearbyint(sum.y / n), std::nearbyint(sum.z / n)};
+  Point largest, centre{0};
+  for (int a = 0; a < 3; ++a) largest[a] = std::max(std::abs(box.min[a]), std::abs(box.max[a]));
+  const bool large = std::max({largest.x, largest.y, largest.z}) > kLargeCoordinate;
+  for (int a = 0; a < 3; ++a) {
+    if (large || largest[a] / 2 > box.max[a] - box.min[a])
+      centre[a] = std::nearbyint(sum[a] / double(corners));
+  }
+  return centre;
 }
 
 Position round_position(const Point& p, const Point& centre) {

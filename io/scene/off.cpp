@@ -78,13 +78,21 @@ class OffReader {
  private:
   static constexpr TextScanner::Syntax kSyntax = {'#', false};
 
-  // [ST][C][N]OFF, then the counts in the same line or in the next.
+  // [ST][C][N]OFF, the letters in any order (MeshLab writes NCOFF); then the counts, in the next
+  // line, in this one, or in this word (half of the ModelNet files: "OFF8 12 0").
   void read_keyword() {
     scanner_.at_end();
     std::string_view rest = scanner_.word();
-    for (const std::string_view prefix : {"ST", "C", "N"}) {
-      if (rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
+    for (bool more = true; more;) {
+      more = false;
+      for (const std::string_view prefix : {"ST", "C", "N"}) {
+        if (!rest.starts_with(prefix)) continue;
+        rest.remove_prefix(prefix.size());
+        more = true;
+      }
     }
+    if (rest.size() > 3 && rest.starts_with("OFF") && rest[3] >= '0' && rest[3] <= '9')
+      return scanner_.skip_to(rest.data() + 3);
     if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF")
       scanner_.fail("is an OFF file of a dimension other than three, which svdag does not read");
     if (rest != "OFF") scanner_.fail("does not begin with \"OFF\"");

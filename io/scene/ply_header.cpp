@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "io/scene/text_scan.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -65,8 +66,10 @@ class HeaderParser {
  private:
   std::vector<std::string> next_line() {
     if (++header_.lines > kMostLines) fail("has a header that is too long");
-    const auto line = stream_->line(kLongestLine);
+    auto line = stream_->line(kLongestLine);
     if (!line) fail("ends within the header");
+    if (header_.lines == 1 && line->starts_with(kByteOrderMark))
+      line->remove_prefix(kByteOrderMark.size());
     return words_of(*line);
   }
 

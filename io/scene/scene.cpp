@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "io/scene/gltf_buffers.h"
+#include "io/scene/text_scan.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
 
@@ -170,9 +171,14 @@ void Scene::visit_files(const std::function<void(const File&)>& visit) const {
 SceneFormat detect_format(const File& file) {
   std::array<char, 8> head{};
   file.read_some_at(0, std::as_writable_bytes(std::span(head)));
-  const std::string_view start(head.data(), head.size());
-  if (start.starts_with("ply")) return SceneFormat::kPly;
-  if (start.starts_with("glTF")) return SceneFormat::kGltf;
+  std::string_view start(head.data(), head.size());
+  if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
+  // The free text at the head of a binary STL may begin with any word.
+  if (start.starts_with("ply") && std::string_view(" \t\r\n").find(start[3]) != start.npos)
+    return SceneFormat::kPly;
+  if (start.starts_with(std::string_view("glTF\1\0\0\0", 8)) ||
+      start.starts_with(std::string_view("glTF\2\0\0\0", 8)))
+    return SceneFormat::kGltf;
   if (start.starts_with("DRACO")) return SceneFormat::kDraco;
   const std::string extension = lower_extension(file.path());
   if (extension == "stl") return SceneFormat::kStl;
@@ -186,7 +192,7 @@ SceneFormat detect_format(const File& file) {
   if (start.starts_with("solid")) return SceneFormat::kStl;
   fail_input(file.path(),
              "is no scene file that svdag knows: it reads PLY, STL, OBJ, OFF, glTF, GLB, "
-             "Draco and OpenMesh files");
+             "Draco and OpenMesh files, OBJ and binary STL by the ending of their names");
 }
 
 const char* format_name(SceneFormat format) {

@@ -1,8 +1,10 @@
 // STL (3D Systems 1989): binary and text.
 //
 // A file is binary if its size is that of its count of triangles, whatever it begins with: many
-// binary files begin with "solid" as well. The normals and the attribute bytes are ignored. Solids
-// of a text file have names, which serve as mesh names.
+// binary files begin with "solid" as well. Behind the triangles there may be less than another
+// would take (a line end, padding); with more, the count may be wrong, and the file is refused.
+// The normals and the attribute bytes are ignored. Solids of a text file have names, which serve as
+// mesh names.
 #include <array>
 #include <cctype>
 
@@ -25,10 +27,13 @@ uint64_t binary_count(const File& file) {
   return load_little<uint32_t>(bytes.data());
 }
 
-bool begins_with_solid(const File& file) {
-  std::array<char, 64> head{};
+// "solid" behind blanks, and none of the zeros that a binary file has in its count at the latest.
+bool begins_as_text(const File& file) {
+  std::array<char, 512> head{};
   const size_t n = file.read_some_at(0, std::as_writable_bytes(std::span(head)));
-  const std::string_view text(head.data(), n);
+  std::string_view text(head.data(), n);
+  if (text.find('\0') != std::string_view::npos) return false;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos || text.size() - start < 5) return false;
   for (size_t i = 0; i < 5; ++i) {
@@ -121,9 +126,10 @@ void read_stl(const File& file, const ReadOptions& options, const TriangleSink& 
   const uint64_t size = file.size();
   const uint64_t count = size < kHeader ? 0 : binary_count(file);
   const uint64_t expected = kHeader + kRecord * count;
-  if (size == expected) {
+  const bool fits = size >= expected && size - expected < kRecord;
+  if (size == expected || (fits && count > 0 && !begins_as_text(file))) {
     if (options.wants("")) read_binary(file, count, writer);
-  } else if (begins_with_solid(file)) {
+  } else if (begins_as_text(file)) {
     TextReader(file, options, &writer).read();
   } else if (size < kHeader) {
     fail_input(file.path(), "is too short for an STL file");

@@ -15,10 +15,13 @@
 
 namespace svdag {
 
+// That some editors put before UTF-8 text.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 class TextScanner {
  public:
   struct Syntax {
-    char comment = '\0';        // at the start of a word: the rest of the line is a comment
+    char comment = '\n';        // at the start of a word: the rest of the line is a comment
     bool continuation = false;  // a backslash before the line's end joins the next line
   };
   static constexpr size_t kLongestWord = 4096;
@@ -27,8 +30,7 @@ class TextScanner {
   TextScanner(ByteStream* stream, Syntax syntax, uint64_t line = 1)
       : stream_(stream), syntax_(syntax), line_(line) {
     refill();
-    if (line == 1 && std::string_view(here_, size_t(end_ - here_)).starts_with("\xEF\xBB\xBF"))
-      here_ += 3;  // the byte order mark that some editors put before UTF-8 text
+    if (line == 1 && visible().starts_with(kByteOrderMark)) here_ += kByteOrderMark.size();
   }
 
   uint64_t line() const { return line_; }

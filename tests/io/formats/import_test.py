@@ -196,6 +196,25 @@ class Import(unittest.TestCase):
             with self.subTest(shift=shift):
                 self.assertEqual(nodes_of(self.read(data, "two.vox", "-r", "32")), nodes_of(self.small))
 
+    def test_what_a_vox_file_hides_is_no_voxel(self):
+        shown, other = self.few[::2], self.few[1::2]
+        places = [[16, 16, 16], [16, 16, 16]]
+        for name, how in {"hidden": {"hidden": [1]}, "layer": {"hidden_layers": [1]}}.items():
+            with self.subTest(name=name):
+                data = write_foreign.vox((shown, (32, 32, 32)), (other, (32, 32, 32)), places=places, **how)
+                self.assertEqual(self.read(data, "h.vox", "-r", "32").voxel_count, len(shown))
+        data = write_foreign.vox((shown, (32, 32, 32)), (other, (32, 32, 32)), places=places[:1], frames=2)
+        self.assertEqual(self.read(data, "f.vox", "-r", "32").voxel_count, len(shown))
+
+    def test_arrays_that_are_none_of_ours_are_left_alone(self):
+        x = numpy.array(self.few, "<i4")
+        others = {"names": numpy.array(["a longer name"]), "numbers": numpy.array([1, 2], ">f8"),
+                  "complex": numpy.array([1j]), "table": numpy.zeros(3, [("a", "<i4"), ("b", "<f4")])}
+        self.assertEqual(self.read(write_foreign.npz(x=x, **others), "o.npz").voxel_count, len(self.few))
+        (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**others))
+        self.assertIn("of a type that is not read: names, numbers, complex, table",
+                      BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
     def test_little_memory_gives_the_same_bytes(self):
         BAKERY.bake("large", askew(), "-r", "1K")
         for form in ("hashdag", "npz"):

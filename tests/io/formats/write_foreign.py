@@ -149,8 +149,9 @@ def vox_model(voxels, size):
         b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79]) for v in voxels))
 
 
-def vox(*models, places=None):
-    """models: (voxels, size); places: what _t says of each, or no scene graph at all."""
+def vox(*models, places=None, hidden=(), hidden_layers=(), frames=1):
+    """models: (voxels, size); places: what _t says of each, or no scene graph at all; each in a layer of its
+    own; hidden, hidden_layers: numbers of places; frames: models that every shape names, its own first."""
     body = chunk(b"PACK", struct.pack("<I", len(models))) + b"".join(vox_model(*m) for m in models)
     if places is not None:
         none = dictionary()
@@ -158,8 +159,13 @@ def vox(*models, places=None):
         body += chunk(b"nGRP", struct.pack("<I", 1) + none + struct.pack(f"<I{len(places)}I", len(places), *[
             2 + 2 * i for i in range(len(places))]))
         for i, place in enumerate(places):
-            body += chunk(b"nTRN", struct.pack("<I", 2 + 2 * i) + dictionary(_name="part") + struct.pack(
-                "<Iiii", 3 + 2 * i, -1, 0, 1) + dictionary(_r="4", _t="{} {} {}".format(*place)))
-            body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + none + struct.pack("<II", 1, i) + none)
+            attributes = dictionary(_name="part", **({"_hidden": "1"} if i in hidden else {}))
+            body += chunk(b"nTRN", struct.pack("<I", 2 + 2 * i) + attributes + struct.pack(
+                "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r="4", _t="{} {} {}".format(*place)))
+            shown = b"".join(struct.pack("<I", (i + f) % len(models)) + dictionary(_f=str(f)) for f in range(frames))
+            body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + none + struct.pack("<I", frames) + shown)
+        for i in range(len(places)):
+            layer = dictionary(_name="layer", _hidden="1" if i in hidden_layers else "0")
+            body += chunk(b"LAYR", struct.pack("<I", i) + layer + struct.pack("<i", -1))
     body += chunk(b"RGBA", bytes(1024))
     return b"VOX " + struct.pack("<I", 200) + chunk(b"MAIN", b"", body)

@@ -251,6 +251,20 @@ TEST(DracoGltf, ACompressedPrimitiveIsDecodedAndPlaced) {
   EXPECT_THAT(failure(gltf), HasSubstr("positions"));
 }
 
+// The indices may be compressed although the positions are not: those are no zeros.
+TEST(DracoGltf, IndicesWithoutPlainDataAreNotTakenForZeros) {
+  GltfBuilder gltf;
+  gltf.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  const int positions = gltf.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  gltf.show(gltf.mesh(positions));
+  nlohmann::json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["indices"] =
+      gltf.append("accessors", {{"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}});
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                           {"attributes", {{"NORMAL", 0}}}};
+  EXPECT_NE(failure(gltf), "");
+}
+
 TEST(DracoGltf, PlainDataIsPreferredToCompressed) {
   GltfBuilder gltf;
   gltf.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};

@@ -56,6 +56,8 @@ TEST(GltfNodes, MatricesAreColumnMajor) {
   GltfBuilder gltf = one_triangle();
   gltf.json["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   EXPECT_THAT(failure(gltf), HasSubstr("projection"));
+  gltf.json["nodes"][0]["matrix"] = {1, 0, 0, 1e-17, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 0.9999999};
+  EXPECT_EQ(read_corners(gltf), (Corners{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}));  // noise
 }
 
 TEST(GltfNodes, ParentsApplyAfterChildren) {

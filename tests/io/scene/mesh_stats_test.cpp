@@ -71,6 +71,18 @@ TEST(MeshStats, NegativeZeroIsZero) {
   EXPECT_EQ(stats_of(faces({{-0.0f, 0, 0}, kB, kC, kA, {1, -0.0f, 0}, kC})).positions, 3u);
 }
 
+// Positions are floats, but of what is left when the place of the scene is taken away.
+TEST(MeshStats, SmallTrianglesFarFromTheOriginKeepTheirArea) {
+  const TempFolder folder;
+  MemoryBudget budget;
+  for (const char* vertices : {"v 65536 0 0\nv 65536.001 0 0\nv 65536 0.001 0\n",
+                               "v 1 0 0\nv 1.00000001 0 0\nv 1 0.00000001 0\n"}) {
+    const std::string path = folder.write("a.obj", std::string(vertices) + "f 1 2 3\n");
+    const Scene scene({{path}, {}, false}, &budget);
+    EXPECT_EQ(compute_mesh_stats(scene, &budget), (MeshStats{1, 3, 0, 0, 0, 3, 0, 1})) << vertices;
+  }
+}
+
 TEST(MeshStats, ATorusOfQuadsIsClosedAtAnySize) {
   const int n = 200;  // enough corners that the set of positions is compacted and grows
   const auto at = [&](int u, int v) {

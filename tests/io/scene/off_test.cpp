@@ -15,6 +15,9 @@ TEST(Off, ReadsPolygonsAndIgnoresWhatFollowsInALine) {
            "COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n1 1 0 0 0 0 0\n0 1 0 9 9 9 9\n"
            "4 0 1 2 3 0.5 0.5 0.5 1\n",
            "STCNOFF\n4 1 0\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0 7\n1 1 0 7\n0 1 0 7\n4 0 1 2 3 3\n",
+           "NCOFF\n4 1 0\n0 0 0 255 0 0 255 0 0 1\n1 0 0 1\n1 1 0 0\n0 1 0 9\n4 0 1 2 3\n",
+           std::string("OFF4 1 0\n") + kBody, std::string("COFF4 1\n0\n") + kBody,
+           std::string("\xEF\xBB\xBFOFF\n4 1 0\n") + kBody,
            std::string("NOFF 4 1 0\n\n") + kBody}) {
     EXPECT_EQ(read(read_off, text).triangles, (std::vector<Corners>{kLower, kUpper})) << text;
   }

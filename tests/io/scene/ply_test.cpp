@@ -125,6 +125,15 @@ TEST(Ply, FacesOfLessThanThreeCornersAreIgnored) {
   EXPECT_TRUE(read(read_ply, square("2 0 1\n")).triangles.empty());
 }
 
+TEST(Ply, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(read(read_ply, "\xEF\xBB\xBF" + square("4 0 1 2 3\n")).triangles, kSquare);
+}
+
+TEST(Ply, ZerosInTextAreNoComment) {
+  const std::string row("\0 0 1 2\n", 8);
+  EXPECT_NE(refusal(read_ply, square(row + "4 0 1 2 3\n")), "");
+}
+
 TEST(Ply, EveryTruncationIsRefused) {
   // The digits of the last index: "3" cut off ends too early, the line's end may go.
   expect_no_truncation_goes_unnoticed(read_ply, square("4 0 1 2 3\n"), 1);

@@ -104,6 +104,9 @@ TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {
   EXPECT_EQ(format("a.stl", "glTF\2\0\0\0"), SceneFormat::kGltf);
   EXPECT_EQ(format("a", "DRACO\2\2"), SceneFormat::kDraco);
   EXPECT_EQ(format("a.STL", "anything"), SceneFormat::kStl);
+  EXPECT_EQ(format("a.stl", "plyconv output"), SceneFormat::kStl);
+  EXPECT_EQ(format("a.stl", "glTF to STL"), SceneFormat::kStl);
+  EXPECT_EQ(format("a", "\xEF\xBB\xBFOFF\n"), SceneFormat::kOff);
   EXPECT_EQ(format("a.Obj", "solid"), SceneFormat::kObj);
   EXPECT_EQ(format("a", "OFF\n"), SceneFormat::kOff);
   EXPECT_EQ(format("a", "solid x"), SceneFormat::kStl);

@@ -65,11 +65,39 @@ TEST(Stl, EveryTruncationIsRefused) {
 }
 
 TEST(Stl, ACountThatDoesNotFitTheSizeIsRefused) {
-  EXPECT_NE(refusal(read_stl, binary({kFirst}) + "x").find("promises 1 triangles"),
-            std::string::npos);
+  for (const std::string& bytes : {binary({kFirst}) + std::string(50, 'x'), binary({}) + "x"})
+    EXPECT_NE(refusal(read_stl, bytes).find("promises"), std::string::npos);
   std::string many = binary({kFirst});
   many.replace(80, 4, "\xff\xff\xff\xff");
   EXPECT_NE(refusal(read_stl, many).find("4294967295"), std::string::npos);
+}
+
+TEST(Stl, LessThanATriangleMayStandBehindTheLast) {
+  for (const char* title : {"a part", "solid part"}) {
+    for (const std::string& more : {std::string("\n"), std::string(49, '\0')})
+      EXPECT_EQ(read(read_stl, binary({kFirst}, title) + more).triangles.size(), 1U) << title;
+  }
+}
+
+TEST(Stl, ABinaryFileThatIsCutOffIsNotTakenForText) {
+  std::string bytes = binary({kFirst, kSecond}, "solid part");
+  bytes.resize(bytes.size() - 20);
+  EXPECT_NE(refusal(read_stl, bytes).find("promises 2 triangles"), std::string::npos);
+}
+
+TEST(Stl, TextMayBeginWithAByteOrderMark) {
+  const std::string text = "\xEF\xBB\xBFsolid\n" + std::string(kFacet) + "endsolid\n";
+  EXPECT_EQ(read(read_stl, text).triangles.size(), 1U);
+}
+
+// What a crash or a broken copy leaves of a block.
+TEST(Stl, ZerosInTextAreNoComment) {
+  const std::string filler(600, ' ');
+  for (const char* hole : {"\n", "endsolid\n"}) {
+    std::string text = "solid\n" + filler + kFacet + std::string(100, '\0') + hole + kFacet;
+    if (*hole == '\n') text += "endsolid\n";
+    EXPECT_NE(refusal(read_stl, text), "");
+  }
 }
 
 TEST(Stl, BrokenTextIsRefusedWithItsLine) {
