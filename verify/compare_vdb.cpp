@@ -75,10 +75,8 @@ void VdbComparer::split(const VoxelCube& cube, const Found& found) {
 }
 
 void VdbComparer::extras(const std::function<bool(const LatticePoint&)>& sink) {
-  constexpr int64_t kAll = int64_t(1) << 40;
-  const VoxelBox all{LatticePoint(0), LatticePoint(kAll)};
   uint64_t cubes = 0;
-  ours_->visit(window_ != nullptr ? *window_ : all, [&](const VoxelCube& cube) {
+  ours_->visit(window(), [&](const VoxelCube& cube) {
     if (++cubes % 1024 == 0) check_interrupt();
     return each_voxel(cube, [&](const LatticePoint& voxel) {
       return theirs_.get(map_.back(voxel)) || sink(voxel);
@@ -86,7 +84,12 @@ void VdbComparer::extras(const std::function<bool(const LatticePoint&)>& sink) {
   });
 }
 
-VdbComparison VdbComparer::compare(uint64_t file_voxels, uint64_t show) {
+VoxelBox VdbComparer::window() const {
+  constexpr int64_t kAll = int64_t(1) << 40;
+  return window_ != nullptr ? *window_ : VoxelBox{LatticePoint(0), LatticePoint(kAll)};
+}
+
+VdbComparison VdbComparer::compare(uint64_t show) {
   VdbComparison result;
   uint64_t cubes = 0;
   theirs_.visit([&](const VoxelCube& cube) {
@@ -102,7 +105,7 @@ VdbComparison VdbComparer::compare(uint64_t file_voxels, uint64_t show) {
     });
     return true;
   });
-  result.extra = file_voxels - result.both;
+  result.extra = ours_->count_voxels(window()) - result.both;
   const uint64_t to_find = std::min(show, result.extra);
   if (to_find > 0)
     extras([&](const LatticePoint& voxel) {

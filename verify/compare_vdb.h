@@ -4,8 +4,9 @@
 // the DAG at the same place, turned as the grids lie to each other. A tile is compared with the
 // number of voxels that the DAG has there; only where it has some but not all, the tile is cut into
 // the next smaller ones. What both have is then known, and with the DAG's own number of voxels so
-// is what only the DAG has: its voxels are walked only if there is such a difference to show. Time
-// follows the leaves of the VDB grid, whatever the size of the DAG.
+// is what only the DAG has: its voxels are walked only if there is such a difference to show. That
+// number is counted, node by node: a header may say anything. Time follows the leaves of the VDB
+// grid, and the nodes of the DAG, not its voxels.
 #pragma once
 
 #include <vector>
@@ -30,8 +31,8 @@ class VdbComparer {
   // `window`, in voxels of the level, is compared alone, if given. All must outlive this.
   VdbComparer(const VdbGrid& theirs, CubeWalk* ours, const IndexMap& map, const VoxelBox* window);
 
-  // `file_voxels`: of the level, or of the window. Lists up to `show` of each kind.
-  VdbComparison compare(uint64_t file_voxels, uint64_t show);
+  // Lists up to `show` voxels of each kind.
+  VdbComparison compare(uint64_t show);
   // Puts the grids "missing" and "extra" into the writer, in the place and orientation of theirs.
   void write_difference(VdbWriter* writer);
 
@@ -43,6 +44,8 @@ class VdbComparer {
   Block ours(const LatticePoint& origin) const;
   // Hands on the voxels of ours that theirs lacks, until the sink returns false.
   void extras(const std::function<bool(const LatticePoint& ours)>& sink);
+  // Of ours, where it is compared.
+  VoxelBox window() const;
 
   const VdbGrid& theirs_;
   CubeWalk* ours_;

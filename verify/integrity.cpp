@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <set>
 
 #include "io/grid.h"
 #include "verify/node_index.h"
@@ -120,35 +121,68 @@ class Inspection {
   NodeIndex below_;                     // of the level below, unless those are bricks
 };
 
-// Whether a voxel is set outside min .. max; a box of voxels from `corner` is at `node`.
-bool outside(const DagView& dag, const Header& h, uint32_t level, uint32_t node,
-             const std::array<uint32_t, 3>& corner) {
-  const uint32_t side = 1U << (dag.levels - level);
-  bool inside = true;
-  for (int a = 0; a < 3; ++a) {
-    inside = inside && corner[a] >= h.selection_min[a] && corner[a] + side <= h.selection_max[a];
-  }
-  if (inside) return false;
-  for (unsigned c = 0; c < 8 && level < dag.brick_level(); ++c) {
-    const uint32_t child = dag_child(dag, level, node, c);
-    const uint32_t half = side / 2;
-    if (child != kNoChild && outside(dag, h, level + 1, child,
-                                     {corner[0] + (c >> 2) * half, corner[1] + (c >> 1 & 1) * half,
-                                      corner[2] + (c & 1) * half}))
-      return true;
-  }
-  if (level < dag.brick_level()) return false;
-  for (unsigned bit = 0; bit < 64; ++bit) {
-    if ((dag.bricks[node] >> bit & 1U) == 0) continue;
-    const std::array<uint32_t, 3> voxel{corner[0] + (bit >> 5 & 1) * 2 + (bit >> 2 & 1),
-                                        corner[1] + (bit >> 4 & 1) * 2 + (bit >> 1 & 1),
-                                        corner[2] + (bit >> 3 & 1) * 2 + (bit & 1)};
+// Is a voxel set outside the selection?
+//
+// Only cubes that the border of the selection cuts are looked into, and those of one node that it
+// cuts in the same way once: a floor in the border's plane has few nodes, but cubes without number.
+class OutsideSearch {
+ public:
+  explicit OutsideSearch(const DagView& dag) : dag_(dag) {}
+
+  bool find(const Header& h) {
+    VoxelBox selection;
     for (int a = 0; a < 3; ++a) {
-      if (voxel[a] < h.selection_min[a] || voxel[a] >= h.selection_max[a]) return true;
+      selection.min[a] = h.selection_min[a];
+      selection.max[a] = h.selection_max[a];
     }
+    return !dag_.empty() && find(0, 0, selection);
   }
-  return false;
-}
+
+ private:
+  // `selection` is relative to the corner of the node's cube. No node is empty.
+  bool find(uint32_t level, uint32_t node, const VoxelBox& selection) {
+    const int64_t side = int64_t(1) << (dag_.levels - level);
+    const VoxelBox cut = clipped(selection, side);
+    if (cut.empty()) return true;
+    if (cut == VoxelBox{LatticePoint(0), LatticePoint(side)}) return false;
+    if (level == dag_.brick_level()) return find_in_brick(dag_.bricks[node], cut);
+    if (!asked_
+             .insert(
+                 {level, node, cut.min.x, cut.min.y, cut.min.z, cut.max.x, cut.max.y, cut.max.z})
+             .second)
+      return false;  // what was found would have ended the search
+    for (unsigned c = 0; c < 8; ++c) {
+      const uint32_t child = dag_child(dag_, level, node, c);
+      const LatticePoint corner = LatticePoint(c >> 2, c >> 1 & 1, c & 1) * (side / 2);
+      if (child != kNoChild && find(level + 1, child, {cut.min - corner, cut.max - corner}))
+        return true;
+    }
+    return false;
+  }
+
+  static bool find_in_brick(uint64_t brick, const VoxelBox& selection) {
+    for (; brick != 0; brick &= brick - 1) {
+      const unsigned bit = unsigned(std::countr_zero(brick));
+      const LatticePoint voxel((bit >> 5 & 1) * 2 + (bit >> 2 & 1),
+                               (bit >> 4 & 1) * 2 + (bit >> 1 & 1), (bit >> 3 & 1) * 2 + (bit & 1));
+      if (!selection.holds({voxel, voxel + int64_t(1)})) return true;
+    }
+    return false;
+  }
+
+  // The part of `box` in the cube at 0.
+  static VoxelBox clipped(const VoxelBox& box, int64_t side) {
+    VoxelBox part;
+    for (int a = 0; a < 3; ++a) {
+      part.min[a] = std::clamp<int64_t>(box.min[a], 0, side);
+      part.max[a] = std::clamp<int64_t>(box.max[a], 0, side);
+    }
+    return part;
+  }
+
+  const DagView& dag_;
+  std::set<std::array<int64_t, 8>> asked_;  // level, node, and the selection in its cube
+};
 
 // The corner of a lattice is a plane of the world, from which cells of up to 1024 voxels keep their
 // content; a box has no such planes.
@@ -173,8 +207,7 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
   IntegrityReport report;
   Inspection(header, dag, &report).run();
   // Walking down is only safe in a DAG whose pointers were found right.
-  if (report.defects.empty() && header.bounded != 0 && !dag.empty() &&
-      outside(dag, header, 0, 0, {0, 0, 0}))
+  if (report.defects.empty() && header.bounded != 0 && OutsideSearch(dag).find(header))
     report.defects.push_back("a voxel outside the selection is set");
   if (report.voxels != header.voxels)
     report.defects.push_back("the header counts " + std::to_string(header.voxels) +

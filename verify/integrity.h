@@ -9,7 +9,7 @@
 //     used is minimal;
 //   * the voxels summed over the DAG are the voxels of the header, and none lies outside the
 //     selection;
-//   * the metadata says the same as the header.
+//   * the metadata says the same as the header, every key once.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // The metadata's JSON against the header, field by field (docs/format.md, "Metadata").
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "verify/integrity.h"
 
@@ -31,12 +32,36 @@ json expected_metadata(const Header& h) {
           {"largest_snap", h.largest_snap}};
 }
 
+// Notes keys that come twice in one object: readers disagree about which of them counts.
+class RepeatedKeys {
+ public:
+  explicit RepeatedKeys(std::vector<std::string>* defects) : defects_(defects) {}
+
+  void see(json::parse_event_t event, const json& parsed) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event != json::parse_event_t::key) return;
+    const std::string key = parsed.get<std::string>();
+    if (!open_.back().insert(key).second)
+      defects_->push_back("the metadata has the key \"" + key + "\" twice");
+  }
+
+ private:
+  std::vector<std::set<std::string>> open_;  // keys of the objects around
+  std::vector<std::string>* defects_;
+};
+
 }  // namespace
 
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata) {
-  const json found = json::parse(metadata, nullptr, /*allow_exceptions=*/false);
-  if (!found.is_object()) return {"the metadata is not a JSON object"};
   std::vector<std::string> defects;
+  RepeatedKeys repeated(&defects);
+  const auto see = [&](int, json::parse_event_t event, json& parsed) {
+    repeated.see(event, parsed);
+    return true;
+  };
+  const json found = json::parse(metadata, see, /*allow_exceptions=*/false);
+  if (!found.is_object()) return {"the metadata is not a JSON object"};
   const json expected = expected_metadata(header);
   for (const auto& [key, value] : expected.items()) {
     if (!found.contains(key)) {

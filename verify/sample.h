@@ -40,6 +40,10 @@ struct BrickDraw {
 BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
                       uint64_t seed);
 
+// What a draw takes while its brick is drawn and compared: its place, its code some times over, and
+// the brick; or its window.
+constexpr uint64_t kBytesOfDraw = 64;
+
 // The Error (kUsage) of an untested sample.
 [[noreturn]] void fail_untested();
 

@@ -84,13 +84,21 @@ class Window {
   }
 
   void check_voxel(const LatticePoint& voxel, bool set, double d) {
+    const bool selected = in(voxel, grid_.selection);
     result_.file_voxels += set;
-    result_.inner += d <= 0.5;
-    if (set) {
+    result_.inner += selected && d <= 0.5;
+    if (set && !selected) {  // wrong however near a triangle is
+      ++result_.extra;
+      show(voxel, false);
+    } else if (set) {
       if (d >= upper() - error_) suspects_.push_back({voxel, true, d > upper() + error_});
-    } else if (!thin_ && d <= 0.5 + error_ && in(voxel, grid_.selection)) {
+    } else if (!thin_ && d <= 0.5 + error_ && selected) {
       suspects_.push_back({voxel, false, d < 0.5 - error_});
     }
+  }
+
+  void show(const LatticePoint& voxel, bool missing) {
+    if (result_.first.size() < Comparison::kShown) result_.first.push_back({voxel, missing});
   }
 
   // The file's voxels where OpenVDB knows of no triangle.
@@ -120,7 +128,7 @@ class Window {
       if (!s.certain) ++result_.exact;
       if (wrong) {
         ++(s.set ? result_.extra : result_.missing);
-        if (result_.first.size() < Comparison::kShown) result_.first.push_back({s.voxel, !s.set});
+        show(s.voxel, !s.set);
       } else if (s.certain) {
         ++result_.vdb_errors;
       }
@@ -165,15 +173,30 @@ void Sandwich::append(const Sandwich& later) {
     if (first.size() < Comparison::kShown) first.push_back(wrong);
 }
 
-VoxelBox window_around(const LatticePoint& voxel, const Grid& grid, int64_t side) {
-  VoxelBox window;
-  const int64_t width = std::min(side, grid.resolution());
-  for (int a = 0; a < 3; ++a) {
-    const int64_t low = (voxel[a] - width / 2) / kBlockSide * kBlockSide;
-    window.min[a] = std::clamp<int64_t>(low, 0, grid.resolution() - width);
-    window.max[a] = window.min[a] + width;
-  }
-  return window;
+Windows::Windows(const Grid& grid)
+    : side_(std::min(kSandwichWindow, grid.resolution())), per_axis_(grid.resolution() / side_) {}
+
+Windows::Windows(const Grid& grid, std::span<const LatticePoint> voxels) : Windows(grid) {
+  drawn_.emplace();
+  for (const LatticePoint& voxel : voxels) drawn_->push_back(number_of(voxel));
+  std::sort(drawn_->begin(), drawn_->end());
+  drawn_->erase(std::unique(drawn_->begin(), drawn_->end()), drawn_->end());
+}
+
+uint64_t Windows::number_of(const LatticePoint& voxel) const {
+  const LatticePoint w = voxel / side_;
+  return uint64_t((w.x * per_axis_ + w.y) * per_axis_ + w.z);
+}
+
+uint64_t Windows::size() const {
+  return drawn_ ? drawn_->size() : uint64_t(per_axis_ * per_axis_ * per_axis_);
+}
+
+VoxelBox Windows::operator[](uint64_t i) const {
+  const int64_t number = int64_t(drawn_ ? (*drawn_)[i] : i);
+  const LatticePoint w(number / per_axis_ / per_axis_, number / per_axis_ % per_axis_,
+                       number % per_axis_);
+  return {w * side_, (w + int64_t(1)) * side_};
 }
 
 Sandwich judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,

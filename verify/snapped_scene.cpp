@@ -1,5 +1,7 @@
 #include "verify/snapped_scene.h"
 
+#include <algorithm>
+
 #include "io/lattice.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -23,15 +25,18 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink) {
   const Lattice lattice(grid);
-  const LatticeBox whole = grid.closed(grid.whole());
+  const LatticeBox whole = grid.closed(grid.whole()), selection = grid.closed(grid.selection);
   SnapCounts counts;
   std::vector<LatticeTriangle> snapped;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     snapped.clear();
     for (const Triangle& t : batch.triangles) {
       LatticeTriangle q;
-      for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &counts.largest_move);
-      if (whole.meets(box_of(q))) {
+      double move = 0;
+      for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &move);
+      const LatticeBox box = box_of(q);
+      if (box.meets(selection)) counts.largest_move = std::max(counts.largest_move, move);
+      if (whole.meets(box)) {
         snapped.push_back(q);
       } else {
         ++counts.outside;
@@ -41,6 +46,12 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
   });
   counts.largest_move /= double(int64_t(1) << grid.fraction());
   return counts;
+}
+
+std::string snap_defect(double said, const SnapCounts& whole_scene) {
+  if (said == 0 || said == whole_scene.largest_move) return {};
+  return "the header says that the snap moved the scene by up to " + format_double(said) +
+         " voxels, it is " + format_double(whole_scene.largest_move);
 }
 
 GridJudgement judge_grid(const Grid& grid, const Box& bounds) {

@@ -1,6 +1,8 @@
-# A folder or a pipe is no DAG; nobody waits for what it might say.
+# A folder or a pipe is no DAG; nobody waits for what it might say. A file of another kind is not damaged.
 mkdir folder
 mkfifo pipe
-for name in folder folder/ pipe none.svdag; do
+svdag-scene rectangle -q -o r.ply
+svdag-scene scan -n 1K -q -o scan.ply
+for name in folder folder/ pipe none.svdag r.ply scan.ply; do
   svdag-trace $name || echo "exit $?"
 done

@@ -152,6 +152,52 @@ TEST(Integrity, VoxelOutsideTheSelection) {
   EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
 }
 
+TEST(Integrity, SelectionsAreHeldAgainstEveryVoxel) {
+  std::mt19937_64 random(5);
+  int sound = 0;
+  for (int round = 0; round < 600; ++round) {
+    const int levels = 3 + round % 4;
+    VoxelSet voxels;
+    const int64_t at = int64_t(random() % 6);
+    for (int i = 0; i < 3; ++i)  // near each other, so that small selections hold all
+      voxels.emplace(at + int64_t(random() % 3), at + int64_t(random() % 3), int64_t(random() % 3));
+    RawDag raw = raw_dag(test_grid(levels), voxels);
+    raw.grid.bounded = true;
+    VoxelBox& selection = raw.grid.selection;
+    for (int a = 0; a < 3; ++a) {
+      selection.min[a] = a < 2 ? std::max<int64_t>(0, at - 1 + int64_t(random() % 3)) : 0;
+      selection.max[a] = std::min(raw.grid.resolution(), at + 1 + int64_t(random() % 4));
+      selection.min[a] = std::min(selection.min[a], selection.max[a]);
+    }
+    bool inside = true;
+    for (const auto& [x, y, z] : voxels)
+      inside = inside && selection.holds({{x, y, z}, {x + 1, y + 1, z + 1}});
+    EXPECT_EQ(inspect_raw(raw).sound(), inside) << round;
+    sound += inside;
+  }
+  EXPECT_GT(sound, 20);
+  EXPECT_LT(sound, 580);
+}
+
+// 2^40 voxels in the border's plane, twenty nodes: an answer takes time by nodes.
+TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsAskedByNodes) {
+  RawDag raw;
+  raw.grid = test_grid(20);
+  raw.grid.bounded = true;
+  raw.words.assign(18, {0x33, 0, 0, 0, 0});  // the children with y = 0
+  raw.bricks = {0x0000333300003333};
+  raw.nodes.assign(19, 1);
+  raw.voxels = uint64_t(1) << 40;
+  raw.grid.selection.max.y = 1;
+  EXPECT_TRUE(inspect_raw(raw).sound());
+  raw.grid.selection.max.x -= 1;
+  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+  raw.grid.selection.max.x += 1;
+  raw.grid.selection.min.y = 1;
+  raw.grid.selection.max.y = 2;
+  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+}
+
 TEST(Integrity, LatticePlaneOfTheCorner) {
   RawDag raw = good_dag();
   raw.grid.kind = Grid::Kind::kLattice;
@@ -189,6 +235,10 @@ TEST(Integrity, MetadataThatSaysSomethingElse) {
   EXPECT_EQ(with(voxels, voxels + "1").size(), 1U);
   EXPECT_EQ(with("\"box\"", "\"lattice\"").size(), 1U);
   EXPECT_EQ(with("\"rule\":", "\"ruler\":").size(), 2U);  // one lacks, one is unknown
+  EXPECT_EQ(with("\"levels\":", "\"levels\":7,\"levels\":"),
+            std::vector<std::string>{"the metadata has the key \"levels\" twice"});
+  EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":"),
+            std::vector<std::string>{"the metadata has the key \"corner\" twice"});
   EXPECT_EQ(metadata_defects(file.header(), "{"),
             std::vector<std::string>{"the metadata is not a JSON object"});
 }

@@ -172,18 +172,58 @@ TEST_F(SandwichTest, VoxelsOutsideASelectionNeedNotBeSet) {
   EXPECT_TRUE(judge(grid, soup_voxels(grid, soup), soup).holds());
 }
 
-TEST(WindowAround, IsInsideTheGridAndHoldsTheVoxel) {
+TEST_F(SandwichTest, VoxelsOutsideASelectionAreExtraHoweverNearATriangle) {
+  const Grid whole = test_grid(6);
+  const auto soup = random_soup(whole, 40, 3, 20);
+  const VoxelSet voxels = soup_voxels(whole, soup);
+  Grid grid = whole;
+  grid.bounded = true;
+  grid.selection = {{10, 12, 14}, {40, 50, 60}};
+  const uint64_t inside = soup_voxels(grid, soup).size();
+  ASSERT_LT(inside, voxels.size());
+  const Sandwich result = judge(grid, voxels, soup);
+  EXPECT_EQ(result.extra, voxels.size() - inside);
+  EXPECT_EQ(result.missing, 0U);
+  EXPECT_LT(result.inner, judge(whole, voxels, soup).inner);
+  ASSERT_FALSE(result.first.empty());
+  EXPECT_FALSE(result.first[0].missing);
+  const LatticePoint v = result.first[0].voxel;
+  EXPECT_FALSE(grid.selection.holds({v, v + int64_t(1)}));
+}
+
+TEST(SandwichWindows, AllOfThemFillTheGridWithoutOverlap) {
+  for (const int levels : {3, 9, 11}) {
+    const Grid grid = test_grid(levels);
+    const Windows windows(grid);
+    int64_t volume = 0;
+    for (uint64_t i = 0; i < windows.size(); ++i) {
+      EXPECT_TRUE(grid.whole().holds(windows[i]));
+      volume += (windows[i].max - windows[i].min).x << 2 * std::min(levels, 9);
+      for (uint64_t k = 0; k < i; ++k) EXPECT_FALSE(windows[i].meets(windows[k]));
+    }
+    EXPECT_EQ(volume, int64_t(1) << 3 * levels);
+  }
+}
+
+TEST(SandwichWindows, ThoseOfTheLargestGridAreNoList) {
+  const Grid grid = test_grid(20);
+  const Windows windows(grid);
+  EXPECT_EQ(windows.size(), uint64_t(1) << 33);
+  EXPECT_EQ(windows[windows.size() - 1].max, grid.whole().max);
+}
+
+TEST(SandwichWindows, DrawnOnesHoldTheirVoxelsAndComeOnce) {
   for (const int levels : {3, 9, 10, 16}) {
     const Grid grid = test_grid(levels);
     const int64_t last = grid.resolution() - 1;
-    for (const LatticePoint& v : {LatticePoint(0, last, last / 2), LatticePoint(last / 3, 1, 2)}) {
-      const VoxelBox window = window_around(v, grid, 512);
-      for (int a = 0; a < 3; ++a) {
-        EXPECT_TRUE(window.min[a] >= 0 && window.max[a] <= grid.resolution());
-        EXPECT_TRUE(window.min[a] <= v[a] && v[a] < window.max[a]);
-        EXPECT_EQ(window.min[a] % 8, 0);
-        EXPECT_EQ(window.max[a] - window.min[a], std::min<int64_t>(512, grid.resolution()));
-      }
+    const std::vector<LatticePoint> voxels{{0, last, last / 2}, {last / 3, 1, 2}, {last / 3, 0, 3}};
+    const Windows windows(grid, voxels);
+    EXPECT_LE(windows.size(), 2U);
+    for (const LatticePoint& v : voxels) {
+      int holding = 0;
+      for (uint64_t i = 0; i < windows.size(); ++i)
+        holding += windows[i].holds({v, v + int64_t(1)});
+      EXPECT_EQ(holding, 1);
     }
   }
 }

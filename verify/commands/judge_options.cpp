@@ -36,7 +36,7 @@ void add_mesh(CLI::App* app, int* result) {
       ->type_name("JUDGE");
   add_count(command, "--sample", &config->sample,
             "Compare N bricks drawn from file and scene instead of all, and bound what share of "
-            "either is wrong (openvdb: N windows of 512^3 voxels around such bricks)");
+            "either is wrong (openvdb: the windows of 512^3 voxels that hold them)");
   command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);

@@ -4,14 +4,14 @@
 
 #include "io/dag/dag_file.h"
 #include "io/units.h"
+#include "streaming/error.h"
 #include "streaming/printable.h"
 
 namespace svdag {
 
-JudgedScene::JudgedScene(const MeshConfig& config, const Grid& grid)
-    : budget(memory_or_default(config.memory)),
-      scene(config.scene, &budget),
-      progress(config.common.progress) {
+JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode,
+                         const Grid& grid)
+    : budget(memory_or_default(memory)), scene(config, &budget), progress(mode) {
   progress.phase("reading the scene's bounds", 0);
   const Box bounds = scene.bounds(&facts.counts);
   facts.grid = judge_grid(grid, bounds);
@@ -29,6 +29,12 @@ void print_facts(const DagFile& file, const SceneFacts& facts, const std::string
   std::printf("\n");
   for (const std::string& pattern : facts.counts.unmatched)
     std::printf("unmatched  %s\n", printable(pattern).c_str());
+}
+
+void require_count(const char* option, uint64_t count) {
+  constexpr uint64_t kMost = uint64_t(1) << 40;
+  if (count == 0) fail_usage(std::string(option) + ": give at least one");
+  if (count > kMost) fail_usage(std::string(option) + ": give at most " + format_count(kMost));
 }
 
 void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,

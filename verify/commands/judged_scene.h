@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "streaming/memory_budget.h"
-#include "verify/commands/mesh.h"
+#include "verify/commands/common.h"
 #include "verify/compare.h"
 #include "verify/snapped_scene.h"
 
@@ -21,7 +21,7 @@ struct SceneFacts {
 // The scene that the file is judged by: opened, with its bounds read and the grid held against
 // them.
 struct JudgedScene {
-  JudgedScene(const MeshConfig& config, const Grid& grid);
+  JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode, const Grid& grid);
 
   MemoryBudget budget;
   Scene scene;
@@ -32,6 +32,10 @@ struct JudgedScene {
 // Grid and its defects, who judges ("integer: exact clipping"), the triangles, and what --include
 // and --exclude named in vain.
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
+
+// Draws, or rays: as many as a person can want, and nothing that is computed from them overflows.
+// More is an Error (kUsage), and so is 0.
+void require_count(const char* option, uint64_t count);
 
 // How many voxels are wrong, and the first of them.
 void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,

@@ -22,10 +22,11 @@ struct Judgement : SceneFacts {
   bool ok() const { return grid.defects.empty() && comparison.agrees(); }
 };
 
-std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t count) {
+std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t count,
+                                  SnapCounts* snapped) {
   std::vector<LatticeTriangle> triangles;
   triangles.reserve(count);
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+  *snapped = stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     triangles.insert(triangles.end(), batch.begin(), batch.end());
   });
   return triangles;
@@ -39,22 +40,26 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
   const auto reservation =
       judged.budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
   judged.progress.phase("reading the scene", 0);
-  const std::vector<LatticeTriangle> triangles = load(judged.scene, file.grid(), count);
+  SnapCounts snapped;
+  const std::vector<LatticeTriangle> triangles = load(judged.scene, file.grid(), count, &snapped);
   Comparison& comparison = result->comparison;
   comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
   if (comparison.file_voxels != file.header().voxels)
     result->grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
                                    " voxels, the file holds " +
                                    format_count(comparison.file_voxels));
+  const std::string defect = snap_defect(file.header().largest_snap, snapped);
+  if (!defect.empty()) result->grid.defects.push_back(defect);
 }
 
 Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file) {
   const Grid grid = file.grid();
-  JudgedScene judged(config, grid);
+  JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
   Judgement result{judged.facts, {}, false, {}};
   ParallelExecutor executor(threads_or_all(config.common.threads));
   result.sampled = config.sample.has_value();
   if (result.sampled) {
+    const auto held = judged.budget.reserve(*config.sample * kBytesOfDraw, "drawn bricks");
     result.sample = compare_sample(judged.scene, file.view(), grid, *config.sample, config.seed,
                                    choice, executor, judged.progress);
     result.comparison = result.sample.comparison;
@@ -150,7 +155,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
 
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
-  if (config.sample == 0) fail_usage("--sample: give at least one");
+  if (config.sample) require_count("--sample", *config.sample);
   const DagFile file = DagFile::open(config.file);
   if (config.judge == "openvdb") return run_sandwich(config, file);
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};

@@ -20,11 +20,11 @@ struct RenderCommandConfig {
   std::string preset = "iso";  // of preset_camera
   std::string up = "y";
   int supersample = 2;
-  std::vector<double> light;  // x,y,z[,radius] in the world; empty: over the left shoulder
-  uint64_t samples = 16;      // rays to the light or the sky for each camera ray
-  double reach = 0;           // of ambient occlusion, in world units; 0: a twentieth of the scene
-  double cone = -1;           // half the angle of such a ray's cone, in degrees; 0: exact;
-                              // default: 9 for ao, 0 for soft
+  std::vector<double> light;   // x,y,z[,radius] in the world; empty: over the left shoulder
+  uint64_t samples = 16;       // rays to the light or the sky for each camera ray
+  double reach = 0;            // of ambient occlusion, in world units; 0: a twentieth of the scene
+  std::optional<double> cone;  // half the angle of such a ray's cone, in degrees; 0: exact;
+                               // none: 9 for ao, 0 for soft
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
   std::optional<int> fly;         // frames of a turn; none: one picture
 };

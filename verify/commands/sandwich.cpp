@@ -10,6 +10,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/commands/judged_scene.h"
+#include "verify/commands/mesh.h"
 #include "verify/sample.h"
 #include "verify/window_triangles.h"
 
@@ -23,38 +24,26 @@ struct Judgement : SceneFacts {
   bool ok() const { return grid.defects.empty() && sandwich.holds(); }
 };
 
-// Windows around bricks drawn from the file and from the scene, as for a sample of bricks.
-std::vector<VoxelBox> draw_windows(const MeshConfig& config, const Scene& scene,
-                                   const DagFile& file, Judgement* result) {
+// The windows of bricks drawn from the file and from the scene, as for a sample of bricks.
+Windows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
+                     Judgement* result) {
   const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), *config.sample, config.seed);
   if (draw.untested() && result->grid.defects.empty()) fail_untested();
   result->both_empty = draw.both_empty();
-  std::vector<VoxelBox> windows;
-  for (const uint64_t code : draw.all())
-    windows.push_back(
-        window_around(cell_of_code(code) * int64_t(kBrickSide), file.grid(), kSandwichWindow));
-  return windows;
-}
-
-std::vector<VoxelBox> all_windows(const Grid& grid) {
-  const int64_t side = std::min(kSandwichWindow, grid.resolution());
-  std::vector<VoxelBox> windows;
-  LatticePoint at;
-  for (at.x = 0; at.x < grid.resolution(); at.x += side)
-    for (at.y = 0; at.y < grid.resolution(); at.y += side)
-      for (at.z = 0; at.z < grid.resolution(); at.z += side) windows.push_back({at, at + side});
-  return windows;
+  std::vector<LatticePoint> voxels;
+  for (const uint64_t code : draw.all()) voxels.push_back(cell_of_code(code) * int64_t(kBrickSide));
+  return Windows(file.grid(), voxels);
 }
 
 // The snapped triangles near any of the windows; all of them where the windows are the grid.
-std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
-                                       const std::vector<VoxelBox>& windows, bool all,
-                                       MemoryBudget::Reservation* held) {
+std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid, const Windows& windows,
+                                       bool all, MemoryBudget::Reservation* held,
+                                       SnapCounts* snapped) {
   std::vector<LatticeTriangle> near;
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+  *snapped = stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
       bool keep = all;
-      for (size_t i = 0; !keep && i < windows.size(); ++i)
+      for (uint64_t i = 0; !keep && i < windows.size(); ++i)
         keep = is_near(t, windows[i], grid.fraction());
       if (keep && near.size() == near.capacity()) {
         const size_t more = std::max<size_t>(4096, near.capacity() * 2);
@@ -69,20 +58,25 @@ std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
 
 Judgement judge(const MeshConfig& config, const DagFile& file) {
   const Grid grid = file.grid();
-  JudgedScene judged(config, grid);
+  JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
   Judgement result{judged.facts, {}};
   Progress& progress = judged.progress;
   progress.phase("reading the scene", 0);
-  const std::vector<VoxelBox> windows =
-      config.sample ? draw_windows(config, judged.scene, file, &result) : all_windows(grid);
+  const auto drawn =
+      judged.budget.reserve(config.sample.value_or(0) * kBytesOfDraw, "drawn windows");
+  const Windows windows =
+      config.sample ? draw_windows(config, judged.scene, file, &result) : Windows(grid);
   auto held = judged.budget.reserve(0, "snapped triangles");
+  SnapCounts snapped;
   const std::vector<LatticeTriangle> triangles =
-      load_near(judged.scene, grid, windows, !config.sample, &held);
+      load_near(judged.scene, grid, windows, !config.sample, &held, &snapped);
+  const std::string defect = snap_defect(file.header().largest_snap, snapped);
+  if (!config.sample && !defect.empty()) result.grid.defects.push_back(defect);
   CubeWalk walk(file.view(), file.header().levels);
   const size_t threads = threads_or_all(config.common.threads);
   progress.phase("comparing windows", windows.size());
-  for (const VoxelBox& window : windows) {
-    result.sandwich.append(judge_window(&walk, grid, file.rule(), window, triangles, threads));
+  for (uint64_t i = 0; i < windows.size(); ++i) {
+    result.sandwich.append(judge_window(&walk, grid, file.rule(), windows[i], triangles, threads));
     progress.advance(1);
   }
   progress.finish();

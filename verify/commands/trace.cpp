@@ -9,8 +9,8 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "verify/commands/judged_scene.h"
 #include "verify/sample.h"
-#include "verify/snapped_scene.h"
 #include "verify/trace/ray_judge.h"
 
 namespace svdag {
@@ -18,12 +18,15 @@ namespace {
 
 // Beside the rays: points of the surface, and voxels drawn from the DAG, that are judged.
 constexpr uint64_t kRaysPerPoint = 10;
+constexpr uint64_t kDrawnAtOnce = uint64_t(1) << 20;  // voxels
 
-struct Traced {
-  SceneCounts counts;
+struct Traced : SceneFacts {
   uint64_t triangles = 0;  // that meet the grid
+  uint64_t near = 0;       // of these, whose boxes meet the selection
   double float_error = 0, doubt = 0, largest_distance = 0;
-  RayJudgement result;
+  RayJudgement result{};
+
+  bool ok() const { return grid.defects.empty() && result.ok(); }
 };
 
 Vec3 middle_of(const VoxelBox& box) {
@@ -33,10 +36,8 @@ Vec3 middle_of(const VoxelBox& box) {
 }
 
 // A set voxel of each of `count` drawn bricks.
-std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, uint64_t seed) {
+std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, Random& random) {
   std::vector<LatticePoint> voxels;
-  if (dag.empty()) return voxels;
-  Random random(seed);
   for (const uint64_t code : sample_dag(dag, count, random)) {
     const LatticePoint at = cell_of_code(code);
     Brick brick = dag_brick(dag, uint32_t(at.x), uint32_t(at.y), uint32_t(at.z));
@@ -48,33 +49,53 @@ std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, uint64
   return voxels;
 }
 
-Traced trace(const TraceConfig& config, const DagFile& file) {
-  MemoryBudget budget(memory_or_default(config.memory));
-  ParallelExecutor executor(threads_or_all(config.common.threads));
-  Progress progress(config.common.progress);
-  const Grid grid = file.grid();
-  const Scene scene(config.scene, &budget);
-  Traced traced;
-  progress.phase("counting triangles", 0);
-  scene.bounds(&traced.counts);
-  TriangleTracer tracer(middle_of(grid.selection), traced.counts.triangles, executor.workers(),
-                        &budget);
-  progress.phase("reading the scene", 0);
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    tracer.add(batch, grid.fraction());
+// The snapped triangles into the tracer, which then has its tree; returns how many are near.
+uint64_t fill(TriangleTracer* tracer, JudgedScene* judged, const Grid& grid) {
+  const LatticeBox selection = grid.closed(grid.selection);
+  uint64_t near = 0;
+  judged->progress.phase("reading the scene", 0);
+  stream_snapped(judged->scene, grid, [&](std::span<const LatticeTriangle> batch) {
+    for (const LatticeTriangle& t : batch) near += selection.meets(box_of(t));
+    tracer->add(batch, grid.fraction());
   });
-  progress.phase("building Embree's tree", 0);
-  tracer.build();
-  traced.triangles = tracer.triangles().size();
+  judged->progress.phase("building Embree's tree", 0);
+  tracer->build();
+  return grid.selection.empty() ? 0 : near;
+}
 
+RayJudgement judge_all(const RayJudge& judge, const TraceConfig& config, const DagView& dag,
+                       Executor& executor, Progress& progress) {
+  const uint64_t points = config.rays / kRaysPerPoint + (config.rays % kRaysPerPoint != 0);
+  RayJudgement result = judge.judge_rays(executor, progress);
+  Random random(config.seed);
+  for (uint64_t drawn = 0; drawn < points && !dag.empty(); drawn += kDrawnAtOnce) {
+    const uint64_t count = std::min(kDrawnAtOnce, points - drawn);
+    result.append(judge.judge_voxels(draw_voxels(dag, count, random), executor, progress));
+  }
+  result.append(judge.judge_surface(points, executor, progress));
+  return result;
+}
+
+[[noreturn]] void fail_nothing_judged() {
+  fail_usage(
+      "--rays: nothing was judged: no ray hit a triangle that must have a voxel, and the file has "
+      "no voxel; give more, or compare every voxel with svdag-verify mesh");
+}
+
+Traced trace(const TraceConfig& config, const DagFile& file) {
+  const Grid grid = file.grid();
+  JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
+  ParallelExecutor executor(threads_or_all(config.common.threads));
+  Traced traced{judged.facts};
+  TriangleTracer tracer(middle_of(grid.selection), traced.counts.triangles, executor.workers(),
+                        &judged.budget);
+  traced.near = fill(&tracer, &judged, grid);
+  traced.triangles = tracer.triangles().size();
   const RayJudge judge(file.view(), tracer, {file.rule(), grid.selection, config.rays, config.seed},
-                       &budget);
-  const uint64_t points = (config.rays + kRaysPerPoint - 1) / kRaysPerPoint;
-  const std::vector<LatticePoint> voxels = draw_voxels(file.view(), points, config.seed);
-  traced.result = judge.judge_rays(executor, progress);
-  traced.result.append(judge.judge_voxels(voxels, executor, progress));
-  traced.result.append(judge.judge_surface(points, executor, progress));
-  progress.finish();
+                       &judged.budget);
+  traced.result = judge_all(judge, config, file.view(), executor, judged.progress);
+  judged.progress.finish();
+  if (traced.near > 0 && traced.ok() && !traced.result.tested()) fail_nothing_judged();
   traced.float_error = tracer.float_error();
   traced.doubt = tracer.doubt();
   traced.largest_distance = judge.largest_distance();
@@ -105,6 +126,12 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
                 std::floor(offender.point[2]), world(0), world(1), world(2), offender.by);
     return;
   }
+  if (offender.what == RayOffender::What::kOutside) {
+    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is outside of the bounds\n",
+                std::floor(offender.point[0]), std::floor(offender.point[1]),
+                std::floor(offender.point[2]), world(0), world(1), world(2));
+    return;
+  }
   if (offender.what == RayOffender::What::kUncovered) {
     std::printf("  point (%.9g, %.9g, %.9g) of the surface ", world(0), world(1), world(2));
     if (std::isinf(offender.by)) {
@@ -126,8 +153,8 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
 void print_text(const DagFile& file, const TraceConfig& config, const Traced& t) {
   const RayJudgement& r = t.result;
   const auto count = [](uint64_t n) { return format_count(n); };
-  std::printf("grid       %s\n", describe_grid(file).c_str());
-  std::printf("triangles  %s in the grid\n", count(t.triangles).c_str());
+  print_facts(file, t, "embree: its hits and distances, asked again in double");
+  std::printf("in grid    %s triangles\n", count(t.triangles).c_str());
   std::printf("rays       %s: %s hit both, %s neither, %s only triangles, %s only voxels\n",
               count(r.rays).c_str(), count(r.both).c_str(), count(r.neither).c_str(),
               count(r.triangle_only).c_str(), count(r.dag_only).c_str());
@@ -143,6 +170,9 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
               t.doubt);
   std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
               count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
+  if (file.grid().bounded)
+    std::printf("outside    %s of %s voxels are outside of the bounds\n", count(r.outside).c_str(),
+                count(r.voxels).c_str());
   if (file.rule() == Rule::kConservative)
     std::printf(
         "uncovered  %s of %s points of the surface are more than %.4f voxels from a voxel\n",
@@ -155,8 +185,9 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
       "Hausdorff  %.4f voxels from scene to voxels, %.4f from voxels to scene (to centres;"
       " %s points, %s voxels)\n",
       r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
-  if (r.ok()) {
-    std::printf("ok: voxels and triangles agree wherever they were judged\n");
+  if (t.ok()) {
+    std::printf(r.tested() ? "ok: voxels and triangles agree wherever they were judged\n"
+                           : "ok: the file has no voxel, and its grid no triangle\n");
   } else {
     std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
                 static_cast<unsigned long long>(config.seed));
@@ -166,7 +197,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
 nlohmann::json first_json(const RayJudgement& result) {
   nlohmann::json first = nlohmann::json::array();
   for (const RayOffender& o : result.first) {
-    constexpr const char* kNames[] = {"late", "far", "uncovered"};
+    constexpr const char* kNames[] = {"late", "far", "outside", "uncovered"};
     first.push_back({{"what", kNames[size_t(o.what)]},
                      {"ray", o.ray},
                      {"point", {o.point[0], o.point[1], o.point[2]}},
@@ -185,12 +216,17 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                      {"hits", r.one_side[kind]}};
   const nlohmann::json json = {{"command", "trace"},
                                {"file", file.path()},
-                               {"ok", r.ok()},
+                               {"ok", t.ok()},
                                {"rule", rule_name(file.rule())},
                                {"resolution", file.grid().resolution()},
                                {"voxel_size", file.grid().voxel_size},
                                {"seed", config.seed},
-                               {"triangles", t.triangles},
+                               {"grid_defects", t.grid.defects},
+                               {"grid_recomputed", t.grid.recomputed},
+                               {"triangles", t.counts.triangles},
+                               {"triangles_in_grid", t.triangles},
+                               {"invalid_triangles", t.counts.invalid},
+                               {"patterns_unmatched", t.counts.unmatched},
                                {"rays", r.rays},
                                {"both", r.both},
                                {"neither", r.neither},
@@ -204,6 +240,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                {"float_error", t.float_error},
                                {"voxels", r.voxels},
                                {"far", r.far},
+                               {"outside", r.outside},
                                {"largest_distance", t.largest_distance},
                                {"points", r.points},
                                {"points_judged", r.points_judged},
@@ -219,7 +256,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
 
 int run(const TraceConfig& config) {
   const Stopwatch stopwatch(config.common);
-  if (config.rays == 0) fail_usage("--rays: give at least one");
+  require_count("--rays", config.rays);
   const DagFile file = DagFile::open(config.file);
   const Traced traced = trace(config, file);
   if (config.common.json) {
@@ -227,7 +264,7 @@ int run(const TraceConfig& config) {
   } else if (!config.common.quiet) {
     print_text(file, config, traced);
   }
-  return int(traced.result.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+  return int(traced.ok() ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
 }  // namespace svdag

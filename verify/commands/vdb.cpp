@@ -5,7 +5,6 @@
 
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
-#include "io/dag/dag_stats.h"
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/atomic_file.h"
@@ -14,14 +13,6 @@
 
 namespace svdag {
 namespace {
-
-// Cubes of level `levels` with a set voxel, which are its voxels.
-uint64_t voxels_of(const DagFile& file, int levels) {
-  if (levels == int(file.header().levels)) return file.header().voxels;
-  const DagStats stats = compute_stats(file);
-  return size_t(levels) < stats.levels.size() ? stats.levels[size_t(levels)].svo_nodes
-                                              : stats.blocks;
-}
 
 nlohmann::json list(const std::vector<LatticePoint>& voxels) {
   nlohmann::json json = nlohmann::json::array();
@@ -100,9 +91,7 @@ int run(const VdbConfig& config) {
   CubeWalk walk(file.view(), uint32_t(fit.levels));
   progress.phase("comparing", 0);
   VdbComparer comparer(*theirs, &walk, fit.map, config.bounds ? &grid.selection : nullptr);
-  const uint64_t voxels =
-      config.bounds ? walk.count_voxels(grid.selection) : voxels_of(file, fit.levels);
-  const VdbComparison comparison = comparer.compare(voxels, config.show);
+  const VdbComparison comparison = comparer.compare(config.show);
   if (!config.write_diff.empty()) write_difference(config, comparison, &comparer);
   progress.finish();
   if (config.common.json) {

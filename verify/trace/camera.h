@@ -36,7 +36,8 @@ Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, dou
 // A view on the middle of `box`, from the direction `towards`, that just holds it.
 Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect);
 
-// The box of what is set, to within 1/256 of the grid: good enough to frame a picture.
+// The box of what is set, to within 1/256 of the grid, or to bricks of 4 voxels where those are
+// larger: good enough to frame a picture.
 VoxelBounds occupied_bounds(const DagView& dag);
 
 }  // namespace svdag

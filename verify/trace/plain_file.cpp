@@ -12,10 +12,20 @@ void require(bool condition, const std::string& path, const char* sentence) {
   if (!condition) fail_input(path, std::string("damaged file: ") + sentence);
 }
 
+// Asked before anything else is read: of another file no other word means what it would in ours.
+void check_magic(const File& file, uint64_t size) {
+  unsigned char magic[sizeof kMagic];
+  if (size < sizeof magic) fail_input(file.path(), "is not a svdag file (it is too short)");
+  file.read_at(0, std::as_writable_bytes(std::span(magic)));
+  if (std::memcmp(magic, kMagic, sizeof magic) != 0)
+    fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
+}
+
 std::vector<uint64_t> read_whole(const std::string& path) {
   const File file = File::open_read(path);
   const uint64_t size = file.size();
-  if (size < sizeof(Header)) fail_input(path, "is not a svdag file (shorter than a header)");
+  check_magic(file, size);
+  require(size >= sizeof(Header), path, "it ends within its header");
   std::vector<uint64_t> words((size + 7) / 8);
   file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
   require(reinterpret_cast<const Header*>(words.data())->file_bytes == size, path,
@@ -24,8 +34,6 @@ std::vector<uint64_t> read_whole(const std::string& path) {
 }
 
 void check_header(const Header& h, const std::string& path) {
-  if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
-    fail_input(path, "is not a svdag file (its first bytes are not \\x89SVDAG)");
   if (h.version != kFormatVersion)
     fail_input(path, "has format version " + std::to_string(h.version) +
                          ", this program reads version " + std::to_string(kFormatVersion));

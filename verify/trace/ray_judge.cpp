@@ -8,6 +8,7 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kChunk = 4096;  // rays, voxels or points of one task
+constexpr uint64_t kRound = 4096;  // tasks whose results are held at once
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Where all triangles and voxels are: rays are drawn around it.
@@ -46,7 +47,7 @@ std::pair<double, double> inside(const VoxelBox& selection, const Ray& ray, doub
   return {begin, end};
 }
 
-// Whether the point is in the selection, `margin` voxels or more from its border.
+// Whether the point is in the closed selection, `margin` voxels or more from its border.
 bool is_inside(const VoxelBox& selection, const Vec3& point, double margin) {
   for (int a = 0; a < 3; ++a) {
     if (point[a] < double(selection.min[a]) + margin ||
@@ -60,14 +61,17 @@ bool is_inside(const VoxelBox& selection, const Vec3& point, double margin) {
 template <class JudgeOne>
 RayJudgement judge_all(uint64_t count, Executor& executor, Progress& progress,
                        const JudgeOne& judge_one) {
-  std::vector<RayJudgement> parts((count + kChunk - 1) / kChunk);
-  executor.for_each(parts.size(), [&](size_t, size_t part) {
-    const uint64_t end = std::min(count, (part + 1) * kChunk);
-    for (uint64_t i = part * kChunk; i < end; ++i) judge_one(i, &parts[part]);
-    progress.advance(end - part * kChunk);
-  });
+  const uint64_t tasks = count / kChunk + (count % kChunk != 0);
   RayJudgement all;
-  for (const RayJudgement& part : parts) all.append(part);
+  for (uint64_t first = 0; first < tasks; first += kRound) {
+    std::vector<RayJudgement> parts(std::min(kRound, tasks - first));
+    executor.for_each(parts.size(), [&](size_t, size_t part) {
+      const uint64_t begin = (first + part) * kChunk, end = std::min(count, begin + kChunk);
+      for (uint64_t i = begin; i < end; ++i) judge_one(i, &parts[part]);
+      progress.advance(end - begin);
+    });
+    for (const RayJudgement& part : parts) all.append(part);
+  }
   return all;
 }
 
@@ -89,6 +93,7 @@ void RayJudgement::append(const RayJudgement& later) {
   doubtful += later.doubtful;
   voxels += later.voxels;
   far += later.far;
+  outside += later.outside;
   points += later.points;
   points_judged += later.points_judged;
   uncovered += later.uncovered;
@@ -178,6 +183,10 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
 
 void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const {
   ++result->voxels;
+  if (!is_inside(config_.selection, centre, 0)) {
+    ++result->outside;
+    return show(result, {RayOffender::What::kOutside, number, centre, 0});
+  }
   double d = tracer_.distance_to(centre, largest_distance() + 1);
   if (d == kInfinite) d = tracer_.distance_to(centre, kInfinite);  // rare: how far is it really?
   result->voxels_to_scene = std::max(result->voxels_to_scene, d);

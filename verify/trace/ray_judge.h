@@ -9,7 +9,8 @@
 //       exactly one voxel of the line", the one where it crosses; other rays may pass between the
 //       voxels of a slanted wall, so they are counted and not judged.
 //   (b) no voxel is far from the scene: its centre is within half a diagonal (conservative: a
-//       triangle meets the cube) or half a side (thin: one meets a centre segment).
+//       triangle meets the cube) or half a side (thin: one meets a centre segment). None lies
+//       outside of the selection, however near a triangle is.
 //   (c) no point of the surface is far from the voxels. Conservative only: it lies in a set voxel's
 //       closed cube, whose centre is within half a diagonal. A point nearer than doubt() to the
 //       border of the selection may by its rounding lie outside, where nothing is set, and is not
@@ -44,10 +45,10 @@ struct RayJudgeConfig {
 };
 
 struct RayOffender {
-  enum class What { kLate, kFar, kUncovered };
+  enum class What { kLate, kFar, kOutside, kUncovered };
   What what;
-  uint64_t ray;  // its number; of kFar that are no ray's: the voxel's; of kUncovered: the point's
-  Vec3 point;    // of the triangle that was hit, or of the surface; of kFar the voxel's centre
+  uint64_t ray;  // its number; of voxels that no ray hit: the voxel's; of kUncovered: the point's
+  Vec3 point;    // of the triangle that was hit, or of the surface; of a voxel its centre
   double by;     // kLate: voxels between the hits; else the distance (infinite: no voxel)
 };
 
@@ -63,7 +64,8 @@ struct RayJudgement {
   uint64_t late = 0;                           // of these, against (a)
   uint64_t doubtful = 0;                       // would be, but pass within doubt of an edge
   uint64_t voxels = 0;                         // asked for (b)
-  uint64_t far = 0;                            // of these, against (b)
+  uint64_t far = 0;                            // of these, too far from the scene
+  uint64_t outside = 0;                        // of these, outside of the selection
   uint64_t points = 0;                         // of the surface
   uint64_t points_judged = 0;                  // of these, about which (c) says something
   uint64_t uncovered = 0;                      // of these, against (c)
@@ -72,7 +74,9 @@ struct RayJudgement {
   double scene_to_voxels = 0;
   std::vector<RayOffender> first;
 
-  bool ok() const { return late == 0 && far == 0 && uncovered == 0; }
+  bool ok() const { return late == 0 && far == 0 && outside == 0 && uncovered == 0; }
+  // Whether a claim was asked of anything at all.
+  bool tested() const { return judged > 0 || voxels > 0 || points_judged > 0; }
   void append(const RayJudgement& later);
 };
 

@@ -57,17 +57,12 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   Shading shading;
   shading.mode = mode;
   shading.up[up] = 1;
-  shading.near = 1e300;
+  Vec3 nearest{};  // of the box; mostly inside a face, nearer than every corner
+  for (int a = 0; a < 3; ++a) nearest[a] = std::clamp(camera.position[a], box.min[a], box.max[a]);
+  shading.near = length(nearest - camera.position);
   shading.far = 0;
-  for (const Vec3& corner : corners_of(box)) {
-    const double distance = length(corner - camera.position);
-    shading.near = std::min(shading.near, distance);
-    shading.far = std::max(shading.far, distance);
-  }
-  bool inside = true;
-  for (int a = 0; a < 3; ++a)
-    inside = inside && camera.position[a] >= box.min[a] && camera.position[a] <= box.max[a];
-  if (inside) shading.near = 0;
+  for (const Vec3& corner : corners_of(box))
+    shading.far = std::max(shading.far, length(corner - camera.position));
   const Vec3 towards = normalized(camera.forward * -0.55 + camera.right * -0.6 + shading.up * 0.75);
   const double distance = 2 * length(box.max - box.min);
   shading.light = {(box.min + box.max) * 0.5 + towards * distance, 0.05 * distance};

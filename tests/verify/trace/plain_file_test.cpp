@@ -46,6 +46,25 @@ TEST_F(PlainFileTest, AFileThatIsNotThereIsASentence) {
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "cannot be opened");
 }
 
+// Of a file of another kind nothing is damaged, whatever stands where we have our size.
+TEST_F(PlainFileTest, AFileOfAnotherKindIsToldSo) {
+  for (const size_t size : {8U, 1023U, 1024U, 5000U}) {
+    write(std::vector<std::byte>(size, std::byte{'v'}));
+    EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "its first bytes are not");
+  }
+  write({});
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput,
+                     "is not a svdag file (it is too short)");
+}
+
+TEST_F(PlainFileTest, ACutFileIsDamaged) {
+  const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
+  for (const std::ptrdiff_t size : {8, 1023, 1024}) {
+    write({raw.bytes().begin(), raw.bytes().begin() + size});
+    EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "damaged file: ");
+  }
+}
+
 TEST_F(PlainFileTest, EveryCutIsRefused) {
   const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
   for (size_t size = 0; size < raw.bytes().size(); size += 41) {

@@ -99,6 +99,32 @@ TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
   EXPECT_GT(r.both, 1000U);
 }
 
+TEST(RayJudge, VoxelsOutsideASelectionAreSeenHoweverNearATriangle) {
+  const Grid whole = test_grid(6);
+  Case c{whole, Rule::kConservative, random_soup(whole, 60, 3, 30)};
+  const VoxelSet voxels = c.voxels();
+  c.grid.bounded = true;
+  c.grid.selection = {LatticePoint(10, 20, 5), LatticePoint(40, 33, 50)};
+  const uint64_t inside = c.voxels().size();
+  ASSERT_LT(inside, voxels.size());
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_FALSE(r.ok());
+  EXPECT_GE(r.outside, voxels.size() - inside);  // all are asked once, some by rays, too
+  EXPECT_EQ(r.far, 0U);
+  ASSERT_FALSE(r.first.empty());
+  EXPECT_EQ(r.first[0].what, RayOffender::What::kOutside);
+}
+
+TEST(RayJudge, WhatNothingWasAskedOfIsNotTested) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const Case thin{grid, Rule::kThin, {{{from, to, to}}}};
+  EXPECT_FALSE(judged(thin, {}).tested());
+  EXPECT_TRUE(judged(thin, {{3, 4, 5}}).tested());
+  EXPECT_TRUE(judged({grid, Rule::kConservative, thin.soup}, {}).tested());
+}
+
 TEST(RayJudge, OneVoxelMissingIsSeen) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     // A wall across the grid, seen from both sides.
