@@ -132,7 +132,7 @@ void Bake::choose_grid() {
     SceneCounts counts;
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
-    disk_need_.expect_triangles(counts.triangles, shares_.triangles);
+    disk_need_.expect_triangles(config_.part ? 0 : counts.triangles, shares_.triangles);
     split_config_.on_spill = [this, counts](uint64_t read, uint64_t bytes) {
       disk_need_.expect_spilled(counts.triangles, read, bytes);
     };

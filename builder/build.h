@@ -93,7 +93,8 @@ struct BuildReport {
   uint64_t peak_resident = 0;  // bytes, by the kernel
 };
 
-// Throws Error; the output then holds what it held before.
+// Throws Error; the output is then the old file, or, if only the last sync or the clean-up failed,
+// the complete new one.
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress);
 
 }  // namespace svdag

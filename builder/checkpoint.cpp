@@ -1,5 +1,7 @@
 #include "builder/checkpoint.h"
 
+#include <utility>
+
 #include "streaming/spoiled_scratch.h"
 
 namespace svdag {
@@ -32,8 +34,8 @@ std::optional<SavedBake> Checkpoint::resume(const std::function<bool(const std::
   // session has numbers of its own.
   scratch_->resume(size_t(saved.block_bytes), saved.triangle_blocks, saved.run_blocks,
                    (saved.sessions + 1) << kSessionShift);
+  journal.append(uint32_t(SavedKind::kSession), RecordWriter().bytes());
   journal_.emplace(std::move(journal));
-  append(SavedKind::kSession, RecordWriter());
   return saved;
 }
 
@@ -48,11 +50,12 @@ void Checkpoint::begin(const std::string& description, const Grid& grid) {
   const std::lock_guard lock(mutex_);
   if (journal_) return;
   std::vector<JournalRecord> none;
-  journal_.emplace(scratch_->folder()->create(kName), &none);
-  journal_->append(uint32_t(SavedKind::kBake),
-                   bake_record(description, grid, scratch_->block_bytes()).bytes());
+  Journal journal(scratch_->folder()->create(kName), &none);
+  journal.append(uint32_t(SavedKind::kBake),
+                 bake_record(description, grid, scratch_->block_bytes()).bytes());
   scratch_->folder()->sync();
   scratch_->folder()->sync_itself();
+  journal_.emplace(std::move(journal));  // last: nothing is appended to one that has not begun
 }
 
 void Checkpoint::save_split(const SplitScene& split) {

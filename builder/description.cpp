@@ -23,9 +23,24 @@ std::string hash_of(const File& file) {
   return to_hex(hasher.digest());
 }
 
+// So that two texts never look the same, whatever is in them, and each stays on its line.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+// One pattern with a space in it is not two patterns.
 std::string list(const std::vector<std::string>& items) {
   std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : " ") + item;
+  for (const std::string& item : items) text += (text.empty() ? "\"" : " \"") + escaped(item) + '"';
   return text;
 }
 
@@ -64,7 +79,7 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
   for (const SceneFile& file : files)
-    out << "content of " << file.name() << ": " << file.hash << '\n';
+    out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
   return out.str();
 }
 

@@ -35,9 +35,10 @@ struct MergeRunsReport {
   uint64_t peak_counted = 0;     // bytes, by the memory budget
 };
 
-// Throws Error; the output then holds what it held before. Runs of different grids or rules, runs
-// that overlap, and a `.svdag` of which a part is missing are an Error (kUsage); a run that is
-// damaged is one (kBadInput) before the merge begins.
+// Throws Error; the output is then the old file, or, if only the last sync or the clean-up failed,
+// the complete new one. Runs of different grids or rules, runs that overlap, and a `.svdag` of
+// which a part is missing are an Error (kUsage); a run that is damaged is one (kBadInput) before
+// the merge begins.
 MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress);
 
 // What all `runs` hold together. Error (kUsage) if they are of different bakes, or overlap.

@@ -25,8 +25,10 @@ class Lattice {
  public:
   explicit Lattice(const Grid& grid);
 
-  // Maps a finite point; |q| >= 2^62 on an axis is an Error (kBadInput). *move grows to the largest
-  // distance on an axis, in lattice units (<= 0.5), that a coordinate was moved.
+  // Maps a finite point; 2^62 or more on an axis, before the shift, is an Error (kBadInput). The
+  // shift of a grid of cover_lattice() is less than 2^61 + 2^33, and the same for all points: |q|
+  // may be 1.5 * 2^62, but two points differ by less than 2^63. *move grows to the largest distance
+  // on an axis, in lattice units (<= 0.5), that a coordinate was moved.
   LatticePoint snap(const Point& p, double* move = nullptr) const;
 
   // The voxels that a lattice coordinate touches, first .. last.

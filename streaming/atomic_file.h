@@ -1,6 +1,6 @@
 // An output file that is there whole or not at all.
 //
-// Bytes go to an anonymous file in the target's folder; commit() does fsync, close, rename and
+// Bytes go to an anonymous file in the target's folder; commit() does fsync, rename, close and
 // fsync of the folder, in this order, so that after a crash at any moment the name holds the old
 // file or the complete new one. Without commit() nothing is left behind.
 // Rejected: writing beside the target under a fixed temporary name (follows planted symlinks, two

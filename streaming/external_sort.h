@@ -45,10 +45,9 @@ class ExternalSort {
         taken_(room.budget->reserve(room.bytes, "sort buffers")),
         own_(room.bytes),
         order_(words, word),
-        block_bytes_(
-            std::bit_floor(std::clamp(room.bytes / kBlocks, kSmallestBlock, kLargestBlock))),
+        block_bytes_(size_of_blocks(room)),
         capacity_((room.bytes - 2 * workers() * block_bytes_) / (2 * sizeof(Record))) {
-    SVDAG_ASSERT(room.bytes >= workers() * ExternalSortRoom::kLeast);
+    SVDAG_ASSERT(room.bytes >= workers() * ExternalSortRoom::kLeast && capacity_ > 0);
     buffers_ = own_.reserve(2 * capacity_ * sizeof(Record), "sorting");
     in_.reserve(capacity_);  // memory is taken when it is first touched
   }
@@ -85,6 +84,14 @@ class ExternalSort {
   using Bucket = SortBucket<Record>;
 
   size_t workers() const { return room_.executor->workers(); }
+
+  // Many workers have smaller blocks: the two of each take a quarter of the room at the most, and
+  // a merge has room for three streams at the least. A power of two: direct transfers need 4096s.
+  static size_t size_of_blocks(const ExternalSortRoom& room) {
+    const uint64_t most = room.bytes / (8 * room.executor->workers());
+    return std::bit_floor(
+        std::clamp(std::min(room.bytes / kBlocks, most), kSmallestBlock, kLargestBlock));
+  }
 
   void give_up_buffers() {
     in_ = {};

@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -85,6 +87,36 @@ bool can_be_named() {
 bool leave_direct(int fd) {
   const int flags = ::fcntl(fd, F_GETFL);
   return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
+}
+
+// The call that tells the mask sets it, for all threads: only before there are others.
+mode_t mask_at_start() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return mask;
+}
+const mode_t kMaskAtStart = mask_at_start();
+
+// The mask of now, in the second line of what the kernel tells of us (since Linux 4.7).
+mode_t current_mask() {
+  constexpr const char* kName = "\nUmask:";
+  const int fd = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return kMaskAtStart;
+  char text[512];
+  const ssize_t n = retry_interrupted([&] { return ::read(fd, text, sizeof text - 1); });
+  ::close(fd);
+  text[std::max<ssize_t>(n, 0)] = '\0';
+  const char* const line = std::strstr(text, kName);
+  return line != nullptr ? mode_t(std::strtoul(line + std::strlen(kName), nullptr, 8) & 0777)
+                         : kMaskAtStart;
+}
+
+// Opens the file up as the mask allows. Where there are no permissions, or the file is taken for
+// another user's, it stays as it is: that is no reason to lose it.
+void apply_mask(int fd, const std::string& path) {
+  if (::fchmod(fd, 0666 & ~current_mask()) == 0) return;
+  if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
+    fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
 }
 
 }  // namespace
@@ -223,10 +255,7 @@ void File::link_as(const std::string& path) {
       fail_call(ExitCode::kOutput, "cannot be named", path, errno);
     temporary_ = name;
   }
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(fd_, 0666 & ~mask) != 0)
-    fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
+  apply_mask(fd_, path);
   if (::rename(temporary_.c_str(), path.c_str()) != 0 && !(errno == ENOENT && names(path, fd_)))
     fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
   temporary_.clear();

@@ -53,8 +53,8 @@ class File {
   bool try_lock();
 
   void sync();
-  // Gives the file the name `path` and permission 0666 & ~umask, replacing a file of that name
-  // atomically. The folder is not yet synced.
+  // Gives the file the name `path` and, where there are such, permissions 0666 & ~umask, replacing
+  // a file of that name atomically. The folder is not yet synced.
   void link_as(const std::string& path);
   void close();
 

@@ -50,8 +50,15 @@ Folder Folder::open_or_make(std::string path) {
 
 Folder Folder::open_private(std::string path) {
   Folder folder = open_or_make(std::move(path));
-  const struct stat status = folder.status();
-  if (status.st_uid != ::geteuid())
+  struct stat status;
+  try {
+    status = folder.status();
+  } catch (const std::exception&) {
+    if (folder.made_) ::rmdir(folder.path_.c_str());
+    throw;
+  }
+  // One that was made here is ours, whoever a file server or a mount takes us for.
+  if (!folder.made_ && status.st_uid != ::geteuid())
     throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
   // A folder that was there may be open to others. Where there are no permissions this fails, and
   // there is nothing to guard.

@@ -56,6 +56,16 @@ Journal::Journal(File file, std::vector<JournalRecord>* records) : file_(std::mo
 }
 
 void Journal::append(uint32_t kind, std::span<const std::byte> payload) {
+  if (failure_) std::rethrow_exception(failure_);
+  try {
+    write(kind, payload);
+  } catch (...) {
+    failure_ = std::current_exception();
+    throw;
+  }
+}
+
+void Journal::write(uint32_t kind, std::span<const std::byte> payload) {
   if (payload.size() > kLongest)
     throw Error(ExitCode::kOutput, "cannot hold a record of more than 2^30 bytes", file_.path());
   const Tag tag = {kind, uint32_t(payload.size())};

@@ -2,13 +2,15 @@
 //
 // A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
 // append() returns after the record is on disk; whoever appends has synced what it speaks of. Once
-// it has thrown, the journal is not used any more. Reading stops at the first record that is not
-// whole, and the file is cut there: a killed process loses at most the record it was writing (after
-// ninja's deps log).
+// it has thrown, it throws the same again: a record behind one that is not whole is never read, and
+// after a failed fsync nobody knows what is on the disk. Reading stops at the first record that is
+// not whole, and the file is cut there: a killed process loses at most the record it was writing
+// (after ninja's deps log).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,8 +33,11 @@ class Journal {
   void append(uint32_t kind, std::span<const std::byte> payload);
 
  private:
+  void write(uint32_t kind, std::span<const std::byte> payload);
+
   File file_;
   uint64_t end_ = 0;
+  std::exception_ptr failure_;  // of an append
 };
 
 }  // namespace svdag

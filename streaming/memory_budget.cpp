@@ -20,12 +20,12 @@ void MemoryBudget::take(uint64_t bytes, const char* purpose) {
 }
 
 bool MemoryBudget::try_take(uint64_t bytes, uint64_t* wanted) noexcept {
-  const uint64_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
-  const uint64_t now = *wanted = before + bytes;
-  if (now > limit_ || now < before) {
-    give_back(bytes);
-    return false;
-  }
+  // What does not fit is never counted, not for a moment: another's request would see it.
+  uint64_t before = used_.load(std::memory_order_relaxed), now;
+  do {
+    now = *wanted = before + bytes;
+    if (now > limit_ || now < before) return false;
+  } while (!used_.compare_exchange_weak(before, now, std::memory_order_relaxed));
   for (std::atomic<uint64_t>* highest : {&peak_, &lap_peak_}) {
     uint64_t peak = highest->load(std::memory_order_relaxed);
     while (peak < now && !highest->compare_exchange_weak(peak, now, std::memory_order_relaxed)) {

@@ -15,6 +15,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,7 +68,8 @@ class PieceMerge {
   // pieces being merged, what is read ahead, what is left over, and as much for the output.
   static size_t most_streams(size_t blocks, size_t workers) { return blocks / (2 * workers + 2); }
   static size_t step(size_t blocks, size_t streams, size_t workers) {
-    return std::max<size_t>((blocks - (workers + 1) * streams) / (2 * workers + 1), 1);
+    const size_t held = std::min((workers + 1) * streams, blocks);  // of streams, whatever the step
+    return std::max<size_t>((blocks - held) / (2 * workers + 1), 1);
   }
 
   PieceMerge(SpillFile* file, std::span<const SortedStream<Record>> streams, size_t blocks,
@@ -103,8 +105,8 @@ class PieceMerge {
     executor_->for_each(pieces, [&](size_t worker, size_t) {
       try {
         check_interrupt();
-        Piece piece = cut();
-        merge_piece(&piece, &rooms[worker], take);
+        std::optional<Piece> piece = cut();
+        if (piece) merge_piece(&*piece, &rooms[worker], take);
       } catch (...) {
         turns_.fail();
         throw;
@@ -155,9 +157,19 @@ class PieceMerge {
             }};
   }
 
-  // The next piece: of all blocks at hand what goes before the first record of the next one.
-  Piece cut() {
+  // The next piece; none once another worker has failed here: it left the blocks half taken, and
+  // its error is the one to be told.
+  std::optional<Piece> cut() {
     const std::lock_guard lock(cut_mutex_);
+    if (cut_failed_) return std::nullopt;
+    cut_failed_ = true;  // until it is done
+    Piece piece = cut_next();
+    cut_failed_ = false;
+    return piece;
+  }
+
+  // Of all blocks at hand what goes before the first record of the next one.
+  Piece cut_next() {
     Piece piece{cut_ / step_, std::move(open_)};
     open_.clear();
     const size_t until = std::min(cut_ + step_, schedule_.size());
@@ -278,7 +290,8 @@ class PieceMerge {
   std::mutex idle_mutex_;
   std::vector<SpillBlock> idle_;  // memory to read into; before all that gives it back
   Turns turns_;
-  std::mutex cut_mutex_;        // the next three
+  std::mutex cut_mutex_;  // all that follows
+  bool cut_failed_ = false;
   size_t asked_ = 0, cut_ = 0;  // places of the schedule
   std::deque<std::shared_ptr<SpillFetch>> coming_;
   std::vector<Block> open_;  // with records that no piece has got yet

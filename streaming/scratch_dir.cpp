@@ -76,35 +76,43 @@ Folder ScratchDir::own(const std::string& path, File* owner) {
       *owner = std::move(file);
     } catch (const std::exception& error) {
       const bool in_use = dynamic_cast<const ScratchInUse*>(&error) != nullptr;
-      if (folder.made() && !in_use) discard(folder, {});
+      if (folder.made() && !in_use) remove_lock(folder);
       throw;
     }
     return folder;
   }
 }
 
+// False if it failed: what is left behind the next bake of this output takes over.
+template <class Action>
+bool ScratchDir::attempt(const Action& action) noexcept {
+  try {
+    action();
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+bool ScratchDir::remove_files(const Folder& folder, const std::set<std::string>& names) noexcept {
+  bool gone = true;
+  for (const std::string& name : names) gone &= attempt([&] { folder.remove(name); });
+  if (!names.empty()) attempt([&] { folder.sync(); });
+  return gone;
+}
+
 // The lock goes last, on the disk as well: as long as `owner` has its name nobody else can come in,
 // files without it are taken for somebody else's, and afterwards only an empty folder is removed.
-void ScratchDir::discard(const Folder& folder, const std::set<std::string>& names) noexcept {
-  const auto attempt = [](const auto& action) {
-    try {
-      action();
-    } catch (const std::exception&) {  // left behind; the next bake of this output takes it over
-    }
-  };
-  for (const std::string& name : names) attempt([&] { folder.remove(name); });
-  if (!names.empty()) attempt([&] { folder.sync(); });
+void ScratchDir::remove_lock(const Folder& folder) noexcept {
   attempt([&] { folder.remove(kOwner); });
   attempt([&] { folder.remove_itself(); });
 }
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  try {
-    made_ = names();
-  } catch (const std::exception&) {  // then at least those that are known
-  }
-  discard(folder_, made_);
+  const bool listed = attempt([&] { made_ = names(); });  // else at least those that are known
+  // Beside a file that could not be removed the lock stays, so that it can be seen whose it is.
+  if (remove_files(folder_, made_) && listed) remove_lock(folder_);
 }
 
 // A folder that was made here holds nothing else; only one that was taken over must be listed.

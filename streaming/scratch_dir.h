@@ -65,7 +65,11 @@ class ScratchDir {
 
  private:
   static Folder own(const std::string& path, File* owner);
-  static void discard(const Folder& folder, const std::set<std::string>& names) noexcept;
+  template <class Action>
+  static bool attempt(const Action& action) noexcept;
+  // Whether all are gone.
+  static bool remove_files(const Folder& folder, const std::set<std::string>& names) noexcept;
+  static void remove_lock(const Folder& folder) noexcept;
   std::set<std::string> names() const;
 
   File owner_;  // before folder_: own() sets both

@@ -2,8 +2,8 @@
 //
 // Bits for |q| < 2^41 and x in the grid (0 <= x <= 2^39): edges 42, n 84 (twice the area of a
 // triangle in a square of side 2^42), x - v < 2^41.33, so n.(x - v) < 3 * 2^125.33 < 2^127:
-// __int128 suffices with no bit to spare. Up to |q| < 2^62 (edges 63, n 126, sum 191 bits) 256-bit
-// integers serve.
+// __int128 suffices with no bit to spare. Up to |q| < 2^62 + 2^61 + 2^33 (io/lattice.h: edges 63,
+// n 126, x - v 63, sum 191 bits) 256-bit integers serve.
 #pragma once
 
 #include "builder/overlap/triangle_setup.h"

@@ -53,7 +53,8 @@ struct TriangleSetup {
   LatticeTriangle triangle;
 };
 
-// |q| < 2^62 on every axis (the snap has checked it).
+// |q| < 2^62 + 2^61 + 2^33 on every axis, and two vertices differ by less than 2^63 (the snap has
+// checked it, and so has BinReader: builder/split/triangle_bins.cpp).
 TriangleSetup make_setup(const LatticeTriangle& triangle) noexcept;
 
 // Bound on the error of a function evaluated in double in a cube whose box meets the triangle's, in

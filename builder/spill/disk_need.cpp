@@ -32,7 +32,8 @@ void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
 
 void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
   count = std::max(count, read);  // 0: nobody has counted them
-  triangles_ = uint64_t(double(bytes) * double(count) / double(read));
+  // At least what there is: rounding may lose a byte of it.
+  triangles_ = std::max(bytes, uint64_t(double(bytes) * double(count) / double(read)));
   check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
 }
 

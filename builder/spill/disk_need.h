@@ -18,7 +18,8 @@ class DiskNeed {
   explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
 
   // `count` triangles will be spilled, if they take more than `triangle_bytes` in memory. What the
-  // split needs beside them depends on where they lie, so they may be all the same.
+  // split needs beside them depends on where they lie, so they may be all the same. 0: nobody
+  // knows, as how many meet a part.
   void expect_triangles(uint64_t count, uint64_t triangle_bytes);
   // The first `read` of `count` triangles took `bytes` where they were spilled. Others may be
   // smaller.

@@ -120,12 +120,19 @@ Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
 
 namespace {
 
-// No vertex is farther from the grid's corner (io/lattice.cpp).
+// The snap refuses 2^62 steps and more before it moves a vertex by (2*k0 + 1) * 2^(F-1). A lattice
+// grid lies less than 2^38 voxels from zero (io/grid.cpp), and its corner at most a voxel and a
+// step of 1024 further: |2*k0 + 1| < 2^39 + 2^11, so with F <= 23 the way is less than 2^61 + 2^33.
+// All vertices go the same way, so from one to another it stays less than 2^63.
+constexpr int64_t kFarthest = (int64_t(1) << 62) + (int64_t(1) << 61) + (int64_t(1) << 33);
+
+// Whether the snap can have made it: what follows counts on it that no difference overflows.
 bool on_lattice(const LatticeTriangle& t) noexcept {
-  constexpr int64_t kFarthest = int64_t(1) << 62;
+  const LatticeBox box = box_of(t);
   bool near = true;
-  for (const LatticePoint& p : t.v) {
-    for (int a = 0; a < 3; ++a) near &= p[a] >= -kFarthest && p[a] <= kFarthest;
+  for (int a = 0; a < 3; ++a) {
+    near &= box.min[a] >= -kFarthest && box.max[a] <= kFarthest &&
+            uint64_t(box.max[a]) - uint64_t(box.min[a]) <= uint64_t(INT64_MAX);
   }
   return near;
 }

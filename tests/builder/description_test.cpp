@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 
 #include "tests/builder/bakes.h"
 #include "tests/temp_folder.h"
@@ -36,6 +37,29 @@ TEST(Description, HoldsTheGridTheRuleAndTheParts) {
   other.memory = uint64_t(1) << 30;
   other.output = "elsewhere.svdag";
   EXPECT_EQ(difference(said, described(other)), "");
+}
+
+TEST(Description, PatternsAreNeverMistakenForOthers) {
+  const TempFolder folder;
+  write(folder.file("scene.obj"), "v 0 0 0\n");
+  BuildConfig config = config_for(folder.file("scene.obj"), "out.svdag", 8);
+  const std::vector<std::vector<std::string>> lists = {
+      {}, {""}, {"a b"}, {"a", "b"}, {"a\" \"b"}, {"a\\", "b"}, {"a\\\" \"b"}, {"a\nb"}, {"a\\nb"}};
+  std::set<std::string> texts;
+  for (const auto& patterns : lists) {
+    config.scene.names.include = patterns;
+    EXPECT_TRUE(texts.insert(described(config)).second);
+  }
+  config.scene.names.include = {"a b", "roof"};
+  EXPECT_NE(described(config).find("included parts: \"a b\" \"roof\"\n"), std::string::npos);
+}
+
+TEST(Description, ANameOfAFileStaysOnItsLine) {
+  const TempFolder folder;
+  const BuildConfig config;
+  const std::vector<SceneFile> one = {{"x/a: 1\ncontent of b", 0, "2"}};
+  const std::vector<SceneFile> two = {{"x/a", 0, "1"}, {"x/b", 0, "2"}};
+  EXPECT_NE(describe(config, one), describe(config, two));
 }
 
 TEST(Description, HoldsTheBuffersThatASceneNames) {

@@ -1,6 +1,10 @@
 #include "streaming/atomic_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
 
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
@@ -54,6 +58,27 @@ TEST(AtomicFile, PermissionsFollowTheUmask) {
   const mode_t before = umask(027);
   AtomicFile file(folder.file("out"));
   file.commit();
+  umask(before);
+  EXPECT_EQ(mode_of(folder.file("out")), 0640U);
+}
+
+// What a file of another thread gets that is made meanwhile.
+TEST(AtomicFile, NobodySeesAnotherUmaskMeanwhile) {
+  const TempFolder folder;
+  const mode_t before = umask(027);
+  {
+    const std::jthread other([&](const std::stop_token& stop) {
+      while (!stop.stop_requested()) AtomicFile(folder.file("out")).commit();
+    });
+    for (int i = 0; i < 2000; ++i) {
+      const std::string name = folder.file("made");
+      const int fd = open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+      ASSERT_GE(fd, 0);
+      close(fd);
+      ASSERT_EQ(mode_of(name), 0640U);
+      ASSERT_EQ(unlink(name.c_str()), 0);
+    }
+  }
   umask(before);
   EXPECT_EQ(mode_of(folder.file("out")), 0640U);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <exception>
 #include <random>
 #include <thread>
 
@@ -131,7 +132,75 @@ TEST(ExternalSort, AnErrorOfTheTakerEndsTheSort) {
   }
 }
 
-// Nor for that of one that a signal stopped before it had begun.
+// One task after the other, and all of them, as if those after a failed one had begun before it.
+class StubbornExecutor : public Executor {
+ public:
+  explicit StubbornExecutor(size_t workers) : workers_(workers) {}
+  size_t workers() const override { return workers_; }
+  void for_each(size_t count, const Task& task) override {
+    std::exception_ptr first;
+    for (size_t i = 0; i < count; ++i) {
+      try {
+        task(i % workers_, i);
+      } catch (...) {
+        if (!first) first = std::current_exception();
+      }
+    }
+    if (first) std::rethrow_exception(first);
+  }
+
+ private:
+  size_t workers_;
+};
+
+struct StubbornSorter {
+  StubbornSorter(uint64_t bytes, size_t workers)
+      : executor(workers),
+        sort({&budget, bytes, &executor, [this] { return folder.create("spill"); }}, 8,
+             [](const Key& k, size_t i) { return k[i]; }) {}
+
+  TempFolder temp;
+  Folder folder = Folder::open_private(temp.path());
+  MemoryBudget budget;
+  StubbornExecutor executor;
+  ExternalSort<Key, uint32_t (*)(const Key&, size_t)> sort;
+};
+
+// Who comes after it finds fewer blocks than the pieces need.
+TEST(ExternalSort, ADamagedBlockEndsTheSortForWorkersThatHaveBegunToo) {
+  StubbornSorter sorter(3 * ExternalSortRoom::kLeast, 3);
+  for (const Key& key : make_keys(Kind::kRandom, 100000, 9)) sorter.sort.push(key);
+  File spilled = sorter.folder.open("spill");
+  std::byte first;  // of the first block, behind its header: it holds the least keys of its run
+  spilled.read_at(kSpillHeader, {&first, 1});
+  first ^= std::byte(1);
+  spilled.write_at(kSpillHeader, {&first, 1});
+  size_t taken = 0;
+  const auto count = [&](std::span<const Key> keys) { taken += keys.size(); };
+  EXPECT_SVDAG_ERROR(sorter.sort.finish(count), ExitCode::kOutput, "scratch file is damaged");
+  EXPECT_EQ(taken, 0U);
+}
+
+TEST(ExternalSort, HundredsOfWorkersHaveSmallerBlocks) {
+  for (const size_t workers : {255, 256, 512}) {
+    StubbornSorter sorter(workers * ExternalSortRoom::kLeast, workers);
+    std::vector<Key> keys = make_keys(Kind::kRandom, 20000, 10), sorted;
+    for (const Key& key : keys) sorter.sort.push(key);
+    sorter.sort.finish(
+        [&](std::span<const Key> some) { sorted.insert(sorted.end(), some.begin(), some.end()); });
+    std::sort(keys.begin(), keys.end());
+    EXPECT_TRUE(sorted == keys) << workers;
+    EXPECT_LE(sorter.sort.peak_bytes(), workers * ExternalSortRoom::kLeast);
+  }
+}
+
+TEST(PieceMerge, APieceHasABlockEvenWhereThereIsRoomForNone) {
+  using Merge = PieceMerge<Key, uint32_t (*)(const Key&, size_t)>;
+  EXPECT_EQ(Merge::step(510, 2, 256), 1U);
+  EXPECT_EQ(Merge::step(510, 2, 1), (510U - 4) / 3);
+}
+
+// No worker waits for the turn of one that a signal stopped before it had begun.
 TEST(ExternalSort, AnInterruptEndsTheSort) {
   std::atomic<bool> finishing{false};
   ParallelExecutor executor(2, [&](size_t index) {

@@ -1,6 +1,8 @@
 #include "streaming/file_folder.h"
 
+#include <sys/fsuid.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -16,6 +18,21 @@ mode_t mode_of(const std::string& path) {
   struct stat status {};
   EXPECT_EQ(lstat(path.c_str(), &status), 0);
   return status.st_mode & 07777;
+}
+
+// As on a file server that takes root for nobody.
+TEST(PrivateFolder, IsOursIfWeMadeItWhoeverItSeemsToBelongTo) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make a folder that is another user's";
+  const TempFolder temp;
+  ASSERT_EQ(chmod(temp.path().c_str(), 0777), 0);
+  setfsuid(12345);
+  EXPECT_NO_THROW(EXPECT_TRUE(Folder::open_private(temp.file("s")).made()));
+  setfsuid(0);
+  struct stat status {};
+  ASSERT_EQ(lstat(temp.file("s").c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 12345U);
+  EXPECT_SVDAG_ERROR(Folder::open_private(temp.file("s")), ExitCode::kOutput,
+                     "s: belongs to another user");
 }
 
 TEST(SharedFolder, IsMadeForThisUserAlone) {

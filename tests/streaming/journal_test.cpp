@@ -137,6 +137,19 @@ TEST(Journal, ARecordThatIsTooLongIsToldOfAndNothingIsWritten) {
   EXPECT_EQ(file.bytes(), "");
 }
 
+TEST(Journal, NothingIsAppendedAfterAnAppendThatFailed) {
+  JournalFile file;
+  auto [journal, records] = file.open();
+  journal.append(1, payload_of("first"));
+  const std::string before = file.bytes();
+  const std::byte first{};  // the rest is not looked at
+  const std::span<const std::byte> payload(&first, (size_t(1) << 30) + 1);
+  EXPECT_SVDAG_ERROR(journal.append(2, payload), ExitCode::kOutput, "more than 2^30 bytes");
+  EXPECT_SVDAG_ERROR(journal.append(3, payload_of("third")), ExitCode::kOutput,
+                     "more than 2^30 bytes");
+  EXPECT_EQ(file.bytes(), before);
+}
+
 TEST(Journal, AnAppendThatCannotBeWrittenIsAnOutputError) {
   TempFolder temp;
   std::vector<JournalRecord> records;

@@ -1,5 +1,6 @@
 #include "streaming/memory_budget.h"
 
+#include <atomic>
 #include <thread>
 #include <vector>
 
@@ -107,6 +108,18 @@ TEST(MemoryBudget, ThreadsNeverPassTheLimitTogether) {
   EXPECT_EQ(budget.used(), 0U);
   EXPECT_LE(budget.peak(), 64U);
   EXPECT_GE(budget.peak(), 39U);
+}
+
+TEST(MemoryBudget, WhatIsRefusedToOneTakesNothingFromAnother) {
+  MemoryBudget budget(100);
+  std::atomic<bool> tries{false};
+  const std::jthread greedy([&](const std::stop_token& stop) {
+    MemoryBudget::Reservation held(&budget, 0);
+    for (; !stop.stop_requested(); tries = true) EXPECT_FALSE(held.try_resize(101));
+  });
+  while (!tries) std::this_thread::yield();
+  for (int i = 0; i < 1'000'000; ++i) ASSERT_NO_THROW(budget.reserve(100, "nodes"));
+  EXPECT_EQ(budget.peak(), 100U);
 }
 
 TEST(MemoryBudget, TheMachineHasMemory) {

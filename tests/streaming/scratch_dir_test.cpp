@@ -155,6 +155,24 @@ TEST(ScratchDir, AFolderPutIntoItIsNotOursAndKeepsOnlyItselfAlive) {
   EXPECT_FALSE(fs::exists(temp.file("s/spill")));
 }
 
+TEST(ScratchDir, WhatCannotBeRemovedIsTakenOverByTheNext) {
+  const TempFolder temp;
+  {
+    ScratchDir dir(temp.file("s"));
+    dir.create("spill");
+    dir.create("other");
+    fs::remove(temp.file("s/spill"));
+    fs::create_directory(temp.file("s/spill"));  // which is not removed as a file
+  }
+  EXPECT_TRUE(fs::exists(temp.file("s/owner")));
+  EXPECT_FALSE(fs::exists(temp.file("s/other")));
+  { ScratchDir dir(temp.file("s")); }
+  EXPECT_TRUE(fs::exists(temp.file("s/owner")));
+  fs::remove(temp.file("s/spill"));
+  { ScratchDir dir(temp.file("s")); }
+  EXPECT_EQ(temp.entries(), 0U);
+}
+
 TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
   const TempFolder folder;
   const std::string path = folder.file("s");

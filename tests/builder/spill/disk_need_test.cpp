@@ -41,6 +41,17 @@ TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   EXPECT_SVDAG_ERROR(runs.expect_runs(4 * free, 0.5), ExitCode::kOutput, "free");
 }
 
+// In double the share of all of them may be a byte less than what there is.
+TEST(DiskNeed, IsNeverLessThanWhatWasSpilled) {
+  const TempFolder directory;
+  MemoryBudget budget;
+  ScratchDir folder(directory.file("scratch"));
+  Scratch scratch(&folder, &budget);
+  DiskNeed need(&scratch);
+  EXPECT_NO_THROW(need.expect_spilled(177'781'662, 177'781'662, 107'011'787));
+  EXPECT_EQ(need.estimate(), 107'011'787U);
+}
+
 // A triangle that crosses the grid takes more than its corners: it stands in many bins.
 TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   const TempFolder folder;
@@ -65,6 +76,19 @@ TEST(DiskNeed, OfAPartIsThatOfItsTriangles) {
   EXPECT_GT(report.split.outside, 50'000U);
   EXPECT_GT(report.scratch.written, 0U);
   EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
+}
+
+// All triangles of the scene would not fit in memory; those of a part may.
+TEST(DiskNeed, OfAPartThatFitsIsNothing) {
+  const TempFolder folder;
+  write_stl(folder.file("scene.stl"), random_soup(100'000, 0.02, 23));
+  BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.run"), 7);
+  config.memory = 24 * kMiB;
+  config.part = Part::share(1, 16);
+  ASSERT_GT(100'000 * sizeof(LatticeTriangle), config.memory / 4);
+  const BuildReport report = bake(config);
+  EXPECT_EQ(report.scratch.written, 0U);
+  EXPECT_EQ(report.scratch.estimated, 0U);
 }
 
 }  // namespace
