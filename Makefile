@@ -130,7 +130,7 @@ bundle: build
 	echo "build/bundle/$$name.tar.gz"
 
 deb: build
-	@cd $(PROGRAMS) && cpack -G DEB -B ../deb >/dev/null && cd ../deb && ls $$PWD/*.deb
+	@cd $(PROGRAMS) && cpack -G DEB -B ../deb >/dev/null && cd ../deb && ls "$$PWD"/*.deb
 
 # nvcc from PATH, or from pinned wheels (300 MB, into build/cuda-venv).
 cuda: deps

@@ -44,11 +44,16 @@ class Bundle(unittest.TestCase):
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
 
+    def test_brings_the_notices_of_its_libraries(self):
+        found = {p.parent.name for p in (self.bundle / "share/doc").glob("*/copyright") if p.stat().st_size > 0}
+        self.assertLessEqual({"libstdc++6", "libxxhash0"}, found)
+
     def test_brings_its_manual(self):
         shown = self.run_bundled("man", "-M", self.bundle / "share" / "man", "svdag-build") if shutil.which("man") else \
             (self.bundle / "share/man/man1/svdag-build.1").read_text()
         self.assertIn("Bake scene files as one .svdag", shown)
         self.assertTrue((self.bundle / "share/bash-completion/completions/svdag").exists())
+        self.assertTrue((self.bundle / "share/doc/svdag/docs/farm.md").exists())
 
     def test_nothing_but_libc_is_found_outside(self):
         for program in (self.bundle / "bin").iterdir():

@@ -219,6 +219,7 @@ int run_build(const BuildCommandConfig& config) {
     fail_usage("--dry-run bakes nothing to report: leave --report out");
   if (config.keep_going && config.batch.empty()) fail_usage("--keep-going is for --batch");
   if (!config.batch.empty()) return run_batch(config);
+  refuse_plans(config.build.scene.paths, "--shard");
   refuse_overwriting(config);
   if (config.dry_run) return run_dry(config);
   bake_scene(config);

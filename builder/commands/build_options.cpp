@@ -153,6 +153,8 @@ BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
   set_up_build(&app, &config);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    fail_usage("help is no part of a bake: svdag build --help has it");
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, arguments, error));
   }

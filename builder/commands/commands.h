@@ -93,6 +93,8 @@ int run_info(const InfoCommandConfig& config);
 int run_shard(const BuildCommandConfig& config);
 int run_merge_step(const MergeCommandConfig& config);
 int run_dry(const BuildCommandConfig& config);
+// Error (kUsage) if a plan stands where there should be a scene or a run: `option` was forgotten.
+void refuse_plans(const std::vector<std::string>& paths, const char* option);
 // run_build with --batch: all bakes of a list. bake_scene does one; *json, if given, gets its
 // report.
 int run_batch(const BuildCommandConfig& config);

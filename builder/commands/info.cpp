@@ -81,14 +81,21 @@ int run_info(const InfoCommandConfig& config) {
   const auto refuse = [&](bool given, const char* option, const char* what) {
     if (given) fail_usage(std::string(option) + ": " + first + " is a " + what);
   };
+  const auto refuse_options_of_scenes = [&](const char* what) {
+    refuse(config.parts, "--parts", what);
+    refuse(!config.names.include.empty(), "--include", what);
+    refuse(!config.names.exclude.empty(), "--exclude", what);
+    refuse(config.skip_invalid, "--skip-invalid", what);
+    refuse(config.sandbox, "--sandbox", what);
+  };
   if (one && is_plan(first)) {
-    refuse(config.parts, "--parts", "plan");
+    refuse_options_of_scenes("plan");
     info_plan(config);
   } else if (one && begins_with(kMagic, first)) {
-    refuse(config.parts, "--parts", ".svdag");
+    refuse_options_of_scenes(".svdag");
     info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {
-    refuse(config.parts, "--parts", "run");
+    refuse_options_of_scenes("run");
     refuse(config.levels, "--levels", "run");
     info_run(config);
   } else {

@@ -20,7 +20,7 @@ CLI::App* add_help(CLI::App* program, std::string* subject) {
   return app;
 }
 
-int run_command(int argc, char** argv) {
+int run_command(int argc, char** argv, ProgramWords* words) {
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
@@ -48,6 +48,8 @@ int run_command(int argc, char** argv) {
                    "\n\nsvdag-verify proves what was baked, and makes pictures of it; "
                    "svdag-trace traces rays through it.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
+  if (build.build.unfinished == Unfinished::kRestart)
+    words->resumable = "stopped; the same command with --resume in place of --restart continues";
   return build_app->parsed()    ? run_build(build)
          : merge_app->parsed()  ? run_merge(merge)
          : plan_app->parsed()   ? run_plan(plan)
@@ -62,8 +64,8 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   svdag::catch_interrupts();
-  const svdag::ProgramWords words{.name = "svdag",
-                                  .stopped = "stopped; nothing was saved to continue from",
-                                  .resumable = "stopped; the same command with --resume continues"};
-  return svdag::run_program(words, [&] { return svdag::run_command(argc, argv); });
+  svdag::ProgramWords words{.name = "svdag",
+                            .stopped = "stopped; nothing was saved to continue from",
+                            .resumable = "stopped; the same command with --resume continues"};
+  return svdag::run_program(words, [&] { return svdag::run_command(argc, argv, &words); });
 }

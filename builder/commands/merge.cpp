@@ -41,6 +41,7 @@ void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
 
 int run_merge(const MergeCommandConfig& config) {
   if (!config.step.empty()) return run_merge_step(config);
+  refuse_plans(config.merge.runs, "--step");
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   refuse_overwriting_inputs(config.merge);
   AtomicFile::check(config.merge.output);

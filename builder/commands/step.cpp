@@ -7,6 +7,7 @@
 #include "builder/farm/run_step.h"
 #include "builder/farm/shell.h"
 #include "builder/farm/step_name.h"
+#include "builder/run/bake_output.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
@@ -28,11 +29,21 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
   return shell_words(words);
 }
 
+// The receipt of the step is that of the kind of file that the plan says.
+void require_same_kind(const PlanStep& step, const std::string& output) {
+  refuse_foreign_name(output);
+  if (names_run(output) == names_run(step.output)) return;
+  fail_usage(output + ": " + step.name +
+             (names_run(step.output) ? " makes a run: choose an output that ends in .run"
+                                     : " makes a .svdag: choose an output that is no .run"));
+}
+
 int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
         const OutputConfig& output) {
   CommandFiles files;
   files.read(plan, &step);
   files.write(config.output.empty() ? plan.path(step.output) : config.output);
+  if (!config.output.empty()) require_same_kind(step, config.output);
   ParallelExecutor executor(threads != 0 ? threads : step.threads);
   Progress progress(output.mode());
   StepReport report;
@@ -60,7 +71,10 @@ int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t
 }
 
 void require_one_plan(const std::vector<std::string>& paths, const char* option) {
-  if (paths.size() != 1 || !is_plan(paths.front()))
+  if (paths.size() != 1)
+    fail_usage(std::string(option) + " is for one plan, and " + std::to_string(paths.size()) +
+               " names are given: leave all but the plan's out");
+  if (!is_plan(paths.front()))
     fail_usage(std::string(option) + " is for a plan, and " + paths.front() +
                " is none: svdag plan makes one");
 }
@@ -77,6 +91,14 @@ void require_options_of_a_step(const std::vector<std::string>& given) {
 }
 
 }  // namespace
+
+void refuse_plans(const std::vector<std::string>& paths, const char* option) {
+  for (const std::string& path : paths) {
+    if (is_plan(path))
+      fail_usage(path + " is a plan: name one of its steps with " + option +
+                 ", or do them all with svdag run");
+  }
+}
 
 int run_shard(const BuildCommandConfig& config) {
   const BuildConfig& build = config.build;

@@ -1,6 +1,5 @@
 #include "builder/farm/make_plan.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "builder/farm/plan_folder.h"
 #include "builder/farm/step_name.h"
 #include "builder/scene_watch.h"
+#include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/file.h"
 #include "streaming/file_folder.h"
@@ -29,11 +29,9 @@ constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not wor
 constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
 constexpr size_t kSmallestBlock = 1 << 14;
 
-// True if it was not there.
-bool make_folder(const std::string& path) {
-  if (::mkdir(path.c_str(), 0777) == 0) return true;
-  if (errno == EEXIST) return false;
-  throw Error(ExitCode::kOutput, "this folder cannot be made", path);
+void refuse_a_plan(const std::string& folder) {
+  if (is_plan(folder))
+    fail_usage(folder + " holds a plan, and plans do not change: choose another folder");
 }
 
 // Names that a plan could not write down are refused before there is work to lose.
@@ -106,7 +104,9 @@ class Planner {
 };
 
 // What a killed plan left behind goes; a bake whose output has the name of this scratch does not.
+// Another process may have finished its plan before it gave the scratch folder back.
 void Planner::make_room() {
+  if (!config_.folder.empty()) refuse_a_plan(config_.folder);
   if (!Checkpoint::exists(folder_)) return folder_.clear();
   folder_.keep();
   fail_usage(folder_.path() + " holds an unfinished bake: finish it, or choose another --scratch");
@@ -259,13 +259,14 @@ Plan make_plan(const PlanConfig& config, Progress* progress) {
   if (!own.folder.empty()) {
     while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
     own.folder = absolute_path(own.folder);
-    if (is_plan(own.folder))
-      fail_usage(own.folder + " holds a plan, and plans do not change: choose another folder");
+    refuse_a_plan(own.folder);
     require_names(own);
     refuse_strange_files(own.folder, own.output);
     made = make_folder(own.folder);
   }
   try {
+    // The last step gives it its name: nobody shall bake for one that cannot be given.
+    if (!own.folder.empty()) AtomicFile::check(own.folder + "/" + own.output);
     return Planner(own, progress).run();
   } catch (...) {
     if (made) (void)!::rmdir(own.folder.c_str());  // unless there is something in it

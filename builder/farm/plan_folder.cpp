@@ -1,11 +1,15 @@
 #include "builder/farm/plan_folder.h"
 
+#include <sys/stat.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
 #include "builder/farm/receipt.h"
 #include "streaming/error.h"
+#include "streaming/file_calls.h"
 
 namespace svdag {
 namespace {
@@ -22,6 +26,12 @@ bool is_planned(const std::string& folder, const std::string& name, const std::s
 }
 
 }  // namespace
+
+bool make_folder(const std::string& path) {
+  if (::mkdir(path.c_str(), 0777) == 0) return true;
+  if (errno == EEXIST) return false;
+  fail_call(ExitCode::kOutput, "this folder cannot be made", path, errno);
+}
 
 std::vector<std::string> own_files(const std::string& folder) {
   return {folder + "/plan.json", folder + "/index", folder + "/" + kPlanTriangles};

@@ -8,6 +8,9 @@
 
 namespace svdag {
 
+// True if it was not there, and is now. Error (kOutput) if it cannot be made.
+bool make_folder(const std::string& path);
+
 // The plan's own three files, as paths.
 std::vector<std::string> own_files(const std::string& folder);
 // All files of a plan: its own, and what its steps make, with the receipts.

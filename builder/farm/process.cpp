@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "streaming/error.h"
+#include "streaming/file_calls.h"
 
 extern char** environ;
 
@@ -30,6 +31,23 @@ class FileActions {
 
  private:
   posix_spawn_file_actions_t actions_;
+};
+
+// Opened here and not by the child, so that an Error names the log, not the program.
+class LogFile {
+ public:
+  explicit LogFile(const std::string& path)
+      : fd_(retry_interrupted([&] {
+          return ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        })) {
+    if (fd_ < 0) fail_call(ExitCode::kOutput, "cannot be opened", path, errno);
+  }
+  LogFile(const LogFile&) = delete;
+  ~LogFile() { ::close(fd_); }
+  int descriptor() const { return fd_; }
+
+ private:
+  int fd_;
 };
 
 pid_t spawn(const std::vector<std::string>& command, const FileActions& actions) {
@@ -65,10 +83,11 @@ int wait_for(pid_t process) {
 }  // namespace
 
 pid_t start_process(const std::vector<std::string>& command, const std::string& log) {
+  const LogFile file(log);
   FileActions actions;
-  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
-  actions.open(STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
+  actions.duplicate(file.descriptor(), STDOUT_FILENO);
   actions.duplicate(STDOUT_FILENO, STDERR_FILENO);
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
   return spawn(command, actions);
 }
 

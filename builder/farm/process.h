@@ -10,7 +10,7 @@ namespace svdag {
 
 // Starts `command` (a path or a name on PATH, and arguments) in a process group of its own, so that
 // Ctrl-C reaches it only through us, with empty input; what it says is appended to the file `log`.
-// Error (kOutput) if it cannot be started.
+// Error (kOutput) if the log cannot be written, or the command not be started.
 pid_t start_process(const std::vector<std::string>& command, const std::string& log);
 
 // True once the process has ended; *code is then its exit code, or 128 + n if signal n ended it.

@@ -1,11 +1,14 @@
 #include "builder/farm/run_local.h"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <thread>
 
 #include "builder/farm/live_table.h"
+#include "builder/farm/plan_folder.h"
 #include "builder/farm/process.h"
 #include "builder/farm/receipt.h"
 #include "builder/farm/run_step.h"
@@ -27,13 +30,29 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// What the step said when it failed, by the end of its log.
-std::string last_words(const std::string& path) {
-  const File file = File::open_read(path);
-  const uint64_t size = file.size(), most = std::min<uint64_t>(size, 4096);
-  std::string text(most, ' ');
-  file.read_at(size - most, std::as_writable_bytes(std::span(text)));
+// 0 if there is no log yet.
+uint64_t size_of(const std::string& log) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(log, none);
+  return none ? 0 : size;
+}
+
+// The last line behind byte `begin` of a log; earlier attempts said what stands before.
+std::string last_words(const std::string& log, uint64_t begin) {
+  const File file = File::open_read(log);
+  const uint64_t size = file.size();
+  std::string text(std::min<uint64_t>(size - std::min(size, begin), 4096), ' ');
+  file.read_at(size - text.size(), std::as_writable_bytes(std::span(text)));
   return last_line_of(text);
+}
+
+// Why a step failed that said nothing.
+std::string reason_of(int code) {
+  if (code <= 128) return "it said nothing, exit code " + std::to_string(code);
+  return "it was ended by signal " + std::to_string(code - 128) +
+         (code == 128 + SIGKILL
+              ? ", often because no memory was left: run fewer steps at once with -j"
+              : "");
 }
 
 class Runner {
@@ -43,6 +62,7 @@ class Runner {
         config_(config),
         rows_(plan.steps.size()),
         written_(plan.steps.size()),
+        said_(plan.steps.size()),
         table_(plan, config.table, config.quiet) {}
 
   void run() {
@@ -137,6 +157,8 @@ class Runner {
     }
     row.begin = Clock::now();
     written_[i] = last_write(i);
+    make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty
+    said_[i] = size_of(log_of(i));
     row.process = start_process(command, log_of(i));
     row.state = StepState::kRunning;
     ++row.attempts;
@@ -176,8 +198,9 @@ class Runner {
       first = std::min(first, i);
     }
     if (failed == 0) return;
-    std::string said = last_words(log_of(first));
+    std::string said = last_words(log_of(first), said_[first]);
     if (said.starts_with("svdag: ")) said = said.substr(7);
+    if (said.empty()) said = reason_of(rows_[first].code);
     throw Error(ExitCode(rows_[first].code),
                 (failed == 1 ? "" : std::to_string(failed) + " steps failed, first ") +
                     plan_.steps[first].name + " failed: " + said + " (" + log_of(first) + ")");
@@ -187,8 +210,9 @@ class Runner {
 
   const Plan& plan_;
   const RunLocalConfig& config_;
-  std::vector<StepRow> rows_;  // by step
-  std::vector<Time> written_;  // when the receipts were, before the steps began
+  std::vector<StepRow> rows_;   // by step
+  std::vector<Time> written_;   // when the receipts were, before the steps began
+  std::vector<uint64_t> said_;  // bytes of the logs, before the steps began
   LiveTable table_;
 };
 

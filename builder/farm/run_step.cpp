@@ -4,6 +4,7 @@
 
 #include "builder/build.h"
 #include "builder/farm/leaf_bins.h"
+#include "builder/farm/plan_folder.h"
 #include "builder/merge_runs.h"
 #include "streaming/scratch_dir.h"
 
@@ -81,6 +82,7 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
     report.receipt = *read_receipt(plan, step);
     return report;
   }
+  make_folder(plan.path("runs"));  // a copy of a plan may lack what was empty
   const auto work = step.is_shard() ? bake_shard : merge_inputs;
   try {
     report.receipt = work(plan, step, config, report.output, executor, progress);

@@ -25,6 +25,20 @@ std::string relative_to(const std::string& folder, const std::string& path) {
   return error ? path : relative.string();
 }
 
+// Hosts work in folders of their own. Links are those of the host: they stay.
+std::string from_anywhere(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  return error ? path : absolute.lexically_normal().string();
+}
+
+// A program without a folder is looked up on the PATH of the host.
+std::string program_of(const OpenJdConfig& config) {
+  if (config.program.empty()) return own_program();
+  const bool bare = config.program.find('/') == std::string::npos;
+  return bare ? config.program : from_anywhere(config.program);
+}
+
 // Steps that may run at the same time, as one step of the template with a task each.
 struct Stage {
   std::string name;
@@ -70,7 +84,7 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
   arguments.push_back(shards ? kNumber : merge_name(kNumber));
   if (!config.scratch.empty()) {
     arguments.push_back("--scratch");
-    arguments.push_back(config.scratch);
+    arguments.push_back(from_anywhere(config.scratch));
   }
   return {{"name", stage.name},
           {"parameterSpace",
@@ -102,7 +116,7 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
                    {{"name", "Svdag"},
                     {"type", "STRING"},
                     {"description", "The program svdag on the hosts"},
-                    {"default", config.program.empty() ? own_program() : config.program}}});
+                    {"default", program_of(config)}}});
   std::string before;
   for (const Stage& stage : stages_of(plan)) {
     Json step = step_json(plan, config, stage);

@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "builder/farm/plan_folder.h"
 #include "builder/farm/process.h"
 #include "builder/farm/receipt.h"
 #include "builder/farm/shell.h"
@@ -73,6 +74,20 @@ std::string task_list(const std::vector<size_t>& numbers) {
   return list;
 }
 
+// Slurm takes a % in the name of a log for the begin of a pattern.
+std::string without_patterns(const std::string& path) {
+  std::string text;
+  for (const char c : path) text += c == '%' ? "%%" : std::string(1, c);
+  return text;
+}
+
+// What becomes of jobs, and what the user may do about it; `ids` have commas between them.
+void tell_queued(const char* why, std::string ids) {
+  std::fprintf(stderr, "svdag: %swhat was submitted goes on (squeue --jobs=%s)", why, ids.c_str());
+  std::replace(ids.begin(), ids.end(), ',', ' ');
+  std::fprintf(stderr, " until it is done, or cancelled (scancel %s)\n", ids.c_str());
+}
+
 class Submission {
  public:
   Submission(const Plan& plan, const SlurmConfig& config)
@@ -84,7 +99,8 @@ class Submission {
       if (!config_.quiet) std::printf("every step of the plan is done\n");
       return;
     }
-    for (Job& job : jobs_) submit(&job);
+    make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty
+    submit_all();
     if (config_.wait) wait();
   }
   // Of the jobs that were submitted, with commas between them.
@@ -106,6 +122,7 @@ class Submission {
     return array_ > 1 && plan_.steps[job.steps.front()].is_shard();
   }
   std::string log_of(const Job& job) const;
+  void submit_all();
   void submit(Job* job);
   std::string script_of(const Job& job) const;
   std::string dependencies_of(const Job& job) const;
@@ -187,7 +204,16 @@ std::string Submission::log_of(const Job& job) const {
     name =
         shard_name(array == 0 ? "%a" : std::to_string(array) + "%" + std::to_string(digits) + "a");
   }
-  return plan_.path("logs/" + name + ".slurm.log");
+  return without_patterns(plan_.folder) + "/logs/" + name + ".slurm.log";
+}
+
+void Submission::submit_all() {
+  try {
+    for (Job& job : jobs_) submit(&job);
+  } catch (const Error&) {
+    if (const std::string ids = jobs(); !ids.empty()) tell_queued("", ids);
+    throw;
+  }
 }
 
 void Submission::submit(Job* job) {
@@ -220,7 +246,8 @@ void Submission::submit(Job* job) {
   command.insert(command.end(), config_.options.begin(), config_.options.end());
   command.push_back(job->script);
   const Answer answer = ask_sbatch(command);
-  if (answer.code != 0) fail_usage("sbatch refused " + job->name + ": " + one_line(answer.output));
+  if (answer.code != 0)  // it may pass: a limit of jobs, a controller that restarts
+    throw Error(ExitCode::kOutput, "sbatch refused " + job->name + ": " + one_line(answer.output));
   const std::string line =
       last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
   job->id = line.substr(0, line.find(';'));
@@ -270,15 +297,12 @@ void Submission::wait() const {
                                      "; submitting again does only what is missing");
 }
 
-void tell_interrupted(std::string ids) {
+void tell_interrupted(const std::string& ids) {
   if (ids.empty()) {
     std::fprintf(stderr, "svdag: stopped; nothing was submitted\n");
     return;
   }
-  std::fprintf(stderr, "svdag: stopped; what was submitted goes on (squeue --jobs=%s)",
-               ids.c_str());
-  std::replace(ids.begin(), ids.end(), ',', ' ');
-  std::fprintf(stderr, " until it is done, or cancelled (scancel %s)\n", ids.c_str());
+  tell_queued("stopped; ", ids);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ svdag export a.svdag -o a.vdb --format foo || echo "exit $?"
 svdag export a.svdag -o a.vdb --level 7 || echo "exit $?"
 svdag export a.svdag -o a.vdb --bounds=1,2,3 || echo "exit $?"
 svdag export a.svdag -o a.svdag --format vdb || echo "exit $?"
+svdag export a.svdag -o a.vdb --max-voxels 3 || echo "exit $?"
 svdag export a.svdag || echo "exit $?"
 svdag export none.svdag -o a.vdb || echo "exit $?"
 ls

@@ -10,6 +10,7 @@ svdag import a.vox -o b.svdag --format foo || echo "exit $?"
 svdag import a.vox -o b.svdag --format npz || echo "exit $?"
 svdag import a.vox -o b.svdag --grid occupancy || echo "exit $?"
 svdag import a.vox -o b.svdag --iso=0,1 || echo "exit $?"
+svdag import a.vox -o b.run || echo "exit $?"
 svdag import a.vox || echo "exit $?"
 svdag import none.vox -o b.svdag || echo "exit $?"
 ls

@@ -58,6 +58,19 @@ class Package(unittest.TestCase):
         program = self.install() / "bin" / "svdag-verify"
         self.assertIn("ok", run(program, "check", self.file))
 
+    def test_a_project_that_holds_this_one_finds_its_headers(self):
+        source, build = self.root / "holder", self.root / "holder_build"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(holder LANGUAGES CXX)\n"
+            f"add_subdirectory({ROOT} svdag)\nadd_executable(mapped {READER}/mapped.cpp)\n"
+            "target_link_libraries(mapped PRIVATE svdag_dag_view)\n")
+        without = [f"-DSVDAG_{option}=OFF" for option in ("DRACO", "OPENMESH", "CGAL", "OPENVDB", "EMBREE")]
+        run("cmake", "-G", "Ninja", "-S", source, "-B", build, *without)
+        run("cmake", "--build", build, "--target", "mapped")
+        self.assertEqual(run(build / "mapped", self.file).split(), self.counts)
+        self.assertFalse((build / "CPackConfig.cmake").exists(), "packaging is the other project's")
+
     def test_debian_packages_name_what_they_need(self):
         run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.root / "deb")
         packages = {p.name.split("_")[0]: p for p in (self.root / "deb").glob("*.deb")}
@@ -74,10 +87,12 @@ class Package(unittest.TestCase):
             self.assertIn({"svdag": "builder", "libsvdag-dev": "reader"}[name], synopsis)
         held = run("dpkg-deb", "-c", packages["svdag"])
         self.assertIn("./usr/bin/svdag-verify\n", held)
-        for path in ("man/man1/svdag-build.1.gz", "man/man7/svdag-grid.7.gz", "bash-completion/completions/svdag",
+        for path in ("doc/svdag/docs/farm.md", "man/man1/svdag-build.1.gz", "man/man7/svdag-grid.7.gz", "bash-completion/completions/svdag",
                      "zsh/vendor-completions/_svdag", "fish/vendor_completions.d/svdag.fish"):
             self.assertIn(f"./usr/share/{path}\n", held)
-        self.assertIn("./usr/lib/cmake", run("dpkg-deb", "-c", packages["libsvdag-dev"]).replace("/x86_64-linux-gnu", ""))
+        held = run("dpkg-deb", "-c", packages["libsvdag-dev"])
+        self.assertIn("./usr/lib/cmake", held.replace("/x86_64-linux-gnu", ""))
+        self.assertIn("./usr/share/doc/libsvdag-dev/format.md\n", held)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #include "builder/commands/export/export.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "builder/commands/export/selection.h"
@@ -62,6 +63,15 @@ int checked_level(const DagFile& file, std::optional<int> asked) {
   return level;
 }
 
+void refuse_options_of_others(const Row& row, const ExportConfig& config) {
+  const std::string format = row.format.name;
+  if (config.as_bool && row.write != export_vdb)
+    fail_usage("--bool: only vdb has grids of type bool, and this is " + format);
+  const auto lists = {export_npz, export_binvox, export_vox, export_ply};
+  if (config.max_voxels && std::find(lists.begin(), lists.end(), row.write) == lists.end())
+    fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, and this is " + format);
+}
+
 void refuse_own_input(const Row& row, const ExportConfig& config) {
   const auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
   for (const std::string& file : files) {
@@ -87,9 +97,7 @@ std::vector<ExportFormat> export_formats() {
 
 int run(const ExportConfig& asked) {
   const Row& row = choose(asked);
-  if (asked.as_bool && row.write != export_vdb)
-    fail_usage("--bool: only vdb has grids of type bool, and this is " +
-               std::string(row.format.name));
+  refuse_options_of_others(row, asked);
   const DagFile file = DagFile::open(asked.file);
   Selection selection(file, asked);
   ExportConfig config = asked;

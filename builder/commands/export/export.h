@@ -16,12 +16,12 @@ namespace svdag {
 struct ExportConfig {
   std::string file;
   std::string output;
-  std::string format;                   // a name of export_formats(); empty: by the output's ending
-  std::optional<int> level;             // whose nodes become voxels; none: L, the finest
-  std::optional<Box> bounds;            // only the voxels whose interior meets this box
-  uint64_t max_voxels = 1'000'000'000;  // of formats that list or fill voxels; more are refused
-  bool as_bool = false;                 // VDB grids of type bool, for readers that know no masks
-  uint64_t memory = 0;                  // 0: half of what the machine allows
+  std::string format;                  // a name of export_formats(); empty: by the output's ending
+  std::optional<int> level;            // whose nodes become voxels; none: L, the finest
+  std::optional<Box> bounds;           // only the voxels whose interior meets this box
+  std::optional<uint64_t> max_voxels;  // of formats that list voxels; none: 10^9. More are refused
+  bool as_bool = false;                // VDB grids of type bool, for readers that know no masks
+  uint64_t memory = 0;                 // 0: half of what the machine allows
   bool quiet = false;
 };
 

@@ -9,6 +9,8 @@
 namespace svdag {
 namespace {
 
+constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says more or less
+
 // Set voxels of the window; of the whole file its header knows them.
 uint64_t count(Selection* selection) {
   const Grid& grid = selection->grid;
@@ -19,9 +21,10 @@ uint64_t count(Selection* selection) {
 
 Window window_of(Selection* selection, const ExportConfig& config) {
   const Window window{selection->grid, &selection->walk, count(selection)};
-  if (window.voxels > config.max_voxels)
+  const uint64_t most = config.max_voxels.value_or(kMostVoxels);
+  if (window.voxels > most)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
-               format_count(config.max_voxels) +
+               format_count(most) +
                ": export a coarser --level, a part with --bounds, or raise --max-voxels");
   return window;
 }

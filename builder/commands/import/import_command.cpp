@@ -105,6 +105,9 @@ int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
   refuse_foreign_name(config.import.output);
+  if (names_run(config.import.output))
+    fail_usage(config.import.output +
+               ": an import is a .svdag, and this is the name of a run: choose another one");
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
   const Row& row = choose(config, file);

@@ -38,14 +38,13 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "vdb: the values of a float grid that are set, for example --iso=-inf,0")
       ->type_name("LOW,HIGH");
   app->add_flag("--sandbox", config->sandbox,
-                "Decode OpenVDB data in a limited process: for files of strangers");
+                "vdb: decode in a process that can only compute, for files of strangers");
   add_memory_budget(app, &import->memory);
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");
-  takes_folder(
-      app->add_option("--scratch", import->scratch,
-                      "Folder for what does not fit in memory (default: OUT.svdag.scratch)"))
+  takes_folder(app->add_option("--scratch", import->scratch,
+                               "Folder for what does not fit in memory (default: OUT.scratch)"))
       ->type_name("DIR");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,

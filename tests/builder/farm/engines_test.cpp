@@ -135,7 +135,32 @@ TEST_F(Engines, LeaveOutWhatCannotBeDoneAndTellWhy) {
 }
 
 TEST_F(Engines, GiveUpWhatFailsTwice) {
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -9 $$"), ExitCode(128 + 9), "shard-1");
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -9 $$"), ExitCode(128 + 9),
+                     "shard-1 failed: it was ended by signal 9, often because no memory was left");
+}
+
+TEST_F(Engines, TellWhatWasSaidThisTimeOnly) {
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || { echo 'svdag: it is broken'; exit 3; }"),
+                     ExitCode::kBadInput, "shard-1 failed: it is broken");
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -11 $$"), ExitCode(128 + 11),
+                     "shard-1 failed: it was ended by signal 11 (");
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || exit 3"), ExitCode::kBadInput,
+                     "shard-1 failed: it said nothing, exit code 3 (");
+}
+
+TEST_F(Engines, MakeTheFoldersThatACopyOfAPlanLacks) {
+  for (const char* name : {"logs", "runs"}) std::filesystem::remove_all(plan_.path(name));
+  run("");
+  EXPECT_TRUE(std::filesystem::exists(plan_.path("logs/shard-1.log")));
+  std::filesystem::remove_all(plan_.path("logs"));
+  EXPECT_EQ(submitted().size(), 4u);
+  EXPECT_TRUE(std::filesystem::exists(plan_.path("logs/merge-1.sh")));
+  do_steps(plan_);
+}
+
+TEST_F(Engines, NameTheLogThatCannotBeWritten) {
+  std::filesystem::create_directory(plan_.path("logs/shard-1.log"));
+  EXPECT_SVDAG_ERROR(run(""), ExitCode::kOutput, "logs/shard-1.log: cannot be opened: ");
 }
 
 TEST_F(Engines, SubmitAnArrayOfShardsAndMergesThatWaitForTheirs) {
@@ -227,7 +252,43 @@ TEST_F(LargePlans, GoShardByShardWhereSlurmHasNoArrays) {
 
 TEST_F(Engines, SayWhatSbatchSays) {
   program("sbatch", "echo 'sbatch: error: no such partition' >&2; exit 1");
-  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kUsage, "no such partition");
+  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kOutput, "no such partition");
+}
+
+TEST_F(Engines, TellWhatIsQueuedWhenSbatchRefusesTheRest) {
+  program("sbatch",
+          "for last; do :; done\n"
+          "case $last in *merge-2*) exit 1;; *merge-1*) echo 8;; *) echo 7;; esac\n");
+  ::testing::internal::CaptureStderr();
+  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kOutput, "sbatch refused merge-2");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "svdag: what was submitted goes on (squeue --jobs=7,8) until it is done, or cancelled "
+            "(scancel 7 8)\n");
+}
+
+TEST_F(Engines, NameLogsInAFolderWithAPercentSign) {
+  const std::string folder = folder_.file("50%away");
+  std::filesystem::rename(plan_.folder, folder);
+  plan_.folder = folder;
+  const std::vector<std::string> jobs = submitted();
+  ASSERT_EQ(jobs.size(), 4u);
+  EXPECT_NE(jobs[0].find("/50%%away/logs/shard-%a.slurm.log "), std::string::npos) << jobs[0];
+}
+
+TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
+  const auto described = [&](const std::string& program, const std::string& scratch) {
+    OpenJdConfig config;
+    config.program = program;
+    config.scratch = scratch;
+    config.path = plan_.path("openjd.json");
+    const auto json = nlohmann::json::parse(openjd_template(plan_, config));
+    const auto arguments = json["steps"][0]["script"]["actions"]["onRun"]["args"];
+    return std::pair<std::string, std::string>(json["parameterDefinitions"][1]["default"],
+                                               arguments.back());
+  };
+  const std::string here = std::filesystem::current_path().string() + "/";
+  EXPECT_EQ(described("bin/svdag", "spill"), std::pair(here + "bin/svdag", here + "spill"));
+  EXPECT_EQ(described("svdag", "/spill"), std::pair(std::string("svdag"), std::string("/spill")));
 }
 
 TEST_F(Engines, DescribeStagesToOpenJobDescription) {

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <numeric>
+#include <optional>
 #include <random>
+#include <thread>
 
 #include "builder/farm/leaf_bins.h"
+#include "streaming/scratch_dir.h"
 #include "tests/builder/farm/plans.h"
 #include "tests/temp_folder.h"
 
@@ -76,6 +80,34 @@ TEST_F(Plans, ShardsReadFewTrianglesThatOthersRead) {
 TEST_F(Plans, DoNotChange) {
   plan_of(config());
   EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
+}
+
+// The scratch folder is waited for: whoever had it may have finished a plan.
+TEST_F(Plans, DoNotReplaceOneThatAnotherProcessJustFinished) {
+  const std::string folder = config().folder;
+  std::filesystem::create_directory(folder);
+  std::optional<ScratchDir> others(folder + "/plan.scratch");
+  const std::jthread end([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    folder_.write("plan/plan.json", "theirs");
+    others.reset();
+  });
+  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
+  EXPECT_EQ(folder_.read("plan/plan.json"), "theirs");
+}
+
+TEST_F(Plans, SayWhyTheirFolderCannotBeMade) {
+  PlanConfig lost = config();
+  lost.folder = folder_.file("none/plan");
+  EXPECT_SVDAG_ERROR(plan_of(lost), ExitCode::kOutput,
+                     "this folder cannot be made: no such file or folder");
+}
+
+TEST_F(Plans, HaveAnOutputWhoseNameCanBeGiven) {
+  PlanConfig endless = config();
+  endless.output = std::string(256, 'x');
+  EXPECT_SVDAG_ERROR(plan_of(endless), ExitCode::kOutput, "is too long for the name of a file");
+  EXPECT_FALSE(std::filesystem::exists(endless.folder)) << "nothing is left";
 }
 
 TEST_F(Plans, NameTheirInputsByContent) {

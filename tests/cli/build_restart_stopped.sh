@@ -1,0 +1,12 @@
+# --resume and --restart exclude each other: what continues a bake that was begun with one of them is said as it can be typed.
+stop() {  # COMMAND...: the signal comes when there is work to resume
+  env --default-signal=INT "$@" &  # a shell lets its background ignore Ctrl-C
+  until ls z.svdag.scratch/journal >/dev/null 2>&1; do sleep 0.02; done
+  sleep 0.1
+  kill -s INT $!
+  wait $! || echo "exit code $?"
+}
+svdag-scene scan -n 70K -q -o s.ply
+stop svdag build s.ply -r 8K -m 8M -o z.svdag -q
+rm -r z.svdag.scratch
+stop svdag build s.ply -r 8K -m 8M -o z.svdag -q --restart
