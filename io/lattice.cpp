@@ -7,10 +7,20 @@
 #include "streaming/error.h"
 
 namespace svdag {
+namespace {
+
+// Of the corner of a grid (io/grid.cpp: 2^38 voxels, and a step of cells); a file may say anything.
+constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
+
+}  // namespace
 
 Lattice::Lattice(const Grid& grid)
     : grid_(grid), fraction_(grid.fraction()), scale_(std::ldexp(1.0, fraction_)) {
   SVDAG_ASSERT(std::fegetround() == FE_TONEAREST);
+  for (int a = 0; a < 3; ++a) {
+    if (grid.k0[a] < -kFarthestPlane || grid.k0[a] > kFarthestPlane)
+      throw Error(ExitCode::kBadInput, "the corner of the grid is more than 2^38 voxels from zero");
+  }
 }
 
 LatticePoint Lattice::snap(const Point& p, double* move) const {

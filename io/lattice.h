@@ -23,6 +23,7 @@ constexpr int64_t last_touched(int64_t q, int shift) noexcept {
 
 class Lattice {
  public:
+  // Error (kBadInput) if the grid's corner is further from zero than cover_lattice() makes any.
   explicit Lattice(const Grid& grid);
 
   // Maps a finite point; 2^62 or more on an axis, before the shift, is an Error (kBadInput). The

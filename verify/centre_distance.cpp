@@ -5,7 +5,8 @@
 namespace svdag {
 namespace {
 
-// With |q| < 2^62 a height is below 2^194 and its square, four times, below 2^390.
+// With |q| < 1.5 * 2^62 (io/lattice.h) a height is below 2^195 and its square, four times, below
+// 2^392.
 namespace mp = boost::multiprecision;
 using Int = mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>,
                        mp::et_off>;

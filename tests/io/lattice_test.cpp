@@ -102,6 +102,20 @@ TEST(Snap, TwoToThe62StepsAreAnErrorAndOneLessIsNot) {
             LatticePoint((int64_t(1) << 62) - 512, -(int64_t(1) << 62) + 512, 0));
 }
 
+// A file may say anything; what is shifted by it would overflow.
+TEST(Snap, AGridFurtherAwayThanAnyIsAnError) {
+  Grid grid;
+  grid.kind = Grid::Kind::kLattice;
+  for (const int64_t sign : {-1, 1}) {
+    grid.k0[1] = sign * ((int64_t(1) << 38) + 1024);
+    EXPECT_NO_THROW(Lattice{grid});
+    for (const int64_t far : {int64_t(1) << 39, INT64_MAX}) {
+      grid.k0[1] = sign * far;
+      EXPECT_THROW(Lattice{grid}, Error);
+    }
+  }
+}
+
 TEST(Snap, NanAndInfinityAreErrors) {
   const Lattice lattice(Grid{});
   for (const double bad :
