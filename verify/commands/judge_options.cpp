@@ -89,7 +89,7 @@ void add_vdb(CLI::App* app, int* result) {
           "Compare only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
   command->add_flag("--sandbox", config->sandbox,
-                    "Decode OpenVDB data in a limited process: for files of strangers");
+                    "Decode in a process that can only compute, for files of strangers");
   command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
       ->type_name("N");
   takes_files(command->add_option("--write-diff", config->write_diff,

@@ -11,16 +11,10 @@ namespace {
 
 constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says more or less
 
-// Set voxels of the window; of the whole file its header knows them.
-uint64_t count(Selection* selection) {
-  const Grid& grid = selection->grid;
-  const bool all =
-      grid.levels == int(selection->file.header().levels) && grid.selection == grid.whole();
-  return all ? selection->file.header().voxels : selection->walk.count_voxels(grid.selection);
-}
-
+// Its voxels are counted, for nothing proves the number in the header of a file.
 Window window_of(Selection* selection, const ExportConfig& config) {
-  const Window window{selection->grid, &selection->walk, count(selection)};
+  const Window window{selection->grid, &selection->walk,
+                      selection->walk.count_voxels(selection->grid.selection)};
   const uint64_t most = config.max_voxels.value_or(kMostVoxels);
   if (window.voxels > most)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
