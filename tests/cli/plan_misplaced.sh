@@ -8,7 +8,7 @@ refused svdag build p --shard 1 s.ply
 refused svdag merge p -o z.svdag
 refused svdag merge p p --step merge-1
 refused svdag submit p --engine slurm -o t.json
-refused svdag submit p p --engine slurm -- --partition=x
+refused svdag submit p p --engine slurm
 refused svdag submit p --engine openjd --wait
 for option in '--include x' '--exclude x' --skip-invalid --sandbox; do refused svdag info p $option; done
 svdag run p -q -j 1
