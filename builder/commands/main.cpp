@@ -20,7 +20,15 @@ CLI::App* add_help(CLI::App* program, std::string* subject) {
   return app;
 }
 
-int run_command(int argc, char** argv, ProgramWords* words) {
+struct CommandLine {
+  int argc;
+  char** argv;
+  ProgramWords words;
+};
+
+int run_command(CommandLine* line) {
+  const int argc = line->argc;
+  char** const argv = line->argv;
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
@@ -49,7 +57,8 @@ int run_command(int argc, char** argv, ProgramWords* words) {
                    "svdag-trace traces rays through it.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
   if (build.build.unfinished == Unfinished::kRestart)
-    words->resumable = "stopped; the same command with --resume in place of --restart continues";
+    line->words.resumable =
+        "stopped; the same command with --resume in place of --restart continues";
   return build_app->parsed()    ? run_build(build)
          : merge_app->parsed()  ? run_merge(merge)
          : plan_app->parsed()   ? run_plan(plan)
@@ -64,8 +73,11 @@ int run_command(int argc, char** argv, ProgramWords* words) {
 
 int main(int argc, char** argv) {
   svdag::catch_interrupts();
-  svdag::ProgramWords words{.name = "svdag",
-                            .stopped = "stopped; nothing was saved to continue from",
-                            .resumable = "stopped; the same command with --resume continues"};
-  return svdag::run_program(words, [&] { return svdag::run_command(argc, argv, &words); });
+  svdag::CommandLine line{argc,
+                          argv,
+                          {.name = "svdag",
+                           .stopped = "stopped; nothing was saved to continue from",
+                           .resumable = "stopped; the same command with --resume continues"}};
+  // One reference: more would take memory, before anybody could say that there is none.
+  return svdag::run_program(line.words, [&line] { return svdag::run_command(&line); });
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 
 #include "builder/commands/command_files.h"
@@ -94,7 +95,8 @@ void require_options_of_a_step(const std::vector<std::string>& given) {
 
 void refuse_plans(const std::vector<std::string>& paths, const char* option) {
   for (const std::string& path : paths) {
-    if (is_plan(path))
+    std::error_code none;
+    if (std::filesystem::is_directory(path, none) && is_plan(path))
       fail_usage(path + " is a plan: name one of its steps with " + option +
                  ", or do them all with svdag run");
   }
