@@ -19,7 +19,7 @@
 // With |q| < 2^41: differences < 2^42; n_w = twice the projected area <= 2^84; (2) divides 84 bits
 // by 42; (3) divides n_u*(U-u0) + n_v*(V-v0), two terms < 2^126 because (U, V) lies inside the
 // triangle's box, so the sum < 2^127 fits Int128. Other triangles (differences < 2^63, checked
-// by the snap) take the same code on 256 bits: 63 + 127 + 2 = 192 bits are needed.
+// by the snap) take the same code on 256 bits: 63 + 126 + 1 = 190 bits are needed.
 //
 // Corners (3) are walked along a line with an exact remainder instead of divided one by one, so a
 // large triangle costs a few nanoseconds per column. The result does not depend on the column

@@ -239,20 +239,21 @@ VoxelPlace read_npz(const File& file, const VoxelSink& sink) {
   }
   VoxelPlace place;
   std::optional<Array> voxels;
-  std::string unread;  // the arrays of other types, which are none of ours
+  std::string unread;  // the first array of another type: none of ours, or not what was meant
   for (const ZipEntry& entry : entries) {
     if (!entry.name.ends_with(".npy")) continue;
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_place(file, name, array, &place);
-    if (array.kind == 0) unread += (unread.empty() ? "" : ", ") + std::string(name);
+    if (array.kind == 0 && unread.empty()) unread = name;
     if (!is_coordinates(array) && !is_dense(array)) continue;
     if (voxels) fail_input(file.path(), "has more than one array that may be the voxels");
     voxels = array;
   }
   if (!voxels)
-    fail_input(file.path(), "has no array of N x 3 integers, and none of three dimensions of bool" +
-                                (unread.empty() ? "" : "; of a type that is not read: " + unread));
+    fail_input(file.path(),
+               "has no array of N x 3 integers, and none of three dimensions of bool" +
+                   (unread.empty() ? "" : "; of a type that is not read: " + unread.substr(0, 40)));
   if (is_dense(*voxels)) {
     for (const uint64_t side : voxels->shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, *voxels, sink);

@@ -4,7 +4,8 @@
 // vertex that double arithmetic pulled apart by an ulp meet again. Where coordinates exceed 1e5, or
 // are twice as far from 0 as from each other, the rounded mean of all corners is subtracted first,
 // in double, so that city coordinates keep their millimetres. On these floats every answer is
-// exact. Rejected: a halfedge mesh, which cannot hold non-manifold edges at all.
+// exact.
+// Rejected: a halfedge mesh, which cannot hold non-manifold edges at all.
 #pragma once
 
 #include <cstdint>

@@ -79,7 +79,7 @@ class OffReader {
   static constexpr TextScanner::Syntax kSyntax = {'#', false};
 
   // [ST][C][N]OFF, the letters in any order (MeshLab writes NCOFF); then the counts, in the next
-  // line, in this one, or in this word (half of the ModelNet files: "OFF8 12 0").
+  // line, in this one, or in this word (files of ModelNet: "OFF8 12 0").
   void read_keyword() {
     scanner_.at_end();
     std::string_view rest = scanner_.word();

@@ -126,11 +126,11 @@ void read_stl(const File& file, const ReadOptions& options, const TriangleSink& 
   const uint64_t size = file.size();
   const uint64_t count = size < kHeader ? 0 : binary_count(file);
   const uint64_t expected = kHeader + kRecord * count;
-  const bool fits = size >= expected && size - expected < kRecord;
-  if (size == expected || (fits && count > 0 && !begins_as_text(file))) {
-    if (options.wants("")) read_binary(file, count, writer);
-  } else if (begins_as_text(file)) {
+  const bool padded = count > 0 && size > expected && size - expected < kRecord;
+  if (size != expected && begins_as_text(file)) {
     TextReader(file, options, &writer).read();
+  } else if (size == expected || padded) {
+    if (options.wants("")) read_binary(file, count, writer);
   } else if (size < kHeader) {
     fail_input(file.path(), "is too short for an STL file");
   } else {

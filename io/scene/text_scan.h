@@ -21,7 +21,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 class TextScanner {
  public:
   struct Syntax {
-    char comment = '\n';        // at the start of a word: the rest of the line is a comment
+    char comment = '\n';        // at the start of a word: the rest of the line is a comment; a line
+                                // end, which ends the line anyway: there are none
     bool continuation = false;  // a backslash before the line's end joins the next line
   };
   static constexpr size_t kLongestWord = 4096;

@@ -6,7 +6,7 @@ corpus it had. What was counted belongs to the bytes of one program: another bui
 
 A corpus grows towards long inputs, which take time and seldom reach more. So three pieces of four take inputs that
 are no longer than half of the seeds are, and choose among them without a count of how rare their features are, which
-takes a third of the time of a large corpus.
+takes the longer the larger a corpus is.
 
 With --seconds each fuzzer runs so long instead, whatever was counted: the short run of make stress.
 

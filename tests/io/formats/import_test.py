@@ -212,8 +212,7 @@ class Import(unittest.TestCase):
                   "complex": numpy.array([1j]), "table": numpy.zeros(3, [("a", "<i4"), ("b", "<f4")])}
         self.assertEqual(self.read(write_foreign.npz(x=x, **others), "o.npz").voxel_count, len(self.few))
         (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**others))
-        self.assertIn("of a type that is not read: names, numbers, complex, table",
-                      BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+        self.assertIn("of a type that is not read: names\n", BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
     def test_little_memory_gives_the_same_bytes(self):
         BAKERY.bake("large", askew(), "-r", "1K")
