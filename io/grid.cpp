@@ -54,7 +54,7 @@ bool Grid::is_possible() const {
     return false;
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(origin[a]) || selection.min[a] < 0 || selection.min[a] > selection.max[a] ||
-        selection.max[a] > resolution())
+        selection.max[a] > resolution() || k0[a] < -kFarthestPlane || k0[a] > kFarthestPlane)
       return false;
   }
   return kind == Kind::kBox || kind == Kind::kLattice;
@@ -90,15 +90,21 @@ Grid cover_lattice(const Box& box, double size) {
       "--bounds");
 }
 
-Grid select_bounds(Grid grid, const Box& bounds) {
+VoxelBox voxels_in(const Grid& grid, const Box& bounds) {
   const Lattice lattice(grid);
   const LatticePoint low = lattice.snap(bounds.min), high = lattice.snap(bounds.max);
+  VoxelBox voxels;
   for (int a = 0; a < 3; ++a) {
     // The open voxel (k, k+1) meets [low, high] iff k * 2^F < high and (k+1) * 2^F > low.
-    grid.selection.min[a] = std::clamp<int64_t>(lattice.last_voxel(low[a]), 0, grid.resolution());
-    grid.selection.max[a] =
-        std::clamp<int64_t>(lattice.first_voxel(high[a]) + 1, 0, grid.resolution());
+    voxels.min[a] = lattice.last_voxel(low[a]);
+    voxels.max[a] = lattice.first_voxel(high[a]) + 1;
   }
+  return voxels.empty() ? VoxelBox{} : voxels;
+}
+
+Grid select_bounds(Grid grid, const Box& bounds) {
+  const VoxelBox voxels = voxels_in(grid, bounds), whole = grid.whole();
+  grid.selection = {glm::max(voxels.min, whole.min), glm::min(voxels.max, whole.max)};
   if (grid.selection.empty()) grid.selection = {};
   grid.bounded = true;
   return grid;

@@ -22,6 +22,9 @@ namespace svdag {
 constexpr int kMinLevels = 3;
 constexpr int kMaxLevels = 20;
 
+// Of the corner of a lattice grid, to both sides of 0: 2^38 voxels, and a step of cells.
+constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
+
 // F: always the same for one L, so that L + F <= 39 bits and every exact test fits 128 bits.
 constexpr int fraction_bits(int levels) {
   return std::min(23, 39 - levels);
@@ -77,7 +80,11 @@ Grid divide_box(const Box& box, int levels);
 // size, or a box of more than 2^20 voxels, is an Error (kUsage).
 Grid cover_lattice(const Box& box, double size);
 
-// Restricts `grid` to the whole voxels whose interior meets the closed `bounds`; never moves it.
+// The voxels whose interior meets the closed `bounds`, also beyond the grid; empty if there is
+// none.
+VoxelBox voxels_in(const Grid& grid, const Box& bounds);
+
+// Restricts `grid` to those of them that it has; never moves it.
 Grid select_bounds(Grid grid, const Box& bounds);
 
 }  // namespace svdag

@@ -7,13 +7,6 @@
 #include "streaming/error.h"
 
 namespace svdag {
-namespace {
-
-// Of the corner of a grid (io/grid.cpp: 2^38 voxels, and a step of cells); a file may say anything.
-constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
-
-}  // namespace
-
 Lattice::Lattice(const Grid& grid)
     : grid_(grid), fraction_(grid.fraction()), scale_(std::ldexp(1.0, fraction_)) {
   SVDAG_ASSERT(std::fegetround() == FE_TONEAREST);

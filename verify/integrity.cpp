@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <set>
+#include <unordered_map>
 
 #include "io/grid.h"
 #include "verify/node_index.h"
@@ -127,7 +127,7 @@ class Inspection {
 // cuts in the same way once: a floor in the border's plane has few nodes, but cubes without number.
 class OutsideSearch {
  public:
-  explicit OutsideSearch(const DagView& dag) : dag_(dag) {}
+  explicit OutsideSearch(const DagView& dag) : dag_(dag), asked_(dag.levels) {}
 
   bool find(const Header& h) {
     VoxelBox selection;
@@ -146,11 +146,10 @@ class OutsideSearch {
     if (cut.empty()) return true;
     if (cut == VoxelBox{LatticePoint(0), LatticePoint(side)}) return false;
     if (level == dag_.brick_level()) return find_in_brick(dag_.bricks[node], cut);
-    if (!asked_
-             .insert(
-                 {level, node, cut.min.x, cut.min.y, cut.min.z, cut.max.x, cut.max.y, cut.max.z})
-             .second)
-      return false;  // what was found would have ended the search
+    uint64_t& asked = asked_[level][node];
+    const uint64_t how = uint64_t(1) << borders_inside(cut, side);
+    if ((asked & how) != 0) return false;  // what was found would have ended the search
+    asked |= how;
     for (unsigned c = 0; c < 8; ++c) {
       const uint32_t child = dag_child(dag_, level, node, c);
       const LatticePoint corner = LatticePoint(c >> 2, c >> 1 & 1, c & 1) * (side / 2);
@@ -158,6 +157,17 @@ class OutsideSearch {
         return true;
     }
     return false;
+  }
+
+  // Which of the six borders of the selection run through the inside of a cube, as bits. In all
+  // cubes of a level they do so at the same place, for cubes begin at multiples of their side.
+  static unsigned borders_inside(const VoxelBox& cut, int64_t side) {
+    unsigned bits = 0;
+    for (int a = 0; a < 3; ++a) {
+      bits |= unsigned(cut.min[a] != 0) << 2 * a;
+      bits |= unsigned(cut.max[a] != side) << (2 * a + 1);
+    }
+    return bits;
   }
 
   static bool find_in_brick(uint64_t brick, const VoxelBox& selection) {
@@ -181,7 +191,8 @@ class OutsideSearch {
   }
 
   const DagView& dag_;
-  std::set<std::array<int64_t, 8>> asked_;  // level, node, and the selection in its cube
+  // [level], of nodes: which ways of being cut were looked into, a bit for each of the 2^6.
+  std::vector<std::unordered_map<uint32_t, uint64_t>> asked_;
 };
 
 // The corner of a lattice is a plane of the world, from which cells of up to 1024 voxels keep their

@@ -32,6 +32,11 @@ json expected_metadata(const Header& h) {
           {"largest_snap", h.largest_snap}};
 }
 
+// A key that may be anything.
+std::string quoted(const std::string& key) {
+  return "\"" + key.substr(0, 40) + "\"";
+}
+
 // Notes keys that come twice in one object: readers disagree about which of them counts.
 class RepeatedKeys {
  public:
@@ -42,12 +47,13 @@ class RepeatedKeys {
     if (event == json::parse_event_t::object_end) open_.pop_back();
     if (event != json::parse_event_t::key) return;
     const std::string key = parsed.get<std::string>();
-    if (!open_.back().insert(key).second)
-      defects_->push_back("the metadata has the key \"" + key + "\" twice");
+    if (!open_.back().insert(key).second && told_.insert(key).second)
+      defects_->push_back("the metadata has the key " + quoted(key) + " twice");
   }
 
  private:
   std::vector<std::set<std::string>> open_;  // keys of the objects around
+  std::set<std::string> told_;
   std::vector<std::string>* defects_;
 };
 
@@ -73,7 +79,7 @@ std::vector<std::string> metadata_defects(const Header& header, std::string_view
   }
   for (const auto& [key, value] : found.items()) {
     if (!expected.contains(key))
-      defects.push_back("the metadata has an unknown key \"" + key + "\"");
+      defects.push_back("the metadata has an unknown key " + quoted(key));
   }
   return defects;
 }

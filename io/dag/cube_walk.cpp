@@ -1,6 +1,7 @@
 #include "io/dag/cube_walk.h"
 
 #include "io/dag/dag_level.h"
+#include "io/dag/dag_stats.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -108,6 +109,8 @@ uint64_t CubeWalk::voxels_below(uint32_t level, uint32_t node) {
 }
 
 uint64_t CubeWalk::count_voxels(const VoxelBox& box) {
+  const VoxelBox whole{LatticePoint(0), LatticePoint(side(0))};
+  if (box.holds(whole)) return count_level_voxels(dag_, levels_);  // and remembers nothing
   return dag_.empty() ? 0 : count_voxels({0, 0, LatticePoint(0)}, box);
 }
 

@@ -1,10 +1,24 @@
 #include "io/dag/dag_stats.h"
 
+#include <algorithm>
 #include <bit>
 #include <bitset>
+#include <numeric>
+
+#include "streaming/error.h"
 
 namespace svdag {
 namespace {
+
+std::vector<uint64_t> paths_to_root(const DagView& dag) {
+  std::vector<uint64_t> paths(dag.word_count[0]);
+  paths[0] = 1;
+  return paths;
+}
+
+uint64_t total(const std::vector<uint64_t>& paths) {
+  return std::accumulate(paths.begin(), paths.end(), uint64_t(0));
+}
 
 // Adds the paths of each node of `level` to its children; `paths` is indexed by word.
 std::vector<uint64_t> paths_below(const DagView& dag, uint32_t level,
@@ -56,14 +70,35 @@ DagStats compute_stats(const DagFile& file) {
     stats.levels.push_back({0, section.nodes, section.bytes});
   }
   if (dag.empty()) return stats;
-  std::vector<uint64_t> paths(dag.word_count[0]);
-  paths[0] = 1;
+  std::vector<uint64_t> paths = paths_to_root(dag);
   for (uint32_t level = 0; level <= dag.brick_level(); ++level) {
-    for (const uint64_t p : paths) stats.levels[level].svo_nodes += p;
+    stats.levels[level].svo_nodes = total(paths);
     if (level < dag.brick_level()) paths = paths_below(dag, level, paths);
   }
   count_bricks(dag, paths, &stats);
   return stats;
+}
+
+uint64_t count_level_voxels(const DagView& dag, uint32_t levels) {
+  SVDAG_ASSERT(levels >= kMinLevels && levels <= dag.levels);
+  if (dag.empty()) return 0;
+  std::vector<uint64_t> paths = paths_to_root(dag);
+  for (uint32_t level = 0; level < std::min(levels, dag.brick_level()); ++level)
+    paths = paths_below(dag, level, paths);
+  if (levels <= dag.brick_level()) return total(paths);
+  DagStats stats;
+  count_bricks(dag, paths, &stats);
+  return levels < dag.levels ? stats.blocks : stats.voxels;
+}
+
+uint64_t bytes_of_count(const DagView& dag) {
+  uint64_t most = 0, above = 0;
+  for (uint32_t level = 0; level <= dag.brick_level(); ++level) {
+    const uint64_t here = level < dag.brick_level() ? dag.word_count[level] : dag.brick_count;
+    most = std::max(most, above + here);
+    above = here;
+  }
+  return 8 * most;
 }
 
 }  // namespace svdag

@@ -1,7 +1,7 @@
 // What a DAG contains: the figures of the paper's tables.
 //
-// Notation: the SVO is the tree before reduction; the number of its nodes that one DAG node stands for is
-// the number of paths from the root to it, computed top-down, one level at a time.
+// Notation: the SVO is the tree before reduction; the number of its nodes that one DAG node stands
+// for is the number of paths from the root to it, computed top-down, one level at a time.
 #pragma once
 
 #include <cstdint>
@@ -32,5 +32,10 @@ struct DagStats {
 };
 
 DagStats compute_stats(const DagFile& file);
+
+// The number of voxels of level `levels`, 3 .. L: one pass over the nodes above them.
+uint64_t count_level_voxels(const DagView& dag, uint32_t levels);
+// The memory that both passes take, in bytes: 8 for each word of two levels, one under the other.
+uint64_t bytes_of_count(const DagView& dag);
 
 }  // namespace svdag

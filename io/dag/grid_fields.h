@@ -60,6 +60,8 @@ void check_grid(const H& h, const Require& require) {
             "impossible selection", offsetof(H, selection_min));
     require(h.bounded || (h.selection_min[a] == 0 && h.selection_max[a] == n),
             "impossible selection", offsetof(H, selection_min));
+    require(h.k0[a] >= -kFarthestPlane && h.k0[a] <= kFarthestPlane,
+            "the corner of the grid is more than 2^38 voxels from zero", offsetof(H, k0));
   }
 }
 

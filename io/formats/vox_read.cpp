@@ -31,6 +31,7 @@ struct Node {
   Offset place{};
   uint32_t layer = kNoLayer;
   bool hidden = false;
+  bool rotated = false;
   std::vector<uint32_t> children, models;
   size_t visits = 0;  // of nodes, from this one on; 0: not counted
 };
@@ -93,7 +94,8 @@ class VoxReader {
   VoxelPlace read(const VoxelSink& sink) {
     read_chunks();
     if (nodes_.empty()) {
-      for (uint32_t i = 0; i < models_.size(); ++i) place_model(i, middle_of(i));
+      const size_t shown = std::min<size_t>(models_.size(), frames_ ? 1 : models_.size());
+      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_of(i));
     } else {
       count_visits(0, 0);
       place_node(0, {}, 0);
@@ -150,6 +152,8 @@ class VoxReader {
     } else if (name == "XYZI") {
       const uint32_t count = chunk->count();
       models_.push_back({*size, chunk->offset(), count});
+    } else if (name == "PACK") {
+      frames_ = true;
     } else if (name == "nTRN") {
       const uint32_t id = chunk->number();
       Node node;
@@ -172,19 +176,15 @@ class VoxReader {
     }
   }
 
+  // Where a part lies that cannot be read matters only if it is shown: place_node() refuses.
   void read_frame(const Dictionary& frame, Node* node) const {
-    if (const auto r = frame.find("_r"); r != frame.end() && r->second != "4")
-      fail_input(file_.path(), "has rotated models, which are not read");
+    if (const auto r = frame.find("_r"); r != frame.end()) node->rotated = r->second != "4";
     const auto t = frame.find("_t");
     if (t == frame.end()) return;
     long long x, y, z;
     if (std::sscanf(t->second.c_str(), "%lld %lld %lld", &x, &y, &z) != 3)
       fail_input(file_.path(), "damaged .vox file: a place is not three numbers");
     node->place = {x, y, z};
-    for (const int64_t p : node->place) {
-      if (p < -(int64_t(1) << kMaxLevels) || p > int64_t(1) << kMaxLevels)
-        fail_input(file_.path(), "has a model further than 1M voxels from 0");
-    }
   }
 
   Node& node_of(uint32_t id, int depth) {
@@ -211,8 +211,14 @@ class VoxReader {
   void place_node(uint32_t id, const Offset& from, int depth) {
     const Node& node = node_of(id, depth);
     if (node.hidden || hidden_layers_.contains(node.layer)) return;
+    if (node.rotated) fail_input(file_.path(), "has rotated models, which are not read");
     Offset at;
-    for (size_t a = 0; a < 3; ++a) at[a] = from[a] + node.place[a];
+    for (size_t a = 0; a < 3; ++a) {
+      const int64_t place = node.place[a];
+      if (place < -(int64_t(1) << kMaxLevels) || place > int64_t(1) << kMaxLevels)
+        fail_input(file_.path(), "has a model further than 1M voxels from 0");
+      at[a] = from[a] + place;
+    }
     for (const uint32_t child : node.children) place_node(child, at, depth + 1);
     if (!node.models.empty()) place_model(node.models.front(), at);
   }
@@ -249,6 +255,7 @@ class VoxReader {
   std::vector<Model> models_;
   std::map<uint32_t, Node> nodes_;
   std::set<uint32_t> hidden_layers_;
+  bool frames_ = false;  // PACK: without a scene graph, models are the frames of an animation
   std::vector<std::pair<uint32_t, Offset>> placed_;  // models and their corners
   uint64_t voxels_ = 0;                              // of placed_
 };

@@ -18,9 +18,16 @@ using Face = std::array<uint32_t, 3>;
 
 constexpr double kLargeCoordinate = 1e5;
 
-// What to subtract on each axis: the rounded mean of all corners if a coordinate is large, or if
-// all are far from 0 for their extent; else nothing.
-Point find_centre(const Scene& scene) {
+// From where, and how finely, positions are compared.
+struct Frame {
+  Point centre{0};  // subtracted
+  double step =
+      0;  // on the axes where it is, unless 0: the last bit of a float as large as the scene
+};
+
+// The centre is the rounded mean of all corners if a coordinate is large, and on an axis where all
+// are far from 0 for their extent.
+Frame find_frame(const Scene& scene) {
   Point sum{0};
   Box box;
   uint64_t corners = 0;
@@ -33,23 +40,30 @@ Point find_centre(const Scene& scene) {
     }
     corners += 3 * batch.triangles.size();
   });
-  Point largest, centre{0};
+  const Point extent = box.max - box.min;
+  Point largest;
   for (int a = 0; a < 3; ++a) largest[a] = std::max(std::abs(box.min[a]), std::abs(box.max[a]));
   const bool large = std::max({largest.x, largest.y, largest.z}) > kLargeCoordinate;
+  Frame frame;
   for (int a = 0; a < 3; ++a) {
-    if (large || largest[a] / 2 > box.max[a] - box.min[a])
-      centre[a] = std::nearbyint(sum[a] / double(corners));
+    if (large || largest[a] / 2 > extent[a])
+      frame.centre[a] = std::nearbyint(sum[a] / double(corners));
   }
-  return centre;
+  const double side = std::max({extent.x, extent.y, extent.z});
+  if (!large && std::isnormal(side))
+    frame.step = std::ldexp(1.0, std::max(std::ilogb(side) - 23, -1022));
+  return frame;
 }
 
-Position round_position(const Point& p, const Point& centre) {
+Position round_position(const Point& p, const Frame& frame) {
   Position r;
   for (int c = 0; c < 3; ++c) {
-    const double value = p[c] - centre[c];
+    double value = p[c] - frame.centre[c];
     if (std::abs(value) > double(std::numeric_limits<float>::max())) {
       throw Error(ExitCode::kBadInput, "the mesh diagnostics cannot take coordinates above 3e38");
     }
+    if (frame.centre[c] != 0 && frame.step > 0)
+      value = std::nearbyint(value / frame.step) * frame.step;
     r[size_t(c)] = float(value) + 0.0f;  // -0 becomes 0
   }
   return r;
@@ -145,7 +159,7 @@ void count_edges(const std::vector<Face>& faces, MemoryBudget* budget, MeshStats
 }
 
 // Second look at every triangle, with the positions numbered: what one triangle alone can tell.
-std::vector<Face> number_faces(const Scene& scene, const Point& centre, const PositionSet& set,
+std::vector<Face> number_faces(const Scene& scene, const Frame& frame, const PositionSet& set,
                                Components* components, MeshStats* stats) {
   std::vector<Face> faces;
   faces.reserve(stats->triangles);
@@ -154,7 +168,7 @@ std::vector<Face> number_faces(const Scene& scene, const Point& centre, const Po
       std::array<Position, 3> p;
       Face f;
       for (size_t i = 0; i < 3; ++i) {
-        p[i] = round_position(t.v[i], centre);
+        p[i] = round_position(t.v[i], frame);
         f[i] = set.id(p[i]);
       }
       components->join(f[0], f[1]);
@@ -174,13 +188,13 @@ std::vector<Face> number_faces(const Scene& scene, const Point& centre, const Po
 }  // namespace
 
 MeshStats compute_mesh_stats(const Scene& scene, MemoryBudget* budget) {
-  const Point centre = find_centre(scene);
+  const Frame frame = find_frame(scene);
   PositionSet set(budget);
   MeshStats stats;
   stats.triangles = scene
                         .stream([&](const TriangleBatch& batch) {
                           for (const Triangle& t : batch.triangles) {
-                            for (const Point& p : t.v) set.add(round_position(p, centre));
+                            for (const Point& p : t.v) set.add(round_position(p, frame));
                           }
                         })
                         .triangles;
@@ -192,7 +206,7 @@ MeshStats compute_mesh_stats(const Scene& scene, MemoryBudget* budget) {
   const auto memory =
       budget->reserve(stats.triangles * sizeof(Face) + set.size() * sizeof(uint32_t), "mesh faces");
   Components components(set.size());
-  std::vector<Face> faces = number_faces(scene, centre, set, &components, &stats);
+  std::vector<Face> faces = number_faces(scene, frame, set, &components, &stats);
   stats.components = components.count();
   std::sort(faces.begin(), faces.end());
   for_each_run(faces, [&](size_t copies) { stats.duplicates += copies - 1; });

@@ -1,10 +1,11 @@
 // Diagnostics of a scene as a mesh, for `svdag info`: what is shared, broken or open in it.
 //
 // Positions are compared as float32, the precision in which scenes are stored: instances of one
-// vertex that double arithmetic pulled apart by an ulp meet again. Where coordinates exceed 1e5, or
-// are twice as far from 0 as from each other, the rounded mean of all corners is subtracted first,
-// in double, so that city coordinates keep their millimetres. On these floats every answer is
-// exact.
+// vertex that double arithmetic pulled apart by an ulp meet again. Where coordinates exceed 1e5 the
+// rounded mean of all corners is subtracted first, in double, so that city coordinates keep their
+// millimetres. So it is on an axis where they are twice as far from 0 as from each other; there
+// what is left is rounded to the last bit of a float as large as the scene, since floats near 0
+// tell the roundings of doubles apart. On these floats every answer is exact.
 // Rejected: a halfedge mesh, which cannot hold non-manifold edges at all.
 #pragma once
 

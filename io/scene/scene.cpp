@@ -173,15 +173,16 @@ SceneFormat detect_format(const File& file) {
   file.read_some_at(0, std::as_writable_bytes(std::span(head)));
   std::string_view start(head.data(), head.size());
   if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
-  // The free text at the head of a binary STL may begin with any word.
-  if (start.starts_with("ply") && std::string_view(" \t\r\n").find(start[3]) != start.npos)
+  const std::string extension = lower_extension(file.path());
+  const bool stl = extension == "stl";  // the free text at its head may begin with any word
+  if (start.starts_with("ply") &&
+      std::string_view(stl ? "\r\n" : "\r\n \t").find(start[3]) != start.npos)
     return SceneFormat::kPly;
   if (start.starts_with(std::string_view("glTF\1\0\0\0", 8)) ||
       start.starts_with(std::string_view("glTF\2\0\0\0", 8)))
     return SceneFormat::kGltf;
-  if (start.starts_with("DRACO")) return SceneFormat::kDraco;
-  const std::string extension = lower_extension(file.path());
-  if (extension == "stl") return SceneFormat::kStl;
+  if (start.starts_with("DRACO") && !stl) return SceneFormat::kDraco;
+  if (stl) return SceneFormat::kStl;
   if (extension == "obj") return SceneFormat::kObj;
   if (extension == "off") return SceneFormat::kOff;
   if (extension == "gltf" || extension == "glb") return SceneFormat::kGltf;

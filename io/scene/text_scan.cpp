@@ -39,8 +39,10 @@ void TextScanner::take_line_end() {
   ++line_;
 }
 
-// The next '\n' or '\r', or the end of the window; eight bytes at a time while all are above 15.
+// The next '\n', '\r' or '\0', or the end of the window; eight bytes at a time while all are above
+// 15.
 const char* TextScanner::find_line_end() const {
+  const auto ends = [](char c) { return is_line_end(c) || c == '\0'; };
   const char* p = here_;
   while (end_ - p >= 8) {
     uint64_t word;
@@ -51,10 +53,10 @@ const char* TextScanner::find_line_end() const {
       continue;
     }
     p += std::countr_zero(small) / 8;  // the lowest flag is right
-    if (is_line_end(*p)) return p;
+    if (ends(*p)) return p;
     ++p;
   }
-  return std::find_if(p, end_, is_line_end);
+  return std::find_if(p, end_, ends);
 }
 
 void TextScanner::skip_rest_of_line() {
@@ -64,6 +66,7 @@ void TextScanner::skip_rest_of_line() {
     const char* stop = find_line_end();
     if (stop != here_) joins = stop[-1] == '\\';
     here_ = stop;
+    if (here_ != end_ && *here_ == '\0') fail("has a byte of 0");
     if (end_ - here_ < 2 && !last_) {
       refill();
     } else if (here_ == end_) {
@@ -80,6 +83,7 @@ std::string_view TextScanner::rest_of_line() {
   skip_blanks();
   const char* start = here_;
   while (here_ != end_ && !is_line_end(*here_)) {
+    if (*here_ == '\0') fail("has a byte of 0");
     if (size_t(here_ - start) >= kLongestWord) fail("has a line that is too long");
     ++here_;
   }

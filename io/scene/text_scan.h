@@ -2,6 +2,8 @@
 //
 // Lines end with "\n", "\r\n" or "\r"; blanks are spaces and tabs. Decimal numbers become the
 // nearest double (or float), whatever the locale (io/scene/decimal.h), with a leading "+" allowed.
+// A byte of 0 is an error wherever it stands, in what is skipped, too: holes that a crash or a bad
+// copy left are zeros, and would hide the lines that they cover.
 // Invariant: after skip_blanks() a whole word is visible, or the word is too long to be one.
 // Rejected: iostreams (20 times slower), strtod (locale), reading line by line (every byte twice).
 #pragma once

@@ -91,6 +91,16 @@ RC_GTEST_PROP(CoveredLattice, IsTheSmallestThatHoldsEveryTouchedVoxel, ()) {
   RC_ASSERT(needed);
 }
 
+TEST(Grid, ACornerBeyondEveryLatticeIsImpossible) {
+  Grid grid = cover_lattice(box_of({0, 0, 0}, {5, 5, 5}), 1);
+  for (const int64_t sign : {-1, 1}) {
+    grid.k0.y = sign * kFarthestPlane;
+    EXPECT_TRUE(grid.is_possible());
+    grid.k0.y += sign;
+    EXPECT_FALSE(grid.is_possible());
+  }
+}
+
 // By brute force: the open voxel (k, k + 1) meets the closed interval [low, high].
 RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
   Grid grid = divide_box(box_of({0, 0, 0}, {15, 15, 15}), 4);  // voxels of size 1 from -1/2

@@ -179,6 +179,36 @@ TEST(Integrity, SelectionsAreHeldAgainstEveryVoxel) {
   EXPECT_LT(sound, 580);
 }
 
+// A pattern that repeats, cut off at the selection, and then with one voxel beside it.
+TEST(Integrity, NodesThatRepeatAreCutBySelectionsInManyWays) {
+  std::mt19937_64 random(9);
+  for (int round = 0; round < 60; ++round) {
+    VoxelBox box;
+    for (int a = 0; a < 3; ++a) {
+      box.min[a] = int64_t(random() % 14);
+      box.max[a] = 18 + int64_t(random() % 14);
+    }
+    VoxelSet voxels;
+    for (int64_t x = box.min.x; x < box.max.x; ++x)
+      for (int64_t y = box.min.y; y < box.max.y; ++y)
+        for (int64_t z = box.min.z; z < box.max.z; ++z)
+          if ((x * 5 + y * 3 + z) % 8 == round % 8) voxels.emplace(x, y, z);
+    const auto sound = [&] {
+      RawDag bounded = raw_dag(test_grid(5), voxels);
+      bounded.grid.bounded = true;
+      bounded.grid.selection = box;
+      return inspect_raw(bounded).sound();
+    };
+    EXPECT_TRUE(sound()) << round;
+    LatticePoint beside = box.min + int64_t(2);
+    const int a = round % 3;
+    beside[a] = round % 2 == 0 ? box.min[a] - 1 : box.max[a];
+    if (beside[a] < 0) continue;
+    voxels.emplace(beside.x, beside.y, beside.z);
+    EXPECT_FALSE(sound()) << round;
+  }
+}
+
 // 2^40 voxels in the border's plane, twenty nodes: an answer takes time by nodes.
 TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsAskedByNodes) {
   RawDag raw;
@@ -239,6 +269,11 @@ TEST(Integrity, MetadataThatSaysSomethingElse) {
             std::vector<std::string>{"the metadata has the key \"levels\" twice"});
   EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":"),
             std::vector<std::string>{"the metadata has the key \"corner\" twice"});
+  const std::string name(1000, 'x');
+  EXPECT_EQ(
+      with("\"levels\":", "\"" + name + "\":0,\"levels\":"),
+      std::vector<std::string>{"the metadata has an unknown key \"" + name.substr(0, 40) + "\""});
+  EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":1,\"corner\":").size(), 1U);
   EXPECT_EQ(metadata_defects(file.header(), "{"),
             std::vector<std::string>{"the metadata is not a JSON object"});
 }

@@ -8,6 +8,7 @@
 #include "io/units.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/printable.h"
 #include "verify/integrity.h"
 
 namespace svdag {
@@ -33,7 +34,8 @@ void print_text(const DagFile& file, const IntegrityReport& report) {
   std::printf("nodes   %s on %zu levels, %s of them bricks\n", format_count(nodes).c_str(),
               report.nodes.size(), format_count(report.nodes.back()).c_str());
   std::printf("voxels  %s\n", format_count(report.voxels).c_str());
-  for (const std::string& defect : report.defects) std::printf("defect  %s\n", defect.c_str());
+  for (const std::string& defect : report.defects)
+    std::printf("defect  %s\n", printable(defect).c_str());
   std::printf(
       report.sound() ? "ok: sound, in canonical order and minimal\n" : "not ok: %zu defects\n",
       report.defects.size());

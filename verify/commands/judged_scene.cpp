@@ -17,6 +17,16 @@ JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::M
   facts.grid = judge_grid(grid, bounds);
 }
 
+void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_scene,
+                  GridJudgement* grid) {
+  const uint64_t said = file.header().voxels;
+  if (voxels != said)
+    grid->defects.push_back("the header counts " + format_count(said) + " voxels, the file holds " +
+                            format_count(voxels));
+  const std::string defect = snap_defect(file.header().largest_snap, whole_scene);
+  if (!defect.empty()) grid->defects.push_back(defect);
+}
+
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge) {
   std::printf("grid       %s%s\n", describe_grid(file).c_str(),
               facts.grid.recomputed ? ", as the scene's bounds give it" : "");

@@ -29,6 +29,10 @@ struct JudgedScene {
   SceneFacts facts;
 };
 
+// Holds what the header says of the whole file against what a comparison of all of it counted.
+void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_scene,
+                  GridJudgement* grid);
+
 // Grid and its defects, who judges ("integer: exact clipping"), the triangles, and what --include
 // and --exclude named in vain.
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);

@@ -44,12 +44,7 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
   const std::vector<LatticeTriangle> triangles = load(judged.scene, file.grid(), count, &snapped);
   Comparison& comparison = result->comparison;
   comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
-  if (comparison.file_voxels != file.header().voxels)
-    result->grid.defects.push_back("the header counts " + format_count(file.header().voxels) +
-                                   " voxels, the file holds " +
-                                   format_count(comparison.file_voxels));
-  const std::string defect = snap_defect(file.header().largest_snap, snapped);
-  if (!defect.empty()) result->grid.defects.push_back(defect);
+  judge_header(file, comparison.file_voxels, snapped, &result->grid);
 }
 
 Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file) {

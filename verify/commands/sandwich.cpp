@@ -70,8 +70,6 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   SnapCounts snapped;
   const std::vector<LatticeTriangle> triangles =
       load_near(judged.scene, grid, windows, !config.sample, &held, &snapped);
-  const std::string defect = snap_defect(file.header().largest_snap, snapped);
-  if (!config.sample && !defect.empty()) result.grid.defects.push_back(defect);
   CubeWalk walk(file.view(), file.header().levels);
   const size_t threads = threads_or_all(config.common.threads);
   progress.phase("comparing windows", windows.size());
@@ -79,6 +77,7 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
     result.sandwich.append(judge_window(&walk, grid, file.rule(), windows[i], triangles, threads));
     progress.advance(1);
   }
+  if (!config.sample) judge_header(file, result.sandwich.file_voxels, snapped, &result.grid);
   progress.finish();
   return result;
 }

@@ -86,11 +86,14 @@ int run(const VdbConfig& config) {
       read_vdb(config.vdb, config.grid, config.iso, config.sandbox);
   refuse_needless_range(*theirs, config.iso);
   const GridFit fit = fit_grid(*theirs, file.grid(), config.vdb);
-  Grid grid = level_grid(file.grid(), fit.levels);
-  if (config.bounds) grid = select_bounds(grid, *config.bounds);
+  const Grid grid = level_grid(file.grid(), fit.levels);
+  VoxelBox window;  // also beyond the grid, where the other may have voxels
+  if (config.bounds) window = voxels_in(grid, *config.bounds);
+  if (config.bounds && !window.meets(grid.whole()))
+    fail_usage("--bounds: no voxel of the grid is in them");
   CubeWalk walk(file.view(), uint32_t(fit.levels));
   progress.phase("comparing", 0);
-  VdbComparer comparer(*theirs, &walk, fit.map, config.bounds ? &grid.selection : nullptr);
+  VdbComparer comparer(*theirs, &walk, fit.map, config.bounds ? &window : nullptr);
   const VdbComparison comparison = comparer.compare(config.show);
   if (!config.write_diff.empty()) write_difference(config, comparison, &comparer);
   progress.finish();

@@ -1,4 +1,5 @@
 #include "builder/commands/export/selection.h"
+#include "io/dag/dag_stats.h"
 #include "io/formats/binvox.h"
 #include "io/formats/npz.h"
 #include "io/formats/ply_points.h"
@@ -12,7 +13,9 @@ namespace {
 constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says more or less
 
 // Its voxels are counted, for nothing proves the number in the header of a file.
-Window window_of(Selection* selection, const ExportConfig& config) {
+Window window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  const auto memory =
+      budget->reserve(bytes_of_count(selection->file.view()), "the count of voxels");
   const Window window{selection->grid, &selection->walk,
                       selection->walk.count_voxels(selection->grid.selection)};
   const uint64_t most = config.max_voxels.value_or(kMostVoxels);
@@ -23,29 +26,29 @@ Window window_of(Selection* selection, const ExportConfig& config) {
   return window;
 }
 
-uint64_t export_window(Selection* selection, const ExportConfig& config,
+uint64_t export_window(Selection* selection, const ExportConfig& config, MemoryBudget* budget,
                        void (*write)(const Window&, const std::string&)) {
-  const Window window = window_of(selection, config);
+  const Window window = window_of(selection, config, budget);
   write(window, config.output);
   return window.voxels;
 }
 
 }  // namespace
 
-uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget*) {
-  return export_window(selection, config, write_npz);
+uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(selection, config, budget, write_npz);
 }
 
-uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget*) {
-  return export_window(selection, config, write_binvox);
+uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(selection, config, budget, write_binvox);
 }
 
-uint64_t export_vox(Selection* selection, const ExportConfig& config, MemoryBudget*) {
-  return export_window(selection, config, write_vox);
+uint64_t export_vox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(selection, config, budget, write_vox);
 }
 
-uint64_t export_ply(Selection* selection, const ExportConfig& config, MemoryBudget*) {
-  return export_window(selection, config, write_ply_points);
+uint64_t export_ply(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(selection, config, budget, write_ply_points);
 }
 
 }  // namespace svdag

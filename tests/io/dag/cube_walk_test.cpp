@@ -46,7 +46,10 @@ class CubeWalkOf : public ::testing::TestWithParam<int> {
 TEST_P(CubeWalkOf, EveryLevelHandsOutTheParentsOfTheVoxels) {
   for (int levels = 3; levels <= 6; ++levels) {
     CubeWalk walk(file_.view(), uint32_t(levels));
-    EXPECT_EQ(walked(&walk, level_grid(grid_, levels).whole()), coarser(voxels_, 6 - levels));
+    const VoxelBox whole = level_grid(grid_, levels).whole();
+    const VoxelSet expected = coarser(voxels_, 6 - levels);
+    EXPECT_EQ(walked(&walk, whole), expected);
+    EXPECT_EQ(walk.count_voxels(whole), expected.size());
   }
 }
 

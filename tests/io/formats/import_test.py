@@ -203,8 +203,23 @@ class Import(unittest.TestCase):
             with self.subTest(name=name):
                 data = write_foreign.vox((shown, (32, 32, 32)), (other, (32, 32, 32)), places=places, **how)
                 self.assertEqual(self.read(data, "h.vox", "-r", "32").voxel_count, len(shown))
-        data = write_foreign.vox((shown, (32, 32, 32)), (other, (32, 32, 32)), places=places[:1], frames=2)
-        self.assertEqual(self.read(data, "f.vox", "-r", "32").voxel_count, len(shown))
+        models = (shown, (32, 32, 32)), (other, (32, 32, 32))
+        for name, how in {"frames of a shape": {"places": places[:1], "frames": 2}, "frames of an old file": {}}.items():
+            with self.subTest(name=name):
+                data = write_foreign.vox(*models, **how)
+                self.assertEqual(self.read(data, "f.vox", "-r", "32").voxel_count, len(shown))
+        parts = self.read(write_foreign.vox(*models, pack=False), "p.vox", "-r", "32")
+        self.assertEqual(parts.voxel_count, len(self.few))
+
+    def test_a_vox_part_that_cannot_be_read_matters_if_it_is_shown(self):
+        models = (self.few[::2], (32, 32, 32)), (self.few[1::2], (32, 32, 32))
+        for name, far, how in (("rotated", 16, {"rotated": [1]}), ("further than 1M", 2**21, {})):
+            places = [[16, 16, 16], [16, far, 16]]
+            with self.subTest(name=name):
+                data = write_foreign.vox(*models, places=places, hidden=[1], **how)
+                self.assertEqual(self.read(data, "h.vox", "-r", "32").voxel_count, len(models[0][0]))
+                (BAKERY.folder / "s.vox").write_bytes(write_foreign.vox(*models, places=places, **how))
+                self.assertIn(name, BAKERY.run("svdag", "import", "s.vox", "-o", "s.svdag", code=3))
 
     def test_arrays_that_are_none_of_ours_are_left_alone(self):
         x = numpy.array(self.few, "<i4")

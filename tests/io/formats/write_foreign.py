@@ -149,10 +149,12 @@ def vox_model(voxels, size):
         b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79]) for v in voxels))
 
 
-def vox(*models, places=None, hidden=(), hidden_layers=(), frames=1):
+def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), frames=1, pack=True):
     """models: (voxels, size); places: what _t says of each, or no scene graph at all; each in a layer of its
-    own; hidden, hidden_layers: numbers of places; frames: models that every shape names, its own first."""
-    body = chunk(b"PACK", struct.pack("<I", len(models))) + b"".join(vox_model(*m) for m in models)
+    own; hidden, hidden_layers, rotated: numbers of places; frames: models that every shape names, its own first;
+    pack: whether the number of models is said, which without a scene graph makes them frames of an animation."""
+    body = chunk(b"PACK", struct.pack("<I", len(models))) if pack else b""
+    body += b"".join(vox_model(*m) for m in models)
     if places is not None:
         none = dictionary()
         body += chunk(b"nTRN", struct.pack("<I", 0) + none + struct.pack("<Iiii", 1, -1, -1, 1) + none)
@@ -161,7 +163,7 @@ def vox(*models, places=None, hidden=(), hidden_layers=(), frames=1):
         for i, place in enumerate(places):
             attributes = dictionary(_name="part", **({"_hidden": "1"} if i in hidden else {}))
             body += chunk(b"nTRN", struct.pack("<I", 2 + 2 * i) + attributes + struct.pack(
-                "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r="4", _t="{} {} {}".format(*place)))
+                "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r="8" if i in rotated else "4", _t="{} {} {}".format(*place)))
             shown = b"".join(struct.pack("<I", (i + f) % len(models)) + dictionary(_f=str(f)) for f in range(frames))
             body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + none + struct.pack("<I", frames) + shown)
         for i in range(len(places)):

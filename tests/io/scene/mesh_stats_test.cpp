@@ -83,6 +83,21 @@ TEST(MeshStats, SmallTrianglesFarFromTheOriginKeepTheirArea) {
   }
 }
 
+// 99.9 + 0.1f is not 100 in doubles, and 5 - 2^-50 is not 5.
+TEST(MeshStats, VerticesThatDoublesPulledApartMeetAgain) {
+  const TempFolder folder;
+  MemoryBudget budget;
+  for (const char* vertices :
+       {"v 80 0 0\nv 100 0 0\nv 100 10 0\nv 120 0 0\nv 100.00000000149012 0 0\n"
+        "v 100.00000000149012 10 0\n",
+        "v 0 0 5\nv 1 0 5\nv 1 1 5\nv 2 0 5\nv 1 0 5.0000000000000009\n"
+        "v 1 1 4.9999999999999991\n"}) {
+    const std::string path = folder.write("a.obj", std::string(vertices) + "f 1 2 3\nf 4 6 5\n");
+    const Scene scene({{path}, {}, false}, &budget);
+    EXPECT_EQ(compute_mesh_stats(scene, &budget), (MeshStats{2, 4, 0, 0, 0, 4, 0, 1})) << vertices;
+  }
+}
+
 TEST(MeshStats, ATorusOfQuadsIsClosedAtAnySize) {
   const int n = 200;  // enough corners that the set of positions is compacted and grows
   const auto at = [&](int u, int v) {

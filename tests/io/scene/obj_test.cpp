@@ -94,6 +94,17 @@ TEST(Obj, GarbageIsRefused) {
   }
 }
 
+// A hole that a crash left begins and ends anywhere; what it covers would go without a word.
+TEST(Obj, ZerosAreRefusedInWhatIsSkippedToo) {
+  const std::string hole(5000, '\0');
+  for (const char* line :
+       {"", "v 1 2 3 ", "vn 0 ", "vt ", "# a", "usemtl a", "g a", "o a", "s 1", "f 1 2 3 "}) {
+    EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + hole + "f 1 2 3\nf 1 2 4\n"), "")
+        << line;
+    EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + hole), "") << line;
+  }
+}
+
 TEST(Obj, WordsThatAreTooLongAreRefusedWhereverTheWindowEnds) {
   for (const size_t digits : {5000U, 300000U}) {
     const std::string word(digits, '1');

@@ -106,6 +106,9 @@ TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {
   EXPECT_EQ(format("a.STL", "anything"), SceneFormat::kStl);
   EXPECT_EQ(format("a.stl", "plyconv output"), SceneFormat::kStl);
   EXPECT_EQ(format("a.stl", "glTF to STL"), SceneFormat::kStl);
+  EXPECT_EQ(format("a.stl", "ply to stl converter"), SceneFormat::kStl);
+  EXPECT_EQ(format("a.stl", "DRACO to STL"), SceneFormat::kStl);
+  EXPECT_EQ(format("a.stl", "ply\nformat"), SceneFormat::kPly);
   EXPECT_EQ(format("a", "\xEF\xBB\xBFOFF\n"), SceneFormat::kOff);
   EXPECT_EQ(format("a.Obj", "solid"), SceneFormat::kObj);
   EXPECT_EQ(format("a", "OFF\n"), SceneFormat::kOff);
