@@ -132,9 +132,11 @@ void Bake::choose_grid() {
     SceneCounts counts;
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
-    disk_need_.expect_triangles(config_.part ? 0 : counts.triangles, shares_.triangles);
-    split_config_.on_spill = [this, counts](uint64_t read, uint64_t bytes) {
-      disk_need_.expect_spilled(counts.triangles, read, bytes);
+    // Nobody knows how many of them are in a part, nor where in the scene those are.
+    const uint64_t triangles = config_.part ? 0 : counts.triangles;
+    disk_need_.expect_triangles(triangles, shares_.triangles);
+    split_config_.on_spill = [this, triangles](uint64_t read, uint64_t bytes) {
+      disk_need_.expect_spilled(triangles, read, bytes);
     };
   }
   const int levels = report_.grid.levels;

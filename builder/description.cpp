@@ -40,7 +40,10 @@ std::string escaped(const std::string& text) {
 // One pattern with a space in it is not two patterns.
 std::string list(const std::vector<std::string>& items) {
   std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "\"" : " \"") + escaped(item) + '"';
+  for (const std::string& item : items) {
+    const bool plain = !item.empty() && item.find_first_of(" \"\\\n") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? item : '"' + escaped(item) + '"');
+  }
   return text;
 }
 

@@ -2,8 +2,11 @@
 #
 # Each library came from a package of this machine, which dpkg names. `architecture` ("x86_64-linux-gnu") tells
 # it from those of other architectures.
-set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})
+get_filename_component(root "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}" ABSOLUTE)  # a prefix may be relative
 file(GLOB libraries RELATIVE ${root}/lib ${root}/lib/*.so*)
+if(NOT libraries)
+  message(FATAL_ERROR "the bundle in ${root} has no libraries")
+endif()
 list(TRANSFORM libraries PREPEND "*/")
 find_program(DPKG dpkg NO_CACHE)
 if(NOT DPKG)

@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -53,13 +54,12 @@ Folder Folder::open_private(std::string path) {
   struct stat status;
   try {
     status = folder.status();
+    if (status.st_uid != ::geteuid() && !folder.gives_files_to(status.st_uid))
+      throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
   } catch (const std::exception&) {
     if (folder.made_) ::rmdir(folder.path_.c_str());
     throw;
   }
-  // One that was made here is ours, whoever a file server or a mount takes us for.
-  if (!folder.made_ && status.st_uid != ::geteuid())
-    throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
   // A folder that was there may be open to others. Where there are no permissions this fails, and
   // there is nothing to guard.
   if ((status.st_mode & 0777) != 0700) (void)!::fchmod(folder.fd_, 0700);
@@ -81,6 +81,20 @@ Folder::Folder(Folder&& other) noexcept
 
 Folder::~Folder() {
   if (fd_ >= 0) ::close(fd_);
+}
+
+// A file server or a mount may take us for somebody else; then it does so with files, too.
+bool Folder::gives_files_to(uid_t owner) const {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::string name = "probe-" + std::to_string(::getpid()) + "-" + std::to_string(now);
+  try {
+    const File probe = create(name);
+    remove(name);
+    struct stat status;
+    return ::fstat(probe.descriptor(), &status) == 0 && status.st_uid == owner;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 struct stat Folder::status() const {
@@ -140,10 +154,13 @@ std::vector<std::string> Folder::names() const {
   const std::unique_ptr<DIR, decltype(close)> list(::fdopendir(fd), close);
   if (list == nullptr) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
   std::vector<std::string> names;
+  errno = 0;  // the end and an error look the same but for this
   while (const dirent* entry = ::readdir(list.get())) {
     const std::string name = entry->d_name;
     if (name != "." && name != "..") names.push_back(name);
+    errno = 0;
   }
+  if (errno != 0) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
   return names;
 }
 

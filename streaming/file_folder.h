@@ -54,6 +54,8 @@ class Folder {
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
   static Folder open_or_make(std::string path);
   struct stat status() const;
+  // Whether files that are made in it belong to `owner`.
+  bool gives_files_to(uid_t owner) const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;
 

@@ -10,7 +10,8 @@ namespace svdag {
 // Thrown by check_interrupt(); not an Error, for nothing went wrong. main() exits with 128 + n.
 struct Interrupted {
   int signal;
-  bool resumable = false;  // set by who catches it and has saved work
+  bool resumable = false;     // set by who catches it and has saved work
+  const char* how = nullptr;  // to resume, where the program's own words for it do not hold
 };
 
 // Installs the handlers. Once, from main().

@@ -37,8 +37,8 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;
   } catch (const Interrupted& interrupted) {
-    return tell(words, interrupted.resumable ? words.resumable : words.stopped,
-                128 + interrupted.signal);
+    const char* resumable = interrupted.how != nullptr ? interrupted.how : words.resumable;
+    return tell(words, interrupted.resumable ? resumable : words.stopped, 128 + interrupted.signal);
   } catch (const Error& error) {
     return tell(words, error.what(), int(error.code()));
   } catch (const std::exception& error) {

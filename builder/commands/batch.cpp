@@ -151,15 +151,20 @@ struct Outcome {
   std::string report;
 };
 
-Outcome run(const BuildCommandConfig& job, bool dry) {
+Outcome run(const BuildCommandConfig& job, const BuildCommandConfig& batch) {
   Outcome outcome;
   try {
-    if (dry) {
+    if (batch.dry_run) {
       run_dry(job);
     } else {
       bake_scene(job, &outcome.report);
     }
-  } catch (const Interrupted&) {
+  } catch (Interrupted& interrupted) {
+    if (job.build.unfinished == Unfinished::kRestart)
+      interrupted.how = batch.build.unfinished == Unfinished::kRestart
+                            ? kResumeForRestart
+                            : "stopped; without \"restart\" in the list, the same command with "
+                              "--resume continues";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();
@@ -186,7 +191,7 @@ int run_batch(const BuildCommandConfig& config) {
   size_t failed = 0;
   for (const BuildCommandConfig& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
-    const Outcome outcome = run(job, config.dry_run);
+    const Outcome outcome = run(job, config);
     Json entry = {{"output", job.build.output}, {"exit", int(outcome.code)}};
     if (!outcome.error.empty()) entry["error"] = outcome.error;
     if (!outcome.report.empty()) entry["report"] = Json::parse(outcome.report);

@@ -11,6 +11,7 @@
 #include "io/units.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -222,7 +223,12 @@ int run_build(const BuildCommandConfig& config) {
   refuse_plans(config.build.scene.paths, "--shard");
   refuse_overwriting(config);
   if (config.dry_run) return run_dry(config);
-  bake_scene(config);
+  try {
+    bake_scene(config);
+  } catch (Interrupted& interrupted) {
+    if (config.build.unfinished == Unfinished::kRestart) interrupted.how = kResumeForRestart;
+    throw;
+  }
   return int(ExitCode::kOk);
 }
 

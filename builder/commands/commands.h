@@ -13,6 +13,10 @@
 
 namespace svdag {
 
+// How a bake that --restart began is continued.
+constexpr const char* kResumeForRestart =
+    "stopped; the same command with --resume in place of --restart continues";
+
 // What every sub-command understands.
 struct OutputConfig {
   bool quiet = false;    // -q: errors only

@@ -20,15 +20,7 @@ CLI::App* add_help(CLI::App* program, std::string* subject) {
   return app;
 }
 
-struct CommandLine {
-  int argc;
-  char** argv;
-  ProgramWords words;
-};
-
-int run_command(CommandLine* line) {
-  const int argc = line->argc;
-  char** const argv = line->argv;
+int run_command(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "export") become_sibling("svdag-export", argv);
   if (argc > 1 && std::string_view(argv[1]) == "import") become_sibling("svdag-import", argv);
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
@@ -56,9 +48,6 @@ int run_command(CommandLine* line) {
                    "\n\nsvdag-verify proves what was baked, and makes pictures of it; "
                    "svdag-trace traces rays through it.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
-  if (build.build.unfinished == Unfinished::kRestart)
-    line->words.resumable =
-        "stopped; the same command with --resume in place of --restart continues";
   return build_app->parsed()    ? run_build(build)
          : merge_app->parsed()  ? run_merge(merge)
          : plan_app->parsed()   ? run_plan(plan)
@@ -73,11 +62,9 @@ int run_command(CommandLine* line) {
 
 int main(int argc, char** argv) {
   svdag::catch_interrupts();
-  svdag::CommandLine line{argc,
-                          argv,
-                          {.name = "svdag",
-                           .stopped = "stopped; nothing was saved to continue from",
-                           .resumable = "stopped; the same command with --resume continues"}};
-  // One reference: more would take memory, before anybody could say that there is none.
-  return svdag::run_program(line.words, [&line] { return svdag::run_command(&line); });
+  // Two words to hold: more would take memory, before anybody could say that there is none.
+  return svdag::run_program({.name = "svdag",
+                             .stopped = "stopped; nothing was saved to continue from",
+                             .resumable = "stopped; the same command with --resume continues"},
+                            [argc, argv] { return svdag::run_command(argc, argv); });
 }

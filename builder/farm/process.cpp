@@ -140,4 +140,15 @@ std::string own_program() {
   return error ? "svdag" : path.string();
 }
 
+std::string from_anywhere(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  return error ? path : absolute.string();
+}
+
+std::string program_on_hosts(const std::string& asked) {
+  if (asked.empty()) return own_program();
+  return asked.find('/') == std::string::npos ? asked : from_anywhere(asked);
+}
+
 }  // namespace svdag

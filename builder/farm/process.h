@@ -30,4 +30,11 @@ Answer ask_process(const std::vector<std::string>& command);
 // This program's own file.
 std::string own_program();
 
+// `path` from wherever a host works. Links are those of the host: they stay, and so does "..".
+std::string from_anywhere(const std::string& path);
+
+// What hosts start for `asked`: a name without a folder is looked up on their PATH; empty: this
+// program.
+std::string program_on_hosts(const std::string& asked);
+
 }  // namespace svdag

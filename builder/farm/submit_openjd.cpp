@@ -25,20 +25,6 @@ std::string relative_to(const std::string& folder, const std::string& path) {
   return error ? path : relative.string();
 }
 
-// Hosts work in folders of their own. Links are those of the host: they stay.
-std::string from_anywhere(const std::string& path) {
-  std::error_code error;
-  const auto absolute = std::filesystem::absolute(path, error);
-  return error ? path : absolute.lexically_normal().string();
-}
-
-// A program without a folder is looked up on the PATH of the host.
-std::string program_of(const OpenJdConfig& config) {
-  if (config.program.empty()) return own_program();
-  const bool bare = config.program.find('/') == std::string::npos;
-  return bare ? config.program : from_anywhere(config.program);
-}
-
 // Steps that may run at the same time, as one step of the template with a task each.
 struct Stage {
   std::string name;
@@ -84,7 +70,7 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
   arguments.push_back(shards ? kNumber : merge_name(kNumber));
   if (!config.scratch.empty()) {
     arguments.push_back("--scratch");
-    arguments.push_back(from_anywhere(config.scratch));
+    arguments.push_back(config.scratch);
   }
   return {{"name", stage.name},
           {"parameterSpace",
@@ -101,7 +87,10 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 
 }  // namespace
 
-std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
+std::string openjd_template(const Plan& plan, const OpenJdConfig& asked) {
+  OpenJdConfig config = asked;  // as hosts see it, who work in folders of their own
+  config.program = program_on_hosts(asked.program);
+  if (!asked.scratch.empty()) config.scratch = from_anywhere(asked.scratch);
   for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
     require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"},
@@ -116,7 +105,7 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& config) {
                    {{"name", "Svdag"},
                     {"type", "STRING"},
                     {"description", "The program svdag on the hosts"},
-                    {"default", program_of(config)}}});
+                    {"default", config.program}}});
   std::string before;
   for (const Stage& stage : stages_of(plan)) {
     Json step = step_json(plan, config, stage);

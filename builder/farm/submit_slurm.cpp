@@ -167,12 +167,13 @@ std::string Submission::script_of(const Job& job) const {
   const PlanStep& step = plan_.steps[job.steps.front()];
   std::vector<std::string> words = plan_.command(step);
   if (is_array(job)) words.pop_back();  // the number
-  std::string command = shell_word(config_.program.empty() ? own_program() : config_.program);
+  std::string command = shell_word(program_on_hosts(config_.program));
   for (const std::string& word : words) command += " " + shell_word(word);
   if (is_array(job))
     command += " \"$((SLURM_ARRAY_TASK_ID + " +
                std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) + "))\"";
-  if (!config_.scratch.empty()) command += " --scratch " + shell_word(config_.scratch);
+  if (!config_.scratch.empty())
+    command += " --scratch " + shell_word(from_anywhere(config_.scratch));
   return "#!/bin/sh\n" + command +
          "\n"
          "code=$?\n"

@@ -10,3 +10,9 @@ svdag-scene scan -n 70K -q -o s.ply
 stop svdag build s.ply -r 8K -m 8M -o z.svdag -q
 rm -r z.svdag.scratch
 stop svdag build s.ply -r 8K -m 8M -o z.svdag -q --restart
+rm -r z.svdag.scratch
+echo '[{"scene": "s.ply", "output": "z.svdag", "resolution": "8K", "memory": "8M", "restart": true}]' > l.json
+stop svdag build --batch l.json -q
+rm -r z.svdag.scratch
+echo '[{"scene": "s.ply", "output": "z.svdag", "resolution": "8K", "memory": "8M"}]' > l.json
+stop svdag build --batch l.json -q --restart

@@ -33,6 +33,10 @@ TEST(PrivateFolder, IsOursIfWeMadeItWhoeverItSeemsToBelongTo) {
   EXPECT_EQ(status.st_uid, 12345U);
   EXPECT_SVDAG_ERROR(Folder::open_private(temp.file("s")), ExitCode::kOutput,
                      "s: belongs to another user");
+  setfsuid(12345);
+  EXPECT_NO_THROW(EXPECT_FALSE(Folder::open_private(temp.file("s")).made()));  // resumed
+  EXPECT_TRUE(Folder::open_private(temp.file("s")).names().empty());
+  setfsuid(0);
 }
 
 TEST(SharedFolder, IsMadeForThisUserAlone) {

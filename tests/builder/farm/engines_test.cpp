@@ -123,6 +123,11 @@ TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {
   EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is no UTF-8");
   EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "/scratch/\xff", ""}), ExitCode::kUsage,
                      "is no UTF-8");
+  const auto here = std::filesystem::current_path();
+  std::filesystem::create_directory(folder_.file("caf\xe9"));
+  std::filesystem::current_path(folder_.file("caf\xe9"));
+  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "spill", ""}), ExitCode::kUsage, "is no UTF-8");
+  std::filesystem::current_path(here);
 }
 
 TEST_F(Engines, LeaveOutWhatCannotBeDoneAndTellWhy) {
@@ -289,6 +294,18 @@ TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
   const std::string here = std::filesystem::current_path().string() + "/";
   EXPECT_EQ(described("bin/svdag", "spill"), std::pair(here + "bin/svdag", here + "spill"));
   EXPECT_EQ(described("svdag", "/spill"), std::pair(std::string("svdag"), std::string("/spill")));
+  EXPECT_EQ(described("svdag", "/link/../spill").second, "/link/../spill");  // of the host's link
+}
+
+TEST_F(Engines, LeadNodesToTheProgramAndTheScratchFolder) {
+  SlurmConfig config;
+  config.program = "bin/svdag";
+  config.scratch = "spill";
+  const std::string job = submitted(config).at(0);
+  const std::string script = read_bytes(job.substr(job.find_last_of(' ') + 1));
+  const std::string here = std::filesystem::current_path().string() + "/";
+  EXPECT_NE(script.find("\n" + here + "bin/svdag build "), std::string::npos) << script;
+  EXPECT_NE(script.find(" --scratch " + here + "spill\n"), std::string::npos) << script;
 }
 
 TEST_F(Engines, DescribeStagesToOpenJobDescription) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
@@ -65,10 +67,17 @@ TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
 }
 
-// Triangles that miss the part are counted with the others, and take nothing.
-TEST(DiskNeed, OfAPartIsThatOfItsTriangles) {
+// Triangles that miss the part are counted with the others, and take nothing, wherever in the file
+// they stand.
+class DiskNeedOfAPart : public ::testing::TestWithParam<bool> {};
+
+TEST_P(DiskNeedOfAPart, IsThatOfItsTriangles) {
   const TempFolder folder;
-  write_stl(folder.file("scene.stl"), random_soup(100'000, 0.05, 23));
+  auto soup = random_soup(100'000, 0.05, 23);
+  if (GetParam())  // those of the part first
+    std::stable_partition(soup.begin(), soup.end(),
+                          [](const Triangle& t) { return t.v[0].x < 0.5 && t.v[0].y < 0.5; });
+  write_stl(folder.file("scene.stl"), soup);
   BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.run"), 8);
   config.memory = 4 * kMiB;
   config.part = Part::share(1, 4);
@@ -77,6 +86,8 @@ TEST(DiskNeed, OfAPartIsThatOfItsTriangles) {
   EXPECT_GT(report.scratch.written, 0U);
   EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
 }
+
+INSTANTIATE_TEST_SUITE_P(Order, DiskNeedOfAPart, ::testing::Bool());
 
 // All triangles of the scene would not fit in memory; those of a part may.
 TEST(DiskNeed, OfAPartThatFitsIsNothing) {
