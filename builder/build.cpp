@@ -1,6 +1,5 @@
 #include "builder/build.h"
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 
@@ -132,8 +131,7 @@ void Bake::choose_grid() {
     SceneCounts counts;
     const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
     report_.grid = svdag::choose_grid(config_, box);
-    // Nobody knows how many of them are in a part, nor where in the scene those are.
-    const uint64_t triangles = config_.part ? 0 : counts.triangles;
+    const uint64_t triangles = config_.part ? 0 : counts.triangles;  // of a part nobody knows
     disk_need_.expect_triangles(triangles, shares_.triangles);
     split_config_.on_spill = [this, triangles](uint64_t read, uint64_t bytes) {
       disk_need_.expect_spilled(triangles, read, bytes);

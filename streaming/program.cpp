@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cstdio>
 
 #include "streaming/interrupt.h"
@@ -17,9 +18,11 @@ int tell(const ProgramWords& words, const char* sentence, int code) {
 }
 
 // Undoes what the parent process may have set: SIGCHLD ignored, so that no child could be waited
-// for, and a low limit of open files, where a merge has thousands of runs.
+// for, and a low limit of open files, where a merge has thousands of runs. And what a library may
+// have set when it was loaded: another rounding, denormals taken for zero.
 void settle_inheritance() {
   constexpr rlim_t kOpenFiles = 65536;
+  std::fesetenv(FE_DFL_ENV);
   ::signal(SIGCHLD, SIG_DFL);
   rlimit files;
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= kOpenFiles) return;

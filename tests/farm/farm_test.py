@@ -40,6 +40,10 @@ class Failure(Exception):
     pass
 
 
+class Skipped(Exception):
+    pass
+
+
 def require(condition, sentence):
     if not condition:
         raise Failure(sentence)
@@ -189,8 +193,7 @@ def openjd():
 def by_openjd(farm, name, resolution):
     program = openjd()
     if program is None:
-        say("  skipped: PyPI cannot be reached, so openjd-cli could not be installed")
-        return
+        raise Skipped("PyPI cannot be reached, so openjd-cli could not be installed")
     plan = farm.plan(name, resolution)
     template = farm.call("submit", plan, "--engine", "openjd").strip()
     for command in (["check", template], ["run", template]):
@@ -223,6 +226,8 @@ def main():
         try:
             test()
             say(f"ok      {title}: the same bytes ({time.monotonic() - begin:.0f} s)")
+        except Skipped as reason:
+            say(f"skipped {title}: {reason}")
         except (Failure, subprocess.TimeoutExpired, RuntimeError) as failure:
             failed += 1
             say(f"FAILED  {title}: {failure}")

@@ -110,16 +110,21 @@ def judge_losses(report, farm):
         for before in STEPS[:number]:
             farm.step(before, Fault())
         counts = farm.step(step, Fault()).counts
+        output = farm.served / "plan" / (f"runs/shard-{number + 1}.run" if number < 2 else "scene.svdag")
+        expected = output.read_bytes()
         for kind in ("open", "read"):
             for k in range(1, counts[kind] + 1):
                 error = errno.ESTALE if k % 2 else errno.ETIMEDOUT
-                for path in farm.served.glob("plan/runs/" + (f"shard-{number + 1}.*" if number < 2 else "merge-1.*")):
-                    path.unlink()
+                for path in [output, *farm.served.glob(f"plan/runs/{step[-1] if number == 2 else f'shard-{number + 1}'}.*")]:
+                    path.unlink(missing_ok=True)
                 outcome = farm.step(step, Fault(kind, k, str(error)))
                 fired += bool(outcome.fired)
                 found = [] if outcome.code in (0, 4) else [f"exit {outcome.code}, {outcome.stderr!r}"]
                 if outcome.code == 4:
                     found += bakes.sentences(outcome.stderr)
+                    again = farm.step(step, Fault())
+                    found += [f"again: exit {again.code}, {again.stderr!r}"] * (again.code != 0)
+                found += ["other bytes"] * (not output.exists() or output.read_bytes() != expected)
                 report.judge(f"{step}: {kind} {k} says {errno.errorcode[error]}", found)
         farm.step(step, Fault())
     report.judge("after all that", farm.complaints_about_file())

@@ -163,6 +163,7 @@ def run(report, case, pool):
             for name, found, did_refuse in pool.map(lambda state: judge(case, kitchens, state), batch):
                 report.judge(name, found)
                 refused += did_refuse != ""
+        report.judge(f"{case.name}: promises are made", ["none"] * (case.bake is not IN_MEMORY and promised == 0))
     print(f"{case.name}: {len(operations)} operations, {count} states, {promised} with a promise, {refused} refused")
 
 

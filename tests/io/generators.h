@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "io/grid.h"
+#include "tests/any_of.h"
 
 namespace svdag {
 
 // A coordinate: round, tiny, huge or between, of both signs.
 inline rc::Gen<double> coordinates() {
-  return rc::gen::map(rc::gen::tuple(rc::gen::inRange<int64_t>(-1'000'000, 1'000'000),
-                                     rc::gen::inRange(-30, 10), rc::gen::arbitrary<bool>()),
+  return rc::gen::map(rc::gen::tuple(any_of<int64_t>(-1'000'000, 1'000'000), any_of(-30, 10),
+                                     rc::gen::arbitrary<bool>()),
                       [](const std::tuple<int64_t, int, bool>& t) {
                         const auto [mantissa, exponent, round] = t;
                         return round ? double(mantissa % 1000) / 4
@@ -40,7 +41,7 @@ inline rc::Gen<Box> boxes() {
 }
 
 inline rc::Gen<int> level_counts() {
-  return rc::gen::inRange(kMinLevels, kMaxLevels + 1);
+  return any_of(kMinLevels, kMaxLevels + 1);
 }
 
 }  // namespace svdag

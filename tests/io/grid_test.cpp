@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/lattice.h"
+#include "tests/any_of.h"
 #include "tests/expect_error.h"
 #include "tests/io/generators.h"
 
@@ -76,7 +77,7 @@ TEST(CoveredLattice, RefusesMoreThanAMillionVoxels) {
 
 RC_GTEST_PROP(CoveredLattice, IsTheSmallestThatHoldsEveryTouchedVoxel, ()) {
   const Box box = *boxes();
-  const double size = divide_box(box, *rc::gen::inRange(3, 18)).voxel_size;
+  const double size = divide_box(box, *any_of(3, 18)).voxel_size;
   const Grid grid = cover_lattice(box, size);
   const Lattice lattice(grid);
   const LatticePoint low = lattice.snap(box.min), high = lattice.snap(box.max);
@@ -104,7 +105,7 @@ TEST(Grid, ACornerBeyondEveryLatticeIsImpossible) {
 // By brute force: the open voxel (k, k + 1) meets the closed interval [low, high].
 RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
   Grid grid = divide_box(box_of({0, 0, 0}, {15, 15, 15}), 4);  // voxels of size 1 from -1/2
-  const auto quarter = [] { return double(*rc::gen::inRange(-12, 80)) / 4; };
+  const auto quarter = [] { return double(*any_of(-12, 80)) / 4; };
   const Box bounds = box_of({quarter(), quarter(), quarter()}, {quarter(), quarter(), quarter()});
   const Grid selected = select_bounds(grid, bounds);
   RC_ASSERT(selected.bounded);

@@ -307,7 +307,8 @@ class HostileCounts(unittest.TestCase):
         done = subprocess.run([PROGRAMS / "svdag", *map(str, words)], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def judge(self, path, data, fields, command, repair=None, prepare=lambda: None):
+    def judge(self, path, data, fields, command, repair=None, prepare=lambda: None,
+              is_behind_checksums=lambda answer: answer.text and "checksum" not in answer.text):
         """`command` reads `path`, which is `data` with one of its fields changed."""
         def write(content):
             prepare()
@@ -316,14 +317,18 @@ class HostileCounts(unittest.TestCase):
                 subprocess.run([PROGRAMS / "tests" / "repair_file", repair, path], check=True)
         write(data)
         base = run(command, self.folder)
-        self.assertEqual(base.code, 0, f"{path.name}, undamaged: {base.text}")
+        self.assertEqual((base.code, base.text), (0, ""), f"{path.name}, undamaged")
         self.assertGreater(len(fields), 0)
+        behind = 0
         for which, field in enumerate(fields):
             HostileCounts.fields += 1
             for value in VALUES:
-                write(field(value))
+                content = field(value)
+                write(content)
                 answer = run(command, self.folder)
+                behind += content != data and bool(is_behind_checksums(answer))
                 self.check(f"{path.name}, field {which} = {value}", answer, base, len(data))
+        self.assertGreater(behind, 0, "no field was looked at")
 
     def check(self, what, answer, base, size):
         HostileCounts.runs += 1
@@ -391,14 +396,16 @@ class HostileCounts(unittest.TestCase):
                    [PROGRAMS / "svdag", "merge", "own.run", "-o", "merged.svdag", "-q"], "run")
 
     def test_packs(self):
-        command = ["build", "scene.stl", "-o", "cached.svdag", "-r", "16", "--cache", "cache", "-q", "-j", "1"]
+        command = ["build", "scene.stl", "-o", "cached.svdag", "-r", "16", "--cache", "cache", "-q", "-j", "1", "--report",
+                   "report.json"]
         self.svdag(*command)
         pack = next((self.folder / "cache").iterdir())
         data = pack.read_bytes()
         entry = len(data) - 8 - 48  # the last of them; behind it the checksum of the only block
         fields = [word(data, at, 8) for at in [*range(16, 16 + 21 * 8, 8), 184, 192, 256, entry + 32]]
         fields += [word(data, at, 4) for at in (8, entry + 40, entry + 44)]
-        self.judge(pack, data, fields, [PROGRAMS / "svdag", *command], "pack", prepare=self.empty_cache)
+        self.judge(pack, data, fields, [PROGRAMS / "svdag", *command], "pack", prepare=self.empty_cache,
+                   is_behind_checksums=lambda _: '"cache_hits": 1' in (self.folder / "report.json").read_text())
 
     def empty_cache(self):
         for file in (self.folder / "cache").iterdir():
@@ -420,7 +427,9 @@ class HostileCounts(unittest.TestCase):
                 forget()
                 changed = put(data, at, 8, value)
                 index.write_bytes(changed)
-                path.write_bytes(re.sub(rb'"index_hash": "\w+"', b'"index_hash": "%s"' % hash_of(changed), text))
+                right, hashes = re.subn(rb'"index_hash": "\w+"', b'"index_hash": "%s"' % hash_of(changed), text)
+                self.assertEqual(hashes, 1)
+                path.write_bytes(right)
                 answer = run(command, self.folder)
                 self.check(f"index, word {which} = {value}", answer, Answer(0, "", 8 * MIB), len(data))
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "tests/any_of.h"
 #include "tests/expect_error.h"
 #include "tests/io/generators.h"
 
@@ -58,8 +59,7 @@ RC_GTEST_PROP(Snap, OfABoxGridIsTheNearestStepFromTheOrigin, ()) {
 // kLattice: the corner changes the result by whole voxels only, so tiles of one lattice agree.
 RC_GTEST_PROP(Snap, TilesOfOneLatticeAgree, ()) {
   Grid one = some_grid(*boxes(), *level_counts(), true), other = one;
-  for (int k = 0; k < 3; ++k)
-    other.k0[k] = 1024 * *rc::gen::inRange<int64_t>(-1'000'000, 1'000'000);
+  for (int k = 0; k < 3; ++k) other.k0[k] = 1024 * *any_of<int64_t>(-1'000'000, 1'000'000);
   const Point p = *points();
   const LatticePoint a = Lattice(one).snap(p), b = Lattice(other).snap(p);
   for (int k = 0; k < 3; ++k)
@@ -129,8 +129,8 @@ RC_GTEST_PROP(TouchedVoxels, AreThoseWhoseClosedIntervalHoldsTheCoordinate, ()) 
   grid.levels = *level_counts();
   const Lattice lattice(grid);
   const int64_t voxel = int64_t(1) << lattice.fraction();
-  const int64_t plane = *rc::gen::inRange<int64_t>(-2000, 2000) * voxel;
-  const int64_t q = plane + *rc::gen::inRange<int64_t>(-3, 4);
+  const int64_t plane = *any_of<int64_t>(-2000, 2000) * voxel;
+  const int64_t q = plane + *any_of<int64_t>(-3, 4);
   const int64_t first = lattice.first_voxel(q), last = lattice.last_voxel(q);
   for (int64_t k = plane / voxel - 3; k <= plane / voxel + 3; ++k) {
     const bool touched = k * voxel <= q && q <= (k + 1) * voxel;

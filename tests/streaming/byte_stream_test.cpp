@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/any_of.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
@@ -51,13 +52,13 @@ TEST(ByteStream, ACrlfAtTheBorderOfTheWindowIsOneLineEnd) {
 
 RC_GTEST_PROP(ByteStream, LinesDoNotDependOnTheWindow, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::element('a', 'b', '\r', '\n'));
-  const auto window = *rc::gen::inRange<size_t>(1, 12);
+  const auto window = *any_of<size_t>(1, 12);
   RC_ASSERT(lines_of(text, window) == expected_lines(text));
 }
 
 RC_GTEST_PROP(ByteStream, PeekSkipAndReadShowTheBytesOfTheFile, ()) {
-  const auto text = *rc::gen::container<std::string>(rc::gen::inRange<char>('a', 'z'));
-  const auto window = *rc::gen::inRange<size_t>(1, 12);
+  const auto text = *rc::gen::container<std::string>(any_of<char>('a', 'z'));
+  const auto window = *any_of<size_t>(1, 12);
   const TempFolder folder;
   const File file = File::open_read(folder.write("bytes", text));
   ByteStream stream(file, 0, UINT64_MAX, window);

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "tests/any_of.h"
+
 namespace svdag {
 namespace {
 
@@ -37,7 +39,7 @@ RC_GTEST_PROP(Checksum, OneFlippedBitChangesBoth, ()) {
   auto text = *rc::gen::nonEmpty<std::string>();
   const uint64_t before64 = checksum64(bytes_of(text));
   const Hash128 before128 = hash128(text);
-  text[*rc::gen::inRange<size_t>(0, text.size())] ^= char(1 << *rc::gen::inRange(0, 8));
+  text[*any_of<size_t>(0, text.size())] ^= char(1 << *any_of(0, 8));
   RC_ASSERT(checksum64(bytes_of(text)) != before64);
   RC_ASSERT(hash128(text) != before128);
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "tests/any_of.h"
 #include "tests/stress/compare_windows.h"
 #include "tests/stress/world.h"
 
@@ -32,7 +33,7 @@ Sample draw_sample() {
       all.insert(all.end(), group.begin(), group.end());
     return all;
   }();
-  const auto family = *rc::gen::inRange<size_t>(0, families.size());
+  const auto family = *any_of<size_t>(0, families.size());
   const int levels = *rc::gen::element(10, 13, 16, 20);
   Sample sample{{}, {}, StressRandom(*rc::gen::arbitrary<uint64_t>())};
   sample.spot = draw_spot(unit_grid(levels), 0, 32, Place::kAnywhere, &sample.random);
@@ -157,7 +158,7 @@ RC_GTEST_PROP(Invariance, SubdivisionAtLatticeMidpoints, ()) {
 RC_GTEST_PROP(Invariance, ScalingByPowersOfTwo, ()) {
   Sample sample = draw_sample();
   const Grid& grid = sample.spot.grid;
-  const int power = *rc::gen::inRange(-900, 900);
+  const int power = *any_of(-900, 900);
   std::vector<Triangle> world, scaled;
   for (const LatticeTriangle& t : sample.soup) {
     Triangle a, b;

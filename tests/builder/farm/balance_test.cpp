@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "builder/farm/merge_tree.h"
+#include "tests/any_of.h"
 
 namespace svdag {
 namespace {
@@ -18,7 +19,7 @@ constexpr uint64_t kCells = 512;
 std::vector<CellCost> some_cells() {
   std::vector<CellCost> cells;
   for (uint64_t cell = 0; cell < kCells; ++cell) {
-    const int cost = *rc::gen::inRange(0, 100);
+    const int cost = *any_of(0, 100);
     if (cost >= 50) cells.push_back({cell, double(cost)});
   }
   return cells;
@@ -26,7 +27,7 @@ std::vector<CellCost> some_cells() {
 
 RC_GTEST_PROP(CutEvenly, RangesFollowEachOtherAndHoldTheWholeGrid, ()) {
   const std::vector<CellCost> cells = some_cells();
-  const auto count = *rc::gen::inRange<size_t>(1, 40);
+  const auto count = *any_of<size_t>(1, 40);
   const auto ranges = cut_evenly(cells, kLevel, count);
   RC_ASSERT(ranges.size() == count);
   uint64_t at = 0;
@@ -39,7 +40,7 @@ RC_GTEST_PROP(CutEvenly, RangesFollowEachOtherAndHoldTheWholeGrid, ()) {
 
 RC_GTEST_PROP(CutEvenly, NoRangeIsOffByMoreThanTheDearestCell, ()) {
   const std::vector<CellCost> cells = some_cells();
-  const auto count = *rc::gen::inRange<size_t>(1, 40);
+  const auto count = *any_of<size_t>(1, 40);
   double all = 0, dearest = 0;
   for (const CellCost& c : cells) {
     all += c.cost;
@@ -61,8 +62,8 @@ TEST(CutEvenly, NothingAtAllIsTheFirstShards) {
 }
 
 RC_GTEST_PROP(MergeTree, EveryOutputIsReadOnceAndNeighboursMeet, ()) {
-  const auto leaves = *rc::gen::inRange<size_t>(1, 300);
-  const auto fan_in = *rc::gen::inRange<size_t>(2, 20);
+  const auto leaves = *any_of<size_t>(1, 300);
+  const auto fan_in = *any_of<size_t>(2, 20);
   const MergeTree tree = merge_tree(leaves, fan_in);
   std::vector<std::pair<size_t, size_t>> spans;  // of leaves, by node
   for (size_t i = 0; i < leaves; ++i) spans.push_back({i, i + 1});

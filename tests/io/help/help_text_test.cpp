@@ -6,6 +6,8 @@
 
 #include <sstream>
 
+#include "tests/any_of.h"
+
 namespace svdag {
 namespace {
 
@@ -75,10 +77,10 @@ TEST(HelpText, ALongRowOfATableGoesOnInItsSecondColumn) {
 }
 
 RC_GTEST_PROP(HelpText, NoLineIsLongerThanItsWidthAndNoWordIsLost, ()) {
-  const size_t width = *rc::gen::inRange<size_t>(40, 101);
+  const size_t width = *any_of<size_t>(40, 101);
   std::string text;
-  for (int i = *rc::gen::inRange(1, 60); i > 0; --i)
-    text += *rc::gen::container<std::string>(*rc::gen::inRange(1, 12),
+  for (int i = *any_of(1, 60); i > 0; --i)
+    text += *rc::gen::container<std::string>(*any_of(1, 12),
                                              rc::gen::elementOf(std::string("abc,;()"))) +
             " ";
   Manual manual = example();

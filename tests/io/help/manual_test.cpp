@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/any_of.h"
 #include "tests/expect_error.h"
 
 namespace svdag {
@@ -44,16 +45,16 @@ Manual any_manual() {
   Manual manual;
   manual.command = *word();
   manual.text = *line();
-  for (int i = *rc::gen::inRange(0, 4); i > 0; --i) manual.options.push_back(any_option());
-  for (int i = *rc::gen::inRange(0, 3); i > 0; --i) manual.operands.push_back(any_option());
-  const int notes = *rc::gen::inRange(0, 4);
+  for (int i = *any_of(0, 4); i > 0; --i) manual.options.push_back(any_option());
+  for (int i = *any_of(0, 3); i > 0; --i) manual.operands.push_back(any_option());
+  const int notes = *any_of(0, 4);
   for (int i = 0; i < notes; ++i) manual.notes += (i == 0 ? "note " : "\n") + *line();
   return manual;
 }
 
 RC_GTEST_PROP(Manual, ComesOutOfATableAsItWentIn, ()) {
   Manual program = any_manual();
-  for (int i = *rc::gen::inRange(0, 3); i > 0; --i) program.commands.push_back(any_manual());
+  for (int i = *any_of(0, 3); i > 0; --i) program.commands.push_back(any_manual());
   const std::string table = to_table(program);
   const std::vector<Manual> read = from_table(table + table);
   RC_ASSERT(read.size() == 2U);

@@ -8,6 +8,7 @@
 
 #include "io/scene/collinear.h"
 #include "io/scene/draco.h"
+#include "tests/any_of.h"
 #include "tests/io/scene/gltf_builder.h"
 #include "tests/shared_scenes.h"
 #include "tests/temp_folder.h"
@@ -127,11 +128,11 @@ TEST(MeshStats, TheBudgetIsKept) {
 
 // A point of a line through two lattice points is collinear however large or small the floats are.
 RC_GTEST_PROP(Collinear, PointsOfALineAreAndOthersAreNot, ()) {
-  const auto coordinate = rc::gen::inRange(-1000, 1001);
-  const auto scale = [] { return std::ldexp(1.0f, *rc::gen::inRange(-130, 110)); }();
+  const auto coordinate = any_of(-1000, 1001);
+  const auto scale = [] { return std::ldexp(1.0f, *any_of(-130, 110)); }();
   std::array<float, 3> a, b, c, off;
-  const int step = *rc::gen::inRange(-1000, 1001);
-  const size_t axis = *rc::gen::inRange<size_t>(0, 3);
+  const int step = *any_of(-1000, 1001);
+  const size_t axis = *any_of<size_t>(0, 3);
   int length = 0;
   for (size_t i = 0; i < 3; ++i) {
     const int from = *coordinate, along = *coordinate;

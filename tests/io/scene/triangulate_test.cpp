@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/any_of.h"
 #include "tests/expect_error.h"
 #include "tests/io/scene/plain_triangulation.h"
 #include "tests/io/scene/triangulated.h"
@@ -91,11 +92,11 @@ RC_GTEST_PROP(Triangulate, AnyCornersGiveTwoTrianglesLess,
 
 // Corners at growing angles around the origin: simple, seldom convex, and exact in double.
 RC_GTEST_PROP(Triangulate, StarShapedPolygonsAreCoveredExactly, ()) {
-  const int n = *rc::gen::inRange(4, 60);
+  const int n = *any_of(4, 60);
   const bool clockwise = *rc::gen::arbitrary<bool>();
   std::vector<Point> polygon;
   for (int i = 0; i < n; ++i) {
-    const double angle = 6.283185307179586 * i / n, radius = *rc::gen::inRange(50, 5000);
+    const double angle = 6.283185307179586 * i / n, radius = *any_of(50, 5000);
     polygon.push_back(
         {std::round(radius * std::cos(angle) * 64), std::round(radius * std::sin(angle) * 64), 0});
   }
