@@ -168,13 +168,14 @@ class Import {
     return grid;
   }
 
-  static ImportReport describe(const Grid& grid, const DagOutput& output) {
+  ImportReport describe(const Grid& grid, const DagOutput& output) const {
     ImportReport report;
     report.grid = grid;
     report.voxels = output.voxels();
     for (const uint64_t nodes : output.keys()) report.nodes += nodes;
     report.file_bytes = output.file_bytes();
     report.content_hash = output.content_hash();
+    report.spilled = files_;
     return report;
   }
 

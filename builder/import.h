@@ -29,6 +29,7 @@ struct ImportReport {
   uint64_t nodes = 0;  // bricks included
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits
+  int spilled = 0;           // files that what memory did not hold was sorted in
 };
 
 // Hands all voxels to the sinks and says where they stand.

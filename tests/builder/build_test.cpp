@@ -113,7 +113,40 @@ TEST(Build, GivesTheSameBytesForEveryThreadCountCellSizeAndOrder) {
   }
 }
 
-TEST(Build, DuplicatesSubdivisionAndWindingChangeNothing) {
+// Corners and the middles of edges on lattice points: the pieces are the same set of points.
+TEST(Build, SubdivisionChangesNothing) {
+  const TempFolder folder;
+  const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
+  std::vector<Triangle> mesh = random_soup(300, 0.4, 31);
+  for (Triangle& t : mesh)
+    for (Point& p : t.v) p = glm::round(p * 1024.0) / 1024.0;
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    BuildConfig config = config_for(path, output, 0);
+    config.voxel_size = 1.0 / 256;
+    config.descent.rule = rule;
+    config.cell_level = 3;
+    write_stl(path, mesh);
+    bake(config);
+    const std::string expected = read_bytes(output);
+    std::vector<Triangle> pieces = mesh;
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Triangle> finer;
+      for (const Triangle& t : pieces) {
+        const Point a = t.v[0], b = t.v[1], c = t.v[2];
+        const Point ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
+        for (const Triangle& piece : {Triangle{{a, ab, ca}}, Triangle{{ab, b, bc}},
+                                      Triangle{{ca, bc, c}}, Triangle{{bc, ca, ab}}})
+          finer.push_back(piece);
+      }
+      pieces = finer;
+    }
+    write_stl(path, pieces);
+    bake(config);
+    EXPECT_EQ(read_bytes(output), expected);
+  }
+}
+
+TEST(Build, DuplicatesAndWindingChangeNothing) {
   const TempFolder folder;
   const std::string path = folder.file("scene.stl"), output = folder.file("out.svdag");
   std::vector<Triangle> mesh = boxes_and_quad(10, 4);

@@ -50,14 +50,14 @@ class TreeGraph : public NodeGraph {
   std::vector<std::vector<Node>> nodes_;  // [level]
 };
 
-std::string reduce_graph(const BrickMap& bricks, int levels, uint64_t memory) {
+std::string reduce_graph(const BrickMap& bricks, int levels, uint64_t memory, bool spills = false) {
   const TempFolder folder;
   TreeGraph graph(bricks, levels);
   ParallelExecutor executor(2);
   ImportConfig config;
   config.output = folder.file("a.svdag");
   config.memory = memory;
-  import_graph(&graph, config, &executor);
+  EXPECT_EQ(import_graph(&graph, config, &executor).spilled > 0, spills);
   return folder.read("a.svdag");
 }
 
@@ -67,7 +67,7 @@ TEST(GraphReduction, GivesTheBytesOfTheVoxelsWithAnyMemory) {
   size_t runs = 0;
   const std::string expected = reduce_bricks(bricks, levels, UINT64_MAX, &runs);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
-  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(12) << 20), expected);
+  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(12) << 20, true), expected);
   // Bricks without voxels, and what leads to nothing else, are not there.
   for (uint32_t x = 0; x < 200; ++x) bricks.try_emplace({x, 100, 77}, 0);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);

@@ -1,0 +1,29 @@
+// For snap_vs_fractions.py: snaps one position a line. "box|lattice L SIZE  ORIGIN|K0 (3)  POSITION
+// (3)", numbers as
+// "%a"; answers "q q q", or "far" for what is refused.
+#include <cstdio>
+#include <cstring>
+
+#include "io/lattice.h"
+#include "streaming/error.h"
+
+int main() {
+  using namespace svdag;
+  char kind[16];
+  Grid grid;
+  Point from, p;
+  while (std::scanf("%15s %d %la %la %la %la %la %la %la", kind, &grid.levels, &grid.voxel_size,
+                    &from.x, &from.y, &from.z, &p.x, &p.y, &p.z) == 9) {
+    const bool lattice = std::strcmp(kind, "lattice") == 0;
+    grid.kind = lattice ? Grid::Kind::kLattice : Grid::Kind::kBox;
+    grid.origin = lattice ? Point(0) : from;
+    grid.k0 = lattice ? LatticePoint(from) : LatticePoint(0);
+    try {
+      const LatticePoint q = Lattice(grid).snap(p);
+      std::printf("%lld %lld %lld\n", static_cast<long long>(q.x), static_cast<long long>(q.y),
+                  static_cast<long long>(q.z));
+    } catch (const Error&) {
+      std::puts("far");
+    }
+  }
+}

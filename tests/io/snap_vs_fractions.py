@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""The snap of vertices to the lattice against fractions: each operation rounded by itself, and its error in all.
+
+Usage: snap_vs_fractions.py PROGRAM   (tests/io/dump_snapped.cpp)"""
+import random
+import subprocess
+import sys
+import unittest
+from fractions import Fraction
+
+PROGRAM = sys.argv.pop(1) if __name__ == "__main__" else None
+CASES = 20_000
+FAR = 2**62
+
+
+def fraction_bits(levels):
+    return min(23, 39 - levels)
+
+
+def snap(lattice, levels, size, origin, k0, p):
+    """A lattice coordinate, or None; float() of a Fraction is the nearest double."""
+    offset = Fraction(p) if lattice else Fraction(float(Fraction(p) - Fraction(origin)))
+    quotient = Fraction(float(offset / Fraction(size)))
+    q = round(quotient * 2**fraction_bits(levels))  # halves to the even one
+    if abs(q) >= FAR:
+        return None
+    return q - (2 * k0 + 1) * 2**(fraction_bits(levels) - 1) if lattice else q
+
+
+def exactly(lattice, levels, size, origin, k0, p):
+    """Where the position lies on the lattice, without any rounding."""
+    scale = 2**fraction_bits(levels)
+    if lattice:
+        return (Fraction(p) / Fraction(size) - k0 - Fraction(1, 2)) * scale
+    return (Fraction(p) - Fraction(origin)) / Fraction(size) * scale
+
+
+def some_number(chance, size):
+    """A coordinate: near the grid, far from it, on a plane of voxels or a step beside it."""
+    near = chance.uniform(-1, 1) * size * 2**chance.randrange(24)
+    return chance.choice([near, round(near / size) * size, (round(near / size) + 0.5) * size,
+                          near * 2**chance.randrange(30), float(round(near, 3)), 0.0])
+
+
+class Snap(unittest.TestCase):
+    def test_every_operation_is_rounded_once_and_none_is_replaced(self):
+        chance = random.Random(7)
+        cases, lines = [], []
+        for _ in range(CASES):
+            lattice, levels = chance.random() < 0.5, chance.randint(3, 20)
+            size = chance.choice([0.1, 0.01, 1 / 3, chance.uniform(1e-3, 10), chance.uniform(1, 2) * 2.0**chance.randrange(-900, 900)])
+            from_ = [1024 * chance.randint(-2**20, 2**20) if lattice else some_number(chance, size) for _ in range(3)]
+            p = [some_number(chance, size) for _ in range(3)]
+            cases.append((lattice, levels, size, from_, p))
+            lines.append(" ".join(["lattice" if lattice else "box", str(levels), size.hex(),
+                                   *(float(f).hex() for f in from_), *(c.hex() for c in p)]))
+        done = subprocess.run([PROGRAM], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True)
+        answers = done.stdout.splitlines()
+        self.assertEqual(len(answers), CASES)
+        far = 0
+        for (lattice, levels, size, from_, p), answer in zip(cases, answers):
+            axes = [(0, k, c) if lattice else (k, 0, c) for k, c in zip(from_, p)]
+            expected = [snap(lattice, levels, size, *axis) for axis in axes]
+            if None in expected:
+                far += 1
+                self.assertEqual(answer, "far")
+                continue
+            found = [int(q) for q in answer.split()]
+            self.assertEqual(found, expected)
+            for q, axis in zip(found, axes):
+                true = exactly(lattice, levels, size, *axis)
+                away = abs(true) + abs(axis[1]) * 2**(fraction_bits(levels) + 1)  # of the lattice's own zero
+                self.assertLessEqual(abs(q - true), Fraction(1, 2) + away / 2**52)
+        self.assertLess(10, far)
+        self.assertLess(far, CASES / 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
