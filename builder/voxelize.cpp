@@ -4,6 +4,8 @@
 #include <chrono>
 #include <optional>
 
+#include "builder/descend/self_test.h"
+
 namespace svdag {
 namespace {
 
@@ -107,6 +109,7 @@ class Voxelizer::Worker : public Spiller {
 Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,
                      Executor* executor)
     : grid_(grid), config_(std::move(config)), executor_(executor) {
+  self_test(config_.descent);
   config_.descent.memo_bytes = config_.table_bytes / 8;
   for (size_t w = 0; w < executor->workers(); ++w)
     workers_.push_back(std::make_unique<Worker>(grid, config_, budget));
