@@ -1,47 +1,36 @@
-#!/ bin / sh
-#The packages of `make deb` in a clean Debian of the smallest kind : they bring what they \
-    need and nothing
-#else, the programs bake and prove a scene there, another project builds against libsvdag - dev, and
-#removing them leaves nothing behind.
-#Usage : deb_test.sh PROGRAMS PACKAGES(the folders of a finished build and of its.deb files; \
-                                       as root)
-set - eu cd "$(dirname " $0 ")/../.." programs = $(realpath "$1") packages =
-    $(realpath "$2") skip() {
-  echo "deb_test: skipped, $1";
-  exit 77;
-}
+#!/bin/sh
+# The packages of `make deb` in a clean Debian of the smallest kind: they bring what they need and nothing
+# else, the programs bake and prove a scene there, another project builds against libsvdag-dev, and
+# removing them leaves nothing behind.
+# Usage: deb_test.sh PROGRAMS PACKAGES   (the folders of a finished build and of its .deb files; as root)
+set -eu
+cd "$(dirname "$0")/../.."
+programs=$(realpath "$1")
+packages=$(realpath "$2")
+skip() { echo "deb_test: skipped, $1"; exit 77; }
 
-["$(id -u)" = 0] || skip "needs root for chroot" command - v debootstrap > / dev / null ||
-    skip "needs debootstrap" command - v apt - get > / dev / null ||
-    skip "needs apt, whose mirror it takes"
-#The programs name their outputs through / proc : it is mounted where nobody else sees it.
-    if[-z "${SVDAG_OWN_MOUNTS:-}"];
-then unshare-- mount true 2 > / dev / null || skip "needs the right to mount" SVDAG_OWN_MOUNTS =
-    1 exec unshare-- mount-- propagation private sh tests / stress /
-            deb_test
-                .sh
-            "$programs"
-            "$packages" fi./
-            etc / os -
-        release["$ID" = debian] ||
-    skip "the packages are for Debian, and this is $ID"
-#The clean root takes its packages from where this machine takes them.
-    sources = $(
-        apt -
-            get indextargets-- format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
-        sort - u) mirror =
-        $(echo "$sources" | awk - v suite =
-              "$VERSION_CODENAME" '$3 == suite && $4 == "main" { print $2; exit }')[-n "$mirror"] ||
-        skip "apt knows no mirror of $VERSION_CODENAME"
+[ "$(id -u)" = 0 ] || skip "needs root for chroot"
+command -v debootstrap >/dev/null || skip "needs debootstrap"
+command -v apt-get >/dev/null || skip "needs apt, whose mirror it takes"
+# The programs name their outputs through /proc: it is mounted where nobody else sees it.
+if [ -z "${SVDAG_OWN_MOUNTS:-}" ]; then
+  unshare --mount true 2>/dev/null || skip "needs the right to mount"
+  SVDAG_OWN_MOUNTS=1 exec unshare --mount --propagation private sh tests/stress/deb_test.sh "$programs" "$packages"
+fi
+. /etc/os-release
+[ "$ID" = debian ] || skip "the packages are for Debian, and this is $ID"
 
-        work = $(mktemp - d) root =
-            $work /
-            root
-                trap 'umount "$root"/proc 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
-                    trap 'exit 130' INT TERM log = $work / log tell_log() {
-  tail - 20 "$log" > &2;
-  exit 1;
-}
+# The clean root takes its packages from where this machine takes them.
+sources=$(apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' | sort -u)
+mirror=$(echo "$sources" | awk -v suite="$VERSION_CODENAME" '$3 == suite && $4 == "main" { print $2; exit }')
+[ -n "$mirror" ] || skip "apt knows no mirror of $VERSION_CODENAME"
+
+work=$(mktemp -d)
+root=$work/root
+trap 'umount "$root"/proc 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
+trap 'exit 130' INT TERM
+log=$work/log
+tell_log() { tail -20 "$log" >&2; exit 1; }
 
 echo "a clean $PRETTY_NAME"
 debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" >"$log" 2>&1 || tell_log
@@ -75,36 +64,37 @@ svdag-verify vdb city.svdag city.vdb -q
 svdag export city.svdag --format symvox -o symvox.svdag -q
 svdag import symvox.svdag -o again.svdag -q
 svdag-trace city.svdag --size 32x32 --samples 4 --rounds 1 >/dev/null
-for file in city.png city.html again.svdag;
-do test - s $file;
-done INSIDE cat > "$root" / try / develop.sh << 'INSIDE' set - eu export DEBIAN_FRONTEND =
-    noninteractive cd / try apt - get - qq install - y-- no - install - recommends./ libsvdag -
-        dev_*.deb g++ cmake make cmake - S reader - B build >
-    / dev / null cmake-- build build g++ - std =
-        c++ 17 - O1 - I / usr / include / svdag reader / mapped.cpp - o mapped INSIDE cat >
-        "$root" / try / remove.sh << 'INSIDE' set - eu export DEBIAN_FRONTEND =
-            noninteractive cd / try apt - get - qq purge - y svdag libsvdag -
-                dev g++ cmake make apt - get - qq autoremove-- purge - y dpkg - query - W -
-                f '${Package}\n' |
-            sort | diff before - INSIDE inside() {
-  env - i PATH = / usr / sbin : / usr / bin : / sbin : / bin LC_ALL =
-                     C chroot "$root" sh / try / "$1".sh;
-}
+for file in city.png city.html again.svdag; do test -s $file; done
+INSIDE
+cat >"$root"/try/develop.sh <<'INSIDE'
+set -eu
+export DEBIAN_FRONTEND=noninteractive
+cd /try
+apt-get -qq install -y --no-install-recommends ./libsvdag-dev_*.deb g++ cmake make
+cmake -S reader -B build >/dev/null
+cmake --build build
+g++ -std=c++17 -O1 -I/usr/include/svdag reader/mapped.cpp -o mapped
+INSIDE
+cat >"$root"/try/remove.sh <<'INSIDE'
+set -eu
+export DEBIAN_FRONTEND=noninteractive
+cd /try
+apt-get -qq purge -y svdag libsvdag-dev g++ cmake make
+apt-get -qq autoremove --purge -y
+dpkg-query -W -f '${Package}\n' | sort | diff before -
+INSIDE
+inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C chroot "$root" sh /try/"$1".sh; }
 
-echo "svdag, and what it declares" inside install > "$log" 2 > & 1 ||
-    tell_log inside use echo "libsvdag-dev: another project" inside develop > "$log" 2 > & 1 ||
-    tell_log counted =
-    $(chroot "$root" / try / build / count_voxels / try / city.svdag) echo
-    "$counted voxels"["$counted" = "$(chroot " $root " /try/mapped /try/city.svdag)"] ||
-{
-  echo "the two readers differ" > &2;
-  exit 1;
-}
-echo "removed again" inside remove > "$log" 2 > & 1 || tell_log left =
-    $(find "$root" / usr "$root" / etc "$root" / var / lib - name '*svdag*' -
-      not -path '*/apt/*')[-z "$left"] ||
-{
-  echo "left behind: $left" > &2;
-  exit 1;
-}
+echo "svdag, and what it declares"
+inside install >"$log" 2>&1 || tell_log
+inside use
+echo "libsvdag-dev: another project"
+inside develop >"$log" 2>&1 || tell_log
+counted=$(chroot "$root" /try/build/count_voxels /try/city.svdag)
+echo "$counted voxels"
+[ "$counted" = "$(chroot "$root" /try/mapped /try/city.svdag)" ] || { echo "the two readers differ" >&2; exit 1; }
+echo "removed again"
+inside remove >"$log" 2>&1 || tell_log
+left=$(find "$root"/usr "$root"/etc "$root"/var/lib -name '*svdag*' -not -path '*/apt/*')
+[ -z "$left" ] || { echo "left behind: $left" >&2; exit 1; }
 echo "deb_test: ok"

@@ -1,82 +1,80 @@
-#!/ bin / sh
-#make stress : what takes too long for every change.Stages can be named(make stress STAGES = \
-                                                                            "tsan packages"),
-#so that one can be asked again, or all in pieces.
-set - eu cd "$(dirname " $0 ")/../.." all =
-    "tsan families one_hash completion faults report_shot packages fuzzers"
+#!/bin/sh
+# make stress: what takes too long for every change. Stages can be named (make stress STAGES="tsan packages"),
+# so that one can be asked again, or all in pieces.
+set -eu
+cd "$(dirname "$0")/../.."
+all="tsan families one_hash completion faults report_shot packages fuzzers"
+skipped=
 
-    skipped = may_skip(){#COMMAND... : its exit code 77 says that it could not run here code =
-                             0 "$@" || code = $ ? ["$code" != 77] || {skipped = "$skipped $stage";
-return 0;
-}
-return "$code"
-}
-
-release() {
-#[TARGET...] cmake -- preset release -- log - level =
-      WARNING> / dev / null cmake -- build -- preset release $ {
-    1 : +--target "$@"
-  }
+may_skip() {  # COMMAND... : its exit code 77 says that it could not run here
+  code=0
+  "$@" || code=$?
+  [ "$code" != 77 ] || { skipped="$skipped $stage"; return 0; }
+  return "$code"
 }
 
-tsan(){cmake-- preset tsan-- log - level = WARNING > / dev / null cmake-- build-- preset tsan env -
-                                                         u SVDAG_SCENES ctest-- test -
-                                                         dir build / tsan - L '^unit$' --output -
-                                                         on - failure-- no - tests = error}
-
-families(){#10 ^ 7 decisions per family,
-           grid and rule release stress_test SVDAG_STRESS_DECISIONS =
-           ${DECISIONS : -10000000} build / release / tests / stress_test-- gtest_brief = 1}
-
-one_hash(){#every compiler and flag gives the same bytes bash tests / stress / one_hash.sh}
-
-completion(){#by bash, fish and zsh release svdag_manuals ctest-- test - dir build / release -
-                           R '^completion$' --output - on - failure-- no - tests = error}
-
-faults(){#every call,
-         small disks,
-         signals,
-         kills,
-         power cuts,
-         little memory release svdag svdag -
-             scene svdag_fault_shim SVDAG_LONG = 1 ctest-- test - dir build / release -
-                                                 L '^fault$' --timeout 14400 --output - on -
-                                                 failure-- no - tests = error}
-
-report_shot(){#the page of a report,
-              in Chromium release may_skip / usr / bin / python3 -
-                  B tests / stress / report_shot.py build / release build / report_shots}
-
-packages(){#in a clean Debian release(cd build / release && cpack - G DEB - B../ deb > / dev / null)
-               may_skip sh tests /
-           stress / deb_test.sh build / release build / deb}
-
-fuzzers() {
-#FUZZ_SECONDS each cmake-- preset fuzz-- log - level =
-      WARNING> / dev / null cmake-- build-- preset fuzz-- target fuzzers / usr / bin / python3 -
-      B tests / fuzz / long_run.py-- seconds "${FUZZ_SECONDS:-60}"
+release() {  # [TARGET...]
+  cmake --preset release --log-level=WARNING >/dev/null
+  cmake --build --preset release ${1:+--target "$@"}
 }
 
-for
-  stage in ${* : -$all};
-do
+tsan() {
+  cmake --preset tsan --log-level=WARNING >/dev/null
+  cmake --build --preset tsan
+  env -u SVDAG_SCENES ctest --test-dir build/tsan -L '^unit$' --output-on-failure --no-tests=error
+}
+
+families() {  # 10^7 decisions per family, grid and rule
+  release stress_test
+  SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
+}
+
+one_hash() {  # every compiler and flag gives the same bytes
+  bash tests/stress/one_hash.sh
+}
+
+completion() {  # by bash, fish and zsh
+  release svdag_manuals
+  ctest --test-dir build/release -R '^completion$' --output-on-failure --no-tests=error
+}
+
+faults() {  # every call, small disks, signals, kills, power cuts, little memory
+  release svdag svdag-scene svdag_fault_shim
+  SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure --no-tests=error
+}
+
+report_shot() {  # the page of a report, in Chromium
+  release
+  may_skip /usr/bin/python3 -B tests/stress/report_shot.py build/release build/report_shots
+}
+
+packages() {  # in a clean Debian
+  release
+  (cd build/release && cpack -G DEB -B ../deb >/dev/null)
+  may_skip sh tests/stress/deb_test.sh build/release build/deb
+}
+
+fuzzers() {  # FUZZ_SECONDS each
+  cmake --preset fuzz --log-level=WARNING >/dev/null
+  cmake --build --preset fuzz --target fuzzers
+  /usr/bin/python3 -B tests/fuzz/long_run.py --seconds "${FUZZ_SECONDS:-60}"
+}
+
+for stage in ${*:-$all}; do
   case " $all " in
     *" $stage "*) ;;
     *) echo "stress: there is no stage \"$stage\" (there are: $all)" >&2; exit 2 ;;
   esac
 done
-for stage in ${*:
-    - $all
-  }
-  ;
-  do
+for stage in ${*:-$all}; do
   began=$(date +%s)
   echo "$stage"
   "$stage"
-  case "$skipped" in *" $stage") continue ;
-  ;
-  esac echo "$stage passed in $((($(date +%s) - began + 30) / 60)) min" done[-z "$skipped"] || {
-    echo "Passed, but this could not run here:$skipped.";
-    exit 0;
-  }
+  case "$skipped" in *" $stage") continue ;; esac
+  echo "$stage passed in $((($(date +%s) - began + 30) / 60)) min"
+done
+if [ -n "$skipped" ]; then
+  echo "Passed, but this could not run here:$skipped."
+else
   echo "All of it passed."
+fi
