@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "streaming/interrupt.h"
+#include "streaming/mapped_file.h"
 
 namespace svdag {
 namespace {
@@ -34,6 +35,7 @@ void settle_inheritance() {
 
 int run_program(const ProgramWords& words, const std::function<int()>& work) {
   settle_inheritance();
+  tell_of_lost_pages(words.name);
   try {
     const int result = work();
     if (std::fflush(stdout) != 0)

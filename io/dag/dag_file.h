@@ -7,6 +7,7 @@
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
 #include "streaming/file.h"
+#include "streaming/mapped_file.h"
 
 namespace svdag {
 
@@ -17,23 +18,18 @@ class DagFile {
   // at (verify/integrity.h does).
   static DagFile open(const std::string& path);
 
-  DagFile(DagFile&& other) noexcept;
-  DagFile& operator=(DagFile&&) = delete;
-  ~DagFile();
-
   const std::string& path() const { return file_.path(); }
-  const Header& header() const { return *static_cast<const Header*>(data_); }
+  const Header& header() const { return *static_cast<const Header*>(mapped_.data()); }
   const DagView& view() const { return view_; }
   Grid grid() const;
   Rule rule() const { return Rule(header().rule); }
   std::string_view metadata() const;  // the JSON text
 
  private:
-  DagFile(File file, void* data, size_t size);
+  DagFile(File file, MappedFile mapped);
 
   File file_;
-  void* data_;
-  size_t size_;
+  MappedFile mapped_;
   DagView view_;
 };
 

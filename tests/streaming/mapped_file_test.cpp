@@ -1,0 +1,85 @@
+#include "streaming/mapped_file.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kSize = 3 << 16;
+
+char byte_at(const MappedFile& file, size_t offset) {
+  return *(static_cast<const volatile char*>(file.data()) + offset);
+}
+
+TEST(MappedFile, HoldsTheBytesOfTheFileAndMovesWithThem) {
+  const TempFolder folder;
+  const std::string text(kSize, 'x');
+  MappedFile mapped(File::open_read(folder.write("a", text)), kSize);
+  const MappedFile moved = std::move(mapped);
+  EXPECT_EQ(std::memcmp(moved.data(), text.data(), kSize), 0);
+}
+
+TEST(MappedFile, OfNoBytesIsRefused) {
+  const TempFolder folder;
+  const File file = File::open_read(folder.write("a", ""));
+  EXPECT_SVDAG_ERROR(MappedFile(file, 0), ExitCode::kBadInput, "a: cannot be mapped into memory");
+}
+
+// As main() does; `which` of some files loses its pages.
+void read_a_lost_page(const TempFolder& folder, int which) {
+  std::vector<MappedFile> files;
+  for (int i = 0; i < 3; ++i) {
+    const std::string path = folder.write("file " + std::to_string(i), std::string(kSize, 'x'));
+    files.emplace_back(File::open_read(path), kSize);
+    if (i == which && ::truncate(path.c_str(), 10) != 0) ::_exit(99);
+  }
+  tell_of_lost_pages("svdag");
+  for (const MappedFile& file : files) {
+    if (byte_at(file, 0) != 'x') ::_exit(98);  // of the page that the file still has a part of
+  }
+  for (const MappedFile& file : files) byte_at(file, kSize - 1);
+}
+
+TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
+  const TempFolder folder;
+  for (const int which : {0, 1, 2}) {
+    EXPECT_EXIT(read_a_lost_page(folder, which), testing::ExitedWithCode(int(ExitCode::kBadInput)),
+                "^svdag: [^\n]*file " + std::to_string(which) +
+                    ": can no longer be read: it was cut short, or its disk failed\n$");
+  }
+}
+
+bool ended_otherwise(int status) {
+  return !WIFEXITED(status) || WEXITSTATUS(status) != int(ExitCode::kBadInput);
+}
+
+TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {
+  const TempFolder folder;
+  EXPECT_EXIT(
+      {
+        const MappedFile mapped(File::open_read(folder.write("a", "x")), 1);
+        tell_of_lost_pages("svdag");
+        raise(SIGBUS);
+        ::_exit(int(ExitCode::kBadInput));
+      },
+      ended_otherwise, "");
+}
+
+TEST(MappedFile, AsManyAsAnybodyLikesAreMapped) {
+  const TempFolder folder;
+  const File file = File::open_read(folder.write("a", "x"));
+  std::vector<MappedFile> files;
+  for (int i = 0; i < 100; ++i) files.emplace_back(file, 1);
+  for (const MappedFile& each : files) EXPECT_EQ(byte_at(each, 0), 'x');
+}
+
+}  // namespace
+}  // namespace svdag
