@@ -11,14 +11,14 @@ namespace {
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, which is that of a text of several
 // lines.
-constexpr uint32_t kLayout = 2;
+constexpr uint32_t kLayout = 3;
 
 // Field by field: no byte of a hostile file becomes a bool or an enumerator unseen.
 void put_grid(const Grid& grid, RecordWriter* out) {
   out->put(uint32_t(grid.kind));
   out->put(int32_t(grid.levels));
   out->put(grid.voxel_size);
-  out->put(grid.origin);
+  for (int a = 0; a < 3; ++a) out->put(grid.origin[a]);
   out->put(grid.k0);
   out->put(uint32_t(grid.bounded));
   out->put(grid.selection);
@@ -30,7 +30,7 @@ Grid get_grid(RecordReader* in) {
   in->get(&kind);
   in->get(&grid.levels);
   in->get(&grid.voxel_size);
-  in->get(&grid.origin);
+  for (int a = 0; a < 3; ++a) in->get(&grid.origin[a]);
   in->get(&grid.k0);
   in->get(&bounded);
   in->get(&grid.selection);
@@ -104,6 +104,28 @@ RunLevel<Key> get_level(RecordReader* in) {
   return level;
 }
 
+// `run` is not set in them.
+std::vector<SubDagRoot> get_roots(RecordReader* in) {
+  std::vector<SubDagRoot> roots;
+  uint64_t count = 0;
+  for (in->get(&count); count > 0; --count) {
+    SubDagRoot& root = roots.emplace_back();
+    in->get(&root.morton);
+    in->get(&root.level);
+    in->get(&root.rank);
+  }
+  return roots;
+}
+
+void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
+  out->put(uint64_t(roots.size()));
+  for (const SubDagRoot& root : roots) {
+    out->put(root.morton);
+    out->put(root.level);
+    out->put(root.rank);
+  }
+}
+
 BakedRun get_run(RecordReader* in, int levels) {
   BakedRun baked;
   uint64_t nodes = 0;
@@ -112,7 +134,7 @@ BakedRun get_run(RecordReader* in, int levels) {
   baked.run.nodes.resize(nodes);
   baked.run.bricks = get_level<Brick>(in);
   for (auto& level : baked.run.nodes) level = get_level<NodeKey>(in);
-  in->get(&baked.roots);
+  baked.roots = get_roots(in);
   in->get(&baked.voxels);
   in->get(&baked.finished);
   check_run(baked, levels, *in);
@@ -148,7 +170,7 @@ RecordWriter run_record(const BakedRun& baked) {
   record.put(uint64_t(baked.run.nodes.size()));
   put_level(baked.run.bricks, &record);
   for (const auto& level : baked.run.nodes) put_level(level, &record);
-  record.put(baked.roots);
+  put_roots(baked.roots, &record);
   record.put(baked.voxels);
   record.put(baked.finished);
   return record;

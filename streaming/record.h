@@ -17,13 +17,18 @@
 
 namespace svdag {
 
+// What stands in memory without padding, whose bytes nobody has set: equal values, equal records.
+template <class T>
+concept Recordable = std::is_trivially_copyable_v<T> &&
+    (std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
+
 class RecordWriter {
  public:
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void put(const T& value) { append(&value, sizeof value); }
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
+  template <Recordable T>
+  void put(const T& value) {
+    append(&value, sizeof value);
+  }
+  template <Recordable T>
   void put(const std::vector<T>& values) {
     put_list(std::as_bytes(std::span(values)), values.size());
   }
@@ -58,11 +63,11 @@ class RecordReader {
   // Nothing may be left.
   void finish() const { require(bytes_.empty(), "a record is too long"); }
 
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void get(T* value) { std::memcpy(value, take(sizeof *value), sizeof *value); }
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
+  template <Recordable T>
+  void get(T* value) {
+    std::memcpy(value, take(sizeof *value), sizeof *value);
+  }
+  template <Recordable T>
   void get(std::vector<T>* values) {
     uint64_t count = 0;
     get(&count);

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 3;  // changes when a key does
+constexpr int kFormat = 4;  // changes when a key, or what the index holds, does
 
 template <class Vector>
 Json three(const Vector& v) {

@@ -35,7 +35,8 @@ SpillStream get_stream(RecordReader* in) {
 void put_bins(const std::vector<TriangleBin>& bins, RecordWriter* out) {
   out->put(uint64_t(bins.size()));
   for (const TriangleBin& bin : bins) {
-    out->put(bin.cube);
+    out->put(bin.cube.level);
+    out->put(bin.cube.coordinate);
     out->put(bin.range);
     out->put(bin.triangles);
     put_stream(bin.stream, out);
@@ -47,7 +48,8 @@ std::vector<TriangleBin> get_bins(RecordReader* in, int levels) {
   uint64_t count = 0;
   for (in->get(&count); count > 0; --count) {
     TriangleBin& bin = bins.emplace_back();
-    in->get(&bin.cube);
+    in->get(&bin.cube.level);
+    in->get(&bin.cube.coordinate);
     in->get(&bin.range);
     in->get(&bin.triangles);
     bin.stream = get_stream(in);

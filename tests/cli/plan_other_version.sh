@@ -1,7 +1,7 @@
 # A plan that another version of svdag made is known as such by whoever reads it; it stays, as any plan does.
 svdag-scene speck -n 100 -q -o s.ply
 svdag plan s.ply -r 64 --shards 2 -o p -q
-sed -i 's/"format": 3/"format": 2/; /"undeformed"/d' p/plan.json
+sed -i 's/"format": 4/"format": 3/; /"undeformed"/d' p/plan.json
 cp p/plan.json kept.json
 svdag run p -j 1 2>&1 || echo "exit $?"
 svdag build p --shard 1 2>&1 || echo "exit $?"
