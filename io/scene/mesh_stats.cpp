@@ -21,8 +21,8 @@ constexpr double kLargeCoordinate = 1e5;
 // From where, and how finely, positions are compared.
 struct Frame {
   Point centre{0};  // subtracted
-  double step =
-      0;  // on the axes where it is, unless 0: the last bit of a float as large as the scene
+  // On the axes where something is, unless 0: the last bit of a float as large as the scene.
+  double step = 0;
 };
 
 // The centre is the rounded mean of all corners if a coordinate is large, and on an axis where all
