@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "streaming/mapped_file.h"
+
 namespace svdag {
 namespace {
 
@@ -47,6 +49,7 @@ void AtomicFile::append(std::span<const std::byte> bytes) {
 
 void AtomicFile::commit() {
   file_.sync();
+  require_mapped_files();
   check(target_);  // somebody may have made one meanwhile
   file_.link_as(target_);
   file_.close();

@@ -86,7 +86,7 @@ Folder::~Folder() {
 // A file server or a mount may take us for somebody else; then it does so with files, too.
 bool Folder::gives_files_to(uid_t owner) const {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  const std::string name = "probe-" + std::to_string(::getpid()) + "-" + std::to_string(now);
+  const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);
   try {
     const File probe = create(name);
     remove(name);

@@ -16,6 +16,8 @@ namespace svdag {
 
 class Folder {
  public:
+  static constexpr const char* kProbe = "probe-";
+
   // Opens the folder, which is made if there is none, for this user alone (0700). A link, another
   // user's folder and what is no folder are refused.
   static Folder open_private(std::string path);
@@ -54,7 +56,7 @@ class Folder {
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
   static Folder open_or_make(std::string path);
   struct stat status() const;
-  // Whether files that are made in it belong to `owner`.
+  // Whether files that are made in it belong to `owner`: asked of one, named kProbe and a number.
   bool gives_files_to(uid_t owner) const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;

@@ -2,6 +2,7 @@
 
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,7 +14,7 @@
 namespace svdag {
 
 struct MappedFile::Mapping {
-  Mapping(const File& file, size_t size);
+  Mapping(File whole, size_t size);
   Mapping(const Mapping&) = delete;
   ~Mapping();
 
@@ -22,6 +23,12 @@ struct MappedFile::Mapping {
            std::less<>()(address, static_cast<const char*>(data) + size);
   }
 
+  bool cut_short() const noexcept {
+    struct stat now;
+    return ::fstat(file.descriptor(), &now) != 0 || uint64_t(now.st_size) < size;
+  }
+
+  File file;
   void* data;
   size_t size;
   std::string lost;  // what the handler says; it may not allocate
@@ -34,6 +41,7 @@ namespace {
 std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
 static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
 std::atomic_flag told;
+std::atomic<bool> one_was_cut{false};
 const char* teller = "";
 struct sigaction before;
 
@@ -57,14 +65,14 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
 
 }  // namespace
 
-MappedFile::Mapping::Mapping(const File& file, size_t bytes)
-    : data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
+constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
+
+MappedFile::Mapping::Mapping(File whole, size_t bytes)
+    : file(std::move(whole)),
+      data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
-      lost(Error(ExitCode::kBadInput, "can no longer be read: it was cut short, or its disk failed",
-                 file.path())
-               .what()) {
+      lost(Error(ExitCode::kBadInput, kLost, file.path()).what() + std::string("\n")) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
-  lost += '\n';
   for (auto& each : known) {
     const Mapping* none = nullptr;
     if (each.compare_exchange_strong(none, this)) break;
@@ -72,6 +80,7 @@ MappedFile::Mapping::Mapping(const File& file, size_t bytes)
 }
 
 MappedFile::Mapping::~Mapping() {
+  if (cut_short()) one_was_cut = true;
   for (auto& each : known) {
     const Mapping* self = this;
     each.compare_exchange_strong(self, nullptr);
@@ -79,8 +88,8 @@ MappedFile::Mapping::~Mapping() {
   ::munmap(data, size);
 }
 
-MappedFile::MappedFile(const File& file, size_t size)
-    : mapping_(std::make_unique<const Mapping>(file, size)) {}
+MappedFile::MappedFile(File file, size_t size)
+    : mapping_(std::make_unique<const Mapping>(std::move(file), size)) {}
 
 MappedFile::MappedFile(MappedFile&&) noexcept = default;
 
@@ -88,6 +97,22 @@ MappedFile::~MappedFile() = default;
 
 const void* MappedFile::data() const {
   return mapping_->data;
+}
+
+const std::string& MappedFile::path() const {
+  return mapping_->file.path();
+}
+
+void require_mapped_files() {
+  for (const auto& each : known) {
+    const MappedFile::Mapping* mapping = each.load();
+    if (mapping != nullptr && mapping->cut_short()) fail_input(mapping->file.path(), kLost);
+  }
+}
+
+void require_files_once_mapped() {
+  require_mapped_files();
+  if (one_was_cut) throw Error(ExitCode::kBadInput, "a file was cut short while it was read");
 }
 
 void tell_of_lost_pages(const char* program) {

@@ -3,12 +3,15 @@
 // A page that can no longer be read, because the file was cut short meanwhile or its disk or server
 // failed, is no error that a call returns: the access ends in SIGBUS, wherever in the code it is.
 // So main() has that end the program, with the sentence and the exit code of any other input that
-// cannot be read. Rejected: pread for every node of a DAG; a jump out of the access (locks would
-// stay taken, destructors would not run).
+// cannot be read. What a cut leaves of its last page reads as zeros, without a signal: so nothing
+// is committed, and no program ends well, before the size of what is mapped was asked once more.
+// Rejected: pread for every node of a DAG; a jump out of the access (locks would stay taken,
+// destructors would not run).
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <string>
 
 #include "streaming/file.h"
 
@@ -17,12 +20,13 @@ namespace svdag {
 class MappedFile {
  public:
   // The first `size` bytes of `file`, which are there. Throws Error (kBadInput).
-  MappedFile(const File& file, size_t size);
+  MappedFile(File file, size_t size);
   MappedFile(MappedFile&&) noexcept;
   MappedFile& operator=(MappedFile&&) = delete;
   ~MappedFile();
 
   const void* data() const;
+  const std::string& path() const;
 
   struct Mapping;
 
@@ -33,5 +37,10 @@ class MappedFile {
 // From now on a lost page of any MappedFile ends the process: "`program`: PATH: why" on standard
 // error, exit code kBadInput. SIGBUS of any other cause does what it did before. For main().
 void tell_of_lost_pages(const char* program);
+
+// Throws Error (kBadInput) if a file that is mapped now was cut short.
+void require_mapped_files();
+// As that, of all that were ever mapped. For main().
+void require_files_once_mapped();
 
 }  // namespace svdag

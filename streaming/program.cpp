@@ -38,6 +38,7 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
   tell_of_lost_pages(words.name);
   try {
     const int result = work();
+    require_files_once_mapped();
     if (std::fflush(stdout) != 0)
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;

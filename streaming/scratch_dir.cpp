@@ -27,9 +27,12 @@ std::string shortened(const std::string& name, size_t most) {
   return name.substr(0, most);
 }
 
-// The lock is the first file that an owner makes and the last that it removes.
+// The lock is the first file that an owner makes and the last that it removes, but for what asks
+// whose files are there.
 bool holds_others_only(const std::vector<std::string>& names) {
-  return !names.empty() && std::find(names.begin(), names.end(), kOwner) == names.end();
+  if (std::find(names.begin(), names.end(), kOwner) != names.end()) return false;
+  return !std::all_of(names.begin(), names.end(),
+                      [](const std::string& name) { return name.starts_with(Folder::kProbe); });
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ class Bundle(unittest.TestCase):
     def test_brings_the_notices_of_its_libraries(self):
         found = {p.parent.name for p in (self.bundle / "share/doc").glob("*/copyright") if p.stat().st_size > 0}
         self.assertLessEqual({"libstdc++6", "libxxhash0", "libcli11-dev", "nlohmann-json3-dev", "libglm-dev"}, found)
+        self.assertRegex(" ".join(found), r"libboost[0-9.]+-dev")
 
     def test_brings_its_manual(self):
         shown = self.run_bundled("man", "-M", self.bundle / "share" / "man", "svdag-build") if shutil.which("man") else \

@@ -1,4 +1,5 @@
 // The metadata's JSON against the header, field by field (docs/format.md, "Metadata").
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -34,7 +35,9 @@ json expected_metadata(const Header& h) {
 
 // A key that may be anything.
 std::string quoted(const std::string& key) {
-  return "\"" + key.substr(0, 40) + "\"";
+  size_t end = std::min<size_t>(key.size(), 40);
+  while (end > 0 && end < key.size() && (key[end] & 0xC0) == 0x80) --end;  // within a character
+  return "\"" + key.substr(0, end) + "\"";
 }
 
 // Notes keys that come twice in one object: readers disagree about which of them counts.

@@ -99,7 +99,7 @@ void CellCache::open_packs() {
       let_pass(error);
     }
   }
-  counted_ = budget_->reserve(entries * sizeof(Place), "the cell cache");
+  counted_ = budget_->reserve(entries * sizeof(Place), "places in the cell cache");
   places_.reserve(entries);
   make_index();
 }

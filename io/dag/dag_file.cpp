@@ -10,19 +10,17 @@ namespace svdag {
 DagFile DagFile::open(const std::string& path) {
   File file = File::open_read(path);
   const Header header = check_dag(file);
-  MappedFile mapped(file, size_t(header.file_bytes));
-  return DagFile(std::move(file), std::move(mapped));
+  return DagFile(MappedFile(std::move(file), size_t(header.file_bytes)));
 }
 
-DagFile::DagFile(File file, MappedFile mapped)
-    : file_(std::move(file)), mapped_(std::move(mapped)), view_(dag_view(mapped_.data())) {}
+DagFile::DagFile(MappedFile file) : file_(std::move(file)), view_(dag_view(file_.data())) {}
 
 Grid DagFile::grid() const {
   return grid_of(header());
 }
 
 std::string_view DagFile::metadata() const {
-  return {static_cast<const char*>(mapped_.data()) + header().metadata_offset,
+  return {static_cast<const char*>(file_.data()) + header().metadata_offset,
           size_t(header().metadata_bytes)};
 }
 

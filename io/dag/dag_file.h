@@ -6,7 +6,6 @@
 
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
-#include "streaming/file.h"
 #include "streaming/mapped_file.h"
 
 namespace svdag {
@@ -19,17 +18,16 @@ class DagFile {
   static DagFile open(const std::string& path);
 
   const std::string& path() const { return file_.path(); }
-  const Header& header() const { return *static_cast<const Header*>(mapped_.data()); }
+  const Header& header() const { return *static_cast<const Header*>(file_.data()); }
   const DagView& view() const { return view_; }
   Grid grid() const;
   Rule rule() const { return Rule(header().rule); }
   std::string_view metadata() const;  // the JSON text
 
  private:
-  DagFile(File file, MappedFile mapped);
+  explicit DagFile(MappedFile file);
 
-  File file_;
-  MappedFile mapped_;
+  MappedFile file_;
   DagView view_;
 };
 

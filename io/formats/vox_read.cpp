@@ -176,7 +176,7 @@ class VoxReader {
     }
   }
 
-  // Where a part lies that cannot be read matters only if it is shown: place_node() refuses.
+  // A place that cannot be read matters only where a model is shown: place_node() refuses.
   void read_frame(const Dictionary& frame, Node* node) const {
     if (const auto r = frame.find("_r"); r != frame.end()) node->rotated = r->second != "4";
     const auto t = frame.find("_t");
@@ -208,19 +208,22 @@ class VoxReader {
     return node.visits = visits;
   }
 
-  void place_node(uint32_t id, const Offset& from, int depth) {
+  // `refusal`: why what is shown below this node could not be read; none.
+  void place_node(uint32_t id, const Offset& from, int depth, const char* refusal = nullptr) {
     const Node& node = node_of(id, depth);
     if (node.hidden || hidden_layers_.contains(node.layer)) return;
-    if (node.rotated) fail_input(file_.path(), "has rotated models, which are not read");
-    Offset at;
+    if (node.rotated) refusal = "has rotated models, which are not read";
+    Offset at = from;
     for (size_t a = 0; a < 3; ++a) {
       const int64_t place = node.place[a];
-      if (place < -(int64_t(1) << kMaxLevels) || place > int64_t(1) << kMaxLevels)
-        fail_input(file_.path(), "has a model further than 1M voxels from 0");
-      at[a] = from[a] + place;
+      const bool far = place < -(int64_t(1) << kMaxLevels) || place > int64_t(1) << kMaxLevels;
+      if (far) refusal = "has a model further than 1M voxels from 0";
+      if (!far) at[a] += place;
     }
-    for (const uint32_t child : node.children) place_node(child, at, depth + 1);
-    if (!node.models.empty()) place_model(node.models.front(), at);
+    for (const uint32_t child : node.children) place_node(child, at, depth + 1, refusal);
+    if (node.models.empty()) return;
+    if (refusal != nullptr) fail_input(file_.path(), refusal);
+    place_model(node.models.front(), at);
   }
 
   // With voxel size/2 of it at `middle`.

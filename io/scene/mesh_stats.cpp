@@ -21,9 +21,19 @@ constexpr double kLargeCoordinate = 1e5;
 // From where, and how finely, positions are compared.
 struct Frame {
   Point centre{0};  // subtracted
-  // On the axes where something is, unless 0: the last bit of a float as large as the scene.
-  double step = 0;
+  Point step{0};    // on the axes where something is, unless 0; see step_of()
 };
+
+// The last bit of a float as large as `value`.
+double last_bit(double value) {
+  return std::isnormal(value) ? std::ldexp(1.0, std::max(std::ilogb(value) - 23, -1022)) : 0;
+}
+
+// Doubles pull vertices apart that a float had in one place, by 2^-53 of the largest coordinate: a
+// step this fine joins them, and no floats that differ, be they of the scene's size or nearer to 0.
+double step_of(double side, double largest) {
+  return std::min(last_bit(side), last_bit(largest));
+}
 
 // The centre is the rounded mean of all corners if a coordinate is large, and on an axis where all
 // are far from 0 for their extent.
@@ -48,10 +58,8 @@ Frame find_frame(const Scene& scene) {
   for (int a = 0; a < 3; ++a) {
     if (large || largest[a] / 2 > extent[a])
       frame.centre[a] = std::nearbyint(sum[a] / double(corners));
+    if (!large) frame.step[a] = step_of(std::max({extent.x, extent.y, extent.z}), largest[a]);
   }
-  const double side = std::max({extent.x, extent.y, extent.z});
-  if (!large && std::isnormal(side))
-    frame.step = std::ldexp(1.0, std::max(std::ilogb(side) - 23, -1022));
   return frame;
 }
 
@@ -62,8 +70,8 @@ Position round_position(const Point& p, const Frame& frame) {
     if (std::abs(value) > double(std::numeric_limits<float>::max())) {
       throw Error(ExitCode::kBadInput, "the mesh diagnostics cannot take coordinates above 3e38");
     }
-    if (frame.centre[c] != 0 && frame.step > 0)
-      value = std::nearbyint(value / frame.step) * frame.step;
+    if (frame.centre[c] != 0 && frame.step[c] > 0)
+      value = std::nearbyint(value / frame.step[c]) * frame.step[c];
     r[size_t(c)] = float(value) + 0.0f;  // -0 becomes 0
   }
   return r;

@@ -70,6 +70,7 @@ class HeaderParser {
     if (!line) fail("ends within the header");
     if (header_.lines == 1 && line->starts_with(kByteOrderMark))
       line->remove_prefix(kByteOrderMark.size());
+    if (line->find('\0') != line->npos) fail("has a byte of 0 in its header");
     return words_of(*line);
   }
 

@@ -8,6 +8,7 @@
 // Rejected: iostreams (20 times slower), strtod (locale), reading line by line (every byte twice).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -75,6 +76,7 @@ class TextScanner {
     while (p != end_ && !ends_word(p)) ++p;
     here_ = p;
     if (size_t(p - start) > kLongestWord) fail("has a word that is too long");
+    if (std::find(start, p, '\0') != p) fail("has a byte of 0");
     return {start, size_t(p - start)};
   }
   // What is left of this line, blanks at its ends and comments included; valid until the next call.

@@ -1,6 +1,6 @@
 # A reader that is gone ends the program as it ends others, and the files are whole.
 svdag-scene city -n 3K -q -o a.ply
-closed() { { sleep 0.1; "$@"; echo "$1 $2: exit $?" >&2; } | true; }
+closed() { { sleep 0.1; "$@" || echo "$1 $2: exit $?" >&2; } | true; }
 closed svdag build a.ply -r 64 -o a.svdag
 closed svdag info a.svdag
 closed svdag-verify check a.svdag

@@ -75,6 +75,8 @@ def complaints_about_a_second(neighbour):
     """While the first is there, and does not go on, a second bake of its output does not begin."""
     for _ in range(20):  # the first may be quicker than we are
         neighbour.forget()
+        neighbour.begin().communicate(timeout=120)  # what a killed one left is gone
+        neighbour.forget()
         first = neighbour.begin()
         while first.poll() is None and not list(neighbour.folder.glob(f"{bakes.SHARED_SCRATCH}/{neighbour.output}-*/journal")):
             time.sleep(0.001)
@@ -82,6 +84,8 @@ def complaints_about_a_second(neighbour):
         if first.poll() is None:
             break
         first.communicate()
+    else:
+        return ["the first was never caught"]
     second = neighbour.begin()
     said = second.communicate(timeout=120)[1]
     refused = second.returncode == 2 and IN_USE in said

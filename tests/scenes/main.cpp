@@ -5,6 +5,7 @@
 
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/program.h"
 #include "tests/scenes/kinds.h"
 #include "tests/scenes/ply_writer.h"
 
@@ -60,9 +61,7 @@ void declare(CLI::App& app, Config& config) {
   app.footer("Example: svdag-scene city -n 1M --yaw 30 -o city.ply");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   Config config;
   CLI::App app("Makes a test scene as a binary PLY file, the same bytes on every machine",
                "svdag-scene");
@@ -74,11 +73,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "svdag-scene: %s (try --help)\n", error.what());
     return int(ExitCode::kUsage);
   }
-  try {
-    run(config);
-    return 0;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "svdag-scene: %s\n", error.what());
-    return int(error.code());
-  }
+  run(config);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program({.name = "svdag-scene"}, [argc, argv] { return parse_and_run(argc, argv); });
 }

@@ -7,6 +7,8 @@
 
 #include <cstring>
 
+#include "streaming/atomic_file.h"
+#include "streaming/program.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
@@ -29,8 +31,8 @@ TEST(MappedFile, HoldsTheBytesOfTheFileAndMovesWithThem) {
 
 TEST(MappedFile, OfNoBytesIsRefused) {
   const TempFolder folder;
-  const File file = File::open_read(folder.write("a", ""));
-  EXPECT_SVDAG_ERROR(MappedFile(file, 0), ExitCode::kBadInput, "a: cannot be mapped into memory");
+  EXPECT_SVDAG_ERROR(MappedFile(File::open_read(folder.write("a", "")), 0), ExitCode::kBadInput,
+                     "a: cannot be mapped into memory");
 }
 
 // As main() does; `which` of some files loses its pages.
@@ -57,6 +59,39 @@ TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
   }
 }
 
+// The rest of a page that the file still has a part of reads as zeros, and nothing tells.
+TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileCutShort) {
+  const TempFolder folder;
+  const std::string path = folder.write("a", std::string(kSize, 'x'));
+  const std::string output = folder.write("out", "old");
+  {
+    const MappedFile mapped(File::open_read(path), kSize);
+    ASSERT_EQ(::truncate(path.c_str(), kSize - 1), 0);
+    EXPECT_EQ(byte_at(mapped, kSize - 1), 0);
+    AtomicFile file(output);
+    file.append("new");
+    EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kBadInput,
+                       "a: can no longer be read: it was cut short");
+  }
+  EXPECT_EQ(File::open_read(output).size(), 3U);
+  AtomicFile file(output);
+  file.append("newer");
+  file.commit();  // what was made of others is
+  EXPECT_EQ(File::open_read(output).size(), 5U);
+}
+
+TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileWasCutShort) {
+  const TempFolder folder;
+  const std::string path = folder.write("a", std::string(kSize, 'x'));
+  EXPECT_EXIT(::_exit(run_program({.name = "svdag"},
+                                  [&] {
+                                    const MappedFile mapped(File::open_read(path), kSize);
+                                    return ::truncate(path.c_str(), kSize - 1);
+                                  })),
+              testing::ExitedWithCode(int(ExitCode::kBadInput)),
+              "svdag: a file was cut short while it was read");
+}
+
 bool ended_otherwise(int status) {
   return !WIFEXITED(status) || WEXITSTATUS(status) != int(ExitCode::kBadInput);
 }
@@ -75,9 +110,9 @@ TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {
 
 TEST(MappedFile, AsManyAsAnybodyLikesAreMapped) {
   const TempFolder folder;
-  const File file = File::open_read(folder.write("a", "x"));
+  const std::string path = folder.write("a", "x");
   std::vector<MappedFile> files;
-  for (int i = 0; i < 100; ++i) files.emplace_back(file, 1);
+  for (int i = 0; i < 100; ++i) files.emplace_back(File::open_read(path), 1);
   for (const MappedFile& each : files) EXPECT_EQ(byte_at(each, 0), 'x');
 }
 

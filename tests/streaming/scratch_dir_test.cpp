@@ -182,6 +182,16 @@ TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
   EXPECT_EQ(folder.read("s/thesis.txt"), "years");
 }
 
+// Left by whoever was killed while he asked whose the files are that are made there.
+TEST(ScratchDir, WhatAskedForTheOwnerOfFilesIsNobodysFile) {
+  const TempFolder folder;
+  const std::string path = folder.file("s");
+  std::filesystem::create_directory(path);
+  folder.write("s/probe-12-345", "");
+  { ScratchDir dir(path); }
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
 TEST(ScratchDir, ALinkOrAFileInItsPlaceIsRefused) {
   const TempFolder temp;
   fs::create_directory(temp.file("elsewhere"));

@@ -3,7 +3,7 @@
 # so that one can be asked again, or all in pieces.
 set -eu
 cd "$(dirname "$0")/../.."
-all="tsan families one_hash completion faults report_shot packages fuzzers"
+all="tsan families properties one_hash completion faults report_shot packages fuzzers"
 skipped=
 
 may_skip() {  # COMMAND... : its exit code 77 says that it could not run here
@@ -29,6 +29,12 @@ families() {  # 10^7 decisions per family, grid and rule
   SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
 }
 
+properties() {  # 5000 inputs for each instead of 100
+  release
+  RC_PARAMS=max_success=${INPUTS:-5000} ctest --test-dir build/release --output-on-failure --no-tests=error \
+    -R '^(streaming|io|help|scene|farm|generator|verify|stress)_test$'
+}
+
 one_hash() {  # every compiler and flag gives the same bytes
   bash tests/stress/one_hash.sh
 }
@@ -39,7 +45,7 @@ completion() {  # by bash, fish and zsh
 }
 
 faults() {  # every call, small disks, signals, kills, power cuts, little memory
-  release svdag svdag-scene svdag_fault_shim
+  release svdag svdag-export svdag-scene svdag-verify svdag_fault_shim svdag_float_modes
   SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure --no-tests=error
 }
 

@@ -216,8 +216,9 @@ class Import(unittest.TestCase):
         for name, far, how in (("rotated", 16, {"rotated": [1]}), ("further than 1M", 2**21, {})):
             places = [[16, 16, 16], [16, far, 16]]
             with self.subTest(name=name):
-                data = write_foreign.vox(*models, places=places, hidden=[1], **how)
-                self.assertEqual(self.read(data, "h.vox", "-r", "32").voxel_count, len(models[0][0]))
+                for hides in ({"hidden": [1]}, {"hidden_shapes": [1]}):
+                    data = write_foreign.vox(*models, places=places, **hides, **how)
+                    self.assertEqual(self.read(data, "h.vox", "-r", "32").voxel_count, len(models[0][0]))
                 (BAKERY.folder / "s.vox").write_bytes(write_foreign.vox(*models, places=places, **how))
                 self.assertIn(name, BAKERY.run("svdag", "import", "s.vox", "-o", "s.svdag", code=3))
 

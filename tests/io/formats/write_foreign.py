@@ -149,9 +149,9 @@ def vox_model(voxels, size):
         b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79]) for v in voxels))
 
 
-def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), frames=1, pack=True):
+def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_shapes=(), frames=1, pack=True):
     """models: (voxels, size); places: what _t says of each, or no scene graph at all; each in a layer of its
-    own; hidden, hidden_layers, rotated: numbers of places; frames: models that every shape names, its own first;
+    own; hidden, hidden_layers, rotated, hidden_shapes: numbers of places; frames: models that every shape names, its own first;
     pack: whether the number of models is said, which without a scene graph makes them frames of an animation."""
     body = chunk(b"PACK", struct.pack("<I", len(models))) if pack else b""
     body += b"".join(vox_model(*m) for m in models)
@@ -165,7 +165,8 @@ def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), frames=1,
             body += chunk(b"nTRN", struct.pack("<I", 2 + 2 * i) + attributes + struct.pack(
                 "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r="8" if i in rotated else "4", _t="{} {} {}".format(*place)))
             shown = b"".join(struct.pack("<I", (i + f) % len(models)) + dictionary(_f=str(f)) for f in range(frames))
-            body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + none + struct.pack("<I", frames) + shown)
+            body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + (
+                dictionary(_hidden="1") if i in hidden_shapes else none) + struct.pack("<I", frames) + shown)
         for i in range(len(places)):
             layer = dictionary(_name="layer", _hidden="1" if i in hidden_layers else "0")
             body += chunk(b"LAYR", struct.pack("<I", i) + layer + struct.pack("<i", -1))

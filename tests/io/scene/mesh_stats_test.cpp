@@ -99,6 +99,23 @@ TEST(MeshStats, VerticesThatDoublesPulledApartMeetAgain) {
   }
 }
 
+// Two millimetres are seen at a height of 20, however large the scene is.
+TEST(MeshStats, FloatsThatDifferStayApartInAWideScene) {
+  const TempFolder folder;
+  MemoryBudget budget;
+  for (const char* heights : {"20.501 20.503", "0.001 0.003", "100 100.001"}) {
+    double low, high;
+    ASSERT_EQ(std::sscanf(heights, "%lf %lf", &low, &high), 2);
+    std::string text;
+    for (const double z : {low, high}) {
+      for (const char* corner : {"v -40000 -40000 ", "v 40000 -40000 ", "v 0 40000 "})
+        text += corner + std::to_string(z) + "\n";
+    }
+    const Scene scene({{folder.write("a.obj", text + "f 1 2 3\nf 4 5 6\n")}, {}, false}, &budget);
+    EXPECT_EQ(compute_mesh_stats(scene, &budget), (MeshStats{2, 6, 0, 0, 0, 6, 0, 2})) << heights;
+  }
+}
+
 TEST(MeshStats, ATorusOfQuadsIsClosedAtAnySize) {
   const int n = 200;  // enough corners that the set of positions is compacted and grows
   const auto at = [&](int u, int v) {

@@ -96,12 +96,15 @@ TEST(Obj, GarbageIsRefused) {
 
 // A hole that a crash left begins and ends anywhere; what it covers would go without a word.
 TEST(Obj, ZerosAreRefusedInWhatIsSkippedToo) {
-  const std::string hole(5000, '\0');
-  for (const char* line :
-       {"", "v 1 2 3 ", "vn 0 ", "vt ", "# a", "usemtl a", "g a", "o a", "s 1", "f 1 2 3 "}) {
-    EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + hole + "f 1 2 3\nf 1 2 4\n"), "")
-        << line;
-    EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + hole), "") << line;
+  for (const size_t size : {1, 40, 4096, 5000}) {
+    const std::string hole(size, '\0');
+    for (const char* line :
+         {"", "v 1 2 3 ", "vn 0 ", "vt ", "# a", "usemtl a", "g a", "o a", "s 1", "f 1 2 3 "}) {
+      const std::string start = std::string(kVertices) + line + hole;
+      EXPECT_NE(refusal(read_obj, start + "f 1 2 3\nf 1 2 4\n"), "") << line << size;
+      EXPECT_NE(refusal(read_obj, start + " b\nf 1 2 4\n"), "") << line << size;
+      EXPECT_NE(refusal(read_obj, start), "") << line << size;
+    }
   }
 }
 

@@ -132,6 +132,9 @@ TEST(Ply, MayBeginWithAByteOrderMark) {
 TEST(Ply, ZerosInTextAreNoComment) {
   const std::string row("\0 0 1 2\n", 8);
   EXPECT_NE(refusal(read_ply, square(row + "4 0 1 2 3\n")), "");
+  std::string comment = square("4 0 1 2 3\n");
+  comment.insert(comment.find("element"), std::string("comment a\0b\n", 12));
+  EXPECT_NE(refusal(read_ply, comment), "");
 }
 
 TEST(Ply, EveryTruncationIsRefused) {

@@ -98,6 +98,10 @@ TEST(Stl, ZerosInTextAreNoComment) {
     if (*hole == '\n') text += "endsolid\n";
     EXPECT_NE(refusal(read_stl, text), "");
   }
+  std::string normals = "solid\n" + filler + kFacet + kFacet + "endsolid\n";
+  const size_t begin = normals.find("normal") + 7, end = normals.rfind("normal") + 8;
+  normals.replace(begin, end - begin, end - begin, '\0');  // one facet's to the next one's
+  EXPECT_NE(refusal(read_stl, normals), "");
 }
 
 TEST(Stl, BrokenTextIsRefusedWithItsLine) {
