@@ -3,7 +3,7 @@
 // Bytes go to an anonymous file in the target's folder; commit() does fsync, rename, close and
 // fsync of the folder, in this order, so that after a crash at any moment the name holds the old
 // file or the complete new one. Without commit() nothing is left behind. What was made of a mapped
-// file that was cut short meanwhile is not committed (streaming/mapped_file.h).
+// file that was changed meanwhile is not committed (streaming/mapped_file.h).
 // Rejected: writing beside the target under a fixed temporary name (follows planted symlinks, two
 // writers mix), unlink before rename (a window without any file).
 #pragma once

@@ -16,7 +16,7 @@ namespace svdag {
 
 class Folder {
  public:
-  static constexpr const char* kProbe = "probe-";
+  static constexpr const char* kProbe = ".svdag-probe-";
 
   // Opens the folder, which is made if there is none, for this user alone (0700). A link, another
   // user's folder and what is no folder are refused.

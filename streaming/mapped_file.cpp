@@ -2,7 +2,6 @@
 
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,7 +13,7 @@
 namespace svdag {
 
 struct MappedFile::Mapping {
-  Mapping(File whole, size_t size);
+  Mapping(File whole, size_t size, const FileState& before);
   Mapping(const Mapping&) = delete;
   ~Mapping();
 
@@ -23,12 +22,17 @@ struct MappedFile::Mapping {
            std::less<>()(address, static_cast<const char*>(data) + size);
   }
 
-  bool cut_short() const noexcept {
-    struct stat now;
-    return ::fstat(file.descriptor(), &now) != 0 || uint64_t(now.st_size) < size;
+  // A server that cannot tell now has told all that was read.
+  bool changed() const noexcept {
+    try {
+      return state_of(file) != state;
+    } catch (const Error&) {
+      return false;
+    }
   }
 
   File file;
+  FileState state;
   void* data;
   size_t size;
   std::string lost;  // what the handler says; it may not allocate
@@ -41,7 +45,7 @@ namespace {
 std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
 static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
 std::atomic_flag told;
-std::atomic<bool> one_was_cut{false};
+std::atomic<bool> one_was_changed{false};
 const char* teller = "";
 struct sigaction before;
 
@@ -53,7 +57,7 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
     if (info->si_code <= 0 || mapping == nullptr || !mapping->holds(info->si_addr)) continue;
-    if (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
+    while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
     say(teller);
     say(": ");
     say(mapping->lost.c_str());
@@ -67,8 +71,9 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
 
 constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
 
-MappedFile::Mapping::Mapping(File whole, size_t bytes)
+MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
     : file(std::move(whole)),
+      state(before),
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
       lost(Error(ExitCode::kBadInput, kLost, file.path()).what() + std::string("\n")) {
@@ -80,7 +85,7 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes)
 }
 
 MappedFile::Mapping::~Mapping() {
-  if (cut_short()) one_was_cut = true;
+  if (changed()) one_was_changed = true;
   for (auto& each : known) {
     const Mapping* self = this;
     each.compare_exchange_strong(self, nullptr);
@@ -88,8 +93,8 @@ MappedFile::Mapping::~Mapping() {
   ::munmap(data, size);
 }
 
-MappedFile::MappedFile(File file, size_t size)
-    : mapping_(std::make_unique<const Mapping>(std::move(file), size)) {}
+MappedFile::MappedFile(File file, size_t size, const FileState& before)
+    : mapping_(std::make_unique<const Mapping>(std::move(file), size, before)) {}
 
 MappedFile::MappedFile(MappedFile&&) noexcept = default;
 
@@ -106,13 +111,14 @@ const std::string& MappedFile::path() const {
 void require_mapped_files() {
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
-    if (mapping != nullptr && mapping->cut_short()) fail_input(mapping->file.path(), kLost);
+    if (mapping != nullptr && mapping->changed())
+      fail_input(mapping->file.path(), "was changed while it was read");
   }
 }
 
 void require_files_once_mapped() {
   require_mapped_files();
-  if (one_was_cut) throw Error(ExitCode::kBadInput, "a file was cut short while it was read");
+  if (one_was_changed) throw Error(ExitCode::kBadInput, "a file was changed while it was read");
 }
 
 void tell_of_lost_pages(const char* program) {

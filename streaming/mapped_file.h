@@ -4,7 +4,8 @@
 // failed, is no error that a call returns: the access ends in SIGBUS, wherever in the code it is.
 // So main() has that end the program, with the sentence and the exit code of any other input that
 // cannot be read. What a cut leaves of its last page reads as zeros, without a signal: so nothing
-// is committed, and no program ends well, before the size of what is mapped was asked once more.
+// is committed, and no program ends well, before the size of what is mapped, and when it was last
+// written, were asked once more.
 // Rejected: pread for every node of a DAG; a jump out of the access (locks would stay taken,
 // destructors would not run).
 #pragma once
@@ -14,13 +15,15 @@
 #include <string>
 
 #include "streaming/file.h"
+#include "streaming/file_state.h"
 
 namespace svdag {
 
 class MappedFile {
  public:
-  // The first `size` bytes of `file`, which are there. Throws Error (kBadInput).
-  MappedFile(File file, size_t size);
+  // The first `size` bytes of `file`, which are there; `before` is what it was when the first of
+  // them was read. Throws Error (kBadInput).
+  MappedFile(File file, size_t size, const FileState& before);
   MappedFile(MappedFile&&) noexcept;
   MappedFile& operator=(MappedFile&&) = delete;
   ~MappedFile();
@@ -38,7 +41,7 @@ class MappedFile {
 // error, exit code kBadInput. SIGBUS of any other cause does what it did before. For main().
 void tell_of_lost_pages(const char* program);
 
-// Throws Error (kBadInput) if a file that is mapped now was cut short.
+// Throws Error (kBadInput) if a file that is mapped now was cut short or written.
 void require_mapped_files();
 // As that, of all that were ever mapped. For main().
 void require_files_once_mapped();

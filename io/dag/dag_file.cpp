@@ -9,8 +9,9 @@ namespace svdag {
 
 DagFile DagFile::open(const std::string& path) {
   File file = File::open_read(path);
+  const FileState before = state_of(file);
   const Header header = check_dag(file);
-  return DagFile(MappedFile(std::move(file), size_t(header.file_bytes)));
+  return DagFile(MappedFile(std::move(file), size_t(header.file_bytes), before));
 }
 
 DagFile::DagFile(MappedFile file) : file_(std::move(file)), view_(dag_view(file_.data())) {}

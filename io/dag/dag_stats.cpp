@@ -91,9 +91,9 @@ uint64_t count_level_voxels(const DagView& dag, uint32_t levels) {
   return levels < dag.levels ? stats.blocks : stats.voxels;
 }
 
-uint64_t bytes_of_count(const DagView& dag) {
+uint64_t bytes_of_count(const DagView& dag, uint32_t levels) {
   uint64_t most = 0, above = 0;
-  for (uint32_t level = 0; level <= dag.brick_level(); ++level) {
+  for (uint32_t level = 0; level <= std::min(levels, dag.brick_level()); ++level) {
     const uint64_t here = level < dag.brick_level() ? dag.word_count[level] : dag.brick_count;
     most = std::max(most, above + here);
     above = here;

@@ -35,7 +35,7 @@ DagStats compute_stats(const DagFile& file);
 
 // The number of voxels of level `levels`, 3 .. L: one pass over the nodes above them.
 uint64_t count_level_voxels(const DagView& dag, uint32_t levels);
-// The memory that both passes take, in bytes: 8 for each word of two levels, one under the other.
-uint64_t bytes_of_count(const DagView& dag);
+// The memory that it takes, in bytes: 8 for each word of two levels, one under the other.
+uint64_t bytes_of_count(const DagView& dag, uint32_t levels);
 
 }  // namespace svdag

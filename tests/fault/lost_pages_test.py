@@ -9,8 +9,8 @@ import time
 
 import bakes
 
-SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a page is lost, or nothing was committed
-             "a file was cut short while it was read"]                       # the rest of a page was read as zeros
+SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a page was lost
+             "was changed while it was read"]                                # the rest of a page was read as zeros
 BAD_INPUT = 3
 TRIES = 20  # a program that has ended before it was stopped is asked again
 # Programs that walk the file for a while, and what they would leave.

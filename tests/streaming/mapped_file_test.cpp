@@ -17,6 +17,12 @@ namespace {
 
 constexpr size_t kSize = 3 << 16;
 
+MappedFile map(const std::string& path, size_t size) {
+  File file = File::open_read(path);
+  const FileState before = state_of(file);
+  return {std::move(file), size, before};
+}
+
 char byte_at(const MappedFile& file, size_t offset) {
   return *(static_cast<const volatile char*>(file.data()) + offset);
 }
@@ -24,14 +30,14 @@ char byte_at(const MappedFile& file, size_t offset) {
 TEST(MappedFile, HoldsTheBytesOfTheFileAndMovesWithThem) {
   const TempFolder folder;
   const std::string text(kSize, 'x');
-  MappedFile mapped(File::open_read(folder.write("a", text)), kSize);
+  MappedFile mapped = map(folder.write("a", text), kSize);
   const MappedFile moved = std::move(mapped);
   EXPECT_EQ(std::memcmp(moved.data(), text.data(), kSize), 0);
 }
 
 TEST(MappedFile, OfNoBytesIsRefused) {
   const TempFolder folder;
-  EXPECT_SVDAG_ERROR(MappedFile(File::open_read(folder.write("a", "")), 0), ExitCode::kBadInput,
+  EXPECT_SVDAG_ERROR(map(folder.write("a", ""), 0), ExitCode::kBadInput,
                      "a: cannot be mapped into memory");
 }
 
@@ -40,7 +46,7 @@ void read_a_lost_page(const TempFolder& folder, int which) {
   std::vector<MappedFile> files;
   for (int i = 0; i < 3; ++i) {
     const std::string path = folder.write("file " + std::to_string(i), std::string(kSize, 'x'));
-    files.emplace_back(File::open_read(path), kSize);
+    files.push_back(map(path, kSize));
     if (i == which && ::truncate(path.c_str(), 10) != 0) ::_exit(99);
   }
   tell_of_lost_pages("svdag");
@@ -60,18 +66,17 @@ TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
 }
 
 // The rest of a page that the file still has a part of reads as zeros, and nothing tells.
-TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileCutShort) {
+TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileThatChanged) {
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
   const std::string output = folder.write("out", "old");
   {
-    const MappedFile mapped(File::open_read(path), kSize);
+    const MappedFile mapped = map(path, kSize);
     ASSERT_EQ(::truncate(path.c_str(), kSize - 1), 0);
     EXPECT_EQ(byte_at(mapped, kSize - 1), 0);
     AtomicFile file(output);
     file.append("new");
-    EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kBadInput,
-                       "a: can no longer be read: it was cut short");
+    EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kBadInput, "a: was changed while it was read");
   }
   EXPECT_EQ(File::open_read(output).size(), 3U);
   AtomicFile file(output);
@@ -80,16 +85,16 @@ TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileCutShort) {
   EXPECT_EQ(File::open_read(output).size(), 5U);
 }
 
-TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileWasCutShort) {
+TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
   EXPECT_EXIT(::_exit(run_program({.name = "svdag"},
                                   [&] {
-                                    const MappedFile mapped(File::open_read(path), kSize);
+                                    const MappedFile mapped = map(path, kSize);
                                     return ::truncate(path.c_str(), kSize - 1);
                                   })),
               testing::ExitedWithCode(int(ExitCode::kBadInput)),
-              "svdag: a file was cut short while it was read");
+              "svdag: a file was changed while it was read");
 }
 
 bool ended_otherwise(int status) {
@@ -100,7 +105,7 @@ TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {
   const TempFolder folder;
   EXPECT_EXIT(
       {
-        const MappedFile mapped(File::open_read(folder.write("a", "x")), 1);
+        const MappedFile mapped = map(folder.write("a", "x"), 1);
         tell_of_lost_pages("svdag");
         raise(SIGBUS);
         ::_exit(int(ExitCode::kBadInput));
@@ -112,7 +117,7 @@ TEST(MappedFile, AsManyAsAnybodyLikesAreMapped) {
   const TempFolder folder;
   const std::string path = folder.write("a", "x");
   std::vector<MappedFile> files;
-  for (int i = 0; i < 100; ++i) files.emplace_back(File::open_read(path), 1);
+  for (int i = 0; i < 100; ++i) files.push_back(map(path, 1));
   for (const MappedFile& each : files) EXPECT_EQ(byte_at(each, 0), 'x');
 }
 

@@ -178,6 +178,7 @@ TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
   const std::string path = folder.file("s");
   std::filesystem::create_directory(path);
   folder.write("s/thesis.txt", "years");
+  folder.write("s/probe-7.csv", "precious");
   EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "no scratch folder");
   EXPECT_EQ(folder.read("s/thesis.txt"), "years");
 }
@@ -187,7 +188,7 @@ TEST(ScratchDir, WhatAskedForTheOwnerOfFilesIsNobodysFile) {
   const TempFolder folder;
   const std::string path = folder.file("s");
   std::filesystem::create_directory(path);
-  folder.write("s/probe-12-345", "");
+  folder.write("s/.svdag-probe-12-345", "");
   { ScratchDir dir(path); }
   EXPECT_EQ(folder.entries(), 0U);
 }
