@@ -91,8 +91,12 @@ Grid cover_lattice(const Box& box, double size) {
 }
 
 VoxelBox voxels_in(const Grid& grid, const Box& bounds) {
+  // Beyond the voxels of any grid, and still in the reach of the snap.
+  const Point reach(0x1.8p38 * grid.voxel_size);
+  const Point middle = grid.kind == Grid::Kind::kBox ? grid.origin : Point(0);
+  const auto near = [&](const Point& p) { return glm::clamp(p, middle - reach, middle + reach); };
   const Lattice lattice(grid);
-  const LatticePoint low = lattice.snap(bounds.min), high = lattice.snap(bounds.max);
+  const LatticePoint low = lattice.snap(near(bounds.min)), high = lattice.snap(near(bounds.max));
   VoxelBox voxels;
   for (int a = 0; a < 3; ++a) {
     // The open voxel (k, k+1) meets [low, high] iff k * 2^F < high and (k+1) * 2^F > low.

@@ -87,14 +87,14 @@ Folder::~Folder() {
 bool Folder::gives_files_to(uid_t owner) const {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);
-  try {
-    const File probe = create(name);
-    remove(name);
-    struct stat status;
-    return ::fstat(probe.descriptor(), &status) == 0 && status.st_uid == owner;
-  } catch (const Error&) {
-    return false;
-  }
+  const int fd = retry_interrupted(
+      [&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT | O_EXCL, 0600); });
+  if (fd < 0 && (errno == EACCES || errno == EPERM)) return false;
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", path_, errno);
+  const File probe(fd, path_of(name), ExitCode::kOutput);
+  remove(name);
+  struct stat status;
+  return ::fstat(probe.descriptor(), &status) == 0 && status.st_uid == owner;
 }
 
 struct stat Folder::status() const {

@@ -4,9 +4,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -26,7 +28,7 @@ struct MappedFile::Mapping {
   bool changed() const noexcept {
     try {
       return state_of(file) != state;
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       return false;
     }
   }
@@ -35,7 +37,7 @@ struct MappedFile::Mapping {
   FileState state;
   void* data;
   size_t size;
-  std::string lost;  // what the handler says; it may not allocate
+  std::string lost, written;  // what the handler says; it may not allocate
 };
 
 namespace {
@@ -47,36 +49,49 @@ static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
 std::atomic_flag told;
 std::atomic<bool> one_was_changed{false};
 const char* teller = "";
-struct sigaction before;
+struct sigaction before_bus, before_segv;
 
 void say(const char* text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
+[[noreturn]] void end_with(const std::string& line) {
+  while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
+  say(teller);
+  say(": ");
+  say(line.c_str());
+  ::_exit(int(ExitCode::kBadInput));
+}
+
 extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
+  const bool sent = info->si_code <= 0;  // by somebody: there was no access
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
-    if (info->si_code <= 0 || mapping == nullptr || !mapping->holds(info->si_addr)) continue;
-    while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
-    say(teller);
-    say(": ");
-    say(mapping->lost.c_str());
-    ::_exit(int(ExitCode::kBadInput));
+    if (sent || mapping == nullptr) continue;
+    if (number == SIGBUS && mapping->holds(info->si_addr)) end_with(mapping->lost);
+    if (number == SIGSEGV && mapping->changed()) end_with(mapping->written);
   }
-  ::sigaction(number, &before, nullptr);    // the access is tried again, and goes there;
-  if (info->si_code <= 0) ::raise(number);  // a signal that somebody sent has no access
+  // The access is tried again, and goes there.
+  ::sigaction(number, number == SIGBUS ? &before_bus : &before_segv, nullptr);
+  if (sent) ::raise(number);
+}
+
+constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
+constexpr const char* kWritten = "was changed while it was read";
+
+std::string line_of(const File& file, const char* sentence) {
+  return Error(ExitCode::kBadInput, sentence, file.path()).what() + std::string("\n");
 }
 
 }  // namespace
-
-constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
 
 MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
     : file(std::move(whole)),
       state(before),
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
-      lost(Error(ExitCode::kBadInput, kLost, file.path()).what() + std::string("\n")) {
+      lost(line_of(file, kLost)),
+      written(line_of(file, kWritten)) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
   for (auto& each : known) {
     const Mapping* none = nullptr;
@@ -111,14 +126,15 @@ const std::string& MappedFile::path() const {
 void require_mapped_files() {
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
-    if (mapping != nullptr && mapping->changed())
-      fail_input(mapping->file.path(), "was changed while it was read");
+    if (mapping != nullptr && mapping->changed()) fail_input(mapping->file.path(), kWritten);
   }
 }
 
-void require_files_once_mapped() {
-  require_mapped_files();
-  if (one_was_changed) throw Error(ExitCode::kBadInput, "a file was changed while it was read");
+bool mapped_file_was_changed() noexcept {
+  return one_was_changed || std::any_of(known.begin(), known.end(), [](const auto& each) {
+           const MappedFile::Mapping* mapping = each.load();
+           return mapping != nullptr && mapping->changed();
+         });
 }
 
 void tell_of_lost_pages(const char* program) {
@@ -127,7 +143,8 @@ void tell_of_lost_pages(const char* program) {
   action.sa_sigaction = tell_of_lost_page;
   action.sa_flags = SA_SIGINFO;
   sigemptyset(&action.sa_mask);
-  ::sigaction(SIGBUS, &action, &before);
+  ::sigaction(SIGBUS, &action, &before_bus);
+  ::sigaction(SIGSEGV, &action, &before_segv);
 }
 
 }  // namespace svdag

@@ -5,7 +5,9 @@
 // So main() has that end the program, with the sentence and the exit code of any other input that
 // cannot be read. What a cut leaves of its last page reads as zeros, without a signal: so nothing
 // is committed, and no program ends well, before the size of what is mapped, and when it was last
-// written, were asked once more.
+// written, were asked once more. A file that is written while it is read may lead a program
+// anywhere, for what was checked is no longer there: if that ends in SIGSEGV or in any error, it is
+// the write that is told.
 // Rejected: pread for every node of a DAG; a jump out of the access (locks would stay taken,
 // destructors would not run).
 #pragma once
@@ -38,12 +40,13 @@ class MappedFile {
 };
 
 // From now on a lost page of any MappedFile ends the process: "`program`: PATH: why" on standard
-// error, exit code kBadInput. SIGBUS of any other cause does what it did before. For main().
+// error, exit code kBadInput; so does SIGSEGV, if one of them was written. Signals of any other
+// cause do what they did before. For main().
 void tell_of_lost_pages(const char* program);
 
 // Throws Error (kBadInput) if a file that is mapped now was cut short or written.
 void require_mapped_files();
-// As that, of all that were ever mapped. For main().
-void require_files_once_mapped();
+// Whether one that was ever mapped was. For main().
+bool mapped_file_was_changed() noexcept;
 
 }  // namespace svdag

@@ -13,9 +13,23 @@
 namespace svdag {
 namespace {
 
+constexpr const char* kChanged = "a file was changed while it was read";
+
 int tell(const ProgramWords& words, const char* sentence, int code) {
   std::fprintf(stderr, "%s: %s\n", words.name, sentence);
   return code;
+}
+
+// What a program says of a file that is written while it is read may be anything, an internal error
+// too: then the write is told.
+int tell_error(const ProgramWords& words, const std::exception& error) {
+  const auto* known = dynamic_cast<const Error*>(&error);
+  if (mapped_file_was_changed() && (known == nullptr || known->code() != ExitCode::kBadInput))
+    return tell(words, kChanged, int(ExitCode::kBadInput));
+  if (known != nullptr) return tell(words, known->what(), int(known->code()));
+  if (is_lack_of_memory(error)) return tell(words, words.no_memory, int(ExitCode::kMemory));
+  std::fprintf(stderr, "%s: internal error: %s; please report this\n", words.name, error.what());
+  return int(ExitCode::kInternal);
 }
 
 // Undoes what the parent process may have set: SIGCHLD ignored, so that no child could be waited
@@ -38,19 +52,16 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
   tell_of_lost_pages(words.name);
   try {
     const int result = work();
-    require_files_once_mapped();
+    require_mapped_files();
+    if (mapped_file_was_changed()) throw Error(ExitCode::kBadInput, kChanged);
     if (std::fflush(stdout) != 0)
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;
   } catch (const Interrupted& interrupted) {
     const char* resumable = interrupted.how != nullptr ? interrupted.how : words.resumable;
     return tell(words, interrupted.resumable ? resumable : words.stopped, 128 + interrupted.signal);
-  } catch (const Error& error) {
-    return tell(words, error.what(), int(error.code()));
   } catch (const std::exception& error) {
-    if (is_lack_of_memory(error)) return tell(words, words.no_memory, int(ExitCode::kMemory));
-    std::fprintf(stderr, "%s: internal error: %s; please report this\n", words.name, error.what());
-    return int(ExitCode::kInternal);
+    return tell_error(words, error);
   }
 }
 

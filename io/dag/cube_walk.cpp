@@ -108,9 +108,16 @@ uint64_t CubeWalk::voxels_below(uint32_t level, uint32_t node) {
   return voxels_[level][node] = sum;
 }
 
+bool CubeWalk::is_all(const VoxelBox& box) const {
+  return box.holds({LatticePoint(0), LatticePoint(side(0))});
+}
+
+uint64_t CubeWalk::bytes_to_count(const VoxelBox& box) const {
+  return is_all(box) ? bytes_of_count(dag_, levels_) : 0;
+}
+
 uint64_t CubeWalk::count_voxels(const VoxelBox& box) {
-  const VoxelBox whole{LatticePoint(0), LatticePoint(side(0))};
-  if (box.holds(whole)) return count_level_voxels(dag_, levels_);  // and remembers nothing
+  if (is_all(box)) return count_level_voxels(dag_, levels_);  // and remembers nothing
   return dag_.empty() ? 0 : count_voxels({0, 0, LatticePoint(0)}, box);
 }
 

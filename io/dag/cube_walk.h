@@ -32,6 +32,8 @@ class CubeWalk {
   CubeCounts count_cubes(const VoxelBox& box, uint64_t most);
   // The number of voxels set in `box`.
   uint64_t count_voxels(const VoxelBox& box);
+  // The memory that count_voxels(box) takes at once, in bytes; what it remembers is not in it.
+  uint64_t bytes_to_count(const VoxelBox& box) const;
   // The voxels origin .. origin + 7; the origin is anywhere, also outside the grid.
   Block block(const LatticePoint& origin) const;
 
@@ -42,6 +44,7 @@ class CubeWalk {
   };
 
   int64_t side(uint32_t level) const { return int64_t(1) << (levels_ - level); }
+  bool is_all(const VoxelBox& box) const;
   At child(const At& at, unsigned c) const;
   Brick brick(const LatticePoint& at) const;
   bool full(uint32_t level, uint32_t node);

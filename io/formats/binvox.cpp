@@ -126,15 +126,17 @@ void write_binvox(const Window& window, const std::string& path) {
           "\nscale " + format_double(window.grid.voxel_size * double(side)) + "\ndata\n");
   RunWriter runs(&out);
   Layers layers(kBlockSide, side);
+  uint64_t written = 0;
   for (int64_t x = 0; x < side; x += kBlockSide) {
     layers.clear();
     const VoxelBox slab = {box.min + LatticePoint(x, 0, 0),
                            {std::min(box.min.x + x + kBlockSide, box.max.x), box.max.y, box.max.z}};
-    for_each_voxel(window.walk, slab, [&](const Voxel& v) {
+    written += for_each_voxel(window.walk, slab, [&](const Voxel& v) {
       layers.set(v[0] - slab.min.x, v[1] - slab.min.y, v[2] - slab.min.z);
     });
     for (int64_t i = 0; i < std::min<int64_t>(kBlockSide, side - x); ++i) layers.put(i, &runs);
   }
+  SVDAG_ASSERT(written == window.voxels);
   runs.finish();
   out.commit();
 }

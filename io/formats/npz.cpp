@@ -212,8 +212,10 @@ void read_place(const File& file, std::string_view name, const Array& array, Vox
 void write_npz(const Window& window, const std::string& path) {
   ZipWriter zip(path);
   begin_array(&zip, "coordinates", "<i4", "(" + std::to_string(window.voxels) + ", 3)");
-  for_each_voxel(window.walk, window.box(),
-                 [&](const Voxel& voxel) { zip.put(std::as_bytes(std::span(voxel))); });
+  const uint64_t written = for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+    zip.put(std::as_bytes(std::span(voxel)));
+  });
+  SVDAG_ASSERT(written == window.voxels);
   zip.end();
   begin_array(&zip, "resolution", "<i8", "()");
   zip.put(window.grid.resolution());

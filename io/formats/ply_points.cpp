@@ -2,6 +2,7 @@
 
 #include "io/formats/output.h"
 #include "io/units.h"
+#include "streaming/error.h"
 
 namespace svdag {
 
@@ -12,10 +13,11 @@ void write_ply_points(const Window& window, const std::string& path) {
           std::to_string(window.voxels) +
           "\nproperty double x\nproperty double y\nproperty double z\nend_header\n");
   const Point corner = window.grid.corner();
-  for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+  const uint64_t written = for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
     for (int a = 0; a < 3; ++a)
       out.put(corner[a] + (double(voxel[size_t(a)]) + 0.5) * window.grid.voxel_size);
   });
+  SVDAG_ASSERT(written == window.voxels);
   out.commit();
 }
 

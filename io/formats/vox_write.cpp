@@ -59,21 +59,21 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
-void put_model(const Window& window, const VoxelBox& box, int64_t side, Output* out) {
+// Returns how many voxels it has.
+uint64_t put_model(const Window& window, const VoxelBox& box, int64_t side, Output* out) {
   Chunk size("SIZE", out);
   for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
   size.end();
   Chunk chunk("XYZI", out);
   const uint64_t count_at = out->size();
   out->put(uint32_t(0));
-  uint32_t count = 0;
-  for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
+  const uint64_t count = for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
     for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
     out->put(uint8_t(1));
-    ++count;
   });
-  out->patch(count_at, count);
+  out->patch(count_at, uint32_t(count));  // of 256^3 voxels at most
   chunk.end();
+  return count;
 }
 
 // The tiles with a voxel of the window.
@@ -114,14 +114,16 @@ void write_vox(const Window& window, const std::string& path) {
   out.put("VOX ");
   out.put(kVersion);
   Chunk main("MAIN", &out);
+  uint64_t written = 0;
   for (const LatticePoint& tile : tiles) {
     VoxelBox box{tile * kTile, (tile + int64_t(1)) * kTile};
     for (int a = 0; a < 3; ++a) {
       box.min[a] = std::max(box.min[a], window.box().min[a]);
       box.max[a] = std::min(box.max[a], window.box().max[a]);
     }
-    put_model(window, box, side, &out);
+    written += put_model(window, box, side, &out);
   }
+  SVDAG_ASSERT(written == window.voxels);
   // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the place and the shape of model i.
   put_place(0, 1, {}, &out);
   Chunk group("nGRP", &out);

@@ -1,6 +1,8 @@
 // The window that formats of single voxels write: a box of one level of a DAG.
 #pragma once
 
+#include <bit>
+
 #include "io/dag/cube_walk.h"
 #include "io/voxel_source.h"
 #include "streaming/interrupt.h"
@@ -15,9 +17,9 @@ struct Window {
   const VoxelBox& box() const { return grid.selection; }
 };
 
-// visit(voxel) for each set voxel of a box, cube by cube.
+// visit(voxel) for each set voxel of a box, cube by cube. Returns how many there were.
 template <class Visit>
-void for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
+uint64_t for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
   const auto visit_box = [&](const LatticePoint& from, int64_t side, const auto& inside) {
     for (int64_t x = 0; x < side; ++x)
       for (int64_t y = 0; y < side; ++y)
@@ -26,13 +28,16 @@ void for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
             visit(Voxel{uint32_t(from.x + x), uint32_t(from.y + y), uint32_t(from.z + z)});
         }
   };
+  uint64_t visited = 0;
   walk->visit(box, [&](const VoxelCube& cube) {
     check_interrupt();
     if (cube.side != kBlockSide) {
+      visited += uint64_t(cube.side * cube.side * cube.side);
       visit_box(cube.origin, cube.side, [](int64_t, int64_t, int64_t) { return true; });
       return true;
     }
     for (unsigned x = 0; x < 8; ++x) {
+      visited += uint64_t(std::popcount(cube.block.words[x]));
       for (uint64_t plane = cube.block.words[x]; plane != 0; plane &= plane - 1) {
         const unsigned yz = unsigned(std::countr_zero(plane));
         visit(Voxel{uint32_t(cube.origin.x) + x, uint32_t(cube.origin.y) + (yz >> 3),
@@ -41,6 +46,7 @@ void for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
     }
     return true;
   });
+  return visited;
 }
 
 }  // namespace svdag

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A .svdag that is cut short while a program reads it ends that program with a sentence and no output."""
+"""A .svdag that is cut short, or copied over, while a program reads it ends that program with a sentence and no output."""
 import os
 import pathlib
 import signal
@@ -10,7 +10,7 @@ import time
 import bakes
 
 SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a page was lost
-             "was changed while it was read"]                                # the rest of a page was read as zeros
+             "was changed while it was read"]                                # zeros, or other bytes, were read
 BAD_INPUT = 3
 TRIES = 20  # a program that has ended before it was stopped is asked again
 # Programs that walk the file for a while, and what they would leave.
@@ -20,6 +20,19 @@ COMMANDS = {
     "export": (["svdag", "export", "lost.svdag", "--format", "ply", "-o", "points.ply"], ["points.ply"]),
     "render": (["svdag-verify", "render", "lost.svdag", "--size", "2048x2048", "-o", "picture.png"], ["picture.png"]),
 }
+
+
+def cut(lost, _):
+    os.truncate(lost, 100)
+
+
+def copy_over(lost, larger):
+    lost.write_bytes(larger.read_bytes())  # cut to nothing first, as by a shell's ">"
+
+
+def copy_into(lost, larger):
+    with open(lost, "r+b") as file:  # as by cp: other nodes stand where the checked ones stood
+        file.write(larger.read_bytes())
 
 
 def maps(process, path):
@@ -39,14 +52,14 @@ def stop_when_mapped(process, path):
     return False
 
 
-def run_and_cut(folder, kept, words, outputs):
-    """The exit code and standard error of a program whose file loses its pages; None if it was faster."""
+def run_and_spoil(spoil, folder, words, outputs):
+    """The exit code and standard error of a program whose file is spoiled; None if it was faster."""
     lost = folder / "lost.svdag"
-    lost.write_bytes(kept.read_bytes())
+    lost.write_bytes((folder / "kept.svdag").read_bytes())
     process = subprocess.Popen([bakes.BUILD / words[0], *words[1:]], cwd=folder, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
     if stop_when_mapped(process, lost):
-        os.truncate(lost, 100)
+        spoil(lost, folder / "larger.svdag")
         process.send_signal(signal.SIGCONT)
     text = process.communicate()[1]
     if process.returncode == 0:
@@ -55,22 +68,27 @@ def run_and_cut(folder, kept, words, outputs):
     return None if process.returncode == 0 else (process.returncode, text)
 
 
+def failures(ended, left):
+    if ended is None:
+        return [f"never caught in {TRIES} tries"]
+    code, text = ended
+    told = code == BAD_INPUT and len(text.splitlines()) == 1 and any(s in text for s in SENTENCES)
+    return [f"ended with {ended}"] * (not told) + [f"left {sorted(left)}"] * bool(left)
+
+
 def main():
     report = bakes.Report()
     with tempfile.TemporaryDirectory(prefix="svdag-fault-") as name:
         folder = pathlib.Path(name).resolve()
-        kept = folder / "kept.svdag"
         subprocess.run([bakes.BUILD / "svdag-scene", "hairball", "-n", "100K", "-q", "-o", "s.ply"], cwd=folder, check=True)
-        subprocess.run([bakes.BUILD / "svdag", "build", "s.ply", "-r", "2K", "-q", "-o", kept], cwd=folder, check=True)
-        for case, (words, outputs) in COMMANDS.items():
-            before = set(os.listdir(folder)) | {"lost.svdag"}
-            ended = next((e for e in (run_and_cut(folder, kept, words, outputs) for _ in range(TRIES)) if e), None)
-            left = set(os.listdir(folder)) - before
-            report.judge(case, [f"never caught in {TRIES} tries"] * (ended is None) +
-                         [f"ended with {ended}"] * (ended is not None and
-                                                    (ended[0] != BAD_INPUT or not any(s in ended[1] for s in SENTENCES)
-                                                     or len(ended[1].splitlines()) != 1)) +
-                         [f"left {sorted(left)}"] * bool(left))
+        for resolution, bake in (("2K", "kept.svdag"), ("4K", "larger.svdag")):
+            subprocess.run([bakes.BUILD / "svdag", "build", "s.ply", "-r", resolution, "-q", "-o", bake], cwd=folder, check=True)
+        for spoil in (cut, copy_over, copy_into):
+            for case, (words, outputs) in COMMANDS.items():
+                before = set(os.listdir(folder)) | {"lost.svdag"}
+                tries = (run_and_spoil(spoil, folder, words, outputs) for _ in range(TRIES))
+                ended = next((each for each in tries if each), None)
+                report.judge(f"{case}, {spoil.__name__}", failures(ended, set(os.listdir(folder)) - before))
     report.finish()
 
 

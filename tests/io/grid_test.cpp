@@ -102,6 +102,19 @@ TEST(Grid, ACornerBeyondEveryLatticeIsImpossible) {
   }
 }
 
+TEST(SelectedBounds, MayLieFurtherThanTheSnapReaches) {
+  const double far = 1e300;
+  Grid corner = cover_lattice(box_of({0, 0, 0}, {5, 5, 5}), 1);
+  corner.k0 = LatticePoint(kFarthestPlane);
+  for (const Grid& grid : {divide_box(box_of({7, 7, 7}, {22, 22, 22}), 17), corner}) {
+    EXPECT_EQ(select_bounds(grid, box_of({-far, -far, -far}, {far, far, far})).selection,
+              grid.whole());
+    EXPECT_TRUE(select_bounds(grid, box_of({-far, -far, far}, {far, far, far})).selection.empty());
+    EXPECT_TRUE(
+        select_bounds(grid, box_of({-far, -far, -far}, {far, -far, far})).selection.empty());
+  }
+}
+
 // By brute force: the open voxel (k, k + 1) meets the closed interval [low, high].
 RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
   Grid grid = divide_box(box_of({0, 0, 0}, {15, 15, 15}), 4);  // voxels of size 1 from -1/2

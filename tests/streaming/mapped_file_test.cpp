@@ -6,6 +6,9 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
 
 #include "streaming/atomic_file.h"
 #include "streaming/program.h"
@@ -85,7 +88,9 @@ TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileThatChanged) {
   EXPECT_EQ(File::open_read(output).size(), 5U);
 }
 
+// In a process of its own, which has seen no other file change.
 TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
   EXPECT_EXIT(::_exit(run_program({.name = "svdag"},
@@ -99,6 +104,37 @@ TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
 
 bool ended_otherwise(int status) {
   return !WIFEXITED(status) || WEXITSTATUS(status) != int(ExitCode::kBadInput);
+}
+
+// What was checked is no longer there, and may lead anywhere.
+void fail_after(bool written, const std::string& path, const std::function<void()>& fail) {
+  ::_exit(run_program({.name = "svdag", .no_memory = "no memory"}, [&] {
+    const MappedFile mapped = map(path, kSize);
+    if (written) std::ofstream(path, std::ios::app) << "more";
+    fail();
+    return 0;
+  }));
+}
+
+TEST(MappedFile, ThatWasWrittenIsToBlameForWhatAProgramTripsOver) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const TempFolder folder;
+  const auto whole = [&] { return folder.write("a", std::string(kSize, 'x')); };
+  const auto nowhere = [] {
+    const volatile uintptr_t address = 16;
+    *reinterpret_cast<volatile char*>(address) = 1;
+  };
+  const auto assertion = [] { SVDAG_ASSERT(false); };
+  const auto range = [] { throw std::out_of_range("at"); };
+  const auto usage = [] { fail_usage("a: has no voxel"); };
+  const testing::ExitedWithCode bad(int(ExitCode::kBadInput)), internal(int(ExitCode::kInternal));
+  EXPECT_EXIT(fail_after(true, whole(), nowhere), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), assertion), bad, "a file was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), range), bad, "a file was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), usage), bad, "a file was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(false, whole(), assertion), internal, "please report");
+  EXPECT_EXIT(fail_after(false, whole(), range), internal, "internal error: at; please report");
+  EXPECT_EXIT(fail_after(false, whole(), nowhere), ended_otherwise, "");
 }
 
 TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {

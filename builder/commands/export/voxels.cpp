@@ -1,5 +1,4 @@
 #include "builder/commands/export/selection.h"
-#include "io/dag/dag_stats.h"
 #include "io/formats/binvox.h"
 #include "io/formats/npz.h"
 #include "io/formats/ply_points.h"
@@ -14,10 +13,8 @@ constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says mor
 
 // Its voxels are counted, for nothing proves the number in the header of a file.
 Window window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const bool whole = selection->grid.selection == selection->grid.whole();
-  const auto memory = budget->reserve(
-      whole ? bytes_of_count(selection->file.view(), uint32_t(selection->grid.levels)) : 0,
-      "counts of voxels");
+  const auto memory = budget->reserve(selection->walk.bytes_to_count(selection->grid.selection),
+                                      "counts of voxels");
   const Window window{selection->grid, &selection->walk,
                       selection->walk.count_voxels(selection->grid.selection)};
   const uint64_t most = config.max_voxels.value_or(kMostVoxels);
