@@ -75,7 +75,9 @@ uint64_t address_space() {
 
 void give_up_rights(int pipe, const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
+  // The handlers are for what the parent has: its outputs, and its files (mapped_file.h).
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGBUS, SIGSEGV})
+    ::signal(signal, SIG_DFL);
   const uint64_t memory = address_space() + limits.memory;
   limit(RLIMIT_AS, memory, memory);
   limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1);
