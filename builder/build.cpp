@@ -21,12 +21,6 @@
 namespace svdag {
 namespace {
 
-void describe_output(const BakeOutput& output, BuildReport* report) {
-  report->nodes = output.keys();
-  report->file_bytes = output.file_bytes();
-  report->content_hash = output.content_hash();
-}
-
 // A bake from its configuration to its report; one function per phase.
 class Bake {
  public:
@@ -235,13 +229,17 @@ void Bake::describe_work(const Voxelizer& voxelizer) {
   report_.divided = counts.divided;
 }
 
-// What was spilled is kept for a process that resumes; from any worker.
+// What was spilled is kept for a process that resumes, if it can be told of what; from any worker.
 void Bake::save(BakedRun baked) {
   if (store_) store_->keep(baked, scratch_.runs());
   const std::lock_guard lock(runs_mutex_);
-  if (!checkpoint_.begun()) checkpoint_.begin(description_.text(), report_.grid);
-  checkpoint_.save_run(baked);
-  keep_scratch();
+  if (!checkpoint_.begun()) {
+    if (const auto text = description_.text_if_unchanged()) checkpoint_.begin(*text, report_.grid);
+  }
+  if (checkpoint_.begun()) {
+    checkpoint_.save_run(baked);
+    keep_scratch();
+  }
   add(std::move(baked));
   disk_need_.expect_runs(spilled_bytes_, progress_->share());
 }
@@ -323,7 +321,9 @@ BuildReport Bake::run() {
   end_phase(&report_.seconds.write, &report_.phase_peaks.write);
   progress_->finish();
 
-  describe_output(*output, &report_);
+  report_.nodes = output->keys();
+  report_.file_bytes = output->file_bytes();
+  report_.content_hash = output->content_hash();
   report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),
                      scratch_.read_bytes()};
   report_.threads = executor_->workers();

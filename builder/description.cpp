@@ -5,6 +5,7 @@
 #include "io/units.h"
 #include "streaming/byte_stream.h"
 #include "streaming/checksum.h"
+#include "streaming/error.h"
 #include "streaming/interrupt.h"
 
 namespace svdag {
@@ -98,6 +99,17 @@ const std::vector<SceneFile>& Description::files() {
 
 std::string Description::text() {
   return describe(config_, config_.ready != nullptr ? std::vector<SceneFile>() : files());
+}
+
+std::optional<std::string> Description::text_if_unchanged() {
+  if (changed_) return std::nullopt;
+  try {
+    return text();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kOutput) throw;
+    changed_ = true;
+    return std::nullopt;
+  }
 }
 
 std::string difference(const std::string& saved, const std::string& now) {

@@ -4,6 +4,7 @@
 // no part of it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,12 +31,15 @@ class Description {
 
   const std::vector<SceneFile>& files();
   std::string text();
+  // The text, or nothing from the moment on when the scene is no more what the bake has read.
+  std::optional<std::string> text_if_unchanged();
 
  private:
   const BuildConfig& config_;
   const Scene& scene_;
   SceneWatch watch_;
   std::vector<SceneFile> files_;
+  bool changed_ = false;
 };
 
 // What differs first between two descriptions, for people; empty if nothing does.

@@ -104,7 +104,8 @@ class Import {
                  format_resolution(uint64_t(grid.resolution())));
     DagOutput output(config_.output, grid, Rule::kConservative);
     const ReductionRoom room{&budget_, executor_, [this] { return new_file(); }};
-    output.finish({}, reduce_graph(graph, room, &output), 0);
+    const uint64_t voxels = reduce_graph(graph, room, &output);
+    finish(&output, {}, voxels);
     return describe(grid, output);
   }
 
@@ -138,7 +139,7 @@ class Import {
                                                 executor_->workers(), 4 * scratch.block_bytes());
     const auto roots = merge(bricks.runs(), std::move(bricks.roots()), Part::whole(grid.levels),
                              merging, &output, executor_);
-    output.finish(roots, voxels, 0);
+    finish(&output, roots, voxels);
     return describe(grid, output);
   }
 
@@ -166,6 +167,11 @@ class Import {
     if (!good) fail_input(config_.source, "puts its voxels at an impossible place");
     grid.selection = grid.whole();
     return grid;
+  }
+
+  void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels) const {
+    if (config_.check_source) config_.check_source();
+    output->finish(roots, voxels, 0);
   }
 
   ImportReport describe(const Grid& grid, const DagOutput& output) const {

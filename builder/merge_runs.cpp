@@ -1,6 +1,7 @@
 #include "builder/merge_runs.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "builder/checkpoint.h"
 #include "builder/merge/merge.h"
@@ -39,6 +40,24 @@ Run run_of(const RunFile& file) {
   run.nodes.resize(size_t(file.header().levels - 2));
   for (auto& level : run.nodes) level.file = &file;
   return run;
+}
+
+// What was proven of a run is so no more where another program writes to it: that is the reason
+// to tell, whatever a merge trips over.
+std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
+                                     const std::function<std::vector<SubDagRoot>()>& merge) {
+  const auto require_unchanged = [&] {
+    for (const RunFile& file : files) file.require_unchanged();
+  };
+  std::vector<SubDagRoot> tops;
+  try {
+    tops = merge();
+  } catch (const std::exception&) {
+    require_unchanged();
+    throw;
+  }
+  require_unchanged();
+  return tops;
 }
 
 }  // namespace
@@ -124,9 +143,11 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   }
   // A source holds its block and, where maps are spilled, the writer of one.
   const uint64_t source_bytes = kRunBlockBytes + 4 * scratch.block_bytes();
-  const auto tops = merge(runs, std::move(roots), part,
-                          share_for_merge(&budget, &scratch, executor->workers(), source_bytes),
-                          output.get(), executor);
+  const auto tops = merge_proven(files, [&] {
+    return merge(runs, std::move(roots), part,
+                 share_for_merge(&budget, &scratch, executor->workers(), source_bytes),
+                 output.get(), executor);
+  });
   report.seconds.merge = seconds.lap();
   progress->phase("write", 0);
   output->finish(tops, report.voxels, largest_snap);

@@ -13,6 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kTasksPerWorker = 32;
 constexpr uint64_t kLightCell = 4096;      // triangles: not worth dividing
+constexpr double kLeastSeconds = 1;        // of work: less of it is saved if it fills a batch
 constexpr uint64_t kBytesPerPending = 48;  // a key not yet numbered, and its number
 
 // Few enough keys that those which wait to be numbered take an eighth of a table's share.
@@ -43,11 +44,14 @@ class Voxelizer::Worker : public Spiller {
   void note_empty(uint64_t begin, uint64_t end) { descent_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
 
+  bool late(const NodeTable& table) override {
+    return config_.scratch != nullptr && age() >= std::max(config_.seconds, kLeastSeconds) &&
+           (table.pending() != 0 || freeze_bytes(table) != 0);
+  }
   bool due(const NodeTable& table) override {
     if (config_.scratch == nullptr) return false;
     const uint64_t bytes = freeze_bytes(table);
-    const std::chrono::duration<double> age = Clock::now() - last_;
-    return bytes >= config_.table_bytes || (bytes != 0 && age.count() >= config_.seconds);
+    return bytes >= config_.table_bytes || (bytes != 0 && age() >= config_.seconds);
   }
   void spill(const Descent&) override {
     config_.save(freeze_table(true));
@@ -60,6 +64,8 @@ class Voxelizer::Worker : public Spiller {
   }
 
  private:
+  double age() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
+
   // Whether nothing of the cell is done, or left to others: else its content is not all of it.
   bool is_new(const Cube& cell) const {
     return config_.done == nullptr || config_.done->coverage(morton_range(cell, table_.levels())) ==

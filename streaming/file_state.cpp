@@ -18,4 +18,8 @@ FileState state_of(const File& file) {
           {status.st_mtim.tv_sec, status.st_mtim.tv_nsec}};
 }
 
+void require_unchanged(const File& file, const FileState& before) {
+  if (state_of(file) != before) fail_input(file.path(), "was changed while it was read");
+}
+
 }  // namespace svdag

@@ -26,4 +26,7 @@ struct FileState {
 // close-to-open rule of NFS).
 FileState state_of(const File& file);
 
+// Throws Error (kBadInput) if `file` was cut short or written since it was `before`.
+void require_unchanged(const File& file, const FileState& before);
+
 }  // namespace svdag

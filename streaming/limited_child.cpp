@@ -199,6 +199,7 @@ class Child {
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use) {
   const auto stopped = [&](const std::string& reason) {
+    check_interrupt();  // a terminal interrupts the child, too
     fail_input(path, "the decoder was stopped: " + reason);
   };
   Child child(limits, work);

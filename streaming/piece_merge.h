@@ -140,13 +140,19 @@ class PieceMerge {
       coming_.push_back(fetch(place));
     }
   }
+  // There is room for it among the idle ones, for it may come back where nothing may be thrown.
+  SpillBlock new_block() {
+    const std::lock_guard lock(idle_mutex_);
+    idle_.reserve(++blocks_);
+    return {budget_, file_->block_bytes()};
+  }
   std::shared_ptr<SpillFetch> fetch(const Place& place) {
     SpillBlock block;
     {
       const std::lock_guard lock(idle_mutex_);
       if (!idle_.empty()) block = std::move(idle_.back()), idle_.pop_back();
     }
-    if (!block) block = SpillBlock(budget_, file_->block_bytes());
+    if (!block) block = new_block();
     auto* const fetch =
         new SpillFetch(file_, streams_[place.stream].stream, place.block, std::move(block));
     return {fetch, [this](SpillFetch* done) {
@@ -223,6 +229,7 @@ class PieceMerge {
     if (sources.size() == 1) {
       turns_.take(piece->number, [&] {
         for (const auto records : sources[0].spans()) take(records);
+        piece->blocks.clear();  // memory for what is read ahead; the next turn may need it
       });
       return;
     }
@@ -289,6 +296,7 @@ class PieceMerge {
 
   std::mutex idle_mutex_;
   std::vector<SpillBlock> idle_;  // memory to read into; before all that gives it back
+  size_t blocks_ = 0;             // that there are, idle or not
   Turns turns_;
   std::mutex cut_mutex_;  // all that follows
   bool cut_failed_ = false;

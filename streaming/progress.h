@@ -63,6 +63,7 @@ class Progress {
   double begin_ = 0, size_ = 1;  // of the Part
   std::atomic<uint64_t> done_{0};
   std::atomic<int64_t> next_draw_{0};  // milliseconds since start_
+  std::atomic_flag drawing_;
   std::chrono::steady_clock::time_point start_;
 };
 

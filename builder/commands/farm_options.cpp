@@ -104,7 +104,8 @@ CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config) {
               {".json"})
       ->type_name("FILE");
   takes_folder(
-      app->add_option("--scratch", config->scratch, "Folder on the machines for what is spilled"))
+      app->add_option("--scratch", config->scratch,
+                      "Folder on the machines for what is spilled (a relative path begins here)"))
       ->type_name("DIR");
   app->add_option("OPTION", config->options, "Behind --: options for the engine");
   add_quiet(app, &config->output);

@@ -76,11 +76,15 @@ void Descent::end(const Cube& cube, const SubDag& dag) {
   const uint64_t end = morton_range(cube, grid_.levels).end;
   if (dag.root != 0) roots_.push_back({cube, dag.root});
   voxels_ += dag.voxels;
-  if (table_->full()) {
+  if (is_flush_due()) {
     flush(first_level_);
     pause(first_level_, end);
   }
   append_range(&finished_, {finished_to_, end});
+}
+
+bool Descent::is_flush_due() const {
+  return table_->full() || (spiller_ != nullptr && spiller_->late(*table_));
 }
 
 // Between two children of cubes above `level`: their handles, the memo's and the roots' are all
@@ -145,7 +149,7 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
   }
   if (cube.level == grid_.levels - kFlushLog2) {
     check_interrupt();
-    if (table_->full()) {
+    if (is_flush_due()) {
       flush(cube.level);
       pause(cube.level, morton_range(cube, grid_.levels).begin);
     }

@@ -46,7 +46,9 @@ class Descent;
 class Spiller {
  public:
   virtual ~Spiller() = default;
-  // Whether `table` shall be emptied now.
+  // Whether what the table holds has waited for so long that it shall be flushed, full or not.
+  virtual bool late(const NodeTable&) { return false; }
+  // Whether `table`, which was flushed, shall be emptied now.
   virtual bool due(const NodeTable& table) = 0;
   // Empties the table; roots(), voxels() and finished() of the descent tell what it held.
   virtual void spill(const Descent& descent) = 0;
@@ -105,6 +107,7 @@ class Descent {
   SubDag divide(const Cube& cube, const EntryList& list, bool leave_open);
   void begin(const Cube& cube);
   void end(const Cube& cube, const SubDag& dag);
+  bool is_flush_due() const;
   void flush(int level);
   void pause(int level, uint64_t reached);
   void spill(int level);

@@ -54,6 +54,7 @@ class NodeTable {
 
   // Whether enough is pending for a flush to repay.
   bool full() const { return pending_ >= batch_; }
+  size_t pending() const { return pending_; }
   void flush();
   // What became of 1 + handle at the last flush.
   uint32_t settled(int level, uint32_t root) const {

@@ -18,6 +18,7 @@
 #include "io/dag/format.h"
 #include "streaming/block_source.h"
 #include "streaming/file.h"
+#include "streaming/file_state.h"
 #include "streaming/memory_budget.h"
 
 namespace svdag {
@@ -38,13 +39,16 @@ class RunFile {
   uint64_t keys(int level) const { return header_.keys[level]; }
   // The keys of `level` as bytes; the run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
+  // Error if it was written since it was opened: what check_run() proved may be there no more.
+  void require_unchanged() const { svdag::require_unchanged(file_, before_); }
 
  private:
-  RunFile(File file, const RunHeader& header, MemoryBudget* budget);
+  RunFile(File file, const FileState& before, const RunHeader& header, MemoryBudget* budget);
   void read_part(MemoryBudget* budget);
   void read_roots(MemoryBudget* budget);
 
   File file_;
+  FileState before_;
   RunHeader header_;
   RunLayout layout_;
   MemoryBudget::Reservation counted_;  // part and roots

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "streaming/file_state.h"
 #include "streaming/scratch_dir.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
@@ -50,6 +51,33 @@ TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
                      "voxels.npz: puts its voxels at an impossible place");
   EXPECT_EQ(folder.read("a.svdag"), "old");
   EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(ImportVoxels, NothingIsKeptOfASourceThatWasWrittenMeanwhile) {
+  const TempFolder folder;
+  const std::string source = folder.write("voxels.npz", "one");
+  const File file = File::open_read(source);
+  const FileState before = state_of(file);
+  ImportConfig config;
+  config.output = folder.write("a.svdag", "old");
+  config.check_source = [&] { require_unchanged(file, before); };
+  SequentialExecutor executor;
+  const auto read_while = [&](const std::function<void()>& act) {
+    import_voxels(
+        [&](const VoxelSink& sink, const FullCubeSink&) {
+          sink(std::vector<Voxel>{{1, 2, 3}});
+          act();
+          return VoxelPlace{};
+        },
+        config, &executor);
+  };
+  EXPECT_SVDAG_ERROR(read_while([&] { folder.write("voxels.npz", "three"); }), ExitCode::kBadInput,
+                     "voxels.npz: was changed while it was read");
+  EXPECT_EQ(folder.read("a.svdag"), "old");
+  folder.write("voxels.npz", "one");
+  config.check_source = {};
+  read_while([] {});
+  EXPECT_NE(folder.read("a.svdag"), "old");
 }
 
 // Cubes of all sides in clumps, so that some hold others, and voxels within and beside them.

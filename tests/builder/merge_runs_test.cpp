@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <random>
 
@@ -115,6 +116,48 @@ TEST_F(MergeRuns, AnyTreeOfAnyPartsGivesTheBytesOfTheWholeBake) {
       merge_to(path("merged.run"), runs);
       EXPECT_TRUE(read_bytes(path("merged.run")) == run) << c.name << ", " << count << " parts";
     }
+  }
+}
+
+// Does something before the tasks are run for the second time: a merge has checked its runs then.
+class ActBeforeMerging : public SequentialExecutor {
+ public:
+  explicit ActBeforeMerging(std::function<void()> act) : act_(std::move(act)) {}
+  void for_each(size_t count, const Task& task) override {
+    if (++calls_ == 2) act_();
+    SequentialExecutor::for_each(count, task);
+  }
+
+ private:
+  std::function<void()> act_;
+  int calls_ = 0;
+};
+
+// As by cp: the labels of its blocks are those of any run of the same part of the same grid.
+TEST_F(MergeRuns, NothingIsKeptOfARunThatWasCopiedOverMeanwhile) {
+  const auto bake_run = [&](const std::vector<Triangle>& triangles, const std::string& name) {
+    write_stl(path("scene.stl"), triangles);
+    BuildConfig config = config_for(path("scene.stl"), path(name), 8);
+    config.bounds = Box{{0, 0, 0}, {1, 1, 1}};
+    bake(config);
+    return read_bytes(config.output);
+  };
+  const std::string other = bake_run(random_soup(3000, 0.2, 2), "other.run");
+  for (const bool same : {false, true}) {
+    bake_run(random_soup(3000, 0.2, 1), "one.run");
+    ActBeforeMerging executor([&] {
+      if (!same) std::fstream(path("one.run")) << other;
+    });
+    Progress progress;
+    const auto merge = [&] {
+      merge_runs({{path("one.run")}, path("merged.svdag"), 0, {}}, &executor, &progress);
+    };
+    if (same) {
+      merge();
+    } else {
+      EXPECT_SVDAG_ERROR(merge(), ExitCode::kBadInput, "one.run: was changed while it was read");
+    }
+    EXPECT_EQ(std::filesystem::exists(path("merged.svdag")), same);
   }
 }
 

@@ -107,6 +107,18 @@ TEST_F(OutOfCore, ManyTrianglesInOneVoxelBakeInLittleMemory) {
   EXPECT_TRUE(as_expected(config));
 }
 
+// A killed bake loses no more than --checkpoint says, also where nodes are few.
+TEST_F(OutOfCore, ATableThatIsFarFromFullIsSavedInTime) {
+  BuildConfig config = prepare(random_soup(20'000, 0.1, 13), 6);
+  config.checkpoint = 0.1;
+  EXPECT_EQ(bake(config).runs, 1U);
+  ParallelExecutor slow(1, [](size_t index) {
+    if (index == 3) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  });
+  EXPECT_GT(bake(config, &slow).runs, 1U);
+  EXPECT_TRUE(as_expected(config));
+}
+
 // Stops what runs meanwhile, after a time.
 class StopAfter {
  public:

@@ -93,6 +93,28 @@ void require_no_vdb_options(const ImportCommandConfig& config, const Row& row) {
                " is read as " + row.name);
 }
 
+ImportReport import_as(const Row& row, const File& file, const ImportCommandConfig& config,
+                       const ImportConfig& wanted) {
+  ParallelExecutor executor(threads_or_all(config.threads));
+  if (row.graph != nullptr) {
+    const std::unique_ptr<NodeGraph> graph = row.graph(file);
+    return import_graph(graph.get(), wanted, &executor);
+  }
+  if (row.voxels != nullptr) {
+    const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
+      return row.voxels(file, sink);
+    };
+    return import_voxels(read, wanted, &executor);
+  }
+  std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
+  refuse_needless_range(*grid, config.iso);
+  const VdbVoxels voxels(std::move(grid), config.file);
+  const auto read = [&](const VoxelSink& sink, const FullCubeSink& cubes) {
+    return voxels.read(sink, cubes);
+  };
+  return import_voxels(read, wanted, &executor, voxels.count());
+}
+
 }  // namespace
 
 std::vector<std::string> import_formats() {
@@ -110,26 +132,18 @@ int run(const ImportCommandConfig& config) {
                ": an import is a .svdag, and this is the name of a run: choose another one");
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
+  const FileState before = state_of(file);
+  ImportConfig wanted = config.import;
+  wanted.source = config.file;
+  wanted.check_source = [&] { require_unchanged(file, before); };
   const Row& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
-  ImportConfig import = config.import;
-  import.source = config.file;
-  ParallelExecutor executor(threads_or_all(config.threads));
   ImportReport report;
-  if (row.graph != nullptr) {
-    const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    report = import_graph(graph.get(), import, &executor);
-  } else if (row.voxels != nullptr) {
-    report = import_voxels(
-        [&](const VoxelSink& sink, const FullCubeSink&) { return row.voxels(file, sink); }, import,
-        &executor);
-  } else {
-    std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
-    refuse_needless_range(*grid, config.iso);
-    const VdbVoxels voxels(std::move(grid), config.file);
-    report = import_voxels(
-        [&](const VoxelSink& sink, const FullCubeSink& cubes) { return voxels.read(sink, cubes); },
-        import, &executor, voxels.count());
+  try {
+    report = import_as(row, file, config, wanted);
+  } catch (const std::exception&) {
+    wanted.check_source();  // if it was, that is the reason to tell
+    throw;
   }
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
