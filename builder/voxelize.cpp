@@ -114,7 +114,7 @@ class Voxelizer::Worker : public Spiller {
 
 Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,
                      Executor* executor)
-    : grid_(grid), config_(std::move(config)), executor_(executor) {
+    : grid_(grid), config_(std::move(config)), budget_(budget), executor_(executor) {
   self_test(config_.descent);
   config_.descent.memo_bytes = config_.table_bytes / 8;
   for (size_t w = 0; w < executor->workers(); ++w)
@@ -128,6 +128,10 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
   const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kLightCell));
   std::vector<MortonRange> ranges;
   for (const Cube& cell : cells) ranges.push_back(morton_range(cell, grid_.levels));
+  // Counted; beyond the limit it is nothing to end for: the tree was only made because its share
+  // of the budget holds it.
+  MemoryBudget::Reservation lists(budget_, 0);
+  lists.try_resize(tree.prepared_bytes(workers_.size()));
   progress->phase("voxelize", cells.size());
   cells_ += cells.size();
   for (const auto& worker : workers_) worker->begin(tree);

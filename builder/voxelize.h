@@ -77,6 +77,7 @@ class Voxelizer {
 
   Grid grid_;
   VoxelizeConfig config_;
+  MemoryBudget* budget_;
   Executor* executor_;
   uint64_t cells_ = 0;
   std::vector<std::unique_ptr<Worker>> workers_;

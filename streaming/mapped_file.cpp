@@ -4,13 +4,13 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
 #include <exception>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace svdag {
 
@@ -37,7 +37,9 @@ struct MappedFile::Mapping {
   FileState state;
   void* data;
   size_t size;
-  std::string lost, written;  // what the handler says; it may not allocate
+  // What the handler says; it may not allocate.
+  std::string lost;
+  std::unique_ptr<const std::string> written;
 };
 
 namespace {
@@ -47,7 +49,7 @@ namespace {
 std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
 static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
 std::atomic_flag told;
-std::atomic<bool> one_was_changed{false};
+std::atomic<const std::string*> changed_before{nullptr};  // what is told of one, never freed
 const char* teller = "";
 struct sigaction before_bus, before_segv;
 
@@ -55,11 +57,12 @@ void say(const char* text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
-[[noreturn]] void end_with(const std::string& line) {
+[[noreturn]] void end_with(const std::string& sentence) {
   while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
   say(teller);
   say(": ");
-  say(line.c_str());
+  say(sentence.c_str());
+  say("\n");
   ::_exit(int(ExitCode::kBadInput));
 }
 
@@ -69,7 +72,7 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
     const MappedFile::Mapping* mapping = each.load();
     if (sent || mapping == nullptr) continue;
     if (number == SIGBUS && mapping->holds(info->si_addr)) end_with(mapping->lost);
-    if (number == SIGSEGV && mapping->changed()) end_with(mapping->written);
+    if (number == SIGSEGV && mapping->changed()) end_with(*mapping->written);
   }
   // The access is tried again, and goes there.
   ::sigaction(number, number == SIGBUS ? &before_bus : &before_segv, nullptr);
@@ -79,8 +82,8 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
 constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
 constexpr const char* kWritten = "was changed while it was read";
 
-std::string line_of(const File& file, const char* sentence) {
-  return Error(ExitCode::kBadInput, sentence, file.path()).what() + std::string("\n");
+std::string tell_of(const File& file, const char* sentence) {
+  return Error(ExitCode::kBadInput, sentence, file.path()).what();
 }
 
 }  // namespace
@@ -90,8 +93,8 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
       state(before),
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
-      lost(line_of(file, kLost)),
-      written(line_of(file, kWritten)) {
+      lost(tell_of(file, kLost)),
+      written(std::make_unique<const std::string>(tell_of(file, kWritten))) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
   for (auto& each : known) {
     const Mapping* none = nullptr;
@@ -100,7 +103,10 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
 }
 
 MappedFile::Mapping::~Mapping() {
-  if (changed()) one_was_changed = true;
+  if (changed()) {
+    const std::string* none = nullptr;
+    if (changed_before.compare_exchange_strong(none, written.get())) (void)written.release();
+  }
   for (auto& each : known) {
     const Mapping* self = this;
     each.compare_exchange_strong(self, nullptr);
@@ -130,11 +136,12 @@ void require_mapped_files() {
   }
 }
 
-bool mapped_file_was_changed() noexcept {
-  return one_was_changed || std::any_of(known.begin(), known.end(), [](const auto& each) {
-           const MappedFile::Mapping* mapping = each.load();
-           return mapping != nullptr && mapping->changed();
-         });
+const std::string* changed_mapped_file() noexcept {
+  for (const auto& each : known) {
+    const MappedFile::Mapping* mapping = each.load();
+    if (mapping != nullptr && mapping->changed()) return mapping->written.get();
+  }
+  return changed_before;
 }
 
 void tell_of_lost_pages(const char* program) {

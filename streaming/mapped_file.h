@@ -46,7 +46,8 @@ void tell_of_lost_pages(const char* program);
 
 // Throws Error (kBadInput) if a file that is mapped now was cut short or written.
 void require_mapped_files();
-// Whether one that was ever mapped was. For main().
-bool mapped_file_was_changed() noexcept;
+// That sentence if one that was ever mapped was, or null; it stays while no file is unmapped. For
+// main().
+const std::string* changed_mapped_file() noexcept;
 
 }  // namespace svdag

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cfenv>
 #include <cstdio>
+#include <string>
 
 #include "streaming/interrupt.h"
 #include "streaming/mapped_file.h"
 
 namespace svdag {
 namespace {
-
-constexpr const char* kChanged = "a file was changed while it was read";
 
 int tell(const ProgramWords& words, const char* sentence, int code) {
   std::fprintf(stderr, "%s: %s\n", words.name, sentence);
@@ -24,8 +23,9 @@ int tell(const ProgramWords& words, const char* sentence, int code) {
 // too: then the write is told.
 int tell_error(const ProgramWords& words, const std::exception& error) {
   const auto* known = dynamic_cast<const Error*>(&error);
-  if (mapped_file_was_changed() && (known == nullptr || known->code() != ExitCode::kBadInput))
-    return tell(words, kChanged, int(ExitCode::kBadInput));
+  const std::string* changed = changed_mapped_file();
+  if (changed != nullptr && (known == nullptr || known->code() != ExitCode::kBadInput))
+    return tell(words, changed->c_str(), int(ExitCode::kBadInput));
   if (known != nullptr) return tell(words, known->what(), int(known->code()));
   if (is_lack_of_memory(error)) return tell(words, words.no_memory, int(ExitCode::kMemory));
   std::fprintf(stderr, "%s: internal error: %s; please report this\n", words.name, error.what());
@@ -52,8 +52,8 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
   tell_of_lost_pages(words.name);
   try {
     const int result = work();
-    require_mapped_files();
-    if (mapped_file_was_changed()) throw Error(ExitCode::kBadInput, kChanged);
+    if (const std::string* changed = changed_mapped_file(); changed != nullptr)
+      throw Error(ExitCode::kBadInput, *changed);
     if (std::fflush(stdout) != 0)
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;

@@ -26,7 +26,7 @@ void write_difference(DagDiff* diff, const DiffCounts& counts, const Grid& grid,
                       const std::string& path, uint64_t most) {
   const uint64_t points = counts.only_a + counts.only_b;
   if (points > most)
-    throw Error(ExitCode::kOutput,
+    throw Error(ExitCode::kUsage,
                 "would get " + std::to_string(points) + " points, more than " +
                     std::to_string(most) + ": give more with --write-most",
                 path);

@@ -40,6 +40,7 @@ std::vector<std::string> arguments_of(const Json& job, const BuildCommandConfig&
   const auto add = [&](const std::string& key, const Json& one) {
     if (one.is_structured() || one.is_null())
       fail_usage("\"" + key + "\" is no text, number or flag");
+    if (key.size() == 1) fail_usage("\"" + key + "\": give the long name of the option");
     if (key == "scene") {
       scene.push_back(text_of(one));
     } else if (one.is_boolean()) {

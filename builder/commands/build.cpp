@@ -12,6 +12,7 @@
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
 #include "streaming/interrupt.h"
+#include "streaming/scratch_dir.h"
 
 namespace svdag {
 namespace {
@@ -210,7 +211,12 @@ void bake_scene(const BuildCommandConfig& config, std::string* json) {
     report_file->append(report_json(config, report));
     report_file->commit();
   }
-  if (!config.output.quiet) print_summary(config, report);
+  if (config.output.quiet) return;
+  print_summary(config, report);
+  // Of a list, most bakes are not those that were stopped.
+  if (json == nullptr && config.build.unfinished == Unfinished::kResume && !report.resumed)
+    std::printf("  nothing to resume in %s: it was baked anew\n",
+                ScratchDir::path_for(config.build.output, config.build.scratch).c_str());
 }
 
 int run_build(const BuildCommandConfig& config) {

@@ -44,7 +44,7 @@ double checked_seconds(double seconds) {
 void add_resume_options(CLI::App* app, BuildConfig* build) {
   CLI::Option* resume = app->add_flag_callback(
       "--resume", [build] { build->unfinished = Unfinished::kResume; },
-      "Continue an unfinished bake of this output, if there is one");
+      "Continue an unfinished bake of this output, if there is one (with the same --scratch)");
   app->add_flag_callback(
          "--restart", [build] { build->unfinished = Unfinished::kRestart; },
          "Discard an unfinished bake of this output")
@@ -135,15 +135,17 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
               {".json"})
       ->type_name("FILE");
   add_quiet(app, &config->output);
-  add_verbose(app, &config->output, "Print seconds and memory per phase");
+  add_verbose(app, &config->output, "Print seconds per phase, memory, and what was skipped");
   add_progress(app, &config->output);
   add_measurement_options(app, &build->descent);
   remember_options(app, grid, &config->given);
-  add_examples(app,
-               {"svdag build city.glb -o city.svdag -r 64K",
-                "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
-                "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
-               "svdag help grid, rules and memory tell more.");
+  add_examples(
+      app,
+      {"svdag build city.glb -o city.svdag -r 64K",
+       "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
+       "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
+      "With --batch LIST.json there is no SCENE and no -o; PLAN --shard I needs nothing else. "
+      "svdag help grid, rules and memory tell more.");
 }
 
 BuildCommandConfig parse_build(const std::vector<std::string>& arguments,

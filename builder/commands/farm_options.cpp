@@ -29,13 +29,13 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
       ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_quiet(app, &config->output);
-  add_verbose(app, &config->output, "Print seconds and memory per phase");
+  add_verbose(app, &config->output, "Print seconds per phase, and memory");
   add_progress(app, &config->output);
   add_examples(
       app,
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
        "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
-      "svdag help farm tells more.");
+      "PLAN --step NAME needs nothing else. svdag help farm tells more.");
   return app;
 }
 
@@ -59,14 +59,13 @@ CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
       ->type_name("N");
   add_grid_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
-                       "PLAN/plan.scratch");
+                       "PLAN/plan.scratch", "Threads of each shard (default: 1)");
   add_quiet(app, &config->output);
   add_verbose(app, &config->output, "Print a table of the steps");
   add_progress(app, &config->output);
   add_examples(app,
                {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
-               "-m bounds the planning and each step; -j are the threads of a shard (default: 1). "
-               "svdag help farm tells more.");
+               "-m bounds the planning and each step. svdag help farm tells more.");
   return app;
 }
 

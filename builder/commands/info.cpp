@@ -27,6 +27,7 @@ bool begins_with(const unsigned char (&magic)[8], const std::string& path) {
 Json dag_json(const DagFile& file, const DagStats& stats) {
   Json json = Json::parse(file.metadata());
   json["file_bytes"] = file.header().file_bytes;
+  json["content_hash"] = to_hex(file.header().content_hash);
   json["svo_nodes"] = stats.svo_nodes();
   json["dag_nodes"] = stats.dag_nodes();
   json["paper_dag_nodes"] = stats.paper_dag_nodes();

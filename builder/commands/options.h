@@ -28,7 +28,8 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 // Memory, threads and disk; the result is the same with any of them.
 // `own_scratch`: where it is by default, in words.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
-                          const char* own_scratch = "OUT.scratch");
+                          const char* own_scratch = "OUT.scratch",
+                          const char* threads_text = "Threads (default: all processors)");
 // The grid of a bake; one of the options in the group returned is required.
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build);
 

@@ -56,11 +56,9 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
-                          const char* own_scratch) {
+                          const char* own_scratch, const char* threads_text) {
   add_memory_budget(app, memory);
-  from_to(app->add_option("-j,--threads", *threads, "Threads (default: all processors)"), 1,
-          kMostThreads)
-      ->type_name("N");
+  from_to(app->add_option("-j,--threads", *threads, threads_text), 1, kMostThreads)->type_name("N");
   takes_folder(app->add_option("--scratch", *scratch,
                                "Folder for what does not fit in memory (default: " +
                                    std::string(own_scratch) + ")"))
@@ -93,7 +91,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   suggests(app->add_option_function<std::string>(
                "--rule", [build](const std::string& s) { build->descent.rule = parse_rule(s); },
                "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
-               "1.05 (walls) to 1.9 (curved surfaces) times fewer voxels"),
+               "often 1.05 (walls) to 1.9 (curved surfaces) times fewer voxels"),
            {"conservative", "thin"})
       ->type_name("RULE");
   add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);

@@ -8,6 +8,13 @@
 #include "streaming/error.h"
 
 namespace svdag {
+namespace {
+
+// Of a triangle in a cell: lists divided on the way down hold it a few times, mostly in cubes ever
+// smaller.
+constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(Entry);
+
+}  // namespace
 
 struct CellTree::Node {
   std::array<std::unique_ptr<Node>, 8> children;
@@ -70,16 +77,18 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Lat
   }
 }
 
+uint64_t CellTree::prepared_bytes(size_t workers) const {
+  return workers * heaviest_ * kPrepared;
+}
+
 uint64_t CellTree::bytes(size_t workers) const {
-  // Lists divided on the way down hold a triangle of a cell a few times, mostly in cubes ever
-  // smaller. One of an inner node may stand in the list of a cube on every level down to bricks,
-  // and in those of 7 of its children: as many as a plane meets.
-  constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(Entry);
+  // One of an inner node may stand in the list of a cube on every level down to bricks, and in
+  // those of 7 of its children: as many as a plane meets.
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
       std::accumulate(heaviest_inner_.begin(), heaviest_inner_.end(), uint64_t(0));
   return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) + inner_ * kPrepared +
-         workers * (heaviest_ * kPrepared + on_a_path * levels * 8 * sizeof(Entry));
+         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(Entry);
 }
 
 void CellTree::seal() {

@@ -38,6 +38,8 @@ class CellTree {
   const LatticeTriangle& triangle(uint64_t i) const { return triangles_[i]; }
   // Memory that the tree and `workers` workers take, each in the heaviest cell.
   uint64_t bytes(size_t workers) const;
+  // What of it they do take while cells are baked: the triangles of the heaviest cell, prepared.
+  uint64_t prepared_bytes(size_t workers) const;
   // The cells that triangles may touch, in Morton order; a cell in which more than `most` triangles
   // begin is replaced by its children, so that one worker does not keep the others waiting.
   std::vector<Cube> occupied_cells(uint64_t most = UINT64_MAX) const;

@@ -16,7 +16,7 @@ svdag build --batch names.json -r 64 --include '*.ply' --exclude 'a*' --keep-goi
 for wrong in a.ply '-o x.svdag' '--shard 1' '--part 1/2' '-r 64 -s 1'; do
   svdag build --batch list.json $wrong 2>&1 || echo "exit $?"
 done
-for wrong in '"help": true' '"shard": 1' '"keep-going": true' '"batch": "list.json"'; do
+for wrong in '"help": true' '"r": 64' '"shard": 1' '"keep-going": true' '"batch": "list.json"'; do
   echo '[{"scene": "a.ply", "output": "x.svdag", "resolution": 64, '"$wrong"'}]' > wrong.json
   svdag build --batch wrong.json 2>&1 || echo "exit $?"
 done

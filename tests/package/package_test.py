@@ -4,6 +4,7 @@
 BUILD is the folder of a finished build; everything else happens in a temporary folder.
 """
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -90,9 +91,19 @@ class Package(unittest.TestCase):
         for path in ("doc/svdag/docs/farm.md", "man/man1/svdag-build.1.gz", "man/man7/svdag-grid.7.gz", "bash-completion/completions/svdag",
                      "zsh/vendor-completions/_svdag", "fish/vendor_completions.d/svdag.fish"):
             self.assertIn(f"./usr/share/{path}\n", held)
+        self.require_links(held)
         held = run("dpkg-deb", "-c", packages["libsvdag-dev"])
         self.assertIn("./usr/lib/cmake", held.replace("/x86_64-linux-gnu", ""))
         self.assertIn("./usr/share/doc/libsvdag-dev/format.md\n", held)
+
+    def require_links(self, held):
+        """Links of the pages in a package lead to its files, but for those to the sources."""
+        folder = "./usr/share/doc/svdag/"
+        pages = [pathlib.Path(page) for page in re.findall(rf"{folder}(\S+\.md)\n", held)]
+        self.assertGreater(len(pages), 12)
+        links = {os.path.normpath(page.parent / link) for page in pages
+                 for link in re.findall(r"\]\(([^)#]+)[^)]*\)", (ROOT / page).read_text()) if not link.startswith("http")}
+        self.assertEqual({link for link in links if folder + link + "\n" not in held}, {"Makefile", "tests/package/reader"})
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
                                     return ::truncate(path.c_str(), kSize - 1);
                                   })),
               testing::ExitedWithCode(int(ExitCode::kBadInput)),
-              "svdag: a file was changed while it was read");
+              "a: was changed while it was read");
 }
 
 bool ended_otherwise(int status) {
@@ -129,9 +129,9 @@ TEST(MappedFile, ThatWasWrittenIsToBlameForWhatAProgramTripsOver) {
   const auto usage = [] { fail_usage("a: has no voxel"); };
   const testing::ExitedWithCode bad(int(ExitCode::kBadInput)), internal(int(ExitCode::kInternal));
   EXPECT_EXIT(fail_after(true, whole(), nowhere), bad, "a: was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), assertion), bad, "a file was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), range), bad, "a file was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), usage), bad, "a file was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), assertion), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), range), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, whole(), usage), bad, "a: was changed while it was read\n$");
   EXPECT_EXIT(fail_after(false, whole(), assertion), internal, "please report");
   EXPECT_EXIT(fail_after(false, whole(), range), internal, "internal error: at; please report");
   EXPECT_EXIT(fail_after(false, whole(), nowhere), ended_otherwise, "");

@@ -21,7 +21,7 @@ struct CommonConfig {
 // Prints seconds and peak memory on stderr when it dies, if asked to.
 class Stopwatch {
  public:
-  explicit Stopwatch(const CommonConfig& config) : enabled_(config.verbose) {}
+  explicit Stopwatch(const CommonConfig& config) : enabled_(config.verbose && !config.quiet) {}
   ~Stopwatch();
 
  private:

@@ -23,7 +23,8 @@ void add_light(CLI::App* command, RenderCommandConfig* config) {
       ->type_name("N");
   command
       ->add_option("--reach", config->reach,
-                   "ao: how far they reach, in scene units (default: a twentieth of the scene)")
+                   "ao: how far they reach, in scene units (default: a twentieth of the scene's "
+                   "diagonal)")
       ->type_name("LENGTH");
   command
       ->add_option("--cone", config->cone,
@@ -66,7 +67,8 @@ void add_render(CLI::App* app, int* result) {
   command
       ->add_option(
           "--level", config->level,
-          "Trace the cubes of level K instead of the voxels (svdag info --levels lists them)")
+          "Trace the cubes of level K, from 1 on, instead of the voxels (svdag info --levels lists "
+          "them)")
       ->type_name("K");
   command
       ->add_option("--fly", config->fly,

@@ -71,7 +71,7 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
     fail_usage("--samples: give 1 to 4096 rays to the light for each camera ray");
   const bool ao = shading->mode == ShadeMode::kAo;
   const double cone = config.cone.value_or(ao ? 9 : 0);
-  if (!(cone >= 0 && cone < 45)) fail_usage("--cone: give 0 to 45 degrees");
+  if (!(cone >= 0 && cone < 45)) fail_usage("--cone: give 0 degrees or more, and less than 45");
   if (!(config.reach >= 0)) fail_usage("--reach: give a length of 0 or more");
   const uint64_t level = config.level.value_or(uint64_t(grid.levels));
   if (level == 0 || level > uint64_t(grid.levels))

@@ -62,7 +62,7 @@ void print_text(const VdbGrid& theirs, const Grid& grid, const IndexMap& map,
 void write_difference(const VdbConfig& config, const VdbComparison& comparison,
                       VdbComparer* comparer) {
   if (comparison.extra > config.write_most)
-    throw Error(ExitCode::kOutput,
+    throw Error(ExitCode::kUsage,
                 "would get " + std::to_string(comparison.extra) + " voxels, more than " +
                     std::to_string(config.write_most) + ": give more with --write-most",
                 config.write_diff);

@@ -26,8 +26,9 @@ void set_up(CLI::App* app, ExportConfig* config) {
       app->add_option("--format", config->format, formats + " (default: the ending of the output)"),
       names)
       ->type_name("NAME");
-  app->add_option("--level", config->level,
-                  "Write the nodes of this level as voxels (default: the voxels themselves)")
+  app->add_option(
+         "--level", config->level,
+         "Write the nodes of this level, from 3 on, as voxels (default: the voxels themselves)")
       ->type_name("K");
   app->add_option_function<std::string>(
          "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
@@ -45,7 +46,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
   add_examples(app,
                {"svdag export city.svdag -o city.vdb --level 10",
                 "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
-                "svdag export city.svdag --format hashdag -o data/city"},
+                "svdag export city.svdag --format hashdag -o city"},
                "svdag help formats tells more.");
 }
 

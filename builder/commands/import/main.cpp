@@ -28,8 +28,9 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   app->add_option_function<std::string>(
          "-r,--resolution",
          [import](const std::string& s) { import->levels = parse_resolution(s); },
-         "Voxels per axis of the grid, where the file leaves it open (default: as few as its "
-         "voxels need)")
+         "vdb, npz, binvox, vox: voxels per axis of the grid (default: what the file says, or as "
+         "few "
+         "as its voxels need)")
       ->type_name("N");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");

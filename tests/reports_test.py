@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""docs/reports.md names every key of the JSON that programs write, and no other.
+
+The keys are those of reports of small bakes and of verdicts, right and wrong ones; where a key is a name by itself
+(the bins of a histogram), only what it belongs to is looked up.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
+BAKES = """svdag-scene city -n 6K -o city.ply
+svdag-scene scan -n 2K -o scan.ply
+svdag build city.ply -o city.svdag -r 64 --report report.json
+svdag build city.ply -o thin.svdag -r 64 --rule thin
+svdag build city.ply -o half.run -r 64 --part 1/2
+svdag export thin.svdag -o thin.vdb
+svdag build --batch list.json --keep-going --report list.report.json"""
+LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
+        {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
+ANSWERS = """svdag info city.svdag
+svdag info half.run
+svdag info city.ply --parts
+svdag-verify check city.svdag
+svdag-verify mesh city.svdag city.ply --sample 1000
+svdag-verify mesh city.svdag scan.ply --judge openvdb
+svdag-verify diff city.svdag thin.svdag
+svdag-verify vdb city.svdag thin.vdb
+svdag-verify trace city.svdag scan.ply --rays 1000"""
+
+
+def keys_of(value):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield key
+            if key != "nearer":  # its keys are the bins
+                yield from keys_of(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from keys_of(inner)
+
+
+class Reports(unittest.TestCase):
+    def test_the_page_names_every_key_and_no_other(self):
+        with tempfile.TemporaryDirectory(prefix="svdag-reports-") as folder:
+            folder = pathlib.Path(folder)
+            (folder / "list.json").write_text(json.dumps(LIST))
+
+            def run(line):
+                program, *arguments = line.split()
+                done = subprocess.run([BUILD / program, *arguments], cwd=folder, capture_output=True, text=True)
+                self.assertIn(done.returncode, (0, 1, 3), line + "\n" + done.stderr)
+                return done.stdout
+
+            for line in BAKES.splitlines():
+                run(line + " -q")
+            texts = [(folder / name).read_text() for name in ("report.json", "list.report.json")]
+            texts += [run(line + " --json") for line in ANSWERS.splitlines()]
+        printed = {key for text in texts for key in keys_of(json.loads(text))}
+        rows = re.findall(r"^\| `.*", (ROOT / "docs" / "reports.md").read_text(), re.M)
+        named = set(re.findall(r"`([a-z][a-z0-9_]*)`", "\n".join(rows)))
+        self.assertEqual(sorted(printed - named), [], "printed, and not in docs/reports.md")
+        self.assertEqual(sorted(named - printed), [], "in docs/reports.md, and not printed")
+
+
+if __name__ == "__main__":
+    unittest.main()
