@@ -145,11 +145,11 @@ void read_coordinates(const File& file, const Array& array, const VoxelSink& sin
 }
 
 void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
-  if (array.elements() == 0) return;
   for (const uint64_t side : array.shape) {
     if (side > uint64_t(1) << kMaxLevels)
       fail_input(file.path(), "has more than 1M voxels on an axis", array.offset);
   }
+  if (array.elements() == 0) return;
   ByteStream stream(file, array.offset, array.end);
   VoxelBatch batch(sink);
   // Axes from the slowest to the fastest.

@@ -54,13 +54,14 @@ inline int fuzz_voxels(VoxelPlace (*reader)(const File&, const VoxelSink&), cons
   const MemoryFile memory(std::as_bytes(std::span(data, size)));
   size_t visited = 0;
   try {
-    reader(memory.file(), [&](std::span<const Voxel> voxels) {
+    const VoxelPlace place = reader(memory.file(), [&](std::span<const Voxel> voxels) {
       uint32_t bits = 0;
       for (const Voxel& voxel : voxels) bits |= voxel[0] | voxel[1] | voxel[2];
       if (voxels.empty() || bits >> kMaxLevels != 0) std::abort();
       visited += voxels.size();
       if (visited > kMostVisited) throw Enough();
     });
+    if (place.resolution > uint64_t(1) << kMaxLevels) std::abort();
   } catch (const Error& error) {
     expect_bad_input(error);
   } catch (Enough) {

@@ -5,13 +5,16 @@ Small ones, as the programs write them; the journal as builder/saved_bake.cpp ha
 so this is run again where a format changes.
 """
 import base64
+import io
 import json
 import pathlib
 import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 
+import numpy
 import pyopenvdb
 import xxhash
 
@@ -103,6 +106,28 @@ def plys():
             yield f"types_{name}_{first}.ply", head.encode() + body + face
 
 
+def npzs():
+    """Voxels with their place, as numbers of every type that is read, and of some that are not."""
+    rows, solid = numpy.array([[1, 2, 3], [0, 7, 4]]), numpy.zeros((2, 3, 4), bool)
+    solid[1, 2, 0] = True
+    for name, arrays in (
+            ("place_f8", {"coordinates": rows.astype("<i4"), "resolution": numpy.int64(16), "corner": numpy.array([-1, 0.5, 3.25]),
+                          "voxel_size": numpy.float64(0.125)}),
+            ("place_f4", {"resolution": numpy.float32(32), "corner": numpy.array([1, 2, 3], "<f4"), "voxel_size": numpy.float32(0.5),
+                          "coordinates": rows.astype("<u2")}),
+            ("place_integers", {"voxels": solid, "resolution": numpy.uint8(4), "corner": numpy.array([-1, -2, -3], "<i2"),
+                                "voxel_size": numpy.array([2], "<u4")}),
+            ("place_wrong", {"coordinates": rows, "resolution": numpy.array([8, 8]), "corner": numpy.array(["a", "b", "c"])}),
+            ("place_beyond", {"coordinates": rows, "resolution": numpy.float64(1.5e9)})):
+        data = io.BytesIO()
+        with zipfile.ZipFile(data, "w") as archive:
+            for key, array in arrays.items():
+                values = io.BytesIO()
+                numpy.save(values, array)
+                archive.writestr(zipfile.ZipInfo(key + ".npy"), values.getvalue())
+        yield name + ".npz", data.getvalue()
+
+
 def vdbs(folder):
     """Grids as OpenVDB writes them: of one leaf, of a tile, of values, of vectors; two in a file, two of one tree."""
     bools = pyopenvdb.BoolGrid()
@@ -172,6 +197,8 @@ def main(programs, corpus):
             keep("vdb", name, data)
         for name, data in plys():
             keep("ply", name, data)
+        for name, data in npzs():
+            keep("npz", name, data)
         keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
              b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):
