@@ -81,8 +81,6 @@ class Placement {
   }
 
  private:
-  static constexpr double kMostOfRoundings = 1.0 / 8;
-
   Point first_;
   std::array<Point, 3> steps_;
   double tolerance_;

@@ -9,7 +9,7 @@
 //     used is minimal;
 //   * the voxels summed over the DAG are the voxels of the header, and none lies outside the
 //     selection;
-//   * the metadata says the same as the header, every key once.
+//   * the metadata says the same as the header, every key once, in the format's own words.
 #pragma once
 
 #include <cstdint>

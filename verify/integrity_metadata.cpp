@@ -1,8 +1,10 @@
-// The metadata's JSON against the header, field by field (docs/format.md, "Metadata").
+// The metadata's JSON against the header (docs/format.md, "Metadata"): field by field, so that a
+// defect has a name, and then as the one line that it must be, for JSON has many texts of a value.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/dag/metadata.h"
 #include "verify/integrity.h"
 
 namespace svdag {
@@ -33,11 +35,17 @@ json expected_metadata(const Header& h) {
           {"largest_snap", h.largest_snap}};
 }
 
-// A key that may be anything.
+constexpr int kDeepest = 2;  // the selection, in the grid, in the object
+
+// The beginning of what may be anything.
+std::string beginning(const std::string& text) {
+  size_t end = std::min<size_t>(text.size(), 40);
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // within a character
+  return text.substr(0, end) + (end < text.size() ? "..." : "");
+}
+
 std::string quoted(const std::string& key) {
-  size_t end = std::min<size_t>(key.size(), 40);
-  while (end > 0 && end < key.size() && (key[end] & 0xC0) == 0x80) --end;  // within a character
-  return "\"" + key.substr(0, end) + "\"";
+  return "\"" + beginning(key) + "\"";
 }
 
 // Notes keys that come twice in one object: readers disagree about which of them counts.
@@ -65,25 +73,30 @@ class RepeatedKeys {
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata) {
   std::vector<std::string> defects;
   RepeatedKeys repeated(&defects);
-  const auto see = [&](int, json::parse_event_t event, json& parsed) {
+  bool deep = false;
+  const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
     repeated.see(event, parsed);
-    return true;
+    deep = deep || depth > kDeepest + 1;
+    return !deep;  // what is no longer kept cannot exhaust the stack of who prints it
   };
   const json found = json::parse(metadata, see, /*allow_exceptions=*/false);
+  if (deep) return {"the metadata is nested too deep"};
   if (!found.is_object()) return {"the metadata is not a JSON object"};
   const json expected = expected_metadata(header);
   for (const auto& [key, value] : expected.items()) {
     if (!found.contains(key)) {
       defects.push_back("the metadata lacks \"" + key + "\"");
     } else if (found[key] != value) {
-      defects.push_back("the metadata says \"" + key + "\" is " + found[key].dump() +
-                        ", the header " + value.dump());
+      defects.push_back("the metadata says \"" + key + "\" is " +
+                        beginning(found[key].dump(-1, ' ', true)) + ", the header " + value.dump());
     }
   }
   for (const auto& [key, value] : found.items()) {
     if (!expected.contains(key))
       defects.push_back("the metadata has an unknown key " + quoted(key));
   }
+  if (defects.empty() && metadata != metadata_of(header))
+    return {"the metadata is not the one line that the format has for it"};
   return defects;
 }
 

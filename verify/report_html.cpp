@@ -62,6 +62,10 @@ class Page {
  private:
   uint64_t count(const char* key) const { return whole_number<uint64_t>(bake_.at(key)); }
   double number(const char* key) const { return bake_.at(key).get<double>(); }
+  // What the file says itself is never taken from the bake's report.
+  double bits_per_voxel() const {
+    return stats_.voxels == 0 ? 0 : 8 * double(file_.header().file_bytes) / double(stats_.voxels);
+  }
   std::vector<uint64_t> divided_per_level() const {
     std::vector<uint64_t> counts;
     for (const Json& one : bake_.at("cubes_divided")) counts.push_back(whole_number<uint64_t>(one));
@@ -94,7 +98,7 @@ class Page {
     tile(short_count(stats_.voxels), "voxels");
     tile(short_count(stats_.dag_nodes()), "DAG nodes");
     tile(format_bytes(file_.header().file_bytes), "file");
-    tile(formatted("%.3g", number("bits_per_voxel")), "bits per voxel");
+    tile(formatted("%.3g", bits_per_voxel()), "bits per voxel");
     tile(formatted("%.1f s", bake_.at("seconds").at("total").get<double>()), "to bake");
     out_ += "</div>\n";
   }
@@ -157,7 +161,7 @@ class Page {
             (grid.kind == Grid::Kind::kBox ? ", fitted to a box" : ", on the world lattice"));
     row("corner of the grid",
         format_double(corner.x) + ", " + format_double(corner.y) + ", " + format_double(corner.z));
-    row("rule", escaped(bake_.at("rule").get<std::string>()));
+    row("rule", rule_name(file_.rule()));
     row("voxels", format_count(stats_.voxels));
     row("content hash of the result", "<code>" + hash() + "</code>");
     end_table();
@@ -166,9 +170,8 @@ class Page {
   void accuracy() {
     begin_facts("Accuracy");
     row("largest move of a coordinate by the snap",
-        formatted("%.3g voxel", number("largest_snap_voxels")) + ", to a lattice of 2<sup>" +
-            std::to_string(whole_number<int>(bake_.at("grid").at("fraction_bits"))) +
-            "</sup> steps per voxel");
+        formatted("%.3g voxel", file_.header().largest_snap) + ", to a lattice of 2<sup>" +
+            std::to_string(file_.header().fraction) + "</sup> steps per voxel");
     row("decisions at voxels", format_count(count("decisions")));
     row("of which doubles could not decide, so integers did",
         percent(number("decisions_exact_share")));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace svdag {
 namespace {
@@ -25,11 +26,14 @@ struct Placed {
   double reach = 0;  // no coordinate of the grid is larger
 };
 
-// The places to be the same, in voxels from the first and from the last plane of each grid.
+// The places to be the same, in voxels from the first and from the last plane of each grid; of
+// grids of one kind, or of any.
 struct Ends {
   double first, last;
+  std::optional<Grid::Kind> kind;
 };
-constexpr Ends kWays[] = {{0, 0}, {0.5, -0.5}, {-0.5, -0.5}};  // level, boxes, lattices
+constexpr Ends kWays[] = {
+    {0, 0, {}}, {0.5, -0.5, Grid::Kind::kBox}, {-0.5, -0.5, Grid::Kind::kLattice}};
 
 bool agree(const Placed& a, const Placed& b, const Ends& ends, double tolerance) {
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -50,14 +54,16 @@ bool may_be_of_floats(const Grid& grid) {
 }  // namespace
 
 bool same_place(const Grid& a, const Grid& b) {
+  if (a.levels == b.levels && a.corner() == b.corner() && a.voxel_size == b.voxel_size) return true;
   const double unit = std::min(a.voxel_size, b.voxel_size);
   const Placed in_a(a, unit), in_b(b, unit);
   const double reach = std::max(in_a.reach, in_b.reach);
-  double tolerance = kExact + kRoundings * reach;
+  double tolerance = kExact + std::min(kRoundings * reach, kMostOfRoundings);
   if (may_be_of_floats(a) || may_be_of_floats(b))
     tolerance = std::max(tolerance, std::min(kFloatStep * reach, kMostOfFloats));
   for (const Ends& ends : kWays) {
-    if (agree(in_a, in_b, ends, tolerance)) return true;
+    const bool possible = !ends.kind || (a.kind == *ends.kind && b.kind == *ends.kind);
+    if (possible && agree(in_a, in_b, ends, tolerance)) return true;
   }
   return false;
 }

@@ -6,6 +6,7 @@
 
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
+#include "io/dag/metadata.h"
 #include "io/dag/symvox_header.h"
 #include "io/json_text.h"
 #include "io/units.h"
@@ -25,7 +26,7 @@ bool begins_with(const unsigned char (&magic)[8], const std::string& path) {
 }
 
 Json dag_json(const DagFile& file, const DagStats& stats) {
-  Json json = Json::parse(file.metadata());
+  Json json = Json::parse(metadata_of(file.header()));
   json["file_bytes"] = file.header().file_bytes;
   json["content_hash"] = to_hex(file.header().content_hash);
   json["svo_nodes"] = stats.svo_nodes();

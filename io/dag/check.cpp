@@ -164,7 +164,7 @@ class StructureScan {
   }
 
   void scan(uint64_t offset, std::span<const std::byte> bytes) {
-    if (level_ + 2 == h_.levels) return;  // any u64 is safe to follow
+    if (level_ + 2 == h_.levels) return scan_bricks(offset, bytes);
     for (size_t i = 0; i < bytes.size(); i += 4, ++word_) {
       uint32_t word;
       std::memcpy(&word, bytes.data() + i, 4);
@@ -177,6 +177,14 @@ class StructureScan {
         require(starts_below(word), file_, "a pointer leads nowhere", offset + i);
         --pending_;
       }
+    }
+  }
+  // Any u64 is safe to follow; but of 0 the masks above would say that there is a voxel.
+  void scan_bricks(uint64_t offset, std::span<const std::byte> bytes) const {
+    for (size_t i = 0; i < bytes.size(); i += 8) {
+      uint64_t brick;
+      std::memcpy(&brick, bytes.data() + i, 8);
+      require(brick != 0, file_, "an empty brick", offset + i);
     }
   }
   bool starts_below(uint32_t word) const {

@@ -4,20 +4,11 @@
 #include <cstring>
 
 #include "io/dag/grid_fields.h"
-#include "io/units.h"
+#include "io/dag/metadata.h"
 #include "streaming/checksum.h"
 #include "streaming/error.h"
 
 namespace svdag {
-namespace {
-
-std::string json_list(std::initializer_list<std::string> items) {
-  std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "[" : ",") + item;
-  return text + "]";
-}
-
-}  // namespace
 
 DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t most_words)
     : file_(path), most_words_(most_words), level_(grid.levels - 1) {
@@ -107,35 +98,13 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   return index;
 }
 
-std::string DagWriter::metadata() const {
-  const Header& h = header_;
-  const auto number = [](auto v) { return std::to_string(v); };
-  const auto real = [](double v) { return format_double(v); };
-  std::string nodes;
-  for (uint32_t k = 0; k < h.section_count; ++k)
-    nodes += (k ? "," : "[") + number(h.sections[k].nodes);
-  return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
-         ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
-         "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
-         (Grid::Kind(h.grid_kind) == Grid::Kind::kBox ? "box" : "lattice") +
-         "\",\"corner\":" + json_list({real(h.corner[0]), real(h.corner[1]), real(h.corner[2])}) +
-         ",\"voxel_size\":" + real(h.voxel_size) +
-         ",\"k0\":" + json_list({number(h.k0[0]), number(h.k0[1]), number(h.k0[2])}) +
-         ",\"bounded\":" + (h.bounded ? "true" : "false") + ",\"selection\":" +
-         json_list({number(h.selection_min[0]), number(h.selection_min[1]),
-                    number(h.selection_min[2]), number(h.selection_max[0]),
-                    number(h.selection_max[1]), number(h.selection_max[2])}) +
-         "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
-         "],\"largest_snap\":" + real(h.largest_snap) + "}\n";
-}
-
 void DagWriter::finish(uint64_t voxels, double largest_snap) {
   SVDAG_ASSERT(level_ == 0);
   close_level();
   header_.voxels = voxels;
   header_.largest_snap = largest_snap;
   align();
-  const std::string json = metadata();
+  const std::string json = metadata_of(header_);
   header_.metadata_offset = position();
   header_.metadata_bytes = json.size();
   append(json.data(), json.size());

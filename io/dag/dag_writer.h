@@ -42,7 +42,6 @@ class DagWriter {
   void align();
   uint64_t position() const { return sizeof(Header) + written_ + block_.size(); }
   void close_level();
-  std::string metadata() const;
 
   AtomicFile file_;
   Header header_{};

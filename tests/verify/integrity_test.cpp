@@ -270,12 +270,44 @@ TEST(Integrity, MetadataThatSaysSomethingElse) {
   EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":"),
             std::vector<std::string>{"the metadata has the key \"corner\" twice"});
   const std::string name(1000, 'x');
-  EXPECT_EQ(
-      with("\"levels\":", "\"" + name + "\":0,\"levels\":"),
-      std::vector<std::string>{"the metadata has an unknown key \"" + name.substr(0, 40) + "\""});
+  EXPECT_EQ(with("\"levels\":", "\"" + name + "\":0,\"levels\":"),
+            std::vector<std::string>{"the metadata has an unknown key \"" + name.substr(0, 40) +
+                                     "...\""});
   EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":1,\"corner\":").size(), 1U);
   EXPECT_EQ(metadata_defects(file.header(), "{"),
             std::vector<std::string>{"the metadata is not a JSON object"});
+}
+
+// Of one value JSON has many texts, and the format one.
+TEST(Integrity, MetadataThatSaysTheSameInOtherWords) {
+  const RawFile file(good_dag());
+  const std::string line(file.metadata());
+  std::string spaced = line, real = line;
+  spaced.insert(1, " ");
+  const size_t levels = real.find("\"levels\":") + 9;
+  real.insert(real.find(',', levels), ".0");
+  for (const std::string& text :
+       {line.substr(0, line.size() - 1), line + "\n", line + '\0', line + '\0' + "{\"voxels\":7}",
+        "\xEF\xBB\xBF" + line, " " + line, spaced, real}) {
+    EXPECT_EQ(metadata_defects(file.header(), text).size(), 1U) << text;
+  }
+}
+
+TEST(Integrity, MetadataThatIsNestedDeeperThanAnyStack) {
+  const RawFile file(good_dag());
+  for (const char* key : {"\"levels\":", "\"corner\":", "\"voxels\":"}) {
+    std::string text(file.metadata());
+    const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+    text.insert(text.find(key) + std::string(key).size(), deep + ",\"x\":");
+    EXPECT_EQ(metadata_defects(file.header(), text),
+              std::vector<std::string>{"the metadata is nested too deep"});
+  }
+  std::string text(file.metadata());
+  const size_t at = text.find("\"rule\":") + 7;
+  text.replace(at, text.find(',', at) - at, "\"" + std::string(100000, 'x') + "\"");
+  const auto defects = metadata_defects(file.header(), text);
+  ASSERT_EQ(defects.size(), 1U);
+  EXPECT_LT(defects[0].size(), 200U) << "a long value is cut";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
+#include "io/units.h"
 #include "streaming/checksum.h"
 #include "tests/verify/rational_judge.h"
 
@@ -82,9 +83,15 @@ inline Grid test_grid(int levels) {
 
 inline std::string raw_metadata(const RawDag& raw) {
   const Grid& g = raw.grid;
-  const auto list = [](const auto& items) {
+  const auto number = [](auto n) {
+    if constexpr (std::is_same_v<decltype(n), double>)
+      return format_double(n);
+    else
+      return std::to_string(n);
+  };
+  const auto list = [&](const auto& items) {
     std::string text;
-    for (const auto& item : items) text += (text.empty() ? "[" : ",") + std::to_string(item);
+    for (const auto& item : items) text += (text.empty() ? "[" : ",") + number(item);
     return text + "]";
   };
   const std::array<double, 3> corner{g.corner().x, g.corner().y, g.corner().z};
@@ -95,11 +102,10 @@ inline std::string raw_metadata(const RawDag& raw) {
          ",\"resolution\":" + std::to_string(g.resolution()) + ",\"rule\":\"" +
          rule_name(raw.rule) + "\",\"fraction_bits\":" + std::to_string(g.fraction()) +
          ",\"grid\":{\"kind\":\"" + (g.kind == Grid::Kind::kBox ? "box" : "lattice") +
-         "\",\"corner\":" + list(corner) + ",\"voxel_size\":" + std::to_string(g.voxel_size) +
+         "\",\"corner\":" + list(corner) + ",\"voxel_size\":" + number(g.voxel_size) +
          ",\"k0\":" + list(k0) + ",\"bounded\":" + (g.bounded ? "true" : "false") +
          ",\"selection\":" + list(selection) + "},\"voxels\":" + std::to_string(raw.voxels) +
-         ",\"nodes\":" + list(raw.nodes) + ",\"largest_snap\":" + std::to_string(raw.largest_snap) +
-         "}";
+         ",\"nodes\":" + list(raw.nodes) + ",\"largest_snap\":" + number(raw.largest_snap) + "}\n";
 }
 
 // A file in memory, 8-byte aligned.

@@ -103,6 +103,39 @@ TEST(SamePlace, LatticesWithVoxelsOfTwiceTheSize) {
   EXPECT_FALSE(same(fine, next));
 }
 
+// A way of comparing is for grids that are of its kind: else grids fit by accident.
+TEST(SamePlace, BoxesAndLatticesAreNotMixed) {
+  Grid fine = bake(10), coarse = bake(10);
+  fine.origin = Point(-0.25);
+  fine.voxel_size = 0.5;
+  coarse.levels = 9;
+  coarse.origin = Point(0);
+  coarse.voxel_size = 1;
+  const auto kinds = [&](Grid::Kind a, Grid::Kind b) {
+    fine.kind = a;
+    coarse.kind = b;
+    return same(fine, coarse);
+  };
+  // Boxes of whose first centres one is 0 and one 1/2; as lattices both have a plane at -1/2.
+  EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kBox));
+  EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kLattice));
+  EXPECT_FALSE(kinds(Grid::Kind::kLattice, Grid::Kind::kBox));
+}
+
+TEST(SamePlace, FarFromZeroRoundingIsNoVoxel) {
+  for (const double corner : {0x1p50, 0x1p51, 0x1p52}) {
+    Grid grid = bake(3);
+    grid.voxel_size = 1;
+    grid.origin = Point(corner);
+    EXPECT_TRUE(same(grid, grid));
+    for (const double voxels : {1.0, 2.0, 4.0}) EXPECT_FALSE(same(grid, moved(grid, voxels)));
+  }
+  Grid beyond = bake(3);  // corner and size overflow when one is divided by the other
+  beyond.origin = Point(1e300);
+  beyond.voxel_size = 1e-300;
+  EXPECT_TRUE(same(beyond, beyond));
+}
+
 TEST(SamePlace, WhatFloatsKeepNearZero) {
   for (const double low : {0.0, 0.3, -kSide / 2, -7.7}) {
     for (const int levels : {3, 10, 16}) {

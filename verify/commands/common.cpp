@@ -22,7 +22,11 @@ std::string describe_grid(const DagFile& file) {
                      format_double(grid.voxel_size) + ", corner (" + format_double(corner.x) +
                      ", " + format_double(corner.y) + ", " + format_double(corner.z) + "), rule " +
                      rule_name(file.rule());
-  if (grid.bounded) text += ", bounded";
+  if (!grid.bounded) return text;
+  const auto& [min, max] = grid.selection;
+  for (int a = 0; a < 3; ++a)
+    text += (a == 0 ? ", bounded to voxels [" : " x [") + std::to_string(min[a]) + ", " +
+            std::to_string(max[a]) + ")";
   return text;
 }
 

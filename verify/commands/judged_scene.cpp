@@ -41,6 +41,11 @@ void print_facts(const DagFile& file, const SceneFacts& facts, const std::string
     std::printf("unmatched  %s\n", printable(pattern).c_str());
 }
 
+std::array<int64_t, 6> selection_of(const DagFile& file) {
+  const auto [min, max] = file.grid().selection;
+  return {min.x, min.y, min.z, max.x, max.y, max.z};
+}
+
 void require_count(const char* option, uint64_t count) {
   constexpr uint64_t kMost = uint64_t(1) << 40;
   if (count == 0) fail_usage(std::string(option) + ": give at least one");

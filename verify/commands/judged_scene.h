@@ -2,6 +2,7 @@
 // whoever judges.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,13 @@ void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_
 // Grid and its defects, who judges ("integer: exact clipping"), the triangles, and what --include
 // and --exclude named in vain.
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
+
+// Where --bounds were given, the voxels in them: first x, y, z and behind the last.
+std::array<int64_t, 6> selection_of(const DagFile& file);
+
+// The verdict where there was nothing to judge.
+constexpr const char* kNothingToJudge =
+    "ok: the file has no voxel, and there is no triangle where it could have one";
 
 // Draws, or rays: as many as a person can want, and nothing that is computed from them overflows.
 // More is an Error (kUsage), and so is 0.

@@ -88,7 +88,7 @@ void print_draws(const SampleComparison& sample) {
 const char* verdict(const Judgement& j) {
   if (!j.ok()) return "not ok: file and scene differ";
   if (!j.sampled) return "ok: every voxel agrees with the scene";
-  if (j.sample.both_empty) return "ok: the file has no voxel, and its grid no triangle";
+  if (j.sample.both_empty) return kNothingToJudge;
   return "ok: no sampled voxel differs";
 }
 
@@ -131,6 +131,8 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
                          {"judge", name_of(choice.kind)},
                          {"grid_defects", j.grid.defects},
                          {"grid_recomputed", j.grid.recomputed},
+                         {"bounded", file.grid().bounded},
+                         {"selection", selection_of(file)},
                          {"triangles", j.counts.triangles},
                          {"invalid_triangles", j.counts.invalid},
                          {"patterns_unmatched", j.counts.unmatched},

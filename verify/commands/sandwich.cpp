@@ -99,7 +99,7 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
     std::printf("openvdb    %s distances of its own were too large, proven in integers\n",
                 format_count(s.vdb_errors).c_str());
   std::printf("%s\n", !j.ok()        ? "not ok: file and scene differ"
-                      : j.both_empty ? "ok: the file has no voxel, and its grid no triangle"
+                      : j.both_empty ? kNothingToJudge
                                      : "ok: every voxel tested lies between the bounds");
 }
 
@@ -115,6 +115,8 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
                                {"judge", "openvdb"},
                                {"grid_defects", j.grid.defects},
                                {"grid_recomputed", j.grid.recomputed},
+                               {"bounded", file.grid().bounded},
+                               {"selection", selection_of(file)},
                                {"triangles", j.counts.triangles},
                                {"invalid_triangles", j.counts.invalid},
                                {"patterns_unmatched", j.counts.unmatched},

@@ -186,8 +186,8 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
       " %s points, %s voxels)\n",
       r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
   if (t.ok()) {
-    std::printf(r.tested() ? "ok: voxels and triangles agree wherever they were judged\n"
-                           : "ok: the file has no voxel, and its grid no triangle\n");
+    std::printf("%s\n", r.tested() ? "ok: voxels and triangles agree wherever they were judged"
+                                   : kNothingToJudge);
   } else {
     std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
                 static_cast<unsigned long long>(config.seed));
@@ -223,6 +223,8 @@ void print_json(const DagFile& file, const TraceConfig& config, const Traced& t)
                                {"seed", config.seed},
                                {"grid_defects", t.grid.defects},
                                {"grid_recomputed", t.grid.recomputed},
+                               {"bounded", file.grid().bounded},
+                               {"selection", selection_of(file)},
                                {"triangles", t.counts.triangles},
                                {"triangles_in_grid", t.triangles},
                                {"invalid_triangles", t.counts.invalid},

@@ -10,6 +10,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_writer.h"
 #include "streaming/error.h"
+#include "tests/expect_error.h"
 #include "tests/repair_checksums.h"
 #include "tests/soup.h"
 #include "tests/temp_folder.h"
@@ -123,6 +124,22 @@ TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
       try_word(offset, word);
   }
   EXPECT_GT(accepted, 0U);  // some changes are other valid files
+}
+
+// The masks above it would say that it has a voxel: who reads a coarser level believes them.
+TEST(CheckDag, RefusesAnEmptyBrick) {
+  const TempFolder folder;
+  const std::string path = folder.file("a.svdag");
+  std::string bytes = make_file(path, 5, 30);
+  Header h;
+  std::memcpy(&h, bytes.data(), sizeof h);
+  for (const uint64_t brick : {uint64_t(0), h.sections[3].nodes - 1}) {
+    std::string emptied = bytes;
+    std::memset(emptied.data() + h.sections[3].offset + 8 * brick, 0, 8);
+    repair_checksums(&emptied);
+    write_bytes(path, emptied);
+    EXPECT_SVDAG_ERROR(check_dag(File::open_read(path)), ExitCode::kBadInput, "an empty brick");
+  }
 }
 
 TEST(CheckDag, SaysWhatTheFileIsInstead) {

@@ -1,0 +1,13 @@
+// The metadata of a .svdag: the header as one line of JSON (docs/format.md, "Metadata").
+#pragma once
+
+#include <string>
+
+#include "io/dag/format.h"
+
+namespace svdag {
+
+// The line that stands in a file with this header, which is sound.
+std::string metadata_of(const Header& header);
+
+}  // namespace svdag
