@@ -161,7 +161,8 @@ Workload make_workload(const TraceOptions& options, const PlainFile& file) {
       fail_usage("--light: give x,y,z or x,y,z,radius");
     work.light = {in_voxels(options.light.data(), file.header()),
                   options.light.size() == 4 ? options.light[3] / file.header().voxel_size : 0};
-    if (!(length(work.light.centre) < 1e100) || !(work.light.radius >= 0))
+    const double radius = work.light.radius;
+    if (!(length(work.light.centre) < 1e100) || !(radius >= 0 && radius < 1e100))
       fail_usage("--light: the light must be at a finite place, with a radius of 0 or more");
   }
   work.secondary.samples = options.samples;
