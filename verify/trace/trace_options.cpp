@@ -50,6 +50,13 @@ void set_size(const std::string& text, TraceOptions* options) {
   options->height = count("--size", text.substr(cross + 1), 1, 16384);
 }
 
+void refuse_other_pictures(const std::string& name) {
+  for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".exr"}) {
+    if (name.ends_with(ending))
+      fail_usage(name + ": pictures are PPM: choose a name in .ppm (svdag-verify render: PNG)");
+  }
+}
+
 // An option without a value; false if it is none.
 bool set_flag(const std::string& name, TraceOptions* options) {
   if (name == "--compare") return options->compare = true;
@@ -91,6 +98,7 @@ void set_option(const std::string& name, const std::string& value, TraceOptions*
   } else if (name == "--dump") {
     options->dump = value;
   } else if (name == "--picture") {
+    refuse_other_pictures(value);
     options->picture = value;
   } else {
     fail_usage(name + ": there is no such option (--help lists them)");

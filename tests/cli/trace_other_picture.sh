@@ -1,0 +1,5 @@
+# A picture in a format that is not written, and a light that is everywhere.
+svdag-scene rectangle -q -o r.ply
+svdag build r.ply -r 16 -o a.svdag -q
+svdag-trace a.svdag --picture a.png || echo "exit $?"
+svdag-trace a.svdag --light 0,0,0,1e308 || echo "exit $?"
