@@ -4,7 +4,9 @@
 
 #include "io/help/help_text.h"
 #include "streaming/atomic_file.h"
+#include "streaming/error.h"
 #include "streaming/file_names.h"
+#include "streaming/memory_budget.h"
 #include "streaming/program.h"
 #include "streaming/terminal.h"
 #include "verify/trace/device.h"
@@ -126,6 +128,17 @@ void check_outputs(const TraceOptions& options) {
   }
 }
 
+// Pages that are promised and not there end a program without a word, so it is asked before.
+void check_room(const TraceOptions& options) {
+  const uint64_t pixel = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t) +
+                         (options.dump.empty() ? 0 : sizeof(Record));
+  const uint64_t pixels = uint64_t(options.width) * options.height;
+  if ((options.compare ? 2 : 1) * pixel * pixels > default_memory_limit())
+    throw Error(ExitCode::kMemory,
+                "--size: the answers of so many pixels do not fit in half of the memory; "
+                "choose fewer");
+}
+
 int run(const TraceOptions& options) {
   if (options.help || options.version || options.table) {
     const std::string text = options.help      ? help_text(trace_manual(), text_width(stdout))
@@ -135,6 +148,7 @@ int run(const TraceOptions& options) {
     return 0;
   }
   check_outputs(options);
+  check_room(options);
   const PlainFile file = read_plain_file(options.file);
   const Workload work = make_workload(options, file);
   int result = 0;
