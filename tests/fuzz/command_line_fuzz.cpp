@@ -23,8 +23,7 @@ struct Filled {
 
 // All commands. To make them takes ten times as long as to understand a line, so they are made
 // once; the library forgets the line before with the next one, but not what that line made
-// unnecessary
-// (--batch needs no grid): it is required again.
+// unnecessary (--batch needs no grid): it is required again.
 class Program {
  public:
   Program() : app_("", "svdag") {
