@@ -183,7 +183,8 @@ def main(programs, corpus):
         for scene, grid in (("one.stl", ["-r", "8"]), ("two.stl", ["-r", "32"]), ("two.stl", ["-s", "0.4", "--rule", "thin"])):
             kind = f"{scene[:3]}_{grid[1]}"
             svdag("build", scene, "-o", "a.svdag", *grid)
-            keep("svdag", f"{kind}.svdag", (folder / "a.svdag").read_bytes())
+            for reader in ("svdag", "plain_file"):
+                keep(reader, f"{kind}.svdag", (folder / "a.svdag").read_bytes())
             svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")
             keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
             if grid[1] != "8":

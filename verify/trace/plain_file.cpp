@@ -1,5 +1,6 @@
 #include "verify/trace/plain_file.h"
 
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -41,9 +42,9 @@ void check_header(const Header& h, const std::string& path) {
   require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
           "the number of levels is not 3 to 20");
   require(h.section_count == h.levels - 1, path, "wrong number of sections");
-  require(h.voxel_size > 0 && h.voxel_size < 1e300, path, "impossible voxel size");
+  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, path, "impossible voxel size");
   for (const double corner : h.corner)
-    require(corner > -1e300 && corner < 1e300, path, "impossible grid corner");
+    require(std::isfinite(corner), path, "impossible grid corner");
   for (uint32_t level = 0; level < h.section_count; ++level) {
     const Section& s = h.sections[level];
     require(s.offset % kSectionAlignment == 0 && s.offset >= sizeof(Header) &&

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
@@ -77,6 +79,33 @@ TEST_F(PlainFileTest, RefusesWhatIsNoRegularFile) {
   EXPECT_SVDAG_ERROR(read_plain_file(folder_.path()), ExitCode::kBadInput, "is not a regular file");
   ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "is not a regular file");
+}
+
+// Any grid that svdag-verify check takes: doubles reach further than scenes do.
+TEST_F(PlainFileTest, TakesGridsOfAnySizeAnywhere) {
+  for (const double size : {std::numeric_limits<double>::min(), 1e303}) {
+    Grid grid = test_grid(4);
+    grid.voxel_size = size;
+    grid.origin = Point(1.5e308, -1.5e308, 0);
+    RawFile(raw_dag(grid, {{1, 2, 3}})).write(path());
+    EXPECT_EQ(read_plain_file(path()).header().voxel_size, size);
+  }
+}
+
+TEST_F(PlainFileTest, RefusesSidesAndCornersThatAreNoNumbers) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double size : {0.0, -1.0, infinity, std::nan("")}) {
+    Grid grid = test_grid(4);
+    grid.voxel_size = size;
+    RawFile(raw_dag(grid, {})).write(path());
+    EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "impossible voxel size");
+  }
+  for (const double corner : {infinity, -infinity, std::nan("")}) {
+    Grid grid = test_grid(4);
+    grid.origin = Point(0, corner, 0);
+    RawFile(raw_dag(grid, {})).write(path());
+    EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "impossible grid corner");
+  }
 }
 
 // A damaged word is refused, or leads to other voxels, but never out of the file (as the
