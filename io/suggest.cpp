@@ -25,7 +25,29 @@ bool knows(const std::vector<std::string>& options, const std::string& option) {
          std::find(options.begin(), options.end(), option.substr(0, 2)) != options.end();
 }
 
+// The commands of each program. svdag-verify has a command trace, which needs a scene: who asks for
+// one without naming a program means the tracer.
+constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
+    {"svdag", "build plan run submit merge info export import"},
+    {"svdag-verify", "check mesh diff vdb render report"},
+    {"svdag-trace", ""},
+    {"svdag-scene", ""},
+};
+
 }  // namespace
+
+std::string elsewhere(std::string_view word) {
+  for (const auto& [program, commands] : kPrograms) {
+    const std::string name(program);
+    if (word == program || "svdag-" + std::string(word) == program) return name;
+    for (size_t at = 0; at < commands.size();) {
+      const size_t end = std::min(commands.find(' ', at), commands.size());
+      if (commands.substr(at, end - at) == word) return name + " " + std::string(word);
+      at = end + 1;
+    }
+  }
+  return "";
+}
 
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
@@ -74,8 +96,9 @@ std::string explain_unknown(const std::string& program, std::span<const CommandW
   }
   if (command == nullptr) {
     if (of_program) return "";
+    const std::string there = elsewhere(name);
     return "\"" + name + "\" is no command of " + program +
-           meant(nearest(name, names), "; see " + program + " --help");
+           meant(there.empty() ? nearest(name, names) : there, "; see " + program + " --help");
   }
   for (const std::string& argument : arguments.subspan(of_program ? 0 : 1)) {
     if (argument == "--") break;

@@ -19,6 +19,10 @@ size_t edit_distance(std::string_view a, std::string_view b);
 // meant: at most every third letter may be wrong.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
+// Where a command is that another program of the project has: "svdag-verify check" for "check", or
+// for its program's name ("verify", "svdag-verify") that; "" for other words.
+std::string elsewhere(std::string_view word);
+
 struct CommandWords {
   std::string name;                  // "": the program itself
   std::vector<std::string> options;  // with their dashes

@@ -54,7 +54,8 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
     const int result = work();
     if (const std::string* changed = changed_mapped_file(); changed != nullptr)
       throw Error(ExitCode::kBadInput, *changed);
-    if (std::fflush(stdout) != 0)
+    // Of a write that failed earlier a last flush knows nothing.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;
   } catch (const Interrupted& interrupted) {

@@ -61,7 +61,9 @@ int run_help(const Manual& program, const std::string& subject) {
   for (const Manual& command : program.commands) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }
-  const std::string guess = nearest(subject, help_subjects(program));
+  const std::string there = elsewhere(subject);
+  const std::string guess =
+      there.empty() ? nearest(subject, help_subjects(program)) : there + " --help";
   fail_usage("\"" + subject + "\" is no command and no topic of svdag" +
              (guess.empty() ? "; svdag help lists them" : "; did you mean " + guess + "?"));
 }

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 #include "io/help/help_text.h"
+#include "io/help/lost_value.h"
 #include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -24,6 +26,14 @@ CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::
   std::string name = kind;
   for (const std::string& word : words) name += word + " ";
   return option->check(validator.name(name));
+}
+
+// CLI11 reads -1 as 2^64 - 1, and what is larger as that too.
+std::string refuse_no_whole_number(const std::string& text) {
+  uint64_t value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  return whole ? "" : "\"" + text + "\" is not a whole number of 0 to 2^64 - 1";
 }
 
 // An empty name is one that was lost on its way: a script's "$OUT" that was never set.
@@ -169,7 +179,9 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
   words = asked_first(*program, std::move(words));
   argc = int(words.size());
   argv = words.data();
-  const std::vector<std::string> given(argv + 1, argv + argc);
+  const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
+  const std::string lost = explain_lost_value(*program, given);
+  if (!lost.empty()) fail_usage(lost);
   try {
     program->parse(argc, argv);
     return std::nullopt;
@@ -194,6 +206,10 @@ CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
   return hint(option, kEndings, endings, CLI::Validator(refuse_empty, ""));
+}
+
+CLI::Option* takes_whole_number(CLI::Option* option) {
+  return option->check(CLI::Validator(refuse_no_whole_number, ""));
 }
 
 CLI::Option* takes_folder(CLI::Option* option) {

@@ -191,6 +191,8 @@ SceneFormat detect_format(const File& file) {
   if (extension == "om") return SceneFormat::kOpenMesh;
   if (start.starts_with("OFF")) return SceneFormat::kOff;
   if (start.starts_with("solid")) return SceneFormat::kStl;
+  if (extension == "svdag")
+    fail_input(file.path(), "is a .svdag, no scene: svdag info tells what is in it");
   fail_input(file.path(),
              "is no scene file that svdag knows: it reads PLY, STL, OBJ, OFF, glTF, GLB, "
              "Draco and OpenMesh files, OBJ and binary STL by the ending of their names");

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""A .svdag that is cut short, or copied over, while a program reads it ends that program with a sentence and no output."""
+"""A .svdag that is cut short, or copied over, while a program reads it ends that program with a sentence and no output.
+
+svdag-trace reads it into memory, the others map it."""
 import os
 import pathlib
 import signal
@@ -10,7 +12,8 @@ import time
 import bakes
 
 SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a page was lost
-             "was changed while it was read"]                                # zeros, or other bytes, were read
+             "was changed while it was read",                                # zeros, or other bytes, were read
+             "ends too early"]                                               # nothing was read
 BAD_INPUT = 3
 TRIES = 20  # a program that has ended before it was stopped is asked again
 # Programs that walk the file for a while, and what they would leave.
@@ -19,6 +22,7 @@ COMMANDS = {
     "diff": (["svdag-verify", "diff", "kept.svdag", "lost.svdag"], []),
     "export": (["svdag", "export", "lost.svdag", "--format", "ply", "-o", "points.ply"], ["points.ply"]),
     "render": (["svdag-verify", "render", "lost.svdag", "--size", "2048x2048", "-o", "picture.png"], ["picture.png"]),
+    "trace": (["svdag-trace", "lost.svdag", "--size", "16x16", "--samples", "1", "--dump", "rays.bin"], ["rays.bin"]),
 }
 
 
@@ -36,16 +40,24 @@ def copy_into(lost, larger):
 
 
 def maps(process, path):
-    try:
-        return str(path) in pathlib.Path(f"/proc/{process.pid}/maps").read_text()
-    except OSError:
-        return False
+    return str(path) in pathlib.Path(f"/proc/{process.pid}/maps").read_text()
 
 
-def stop_when_mapped(process, path):
-    """True if the process was stopped, and has still work to do, with the file mapped."""
+def reads(process, path):
+    """With the file open, and some of it in memory."""
+    words = pathlib.Path(f"/proc/{process.pid}/statm").read_text().split()
+    return any(link.readlink() == path for link in pathlib.Path(f"/proc/{process.pid}/fd").iterdir()) \
+        and int(words[1]) * os.sysconf("SC_PAGESIZE") > path.stat().st_size // 4
+
+
+def stop_when(holds, process, path):
+    """True if the process was stopped, and has still work to do, while it holds the file."""
     while process.poll() is None:
-        if maps(process, path):
+        try:
+            held = holds(process, path)
+        except OSError:  # it ended, or closed a file, meanwhile
+            held = False
+        if held:
             process.send_signal(signal.SIGSTOP)
             return True
         time.sleep(0.0005)
@@ -58,7 +70,7 @@ def run_and_spoil(spoil, folder, words, outputs):
     lost.write_bytes((folder / "kept.svdag").read_bytes())
     process = subprocess.Popen([bakes.BUILD / words[0], *words[1:]], cwd=folder, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
-    if stop_when_mapped(process, lost):
+    if stop_when(reads if words[0] == "svdag-trace" else maps, process, lost):
         spoil(lost, folder / "larger.svdag")
         process.send_signal(signal.SIGCONT)
     text = process.communicate()[1]

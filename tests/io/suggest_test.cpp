@@ -29,6 +29,21 @@ TEST(Suggest, NamesTheCommandThatWasMeant) {
   EXPECT_EQ(explain({"frobnicate"}), "\"frobnicate\" is no command of svdag; see svdag --help");
 }
 
+// Before any guess: "trace" is no misspelt "plan".
+TEST(Suggest, NamesTheProgramThatHasTheCommand) {
+  EXPECT_EQ(explain({"check", "x.svdag"}),
+            "\"check\" is no command of svdag; did you mean svdag-verify check?");
+  EXPECT_EQ(explain({"verify", "check", "x.svdag"}),
+            "\"verify\" is no command of svdag; did you mean svdag-verify?");
+  EXPECT_EQ(elsewhere("render"), "svdag-verify render");
+  EXPECT_EQ(elsewhere("trace"), "svdag-trace");
+  EXPECT_EQ(elsewhere("svdag-trace"), "svdag-trace");
+  EXPECT_EQ(elsewhere("build"), "svdag build");
+  EXPECT_EQ(elsewhere("import"), "svdag import");
+  for (const char* word : {"", " ", "b", "uild", "build plan", "checks"})
+    EXPECT_EQ(elsewhere(word), "") << word;
+}
+
 TEST(Suggest, NamesTheOptionThatWasMeant) {
   EXPECT_EQ(explain({"build", "x.ply", "--resolutoin=64"}),
             "--resolutoin is no option of svdag build; did you mean --resolution?");

@@ -7,7 +7,7 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr double kExtent = 96;
+constexpr double kExtent = 96, kTallest = 120;
 
 // Corners are numbered by bits x, y, z = 4, 2, 1; two triangles per side, turned outwards.
 constexpr uint8_t kBoxFaces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5},
@@ -49,7 +49,7 @@ class City : public Mesh {
     const double depth = lot * (0.4 + 0.4 * uniform(seed_, 3 * i + 1));
     // Many low houses, few towers.
     const double rank = uniform(seed_, 3 * i + 2);
-    const double height = lot * 0.4 / (0.1 + rank);
+    const double height = std::min(lot * 0.4 / (0.1 + rank), kTallest);
     return {{x + 0.1 * lot, -0.125, z + 0.1 * lot},
             {x + 0.1 * lot + width, height, z + 0.1 * lot + depth}};
   }

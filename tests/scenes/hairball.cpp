@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "streaming/error.h"
 #include "tests/scenes/kinds.h"
 #include "tests/scenes/numbers.h"
 
@@ -76,7 +77,9 @@ class Hairball : public Mesh {
 }  // namespace
 
 std::unique_ptr<Mesh> make_hairball(uint64_t triangles, uint64_t seed) {
-  return std::make_unique<Hairball>(std::max<uint64_t>(1, triangles / kFaces), seed);
+  if (triangles < kFaces)
+    fail_usage("--triangles: this scene needs at least " + std::to_string(kFaces) + " triangles");
+  return std::make_unique<Hairball>(triangles / kFaces, seed);
 }
 
 }  // namespace svdag::scenes

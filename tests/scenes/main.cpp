@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/program.h"
@@ -23,7 +24,7 @@ struct Config {
 
 // Decimal counts here, unlike in the programs: "10M" means ten million triangles.
 uint64_t parse_triangles(const std::string& text) {
-  if (text.empty()) return 0;
+  if (text.empty()) return 0;  // not given
   char* end = nullptr;
   errno = 0;
   const double value = std::strtod(text.c_str(), &end);
@@ -35,7 +36,6 @@ uint64_t parse_triangles(const std::string& text) {
 }
 
 void run(const Config& config) {
-  if (config.output.empty()) fail_usage("--output: the name is empty");
   if (!(std::abs(config.ply.yaw) <= 360)) fail_usage("--yaw: give -360 to 360 degrees");
   const auto mesh =
       scenes::make_scene(config.kind, parse_triangles(config.triangles), config.ply.seed);
@@ -51,14 +51,20 @@ void declare(CLI::App& app, Config& config) {
     names += (names.empty() ? "" : ", ") + std::string(kind.name);
   app.add_option("kind", config.kind, names)->required();
   app.add_option("-n,--triangles", config.triangles,
-                 "about how many: 5000, 260K, 10M (each kind has a default)");
-  app.add_option("--seed", config.ply.seed, "another scene of the same kind");
-  app.add_option("--yaw", config.ply.yaw, "rotate about the y axis, in degrees");
+                 "about how many: 5000, 260K, 10M (each kind has a default)")
+      ->type_name("N");
+  takes_whole_number(app.add_option("--seed", config.ply.seed, "another scene of the same kind"))
+      ->type_name("N");
+  app.add_option("--yaw", config.ply.yaw, "rotate about the y axis, in degrees")
+      ->type_name("DEGREES");
   app.add_flag("--shuffle", config.ply.shuffle, "vertices and faces in random order");
   app.add_flag("--double", config.ply.double_precision, "64-bit coordinates");
   app.add_flag("-q,--quiet", config.quiet, "print nothing");
-  app.add_option("-o,--output", config.output, "the PLY file to write")->required();
-  app.footer("Example: svdag-scene city -n 1M --yaw 30 -o city.ply");
+  takes_files(app.add_option("-o,--output", config.output, "the PLY file to write"), {".ply"})
+      ->required()
+      ->type_name("X.ply");
+  app.set_version_flag("-V,--version", "svdag-scene " SVDAG_VERSION, "print the version and exit");
+  add_examples(&app, {"svdag-scene city -n 1M --yaw 30 -o city.ply"});
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -66,13 +72,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app("Makes a test scene as a binary PLY file, the same bytes on every machine",
                "svdag-scene");
   declare(app, config);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::fprintf(stderr, "svdag-scene: %s (try --help)\n", error.what());
-    return int(ExitCode::kUsage);
-  }
+  if (const auto exit_code = read_command_line(&app, argc, argv)) return *exit_code;
   run(config);
   return 0;
 }

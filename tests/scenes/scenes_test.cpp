@@ -117,6 +117,14 @@ TEST(Ply, HoldsTheMeshInFloatAndDouble) {
   }
 }
 
+// The few towers of a small city stay within the world, where floats hold what doubles hold.
+TEST(Ply, HoldsSmallCitiesInFloatAndDouble) {
+  for (const uint64_t seed : {1U, 67U, 1000U}) {
+    const auto mesh = make_scene("city", 24, seed);
+    EXPECT_EQ(soup_of(written(*mesh, {})), soup_of(written(*mesh, {.double_precision = true})));
+  }
+}
+
 TEST(Ply, ShufflingChangesTheOrderAlone) {
   const auto mesh = make_scene("city", 1'200, 1);
   const PlyMesh plain = written(*mesh, {}), shuffled = written(*mesh, {.shuffle = true});

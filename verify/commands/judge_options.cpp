@@ -37,7 +37,8 @@ void add_mesh(CLI::App* app, int* result) {
   add_count(command, "--sample", &config->sample,
             "Compare N bricks drawn from file and scene instead of all, and bound what share of "
             "either is wrong (openvdb: the windows of 512^3 voxels that hold them)");
-  command->add_option("--seed", config->seed, "Seed of the drawing (default 1)")->type_name("N");
+  takes_whole_number(command->add_option("--seed", config->seed, "Seed of the drawing (default 1)"))
+      ->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
@@ -55,7 +56,8 @@ void add_diff(CLI::App* app, int* result) {
                                   "Another; one of other resolution is compared at the coarser"),
               {".svdag"})
       ->required();
-  command->add_option("--show", config->show, "How many differing voxels to list (default 10)")
+  takes_whole_number(
+      command->add_option("--show", config->show, "How many differing voxels to list (default 10)"))
       ->type_name("N");
   command->add_flag("--by-index", config->by_index,
                     "Compare voxel by voxel although the grids lie in different places");
@@ -90,7 +92,8 @@ void add_vdb(CLI::App* app, int* result) {
       ->type_name("x0,y0,z0,x1,y1,z1");
   command->add_flag("--sandbox", config->sandbox,
                     "Decode in a process that can only compute, for files of strangers");
-  command->add_option("--show", config->show, "Differing voxels to list of each kind (default 10)")
+  takes_whole_number(command->add_option("--show", config->show,
+                                         "Differing voxels to list of each kind (default 10)"))
       ->type_name("N");
   takes_files(command->add_option("--write-diff", config->write_diff,
                                   "Write two mask grids, missing and extra, in the place of GRID"),
@@ -110,7 +113,8 @@ void add_trace(CLI::App* app, int* result) {
   add_file(command, &config->file);
   add_scene(command, &config->scene);
   add_count(command, "--rays", &config->rays, "How many rays (default 1,000,000)");
-  command->add_option("--seed", config->seed, "Seed of the rays (default 1)")->type_name("N");
+  takes_whole_number(command->add_option("--seed", config->seed, "Seed of the rays (default 1)"))
+      ->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
   add_common(command, &config->common, true);

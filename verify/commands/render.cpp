@@ -10,6 +10,7 @@
 #include "streaming/error.h"
 #include "streaming/file.h"
 #include "streaming/memory_budget.h"
+#include "verify/trace/picture_name.h"
 #include "verify/trace/presets.h"
 #include "verify/trace/tree64.h"
 
@@ -43,7 +44,7 @@ Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int u
   if (c.size() != 6 && c.size() != 7)
     fail_usage("--camera: give px,py,pz,tx,ty,tz or px,py,pz,tx,ty,tz,fov");
   const double fov = c.size() == 7 ? c[6] : Camera::kDefaultFov;
-  if (!(fov > 0.1 && fov < 179))
+  if (!(fov >= 0.1 && fov <= 179))
     fail_usage("--camera: the angle of view is not 0.1 to 179 degrees");
   const Grid grid = file.grid();
   const Vec3 position = in_voxels(c.data(), grid), target = in_voxels(c.data() + 3, grid);
@@ -84,12 +85,6 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
     shading->secondary.cut.spread = 2 * std::tan(cone * kDegree);
   if (config.level) shading->primary.level = shading->secondary.cut.level = uint32_t(level);
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
-}
-
-void refuse_other_pictures(const std::string& name) {
-  for (const char* ending : {".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".exr", ".ppm"}) {
-    if (name.ends_with(ending)) fail_usage(name + ": pictures are PNG: choose a name in .png");
-  }
 }
 
 // The output, or for --fly with "fly.png" and 6 "fly_0007.png".
@@ -134,7 +129,7 @@ int run(const RenderCommandConfig& config) {
     const std::string name = picture_name(config, frame);
     if (same_file(config.file, name))
       fail_usage(name + ": is the input; choose another name for the picture");
-    refuse_other_pictures(name);
+    refuse_other_pictures(name, ".png", "pictures are PNG: choose a name in .png");
     AtomicFile::check(name);
   }
 

@@ -1,9 +1,8 @@
 #include "verify/trace/device.h"
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 
+#include "streaming/executor.h"
 #include "streaming/lap_timer.h"
 #include "streaming/memory_budget.h"
 #include "verify/trace/processor.h"
@@ -13,17 +12,11 @@
 namespace svdag {
 namespace {
 
-// body(row) for every row of tiles, on all threads.
+// body(row) for every row of tiles.
 template <typename Body>
-void for_each_row(const Workload& work, const Body& body) {
-  const uint32_t rows = (work.picture.height + kTile - 1) / kTile;
-  std::atomic<uint32_t> next{0};
-  const auto loop = [&] {
-    for (uint32_t row = next++; row < rows; row = next++) body(row);
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned i = 1; i < work.threads; ++i) threads.emplace_back(loop);
-  loop();
+void for_each_row(Executor& executor, const Picture& picture, const Body& body) {
+  executor.for_each((picture.height + kTile - 1) / kTile,
+                    [&](size_t, size_t row) { body(uint32_t(row)); });
 }
 
 // The least time of `rounds` runs.
@@ -78,6 +71,12 @@ void trace_row(const DagView& dag, const Tree64View& tree, const Workload& work,
   }
 }
 
+// What is left of the memory beside the file and the answers.
+uint64_t room_beside(const PlainFile& file, size_t pixels) {
+  const uint64_t taken = file.bytes() + pixels * kAnswerBytes, room = default_memory_limit();
+  return taken < room ? room - taken : 0;
+}
+
 // Those that no cut ends, at most.
 uint64_t uncut_rays(const DagView& dag, const Workload& work) {
   uint64_t per_pixel = 0;
@@ -89,23 +88,22 @@ uint64_t uncut_rays(const DagView& dag, const Workload& work) {
 
 }  // namespace
 
-Answers trace_on_cpu(const PlainFile& file, const Workload& asked) {
-  Workload work = asked;
-  if (work.threads == 0) work.threads = std::max(1U, std::thread::hardware_concurrency());
+Answers trace_on_cpu(const PlainFile& file, const Workload& work) {
+  ParallelExecutor executor(threads_or_all(work.threads));
+  const size_t threads = executor.workers();
   const DagView& dag = file.view;
   const Picture& picture = work.picture;
   const size_t pixels = size_t(picture.width) * picture.height;
   Answers answers;
-  answers.device =
-      "CPU, " + std::to_string(work.threads) + (work.threads == 1 ? " thread" : " threads");
+  answers.device = "CPU, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
   const Tree64 made =
-      tree_if_it_pays(dag, uncut_rays(dag, work) / work.threads, default_memory_limit());
+      tree_if_it_pays(dag, uncut_rays(dag, work) / threads, room_beside(file, pixels));
   const Tree64View& tree = made.view();
   answers.hits.resize(pixels);
   answers.surfels.resize(pixels);
   answers.rays[kPrimaryRays] = pixels;
   answers.seconds[kPrimaryRays] = least(work.rounds, [&] {
-    for_each_row(work, [&](uint32_t row) {
+    for_each_row(executor, picture, [&](uint32_t row) {
       for (uint32_t x = 0; x < picture.width; x += kTile)
         trace_tile(dag, tree, work, x, row * kTile, &answers.hits);
     });
@@ -120,7 +118,7 @@ Answers trace_on_cpu(const PlainFile& file, const Workload& asked) {
     answers.rays[kind] = found * rays_per_pixel(work, kind);
     answers.seconds[kind] = least(work.rounds, [&] {
       answers.blocked[kind].assign(pixels, 0);
-      for_each_row(work, [&](uint32_t row) {
+      for_each_row(executor, picture, [&](uint32_t row) {
         trace_row(dag, tree, work, kind, row, answers.surfels, &answers.blocked[kind]);
       });
     });

@@ -32,6 +32,9 @@ struct Answers {
   uint64_t rays[kWorkloads] = {};
 };
 
+// Of a pixel.
+constexpr uint64_t kAnswerBytes = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t);
+
 Answers trace_on_cpu(const PlainFile& file, const Workload& work);
 
 // No device, a program without CUDA, or too little memory there is an Error.

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <span>
 
+#include "streaming/error.h"
 #include "streaming/file.h"
+#include "streaming/file_state.h"
 
 namespace svdag {
 namespace {
@@ -22,15 +24,23 @@ void check_magic(const File& file, uint64_t size) {
     fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
 }
 
-std::vector<uint64_t> read_whole(const std::string& path) {
+// Its size is held against its header before so much memory is taken.
+std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
   const File file = File::open_read(path);
-  const uint64_t size = file.size();
+  const FileState before = state_of(file);
+  const uint64_t size = before.size;
   check_magic(file, size);
   require(size >= sizeof(Header), path, "it ends within its header");
+  Header header;
+  file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
+  require(header.file_bytes == size, path, "its size is not the one in its header");
+  if (size > room)
+    throw Error(ExitCode::kMemory,
+                "is larger than this machine's memory; svdag-verify render traces it where it is",
+                path);
   std::vector<uint64_t> words((size + 7) / 8);
   file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
-  require(reinterpret_cast<const Header*>(words.data())->file_bytes == size, path,
-          "its size is not the one in its header");
+  require_unchanged(file, before);
   return words;
 }
 
@@ -56,6 +66,11 @@ void check_header(const Header& h, const std::string& path) {
     require(!bricks || s.nodes == s.bytes / 8, path, "impossible number of bricks");
     require((s.bytes == 0) == (h.sections[h.section_count - 1].bytes == 0), path, "an empty level");
   }
+}
+
+void check_bricks(const DagView& view, const std::string& path) {
+  for (uint64_t i = 0; i < view.brick_count; ++i)
+    require(view.bricks[i] != 0, path, "an empty brick");
 }
 
 // From the deepest inner level up: each node's children must be the first words of nodes of the
@@ -86,11 +101,12 @@ void check_pointers(const DagView& view, const std::string& path) {
 
 }  // namespace
 
-PlainFile read_plain_file(const std::string& path) {
+PlainFile read_plain_file(const std::string& path, uint64_t room) {
   PlainFile file;
-  file.words = read_whole(path);
+  file.words = read_whole(path, room);
   check_header(file.header(), path);
   file.view = dag_view(file.words.data());
+  check_bricks(file.view, path);
   check_pointers(file.view, path);
   return file;
 }

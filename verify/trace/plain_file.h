@@ -2,7 +2,8 @@
 //
 // For svdag-trace alone. Sizes and every pointer are proven in one pass over the sections, as
 // docs/format.md says them, so a tracer may trust the view; checksums are not looked at (they need
-// xxHash; svdag-verify check proves them).
+// xxHash; svdag-verify check proves them), so a file that was written meanwhile is known by its
+// time.
 #pragma once
 
 #include <string>
@@ -20,7 +21,8 @@ struct PlainFile {
   uint64_t bytes() const { return header().file_bytes; }
 };
 
-// A file that cannot be read, or is damaged, is an Error (kBadInput).
-PlainFile read_plain_file(const std::string& path);
+// A file that cannot be read, is damaged, or was written while it was read is an Error (kBadInput);
+// one of more than `room` bytes one of kMemory.
+PlainFile read_plain_file(const std::string& path, uint64_t room = UINT64_MAX);
 
 }  // namespace svdag

@@ -7,16 +7,28 @@
 // rays (docs/performance.md, "Tracing").
 #pragma once
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 namespace svdag {
 
 #if defined(__x86_64__)
 #define SVDAG_FAST_TARGET "avx2,fma,bmi,bmi2,lzcnt,popcnt"
+
+// Not every compiler's __builtin_cpu_supports knows it; without it the instruction is another one,
+// which counts from the other end.
+inline bool has_lzcnt() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(0x80000001, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;
+}
 #endif
 
 inline bool has_fast_target() {
 #if defined(__x86_64__)
   static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                          __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
+                          __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                          __builtin_cpu_supports("popcnt") && has_lzcnt();
   return has;
 #else
   return false;

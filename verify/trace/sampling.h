@@ -69,12 +69,19 @@ SVDAG_HD inline Vec3 cosine_direction(const Vec3& n, const Point2& square) {
   return u * d.x + v * d.y + n * square_root(up > 0 ? up : 0);
 }
 
+// From one point to another. Where they are one, a direction that no rounding and no answer
+// notices: a light within a surface's own point is not hidden from it.
+SVDAG_HD inline Vec3 towards(const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  return length(way) > 1e-90 ? way : Vec3{{1e-90, 0, 0}};
+}
+
 // A point of the ball's outline around `centre`, as seen from `from`.
 SVDAG_HD inline Vec3 light_point(const Vec3& centre, double radius, const Vec3& from,
                                  const Point2& square) {
   const Point2 d = disk_point(square);
   Vec3 u, v;
-  make_basis(normalized(centre - from), &u, &v);
+  make_basis(normalized(towards(from, centre)), &u, &v);
   return centre + u * (d.x * radius) + v * (d.y * radius);
 }
 

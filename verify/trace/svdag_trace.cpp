@@ -1,6 +1,6 @@
 // svdag-trace: the tracer alone, on the processor or a GPU; needs no third-party library.
 #include <cstdio>
-#include <new>
+#include <optional>
 
 #include "io/help/help_text.h"
 #include "streaming/atomic_file.h"
@@ -69,23 +69,35 @@ void print(const Answers& answers) {
   std::printf("answers  %016llx\n", static_cast<unsigned long long>(hash_of(answers)));
 }
 
-void write_file(const std::string& path, const std::string& bytes) {
-  AtomicFile file(path);
-  file.append(bytes);
-  file.commit();
-}
+// A file, if one is asked for. It is opened before the work, so that no work is lost to a name.
+class Output {
+ public:
+  explicit Output(const std::string& path) {
+    if (!path.empty()) file_.emplace(path);
+  }
+  template <typename Bytes>
+  void write(const Bytes& bytes) {
+    if (file_) file_->append(std::string_view(bytes()));
+  }
+  void commit() {
+    if (file_) file_->commit();
+  }
 
-void write_dump(const Answers& answers, const std::string& path) {
+ private:
+  std::optional<AtomicFile> file_;
+};
+
+std::string dump_of(const Answers& answers) {
   std::string bytes;
   for (size_t pixel = 0; pixel < answers.hits.size(); ++pixel) {
     const Record record = record_of(answers, pixel);
     bytes.append(reinterpret_cast<const char*>(&record), sizeof record);
   }
-  write_file(path, bytes);
+  return bytes;
 }
 
 // Soft light by Lambert, times ambient occlusion, over grey.
-void write_picture(const Answers& answers, const Workload& work, const std::string& path) {
+std::string picture_of(const Answers& answers, const Workload& work) {
   std::string bytes = "P6\n" + std::to_string(work.picture.width) + " " +
                       std::to_string(work.picture.height) + "\n255\n";
   const double n = work.secondary.samples;
@@ -100,7 +112,7 @@ void write_picture(const Answers& answers, const Workload& work, const std::stri
     }
     bytes.append(3, char(uint8_t(255 * (grey < 1 ? grey : 1))));
   }
-  write_file(path, bytes);
+  return bytes;
 }
 
 int compare(const Answers& cpu, const Answers& gpu) {
@@ -125,18 +137,22 @@ void check_outputs(const TraceOptions& options) {
     if (written.find(output) != nullptr)
       fail_usage(output + ": would be written twice; choose another name for one of the outputs");
     written.add(output);
+    AtomicFile::check(output);
   }
 }
 
-// Pages that are promised and not there end a program without a word, so it is asked before.
-void check_room(const TraceOptions& options) {
-  const uint64_t pixel = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t) +
-                         (options.dump.empty() ? 0 : sizeof(Record));
-  const uint64_t pixels = uint64_t(options.width) * options.height;
-  if ((options.compare ? 2 : 1) * pixel * pixels > default_memory_limit())
+// Pages that are promised and not there end a program without a word, so it is asked before: the
+// answers may take half of the memory, and what they leave is for the file. Returns that.
+uint64_t room_for_file(const TraceOptions& options) {
+  const uint64_t half = default_memory_limit();
+  const uint64_t pixel = kAnswerBytes + (options.dump.empty() ? 0 : sizeof(Record));
+  const uint64_t answers =
+      (options.compare ? 2 : 1) * pixel * uint64_t(options.width) * options.height;
+  if (answers > half)
     throw Error(ExitCode::kMemory,
                 "--size: the answers of so many pixels do not fit in half of the memory; "
                 "choose fewer");
+  return 2 * half - answers;
 }
 
 int run(const TraceOptions& options) {
@@ -148,9 +164,9 @@ int run(const TraceOptions& options) {
     return 0;
   }
   check_outputs(options);
-  check_room(options);
-  const PlainFile file = read_plain_file(options.file);
+  const PlainFile file = read_plain_file(options.file, room_for_file(options));
   const Workload work = make_workload(options, file);
+  Output dump(options.dump), picture(options.picture);
   int result = 0;
   Answers answers;
   if (options.compare) {
@@ -163,8 +179,10 @@ int run(const TraceOptions& options) {
     answers = options.device == "cuda" ? trace_on_cuda(file, work) : trace_on_cpu(file, work);
     print(answers);
   }
-  if (!options.dump.empty()) write_dump(answers, options.dump);
-  if (!options.picture.empty()) write_picture(answers, work, options.picture);
+  dump.write([&] { return dump_of(answers); });
+  picture.write([&] { return picture_of(answers, work); });
+  dump.commit();
+  picture.commit();
   return result;
 }
 

@@ -23,16 +23,17 @@ Manual trace_manual() {
   manual.operands[0].required = true;
   manual.options = {
       value({"--device"}, "NAME", "Where: cpu or cuda (default cpu)", {"cpu", "cuda"}),
-      flag({"--compare"}, "Both, and count the rays that differ; exit 1 if any does"),
+      flag({"--compare"}, "Both, and count the pixels that differ; exit 1 if any does"),
       value({"--size"}, "WxH", "Pixels (default 1280x720)"),
-      value({"--preset"}, "NAME", "iso, front, back, left, right, top or inside (default iso)",
+      value({"--preset"}, "NAME",
+            "iso, front, back, left, right, top or inside, without --camera (default iso)",
             {"iso", "front", "back", "left", "right", "top", "inside"}),
       value({"--camera"}, "px,py,pz,tx,ty,tz[,fov]", "Position, target, angle of view in degrees"),
       value({"--up"}, "AXIS", "The axis that points up: x, y or z (default y)", {"x", "y", "z"}),
       value({"--light"}, "x,y,z[,radius]",
             "Where the light is, and how large (default: above what is seen)"),
       value({"--samples"}, "N", "soft, ao: rays per pixel, 1 to 4096 (default 64)"),
-      value({"--reach"}, "LENGTH", "ao: how far they reach (default: all the way)"),
+      value({"--reach"}, "LENGTH", "ao: how far they reach (default 0: all the way)"),
       value({"--cone"}, "DEGREES",
             "ao: half the angle of the cone in which they end early, 0 to 44, for example 9 "
             "(default 0, which is exact)"),

@@ -1,10 +1,13 @@
 #include "verify/trace/trace_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <set>
 
+#include "io/suggest.h"
 #include "streaming/error.h"
+#include "verify/trace/picture_name.h"
 #include "verify/trace/presets.h"
 
 namespace svdag {
@@ -19,7 +22,7 @@ std::vector<double> numbers(const std::string& name, const std::string& text) {
     double value = 0;
     const auto read = std::from_chars(at, end, value);
     if (read.ec != std::errc() || !std::isfinite(value) || (read.ptr != end && *read.ptr != ','))
-      fail_usage(name + ": \"" + text + "\" is not numbers with commas between them");
+      fail_usage(name + ": \"" + text + "\" is not finite numbers with commas between them");
     values.push_back(value);
     if (read.ptr == end) return values;
     at = read.ptr + 1;
@@ -50,28 +53,28 @@ void set_size(const std::string& text, TraceOptions* options) {
   options->height = count("--size", text.substr(cross + 1), 1, 16384);
 }
 
-void refuse_other_pictures(const std::string& name) {
-  for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".exr"}) {
-    if (name.ends_with(ending))
-      fail_usage(name + ": pictures are PPM: choose a name in .ppm (svdag-verify render: PNG)");
-  }
+void set_flag(const std::string& name, TraceOptions* options) {
+  if (name == "--compare")
+    options->compare = true;
+  else if (name == "--help")
+    options->help = true;
+  else if (name == "--version")
+    options->version = true;
+  else if (name == "--no-beams")
+    options->beams = false;
 }
 
-// An option without a value; false if it is none.
-bool set_flag(const std::string& name, TraceOptions* options) {
-  if (name == "--compare") return options->compare = true;
-  if (name == "--help" || name == "-h") return options->help = true;
-  if (name == "-V" || name == "--version") return options->version = true;
-  if (name == kManualTable) return options->table = true;
-  if (name == "--no-beams") return !(options->beams = false);
-  return false;
+// "x, y or z"
+std::string any_of(const std::vector<std::string>& choices) {
+  std::string text = choices[0];
+  for (size_t i = 1; i < choices.size(); ++i)
+    text += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+  return text;
 }
 
+// `name`: the last of the option's names; `value`: one of its choices, if it has any.
 void set_option(const std::string& name, const std::string& value, TraceOptions* options) {
-  if (value.empty()) fail_usage(name + ": the value is empty");
   if (name == "--device") {
-    if (value != "cpu" && value != "cuda")
-      fail_usage("--device: \"" + value + "\" is not cpu or cuda");
     options->device = value;
   } else if (name == "--size") {
     set_size(value, options);
@@ -82,14 +85,12 @@ void set_option(const std::string& name, const std::string& value, TraceOptions*
   } else if (name == "--light") {
     options->light = numbers(name, value);
   } else if (name == "--up") {
-    if (value != "x" && value != "y" && value != "z")
-      fail_usage("--up: \"" + value + "\" is not x, y or z");
     options->up = value[0] - 'x';
   } else if (name == "--samples") {
     options->samples = count(name, value, 1, 4096);
   } else if (name == "--rounds") {
     options->rounds = count(name, value, 1, 1000);
-  } else if (name == "--threads" || name == "-j") {
+  } else if (name == "--threads") {
     options->threads = count(name, value, 1, 1024);
   } else if (name == "--reach") {
     options->reach = number(name, value, 1e100);
@@ -98,10 +99,9 @@ void set_option(const std::string& name, const std::string& value, TraceOptions*
   } else if (name == "--dump") {
     options->dump = value;
   } else if (name == "--picture") {
-    refuse_other_pictures(value);
+    refuse_other_pictures(
+        value, ".ppm", "pictures are PPM: choose a name in .ppm (svdag-verify render: PNG)");
     options->picture = value;
-  } else {
-    fail_usage(name + ": there is no such option (--help lists them)");
   }
 }
 
@@ -122,33 +122,79 @@ Camera make_camera(const TraceOptions& options, const PlainFile& file, const Vox
   const Vec3 position = in_voxels(c.data(), file.header());
   const Vec3 target = in_voxels(c.data() + 3, file.header());
   const double far = length(target - position);
-  if (!(fov > 0.1 && fov < 179) || !(far > 0 && far < 1e100))
-    fail_usage("--camera: give two different points and an angle of 0.1 to 179 degrees");
+  if (!(fov >= 0.1 && fov <= 179))
+    fail_usage("--camera: the angle of view is not 0.1 to 179 degrees");
+  if (!(far > 0)) fail_usage("--camera: position and target are one point");
+  if (!(far < 1e100 && length(position) < 1e100))
+    fail_usage("--camera: position and target are more than 10^100 voxels away");
   return look_at(position, target, options.up, fov, aspect);
+}
+
+// A word that is an option, with the value that stands behind it in the same word, if any does:
+// --size=4x4, -j2.
+struct Word {
+  explicit Word(const std::string& word) {
+    const bool is_long = word.starts_with("--");
+    const size_t end = is_long ? word.find('=') : std::min<size_t>(2, word.size());
+    name = word.substr(0, end);
+    if (end < word.size()) value = word.substr(is_long ? end + 1 : end);
+  }
+
+  std::string name;
+  std::optional<std::string> value;
+};
+
+const ManualOption& option_of(const Manual& manual, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ManualOption& option : manual.options) {
+    if (std::ranges::find(option.names, name) != option.names.end()) return option;
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  }
+  const CommandWords known{"", std::move(names)};
+  const std::string unknown =
+      explain_unknown(manual.command, std::span(&known, 1), std::span(&name, 1));
+  fail_usage(unknown.empty() ? "\"" + name + "\" is no option; see " + manual.command + " --help"
+                             : unknown);
+}
+
+std::string value_of(const ManualOption& option, const Word& word) {
+  if (!word.value) fail_usage(word.name + ": needs a value (--help lists the options)");
+  if (word.value->empty()) fail_usage(word.name + ": the value is empty");
+  if (!option.choices.empty() &&
+      std::ranges::find(option.choices, *word.value) == option.choices.end())
+    fail_usage(word.name + ": \"" + *word.value + "\" is not " + any_of(option.choices));
+  return *word.value;
 }
 
 }  // namespace
 
 TraceOptions parse_trace_options(int argc, char** argv) {
+  const Manual manual = trace_manual();
   TraceOptions options;
+  std::set<std::string> given;
+  bool only_files = false;  // behind "--"
   for (int i = 1; i < argc; ++i) {
-    std::string name = argv[i], value;
-    if (name.empty() || name[0] != '-') {
-      if (!options.file.empty()) fail_usage(name + ": only one FILE can be traced");
-      options.file = name;
+    const std::string text = argv[i];
+    if (only_files || text.size() < 2 || text[0] != '-') {
+      if (!options.file.empty()) fail_usage(text + ": only one FILE can be traced");
+      options.file = text;
       continue;
     }
-    if (set_flag(name, &options)) continue;
-    const size_t equals = name.find('=');
-    if (equals != std::string::npos) {
-      value = name.substr(equals + 1);
-      name.resize(equals);
-    } else if (i + 1 < argc) {
-      value = argv[++i];
-    } else {
-      fail_usage(name + ": needs a value (--help lists the options)");
+    if (text == kManualTable || text == "--") {
+      (text == "--" ? only_files : options.table) = true;
+      continue;
     }
-    set_option(name, value, &options);
+    Word word(text);
+    const ManualOption& option = option_of(manual, word.name);
+    const std::string& name = option.names.back();
+    if (!given.insert(name).second) fail_usage(word.name + ": is given twice");
+    if (option.value.empty()) {
+      if (word.value) fail_usage(word.name + ": takes no value");
+      set_flag(name, &options);
+      continue;
+    }
+    if (!word.value && i + 1 < argc) word.value = argv[++i];
+    set_option(name, value_of(option, word), &options);
   }
   if (options.file.empty() && !options.help && !options.version && !options.table)
     fail_usage("give the .svdag to trace (--help lists the options)");
@@ -161,8 +207,9 @@ Workload make_workload(const TraceOptions& options, const PlainFile& file) {
   Workload work{{make_camera(options, file, box), options.width, options.height}, {}, {}};
   const double diagonal = length(box.max - box.min);
   work.light.centre = (box.min + box.max) * 0.5;
+  const bool inside = options.camera.empty() && options.preset == "inside";
   work.light.centre[options.up] +=
-      (options.preset == "inside" ? 0.4 : 1.5) * (box.max[options.up] - box.min[options.up]);
+      (inside ? 0.4 : 1.5) * (box.max[options.up] - box.min[options.up]);
   work.light.radius = 0.02 * diagonal;
   if (!options.light.empty()) {
     if (options.light.size() != 3 && options.light.size() != 4)

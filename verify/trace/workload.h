@@ -65,7 +65,7 @@ SVDAG_HD inline Surfel make_surfel(const DagView& dag, const Ray& ray, const Hit
 
 // From the surface (t = 0) to the light's centre (t = 1).
 SVDAG_HD inline Ray shadow_ray(const Surfel& surfel, const Light& light) {
-  return {surfel.point, light.centre - surfel.point};
+  return {surfel.point, towards(surfel.point, light.centre)};
 }
 
 // From the surface (t = 0) to the light's i-th of n points (t = 1).
@@ -73,7 +73,7 @@ SVDAG_HD inline Ray soft_ray(const Surfel& surfel, const Light& light, uint64_t 
                              uint32_t n) {
   const Point2 square = square_point(pixel, i, n);
   return {surfel.point,
-          light_point(light.centre, light.radius, surfel.point, square) - surfel.point};
+          towards(surfel.point, light_point(light.centre, light.radius, surfel.point, square))};
 }
 
 // The i-th of n directions, of length 1.

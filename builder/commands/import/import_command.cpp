@@ -15,9 +15,11 @@
 #include "io/formats/symvox.h"
 #include "io/formats/transform_dag.h"
 #include "io/formats/vox.h"
+#include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file_ending.h"
 
 namespace svdag {
 namespace {
@@ -82,6 +84,10 @@ const Row& choose(const ImportCommandConfig& config, const File& file) {
   }
   if (!config.format.empty())
     fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
+  for (const std::string& ending : kSceneEndings) {
+    if (has_ending(config.file, ending))
+      fail_input(config.file, "is a scene: svdag build bakes it");
+  }
   fail_input(config.file, "is no file that svdag import knows: name its --format: " + names);
 }
 

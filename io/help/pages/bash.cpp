@@ -64,22 +64,27 @@ constexpr const char* kEngine = R"sh(
 
 @() {
   local cur=${COMP_WORDS[COMP_CWORD]}
-  local command= number=0 after= i word kind options
+  local command= number=0 after= option= i word kind options
   COMPREPLY=()
-  [[ $cur == = ]] && cur=  # bash splits --rule=thin into three words
   for ((i = 1; i < COMP_CWORD; i++)); do
     word=${COMP_WORDS[i]}
-    if [[ $after ]]; then  # the value of an option, which may stand behind =
-      [[ $word == = ]] || after=
+    if [[ $after && $word == = ]]; then  # bash splits --rule=thin into three words
+      [[ $option == --* ]] || after=value  # -o=city.svdag means a file =city.svdag
+    elif [[ $after ]]; then
+      after=
     elif [[ $word == -* ]]; then
       @_kind "$command" "$word"
-      after=$kind
+      after=$kind option=$word
     elif [[ -z $command && "@COMMANDS" == *" $word "* ]]; then
       command=$word
     else
       ((++number))
     fi
   done
+  if [[ $cur == = ]]; then
+    cur=
+    [[ $option == --* ]] || after=value
+  fi
   if [[ $after ]]; then
     @_offer "$after"
   elif [[ $cur == -* ]]; then

@@ -13,7 +13,7 @@ std::string fish_quoted(const std::string& text) {
 // What may stand in the place of a value; @ is the name of the program's functions.
 std::string offer(const ManualOption& option) {
   if (!option.choices.empty()) return " -x -a " + fish_quoted(words(option.choices));
-  if (takes_folders(option)) return " -x -a '(__fish_complete_directories (commandline -ct))'";
+  if (takes_folders(option)) return " -x -a '(__fish_complete_directories (@_value))'";
   if (takes_any_file(option)) return " -r -F";
   if (option.endings.empty()) return " -x";
   return " -x -k -a '(@_files " + words(option.endings) + ")'";
@@ -41,9 +41,14 @@ function @_is
     set -q words[2]; and contains -- $words[2] $argv
 end
 
+# What there is of the value: the word, or what stands behind the = of its option.
+function @_value
+    string replace -r -- '^--[^=]*=' '' (commandline -ct)
+end
+
 # Files with these endings, and folders.
 function @_files
-    set -l files (complete -C "__fish_command_without_completions "(commandline -ct))
+    set -l files (complete -C "__fish_command_without_completions "(@_value))
     string match -r -- '^.*/$' $files
     for ending in $argv
         string match -r -- '(?i)^.*'(string escape --style=regex -- $ending)'$' $files

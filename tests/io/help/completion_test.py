@@ -53,7 +53,8 @@ LINES = [("svdag bui", "svdag build "), ("svdag build --resol", "svdag build --r
          ("svdag build --rule th", "svdag build --rule thin"), ("svdag build --rule=th", "svdag build --rule=thin"),
          ("svdag-verify mesh ci", "svdag-verify mesh city.svdag "),
          ("svdag-verify mesh city.svdag ci", "svdag-verify mesh city.svdag city.ply"),
-         ("svdag-trace --device cu", "svdag-trace --device cuda"), ("svdag help mem", "svdag help memory")]
+         ("svdag-trace --device cu", "svdag-trace --device cuda"), ("svdag help mem", "svdag help memory"),
+         ("svdag export -o=no --format=np", "svdag export -o=no --format=npz")]
 
 
 class Shell(unittest.TestCase):
@@ -122,7 +123,8 @@ class Bash(Shell):
         return {f"{name}/" if (self.folder / name).is_dir() else name for name in found if name}
 
     def test_offers(self):
-        self.check_offers()
+        self.check_offers({"svdag export -o = ": set(), "svdag export -o = no": set(), "svdag export -o =": set(),
+                           "svdag export --output = no": {"notes.txt"}, "svdag build --rule =": {"conservative", "thin"}})
 
     def test_offers_every_option_and_no_other(self):
         self.check_options()
@@ -141,7 +143,9 @@ class Fish(Shell):
 
     def test_offers(self):
         # Its script does not count arguments: each may be any of them.
-        self.check_offers({"svdag-verify mesh ": {"city.svdag", "city.ply", "hall.GLB", "folder/"}})
+        self.check_offers({"svdag-verify mesh ": {"city.svdag", "city.ply", "hall.GLB", "folder/"},
+                           "svdag build --output=": {"--output=city.svdag", "--output=folder/"},
+                           "svdag build --output=ci": {"--output=city.svdag"}, "svdag build --cache=": {"--cache=folder/"}})
 
     def test_offers_every_option_and_no_other(self):
         self.check_options()

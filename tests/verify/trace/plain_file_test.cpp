@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "tests/expect_error.h"
@@ -94,7 +95,8 @@ TEST_F(PlainFileTest, TakesGridsOfAnySizeAnywhere) {
 
 TEST_F(PlainFileTest, RefusesSidesAndCornersThatAreNoNumbers) {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double size : {0.0, -1.0, infinity, std::nan("")}) {
+  const double denormal = std::numeric_limits<double>::denorm_min();
+  for (const double size : {0.0, denormal, -1.0, infinity, std::nan("")}) {
     Grid grid = test_grid(4);
     grid.voxel_size = size;
     RawFile(raw_dag(grid, {})).write(path());
@@ -106,6 +108,25 @@ TEST_F(PlainFileTest, RefusesSidesAndCornersThatAreNoNumbers) {
     RawFile(raw_dag(grid, {})).write(path());
     EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "impossible grid corner");
   }
+}
+
+// It would be a node without a voxel: no ray could meet what its parent says is there.
+TEST_F(PlainFileTest, RefusesAnEmptyBrick) {
+  RawDag raw = raw_dag(test_grid(5), clustered_voxels(5, 3, 3));
+  raw.bricks.back() = 0;
+  RawFile(raw).write(path());
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "damaged file: an empty brick");
+}
+
+TEST_F(PlainFileTest, TakesNoMoreMemoryThanItMay) {
+  const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
+  raw.write(path());
+  const uint64_t size = raw.bytes().size();
+  EXPECT_EQ(read_plain_file(path(), size).bytes(), size);
+  EXPECT_SVDAG_ERROR(read_plain_file(path(), size - 1), ExitCode::kMemory, "svdag-verify render");
+  // What only pretends to be large is damaged: asked first, and before memory is taken for it.
+  std::filesystem::resize_file(path(), uint64_t(1) << 40);
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "not the one in its header");
 }
 
 // A damaged word is refused, or leads to other voxels, but never out of the file (as the

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/verify/trace/ray_families.h"
+#include "verify/trace/rays.h"
 #include "verify/trace/workload.h"
 
 namespace svdag {
@@ -77,6 +79,39 @@ TEST(Sampling, SoftRaysEndOnTheLight) {
     const Vec3 off = ray.origin + ray.direction - light.centre;
     EXPECT_LE(length(off), 7 + 1e-6);
     EXPECT_NEAR(dot(off, normalized(light.centre - surfel.point)), 0, 1e-9);
+  }
+}
+
+// A ray without a direction would be nowhere, and a tracer that goes on from the last ray's cell
+// would answer the next one wrongly.
+TEST(Sampling, ALightAtTheSurfaceGivesRaysThatCanBeTraced) {
+  const Surfel surfel{true, {{1, 2, 3}}, {{0, 0, 1}}};
+  for (const double radius : {0.0, 2.0}) {
+    for (const double off : {0.0, 1e-320, 1e-200, 1e-95}) {
+      const Light light{{{1, 2, 3 + off}}, radius};
+      for (uint32_t i = 0; i < 16; ++i) {
+        for (const Ray& ray : {shadow_ray(surfel, light), soft_ray(surfel, light, 4, i, 16)}) {
+          EXPECT_GT(length(ray.direction), 0);
+          EXPECT_LE(length(ray.direction), radius + 1e-7);
+        }
+      }
+    }
+  }
+}
+
+// The answers to one tracer's rays are those to each ray alone.
+TEST(Sampling, ALightAtTheSurfaceLeavesOtherRaysAlone) {
+  const RawFile raw(raw_dag(test_grid(6), clustered_voxels(6, 3, 5)));
+  const Surfel surfel{true, {{20, 30, 40}}, {{0, 0, 1}}};
+  const Light lights[] = {{{{50, 60, 20}}, 9}, {surfel.point, 4}, {{{5, 3, 60}}, 9}};
+  std::vector<Ray> rays;
+  for (uint32_t i = 0; i < 48; ++i) rays.push_back(soft_ray(surfel, lights[i % 3], 7, i, 48));
+  std::vector<uint8_t> together(rays.size());
+  trace_any(raw.view(), {}, rays.data(), rays.size(), {0, 1}, {}, together.data());
+  for (size_t i = 0; i < rays.size(); ++i) {
+    uint8_t alone = 0;
+    trace_any(raw.view(), {}, &rays[i], 1, {0, 1}, {}, &alone);
+    EXPECT_EQ(together[i], alone) << i;
   }
 }
 
