@@ -10,6 +10,7 @@
 #include <bit>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "streaming/executor.h"

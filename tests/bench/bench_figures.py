@@ -86,16 +86,20 @@ def figures(bakes, name):
 
 
 def giant(bakes, scene, log2):
+    """(a line of the table, whether anything failed)"""
     try:
         row = bakes.bake(scene, log2)
     except subprocess.CalledProcessError as error:
-        return [scene, "", f"svdag ended with {error.returncode}", "", "", "", "", ""]
+        return [scene, "", f"svdag ended with {error.returncode}", "", "", "", "", ""], True
     check = subprocess.run([bakes.programs / "svdag-verify", "mesh", bakes.dag_file(), bakes.scene(scene),
                             "--sample", str(SAMPLE)], stdout=subprocess.DEVNULL).returncode
-    return [scene, f"{row['resolution']}³", f"{row['s_total']:.1f}", f"{row['s_cpu']:.1f}", f"{row['nodes']:,}",
+    line = [scene, f"{row['resolution']}³", f"{row['s_total']:.1f}", f"{row['s_cpu']:.1f}", f"{row['nodes']:,}",
             f"{row['bytes'] / 1e6:,.0f}", f"{row['peak_mib']:,.0f}", "yes" if check == 0 else f"no: exit code {check}"]
+    return line, check != 0
 
 
 def giants(bakes):
-    return table(["scene", "grid", "seconds", "CPU", "DAG nodes", "MB", "peak MiB", f"{SAMPLE:,} bricks verified"],
-                 [giant(bakes, scene, log2) for scene, log2 in GIANTS if bakes.scene(scene) is not None])
+    """(the table, whether any of them failed)"""
+    rows = [giant(bakes, scene, log2) for scene, log2 in GIANTS if bakes.scene(scene) is not None]
+    head = ["scene", "grid", "seconds", "CPU", "DAG nodes", "MB", "peak MiB", f"{SAMPLE:,} bricks verified"]
+    return table(head, [line for line, _ in rows]), any(failed for _, failed in rows)

@@ -58,21 +58,27 @@ def row(name, full, again):
             f"{again['seconds']['cpu']:.2f} | {100 * share:.1f} % |"), share
 
 
+def bake_with_cache(options, scene, name, fresh, output, folder):
+    """The report of a bake that may find cells. It gives the bytes of the bake without a cache, or there is no table."""
+    report = bake(options, scene, output, "--cache", folder)
+    if fresh.read_bytes() != output.read_bytes():
+        sys.exit(f"{name}: other bytes with the cache")
+    return report
+
+
 def measure(options, scene):
     folder = OUT / "cells"
     shutil.rmtree(folder, ignore_errors=True)
-    cached = ["--cache", folder]
     glb, moved, fresh, output = Glb(scene), OUT / "moved.glb", OUT / "fresh.svdag", OUT / "cached.svdag"
     full = bake(options, scene, fresh)
-    rows = [row("nothing known", full, bake(options, scene, output, *cached))[0],
-            row("nothing moved", full, bake(options, scene, output, *cached))[0]]
+    rows = [row(name, full, bake_with_cache(options, scene, name, fresh, output, folder))[0]
+            for name in ("nothing known", "nothing moved")]
     shares = []
     for number in glb.objects()[:options.objects]:
         glb.write_moved(moved, number)
-        full, again = bake(options, moved, fresh), bake(options, moved, output, *cached)
-        if fresh.read_bytes() != output.read_bytes():
-            sys.exit(f"{glb.json['nodes'][number]['name']} moved: other bytes with the cache")
-        text, share = row(f"`{glb.json['nodes'][number]['name']}` moved", full, again)
+        name = f"`{glb.json['nodes'][number]['name']}` moved"
+        full = bake(options, moved, fresh)
+        text, share = row(name, full, bake_with_cache(options, moved, name, fresh, output, folder))
         rows.append(text)
         shares.append(share)
         print(text, flush=True)

@@ -160,6 +160,13 @@ def main():
         clean_up(bakes, row.scene, {later.scene for later in wanted[i + 1:]}, options.keep_scenes)
     print(made_table(known))
     assert_same_hashes(known)
+    failed = [row.name for row in wanted if row.name in known
+              and ("failed" in known[row.name] or "**no**" in HELD.verdict(known[row.name], known))]
+    if failed:
+        sys.exit(f"docs/ stay as they are: {', '.join(failed)} failed, or took more than its memory")
+    missing = [row.name for row in ROWS if row.name not in known]
+    if missing and not options.json_only:
+        sys.exit(f"docs/ stay as they are: {', '.join(missing)} was never measured (SVDAG_SCENES names the folder of sponza)")
     if not options.json_only:
         fill(PAGE, {"out of core": made_table(known)})
 

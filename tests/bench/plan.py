@@ -164,8 +164,11 @@ def main():
         plan_fit.print_constants([r for r in rows if r["scene"] in plan_scenes.NAMES])
         return
     contents = {"plans": farm_table(rows), "predictions": judgement(rows)}
-    fill(PAGE, contents)
     print("\n\n".join(contents.values()))
+    other = [f"{r['scene']} at {label(r['log2'])}" for r in rows if not r["same"]]
+    if other:
+        sys.exit(f"docs/ stay as they are: the plan of {', '.join(other)} gave other bytes than one bake")
+    fill(PAGE, contents)
 
 
 if __name__ == "__main__":

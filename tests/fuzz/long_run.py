@@ -21,6 +21,7 @@ import subprocess
 import sys
 import threading
 import time
+import traceback
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = SOURCE / "build" / "fuzz"
@@ -102,7 +103,10 @@ def run_all(waiting, jobs, run):
                 if not waiting:
                     return
                 fuzzer = waiting.pop(0)
-            finding = run(fuzzer)
+            try:
+                finding = run(fuzzer)
+            except Exception:  # a full disk, say: nothing was found out, and the others go on
+                finding = traceback.format_exc()
             if finding:
                 found.append((fuzzer.name, finding))
 

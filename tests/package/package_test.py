@@ -55,6 +55,24 @@ class Package(unittest.TestCase):
         run("g++", "-std=c++17", "-O1", f"-I{prefix}/include/svdag", READER / "mapped.cpp", "-o", program)
         self.assertEqual(run(program, self.file).split(), self.counts)
 
+    def test_every_header_compiles_alone(self):
+        include, source = self.install() / "include" / "svdag", self.root / "alone.cpp"
+        headers = sorted(path.relative_to(include) for path in include.rglob("*.h"))
+        self.assertGreater(len(headers), 30)
+        for header in headers:
+            source.write_text(f'#include "{header}"\n')
+            run("g++", "-std=c++20", "-fsyntax-only", f"-I{include}", source)
+
+    def test_a_project_that_can_do_without_is_not_ended(self):
+        source, prefix = self.root / "optional", self.install()
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(optional LANGUAGES CXX)\n"
+                                               "find_package(svdag QUIET)\nmessage(STATUS \"found ${svdag_FOUND}\")\n")
+        configure = ["cmake", "-S", source, "-B", self.root / "optional_build", f"-DCMAKE_PREFIX_PATH={prefix}"]
+        without_xxhash = ["env", "PKG_CONFIG_LIBDIR=/nonexistent"]
+        self.assertIn("found 0", run(*without_xxhash, *configure))
+        self.assertIn("found 1", run(*configure))
+
     def test_installed_programs_run_where_they_were_put(self):
         program = self.install() / "bin" / "svdag-verify"
         self.assertIn("ok", run(program, "check", self.file))

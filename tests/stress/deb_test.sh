@@ -54,7 +54,8 @@ set -eu
 cd /try
 svdag --version
 svdag build city.ply -r 256 -o city.svdag -q --report city.json
-svdag info city.svdag | head -3
+svdag info city.svdag >info
+head -3 info
 svdag-verify check city.svdag
 svdag-verify mesh city.svdag city.ply -q
 svdag-verify render city.svdag -o city.png --size 64x36 -q

@@ -45,7 +45,7 @@ completion() {  # by bash, fish and zsh
 }
 
 faults() {  # every call, small disks, signals, kills, power cuts, little memory
-  release svdag svdag-export svdag-scene svdag-verify svdag_fault_shim svdag_float_modes
+  release svdag svdag-export svdag-scene svdag-trace svdag-verify svdag_fault_shim svdag_float_modes
   SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure --no-tests=error
 }
 
@@ -56,6 +56,7 @@ report_shot() {  # the page of a report, in Chromium
 
 packages() {  # in a clean Debian
   release
+  rm -f build/deb/*.deb  # of another version
   (cd build/release && cpack -G DEB -B ../deb >/dev/null)
   may_skip sh tests/stress/deb_test.sh build/release build/deb
 }
