@@ -87,6 +87,10 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   return out.str();
 }
 
+bool is_of_this_algorithm(const std::string& description) {
+  return description.starts_with("algorithm: " + std::string(kAlgorithm) + "\n");
+}
+
 const std::vector<SceneFile>& Description::files() {
   if (files_.empty()) {
     watch_.begin();

@@ -19,6 +19,9 @@ std::vector<SceneFile> scene_files(const Scene& scene);
 // `files`: of the scene; a bake that is `ready` needs none, for its plan has described them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
+// Whether this program would give the same bytes for `description`, which may be without a part.
+bool is_of_this_algorithm(const std::string& description);
+
 // Both, of one bake. Hashes cost a reading of the whole scene: they are made when needed, and once,
 // and they are those of what the bake has read, or an Error.
 class Description {

@@ -259,7 +259,8 @@ class Page {
     std::vector<PlotBar> bars = {
         {"cells without a triangle", empty, percent(empty)},
         {"octree nodes never divided", octree == 0 ? 0 : spared, percent(octree == 0 ? 0 : spared)},
-        {"planes known already", share_of(answered, asked), percent(share_of(answered, asked))}};
+        {"cubes on one plane, not descended", share_of(answered, asked),
+         percent(share_of(answered, asked))}};
     if (count("cache_hits") > 0)
       bars.push_back({"cells from the cache", share_of(count("cache_hits"), cells),
                       percent(share_of(count("cache_hits"), cells))});

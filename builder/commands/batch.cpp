@@ -180,6 +180,12 @@ Outcome run(const BuildCommandConfig& job, const BuildCommandConfig& batch) {
   return outcome;
 }
 
+void write_report(AtomicFile* report, size_t bakes, const Json& done) {
+  report->append(json_text(Json{{"svdag", SVDAG_VERSION}, {"bakes", bakes}, {"done", done}}, 2) +
+                 "\n");
+  report->commit();
+}
+
 }  // namespace
 
 int run_batch(const BuildCommandConfig& config) {
@@ -192,7 +198,13 @@ int run_batch(const BuildCommandConfig& config) {
   size_t failed = 0;
   for (const BuildCommandConfig& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
-    const Outcome outcome = run(job, config);
+    Outcome outcome;
+    try {
+      outcome = run(job, config);
+    } catch (const Interrupted&) {
+      if (report) write_report(&*report, jobs.size(), done);
+      throw;
+    }
     Json entry = {{"output", job.build.output}, {"exit", int(outcome.code)}};
     if (!outcome.error.empty()) entry["error"] = outcome.error;
     if (!outcome.report.empty()) entry["report"] = Json::parse(outcome.report);
@@ -200,12 +212,7 @@ int run_batch(const BuildCommandConfig& config) {
     failed += outcome.code != ExitCode::kOk;
     if (first == ExitCode::kOk) first = outcome.code;
   }
-  if (report) {
-    report->append(
-        json_text(Json{{"svdag", SVDAG_VERSION}, {"bakes", jobs.size()}, {"done", done}}, 2) +
-        "\n");
-    report->commit();
-  }
+  if (report) write_report(&*report, jobs.size(), done);
   if (!config.output.quiet)
     std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),
                 config.dry_run ? "predicted" : "baked", failed);

@@ -22,7 +22,7 @@ int run_run(const RunCommandConfig& config) {
   } catch (const Interrupted& interrupted) {
     std::vector<std::string> again = {"svdag", "run", config.plan};
     if (config.processes != 0) again.insert(again.end(), {"-j", std::to_string(config.processes)});
-    if (!config.scratch.empty()) again.insert(again.end(), {"--scratch", config.scratch});
+    if (!config.scratch.empty()) again.push_back("--scratch=" + config.scratch);
     std::fprintf(stderr, "svdag: stopped; this goes on with what is left: %s\n",
                  shell_words(again).c_str());
     return 128 + interrupted.signal;

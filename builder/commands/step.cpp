@@ -22,7 +22,7 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
   std::vector<std::string> words = {"svdag"};
   for (const std::string& word : plan.command(step)) words.push_back(word);
   if (!config.output.empty()) words.insert(words.end(), {"-o", config.output});
-  if (!config.scratch.empty()) words.insert(words.end(), {"--scratch", config.scratch});
+  if (!config.scratch.empty()) words.push_back("--scratch=" + config.scratch);
   if (config.memory != 0) words.insert(words.end(), {"-m", std::to_string(config.memory)});
   if (threads != 0) words.insert(words.end(), {"-j", std::to_string(threads)});
   if (config.checkpoint != 0)

@@ -27,6 +27,12 @@ std::string random_name() {
   return std::string(name) + kEnding;
 }
 
+// Somebody else's file in the folder, whatever it is called, is none.
+bool is_of_cache(const std::string& name) {
+  return name.size() == 16 + std::strlen(kEnding) && name.ends_with(kEnding) &&
+         name.find_first_not_of("0123456789abcdef") == 16;
+}
+
 // A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
 size_t packs_to_keep_open() {
   struct rlimit files;
@@ -63,7 +69,7 @@ CellCache::~CellCache() {
 std::vector<CellCache::Found> CellCache::find_packs() const {
   std::vector<Found> packs;
   for (const std::string& name : folder_.names()) {
-    if (!name.ends_with(kEnding)) continue;
+    if (!is_of_cache(name)) continue;
     const fs::path path = fs::path(config_.folder) / name;
     std::error_code gone;  // another bake may trim, too
     const auto used = fs::last_write_time(path, gone);

@@ -89,10 +89,12 @@ Pack::Pack(std::string path) : path_(std::move(path)) {
   const File file = File::open_read(path_);
   const size_t read = file.read_some_at(0, std::as_writable_bytes(std::span(&header_, 1)));
   const uint64_t size = file.size();
-  bool sound = read == sizeof header_ &&
-               std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0 &&
-               header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
-               header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
+  bool sound =
+      read == sizeof header_ && std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0;
+  if (sound && header_.version != kPackVersion && header_.checksum == checksum_of(header_))
+    throw Error(ExitCode::kBadInput, "is of another version of svdag", path_);  // which may use it
+  sound = sound && header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
+          header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
   if (!sound || kPackBegin + payload_of(header_) + blocks_of(header_) * sizeof(uint64_t) != size)
     throw DamagedPack(path_, "is no pack of a cell cache, or damaged");

@@ -232,6 +232,7 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
 // The triangles get their name, then the index, then what says that the plan is whole.
 void Planner::save() {
   progress_->phase("save", 0);
+  refuse_a_plan(config_.folder);  // of a planner with another --scratch, who was faster
   make_folder(plan_.path("runs"));
   make_folder(plan_.path("logs"));
   triangles_->link_as(plan_.path(kPlanTriangles));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "builder/description.h"
 #include "builder/farm/plan_index.h"
 #include "builder/farm/step_name.h"
 #include "io/json_number.h"
@@ -160,6 +161,8 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   for (const Json& input : json.at("inputs"))
     plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
   plan->description = json.at("description");
+  if (!is_of_this_algorithm(plan->description))
+    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
   plan->grid = get_grid(json.at("grid"));
   if (!plan->grid.is_possible()) throw Error(ExitCode::kBadInput, "has an impossible grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;

@@ -17,6 +17,9 @@ extern char** environ;
 namespace svdag {
 namespace {
 
+constexpr const char* kOwnImage = "/proc/self/exe";
+constexpr const char* kDeleted = " (deleted)";  // behind the name of a file that is gone
+
 class FileActions {
  public:
   FileActions() { posix_spawn_file_actions_init(&actions_); }
@@ -136,8 +139,15 @@ Answer ask_process(const std::vector<std::string>& command) {
 
 std::string own_program() {
   std::error_code error;
-  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? "svdag" : path.string();
+  std::string path = std::filesystem::read_symlink(kOwnImage, error).string();
+  if (path.ends_with(kDeleted)) path.resize(path.size() - std::strlen(kDeleted));
+  return error ? "svdag" : path;
+}
+
+std::string own_image() {
+  std::error_code error;
+  const std::string path = std::filesystem::read_symlink(kOwnImage, error).string();
+  return error || path.ends_with(kDeleted) ? kOwnImage : path;
 }
 
 std::string from_anywhere(const std::string& path) {

@@ -27,8 +27,11 @@ struct Answer {
 // Runs `command` to its end. Error (kOutput) if it cannot be started.
 Answer ask_process(const std::vector<std::string>& command);
 
-// This program's own file.
+// This program's own file, or the one that took its name since (an upgrade).
 std::string own_program();
+
+// What starts this very program: its file, or, where another took its name, the image that runs.
+std::string own_image();
 
 // `path` from wherever a host works. Links are those of the host: they stay, and so does "..".
 std::string from_anywhere(const std::string& path);

@@ -148,13 +148,10 @@ class Runner {
 
   void start(size_t i) {
     StepRow& row = rows_[i];
-    std::vector<std::string> command = {config_.program.empty() ? own_program() : config_.program};
+    std::vector<std::string> command = {config_.program.empty() ? own_image() : config_.program};
     for (const std::string& word : plan_.command(plan_.steps[i])) command.push_back(word);
     command.push_back("--quiet");
-    if (!config_.scratch.empty()) {
-      command.push_back("--scratch");
-      command.push_back(config_.scratch);
-    }
+    if (!config_.scratch.empty()) command.push_back("--scratch=" + config_.scratch);
     row.begin = Clock::now();
     written_[i] = last_write(i);
     make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty

@@ -24,7 +24,11 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
   build.descent.rule = plan.rule;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
-  build.unfinished = config.restart ? Unfinished::kRestart : Unfinished::kResumeSame;
+  // What is left unfinished in the plan's folder is the plan's; beside another name it may be
+  // anybody's.
+  const Unfinished unfinished =
+      config.output.empty() ? Unfinished::kResumeSame : Unfinished::kResume;
+  build.unfinished = config.restart ? Unfinished::kRestart : unfinished;
   if (config.checkpoint != 0) build.checkpoint = config.checkpoint;
   const BuildReport report = svdag::build(build, executor, progress);
   return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch.peak};
@@ -57,7 +61,7 @@ Receipt merge_inputs(const Plan& plan, const PlanStep& step, const StepConfig& c
   merge.output = output;
   merge.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   merge.scratch = config.scratch;
-  merge.discard_unfinished = true;
+  merge.discard_unfinished = config.output.empty();
   const MergeRunsReport report = merge_runs(merge, executor, progress);
   return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch_written};
 }

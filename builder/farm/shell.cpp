@@ -7,7 +7,10 @@ namespace svdag {
 std::string shell_word(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  // In the place of a program "a=b" would be an assignment; an option is never there.
+  const bool assigns = !word.starts_with('-') && word.find('=') != std::string::npos;
+  const bool plain = word.find_first_not_of(kPlain) == std::string::npos;
+  if (!word.empty() && plain && !assigns) return word;
   std::string quoted = "'";
   for (const char c : word) c == '\'' ? quoted += "'\\''" : quoted += c;
   return quoted + "'";

@@ -25,6 +25,13 @@ std::string relative_to(const std::string& folder, const std::string& path) {
   return error ? path : relative.string();
 }
 
+// Names are templates, too, and short.
+std::string job_name(const Plan& plan) {
+  constexpr size_t kLongest = 128;
+  const std::string name = "svdag " + plan.steps.back().output;
+  return name.size() > kLongest || name.find("{{") != std::string::npos ? "svdag" : name;
+}
+
 // Steps that may run at the same time, as one step of the template with a task each.
 struct Stage {
   std::string name;
@@ -69,8 +76,7 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
   arguments.push_back(shards ? "--shard" : "--step");
   arguments.push_back(shards ? kNumber : merge_name(kNumber));
   if (!config.scratch.empty()) {
-    arguments.push_back("--scratch");
-    arguments.push_back(config.scratch);
+    arguments.push_back("--scratch={{Param.Scratch}}");
   }
   return {{"name", stage.name},
           {"parameterSpace",
@@ -93,8 +99,7 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& asked) {
   if (!asked.scratch.empty()) config.scratch = from_anywhere(asked.scratch);
   for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
     require_utf8(path);
-  Json json = {{"specificationVersion", "jobtemplate-2023-09"},
-               {"name", "svdag " + plan.steps.back().output}};
+  Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};
   json["parameterDefinitions"] =
       Json::array({{{"name", "Plan"},
                     {"type", "PATH"},
@@ -106,6 +111,12 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& asked) {
                     {"type", "STRING"},
                     {"description", "The program svdag on the hosts"},
                     {"default", config.program}}});
+  if (!config.scratch.empty())
+    json["parameterDefinitions"].push_back(
+        {{"name", "Scratch"},
+         {"type", "STRING"},
+         {"description", "The folder on the hosts for what does not fit in memory"},
+         {"default", config.scratch}});
   std::string before;
   for (const Stage& stage : stages_of(plan)) {
     Json step = step_json(plan, config, stage);

@@ -141,7 +141,8 @@ void Submission::collect() {
   size_t current = none;  // array of the last job
   for (size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlanStep& step = plan_.steps[i];
-    if (state_of(plan_, step, plan_.path(step.output), false) == OutputState::kValid) continue;
+    // Every byte: what is damaged would stay so, for no job would do it again.
+    if (state_of(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
     const size_t array = step.is_shard() && array_ > 1 ? number_of(i) / array_ : none;
     if (array == none || array != current) {
       jobs_.emplace_back();
@@ -285,7 +286,8 @@ void Submission::wait() const {
   std::string missing;
   size_t count = 0;
   for (const PlanStep& step : plan_.steps) {
-    if (state_of(plan_, step, plan_.path(step.output), false) == OutputState::kValid) continue;
+    const bool last = &step == &plan_.steps.back();  // the others were read by the merges
+    if (state_of(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
     if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
   }
   if (count == 0) {

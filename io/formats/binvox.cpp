@@ -73,6 +73,14 @@ struct Cuboid {
   uint64_t x, y, z;  // voxels per axis
 };
 
+// Lines of other words are notes of the program that wrote the file.
+bool is_ours(const std::string& line) {
+  for (const char* word : {"dim", "translate", "scale", "data"}) {
+    if (line.starts_with(word)) return true;
+  }
+  return false;
+}
+
 // Reads the lines before the data; *data is where that begins.
 Cuboid read_head(const File& file, VoxelPlace* place, uint64_t* data) {
   ByteStream stream(file, 0, UINT64_MAX, 4096);
@@ -93,7 +101,7 @@ Cuboid read_head(const File& file, VoxelPlace* place, uint64_t* data) {
       dim = {d, w, h};  // of x, y, z: the file runs through x, then z, then y
     } else if (std::sscanf(line.c_str(), "translate %lf %lf %lf", &x, &y, &z) == 3) {
       place->corner = {x, y, z};
-    } else if (std::sscanf(line.c_str(), "scale %lf", &scale) != 1) {
+    } else if (std::sscanf(line.c_str(), "scale %lf", &scale) != 1 && is_ours(line)) {
       fail_input(file.path(), "has a header line that is not understood", at);
     }
   }

@@ -1,6 +1,7 @@
 #include "io/formats/hashdag.h"
 
 #include <array>
+#include <cstring>
 
 #include "io/formats/graph_window.h"
 #include "io/formats/output.h"
@@ -62,15 +63,34 @@ class HashDagGraph : public NodeGraph {
   Grid grid_;
 };
 
+// Its readers know the levels from the name: "64k" of another grid would be read as 64K^3.
+void require_number(const std::string& path, int levels) {
+  const std::string name = path.substr(0, path.size() - std::strlen(kEnding));
+  if (!name.ends_with('k')) return;
+  const size_t begin = name.find_last_not_of("0123456789", name.size() - 2) + 1;
+  const std::string number = name.substr(begin, name.size() - 1 - begin);
+  const std::string own = levels < 10 ? "" : std::to_string(uint64_t(1) << (levels - 10));
+  if (!number.empty() && number != own)
+    fail_usage(path + ": names a grid of " + number + "K^3, and this one has " +
+               format_resolution(uint64_t(1) << levels) + "^3");
+}
+
+std::string without(const std::string& path, const std::string& ending) {
+  return path.ends_with(ending) ? path.substr(0, path.size() - ending.size()) : path;
+}
+
 }  // namespace
 
 std::string hashdag_path(const std::string& path, int levels) {
-  if (path.ends_with(kEnding)) return path;
+  if (path.ends_with(kEnding)) {
+    require_number(path, levels);
+    return path;
+  }
   if (levels < 10)
     fail_usage(path +
                ": HashDAG has no name for grids below 1K^3: give the whole name, ending in " +
                kEnding);
-  return path + std::to_string(uint64_t(1) << (levels - 10)) + "k" + kEnding;
+  return without(path, ".dag.bin") + std::to_string(uint64_t(1) << (levels - 10)) + "k" + kEnding;
 }
 
 void write_hashdag(const LevelDag& dag, const Grid& grid, const std::string& path) {

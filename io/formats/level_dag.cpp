@@ -3,6 +3,11 @@
 #include "streaming/counts.h"
 
 namespace svdag {
+namespace {
+
+constexpr const char* kCounts = "counts of voxels";
+
+}  // namespace
 
 LevelDag::LevelDag(const DagFile& file, int levels, MemoryBudget* budget)
     : dag_(file.view()),
@@ -28,9 +33,12 @@ uint64_t LevelDag::voxels() const {
   if (!cut()) return header_.voxels;
   if (empty()) return 0;
   std::vector<uint64_t> paths{1};  // of the nodes of a level, by word; of bricks by number
+  MemoryBudget::Reservation counted = budget_->reserve(0, kCounts);
   for (uint32_t k = 0; k < brick_level(); ++k) {
     const bool to_bricks = k + 1 == brick_level();
-    std::vector<uint64_t> below(to_bricks ? bricks_ : words(k + 1));
+    const uint64_t entries = to_bricks ? bricks_ : words(k + 1);
+    counted.resize((paths.size() + entries) * sizeof(uint64_t), kCounts);
+    std::vector<uint64_t> below(entries);
     uint64_t word = 0;
     for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
       for (int i = 0; i < popcount8(mask); ++i)
@@ -56,15 +64,16 @@ RankBitmap LevelDag::node_starts(uint32_t level) const {
   return starts;
 }
 
-HugeVector<uint32_t> LevelDag::blocks_before() const {
-  HugeVector<uint32_t> before;
-  before.reserve(bricks_ + 1);
+BlockNumbers LevelDag::blocks_before() const {
+  BlockNumbers before{
+      budget_->reserve((bricks_ + 1) * sizeof(uint32_t), "numbers of blocks of voxels"), {}};
+  before.numbers.reserve(bricks_ + 1);
   uint64_t sum = 0;
   for_each_brick([&](Brick brick) {
-    before.push_back(uint32_t(sum));
+    before.numbers.push_back(uint32_t(sum));
     sum += uint64_t(popcount8(brick_octants(brick)));
   });
-  before.push_back(as_u32(sum, "blocks of 2^3"));
+  before.numbers.push_back(as_u32(sum, "blocks of 2^3"));
   return before;
 }
 

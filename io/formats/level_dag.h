@@ -23,6 +23,14 @@ constexpr uint32_t brick_octants(Brick brick) {
   return mask;
 }
 
+// A number for each brick, and one behind them.
+struct BlockNumbers {
+  MemoryBudget::Reservation counted;
+  HugeVector<uint32_t> numbers;
+
+  uint32_t operator[](uint64_t brick) const { return numbers[brick]; }
+};
+
 class LevelDag {
  public:
   // `file` must outlive this; 3 <= levels <= L.
@@ -66,7 +74,7 @@ class LevelDag {
   // The words of an inner level at which a node begins.
   RankBitmap node_starts(uint32_t level) const;
   // How many 2^3 blocks with voxels stand in the bricks before each: [number], the total behind.
-  HugeVector<uint32_t> blocks_before() const;
+  BlockNumbers blocks_before() const;
 
  private:
   bool empty() const { return dag_.empty(); }

@@ -185,10 +185,14 @@ double read_number(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? double(int64_t(bits)) : double(bits);
 }
 
+bool says_place(std::string_view name) {
+  return name == "corner" || name == "resolution" || name == "voxel_size";
+}
+
 // The arrays that say where the voxels stand. What is there is read or refused, never passed over.
 void read_place(const File& file, std::string_view name, const Array& array, VoxelPlace* place) {
   const uint64_t count = name == "corner" ? 3 : 1;
-  if (name != "corner" && name != "resolution" && name != "voxel_size") return;
+  if (!says_place(name)) return;
   const bool is_float = array.kind == 'f' && (array.bytes == 4 || array.bytes == 8);
   if (!(is_float || is_integer(array)) || array.elements() != count)
     fail_input(file.path(), "has an array \"" + std::string(name) + "\" that is not " +
@@ -206,6 +210,55 @@ void read_place(const File& file, std::string_view name, const Array& array, Vox
     place->resolution = uint64_t(n);
   }
 }
+
+// Which of the arrays of a file are its voxels.
+class Choice {
+ public:
+  explicit Choice(const File& file) : file_(file) {}
+
+  void look_at(std::string_view name, const Array& array) {
+    if (says_place(name)) return;
+    const bool fits = is_coordinates(array) || is_dense(array);
+    if (name == kCoordinates) {
+      if (!fits)
+        fail_input(file_.path(), "has an array \"coordinates\" that is not N x 3 integers");
+      named_ = array;
+    } else if (fits) {
+      if (found_) several_ = true;
+      found_ = array;
+    } else if (unread_.empty()) {
+      if (array.kind == 0) unread_ = name;
+      if (array.kind == 'f' && array.shape.size() == 2 && array.shape[1] == 3) points_ = name;
+    }
+  }
+
+  // An array of their name; else the only one that can be meant.
+  const Array& voxels() const {
+    if (named_) return *named_;
+    if (several_)
+      fail_input(file_.path(),
+                 "has more than one array that may be the voxels: call theirs \"coordinates\"");
+    if (!found_)
+      fail_input(
+          file_.path(),
+          "has no array of N x 3 integers, and none of three dimensions of bool" +
+              (unread_.empty() ? "" : "; of a type that is not read: " + unread_.substr(0, 40)));
+    if (!points_.empty() && is_coordinates(*found_))
+      fail_input(file_.path(), "has points of N x 3 floats, " + points_.substr(0, 40) +
+                                   ", beside N x 3 integers, which may be colours: call the array "
+                                   "of the voxels \"coordinates\"");
+    return *found_;
+  }
+
+ private:
+  static constexpr std::string_view kCoordinates = "coordinates";
+
+  const File& file_;
+  std::optional<Array> named_, found_;
+  bool several_ = false;
+  std::string points_;
+  std::string unread_;  // the first of another type: none of ours, or not what was meant
+};
 
 }  // namespace
 
@@ -234,33 +287,30 @@ VoxelPlace read_npz(const File& file, const VoxelSink& sink) {
   std::vector<ZipEntry> entries;
   std::array<char, 6> start{};
   file.read_some_at(0, std::as_writable_bytes(std::span(start)));
-  if (std::string_view(start.data(), 6) == kArrayMagic) {
-    entries.push_back({"array.npy", 0, file.size()});
-  } else {
+  const bool zipped = std::string_view(start.data(), 6) != kArrayMagic;
+  if (zipped) {
     entries = read_zip(file);
+    std::erase_if(entries, [](const ZipEntry& entry) { return !entry.name.ends_with(".npy"); });
+  } else {
+    entries.push_back({"array.npy", 0, file.size(), 0});
   }
   VoxelPlace place;
-  std::optional<Array> voxels;
-  std::string unread;  // the first array of another type: none of ours, or not what was meant
+  Choice choice(file);
   for (const ZipEntry& entry : entries) {
-    if (!entry.name.ends_with(".npy")) continue;
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_place(file, name, array, &place);
-    if (array.kind == 0 && unread.empty()) unread = name;
-    if (!is_coordinates(array) && !is_dense(array)) continue;
-    if (voxels) fail_input(file.path(), "has more than one array that may be the voxels");
-    voxels = array;
+    choice.look_at(name, array);
   }
-  if (!voxels)
-    fail_input(file.path(),
-               "has no array of N x 3 integers, and none of three dimensions of bool" +
-                   (unread.empty() ? "" : "; of a type that is not read: " + unread.substr(0, 40)));
-  if (is_dense(*voxels)) {
-    for (const uint64_t side : voxels->shape) place.resolution = std::max(place.resolution, side);
-    read_dense(file, *voxels, sink);
+  const Array& voxels = choice.voxels();
+  if (is_dense(voxels)) {
+    for (const uint64_t side : voxels.shape) place.resolution = std::max(place.resolution, side);
+    read_dense(file, voxels, sink);
   } else {
-    read_coordinates(file, *voxels, sink);
+    read_coordinates(file, voxels, sink);
+  }
+  for (const ZipEntry& entry : entries) {
+    if (zipped) require_sound(file, entry);
   }
   return place;
 }

@@ -50,7 +50,7 @@ class Places {
   uint64_t root() const { return root_; }
 
  private:
-  HugeVector<uint32_t> blocks_before_;
+  BlockNumbers blocks_before_;
   std::array<uint64_t, kMaxSections> begin_{};  // [level]: children of its nodes
   uint64_t root_;
 };

@@ -12,6 +12,12 @@
 namespace svdag {
 namespace {
 
+// The box may be flat; the grid is the cube of the side around its middle.
+double corner_of(const SymvoxHeader& header, int axis) {
+  const double middle = (double(header.box_min[axis]) + double(header.box_max[axis])) / 2;
+  return middle - double(header.side) / 2;
+}
+
 class SymvoxGraph : public NodeGraph {
  public:
   explicit SymvoxGraph(const File& file) : nodes_(file), blocks_(file) {
@@ -20,8 +26,7 @@ class SymvoxGraph : public NodeGraph {
     levels_ = checked_levels(file, header_.levels, 28);
     Point min, max;
     for (int a = 0; a < 3; ++a) {
-      const double middle = (double(header_.box_min[a]) + double(header_.box_max[a])) / 2;
-      min[a] = middle - double(header_.side) / 2;
+      min[a] = corner_of(header_, a);
       max[a] = min[a] + double(header_.side);
     }
     grid_ = grid_of_box(file, min, max, levels_);
@@ -55,7 +60,12 @@ class SymvoxGraph : public NodeGraph {
     const std::array<uint32_t, 8> blocks = children(levels_ - 2, id);
     Brick brick = 0;
     for (unsigned c = 0; c < 8; ++c) {
-      if (blocks[c] != kNoChild) brick |= Brick(blocks_.u32(offset(blocks[c])) & 0xffU) << (8 * c);
+      if (blocks[c] == kNoChild) continue;
+      const uint32_t block = blocks_.u32(offset(blocks[c]));
+      if (block > 0xff)
+        fail_input(blocks_.path(), "damaged file: a leaf has more than 8 voxels",
+                   offset(blocks[c]));
+      brick |= Brick(block) << (8 * c);
     }
     return brick;
   }
@@ -108,6 +118,10 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
   for (int a = 0; a < 3; ++a) {
     good = good && header.box_min[a] < header.box_max[a];
     good = good && std::isfinite(header.box_min[a]) && std::isfinite(header.box_max[a]);
+    // Where a reader will take the grid to be; an eighth of a voxel is the same place for
+    // svdag-verify.
+    const double read = corner_of(header, a);
+    good = good && std::abs(read - corner[a]) <= grid.voxel_size / 8;
   }
   if (!good)
     fail_usage(
@@ -120,7 +134,7 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
 
 void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path) {
   SymvoxHeader header = header_for(dag, grid);
-  const HugeVector<uint32_t> blocks_before = dag.blocks_before();
+  const BlockNumbers blocks_before = dag.blocks_before();
   std::array<uint64_t, kMaxSections> base{};  // [level]: its first word
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
   const uint64_t first_leaf = base[dag.brick_level()] + dag.bricks() + blocks_before[dag.bricks()];

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "streaming/byte_stream.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -213,7 +214,10 @@ std::vector<ZipEntry> read_zip(const File& file) {
     uint64_t local = directory.at<uint32_t>(at + 42);
     const uint64_t name = directory.at<uint16_t>(at + 28), extra = directory.at<uint16_t>(at + 30);
     const auto text = directory.part(at + 46, name);
-    ZipEntry entry{{reinterpret_cast<const char*>(text.data()), text.size()}, 0, 0};
+    ZipEntry entry{{reinterpret_cast<const char*>(text.data()), text.size()},
+                   0,
+                   0,
+                   directory.at<uint32_t>(at + 16)};
     read_extra64(directory, at + 46 + name, extra, {&bytes, &packed, &local});
     if (directory.at<uint16_t>(at + 10) != 0 || packed != bytes)
       fail_input(file.path(), entry.name +
@@ -230,6 +234,17 @@ std::vector<ZipEntry> read_zip(const File& file) {
     at += 46 + name + extra + directory.at<uint16_t>(at + 32);
   }
   return entries;
+}
+
+void require_sound(const File& file, const ZipEntry& entry) {
+  ByteStream stream(file, entry.offset, entry.offset + entry.bytes);
+  uint32_t crc = 0;
+  for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {
+    crc = add_to_crc(crc, bytes);
+    stream.skip(bytes.size());
+  }
+  if (crc != entry.crc)
+    fail_input(file.path(), "damaged zip file: " + entry.name + " does not match its checksum");
 }
 
 }  // namespace svdag

@@ -43,10 +43,14 @@ class ZipWriter {
 struct ZipEntry {
   std::string name;
   uint64_t offset, bytes;
+  uint32_t crc;  // as the directory says
 };
 
 // The entries of an archive. What is no zip file, or has compressed entries, is an Error
 // (kBadInput).
 std::vector<ZipEntry> read_zip(const File& file);
+
+// Reads the entry once to its end: an Error (kBadInput) if its bytes are not those of its checksum.
+void require_sound(const File& file, const ZipEntry& entry);
 
 }  // namespace svdag

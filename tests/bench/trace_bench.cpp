@@ -50,7 +50,8 @@ bool same(const Hit& a, const Hit& b) {
          a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
 }
 
-void measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
+// Returns how many hits differ.
+uint64_t measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
   const size_t n = batch->rays.size();
   std::vector<Hit> plain(n);
   batch->hits.resize(n);
@@ -74,6 +75,7 @@ void measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
   std::printf("| %-13s | %7zu | %5.2f | %5.2f | %5.2f | %5.1f | %5.1f | %llu |\n", batch->name, n,
               slow, fast, faster, double(steps) / double(n), double(entered) / double(n),
               static_cast<unsigned long long>(different));
+  return different;
 }
 
 // Primary rays again, tile by tile, with the time of their beams in it.
@@ -92,8 +94,8 @@ double beam_rate(const DagView& dag, const Tree64View& tree, const Picture& pict
   });
 }
 
-void measure_beams(const DagView& dag, const Tree64View& tree, const Picture& picture,
-                   const Batch& primary) {
+uint64_t measure_beams(const DagView& dag, const Tree64View& tree, const Picture& picture,
+                       const Batch& primary) {
   std::vector<Hit> hits[2];
   const double fast = beam_rate(dag, {}, picture, primary, &hits[0]);
   const double faster = beam_rate(dag, tree, picture, primary, &hits[1]);
@@ -108,6 +110,7 @@ void measure_beams(const DagView& dag, const Tree64View& tree, const Picture& pi
   std::printf("| %-13s | %7.0f |       | %5.2f | %5.2f | %5.1f | %5.1f | %llu |\n",
               "primary, beams", n, fast, faster, double(steps[0]) / n, double(steps[1]) / n,
               static_cast<unsigned long long>(different));
+  return different;
 }
 
 Camera camera_of(const DagFile& file, const char* text) {
@@ -150,8 +153,8 @@ int run(int argc, char** argv) {
       "| rays | number | plain, MRays/s | file, MRays/s | 64-tree, MRays/s | steps per ray | nodes "
       "per ray | different |\n"
       "| --- | --: | --: | --: | --: | --: | --: | --: |\n");
-  measure(dag, tree.view(), &primary);
-  measure_beams(dag, tree.view(), picture, primary);
+  uint64_t different = measure(dag, tree.view(), &primary);
+  different += measure_beams(dag, tree.view(), picture, primary);
   for (size_t i = 0; i < primary.rays.size(); ++i) {
     const Surfel surfel = make_surfel(dag, primary.rays[i], primary.hits[i]);
     if (!surfel.found) continue;
@@ -164,8 +167,8 @@ int run(int argc, char** argv) {
   Batch cone = ao;
   cone.name = "ao, cone 9";
   cone.cut.spread = 0.31676888064907255;  // 2 * tangent of 9 degrees
-  for (Batch* batch : {&shadow, &soft, &ao, &cone}) measure(dag, tree.view(), batch);
-  return 0;
+  for (Batch* batch : {&shadow, &soft, &ao, &cone}) different += measure(dag, tree.view(), batch);
+  return different == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -122,11 +122,24 @@ TEST_F(Cache, WhatIsDamagedIsBakedAgain) {
     } else {
       broken[at] = char(broken[at] ^ 1 << random() % 8);
     }
-    std::ofstream(fs::path(cache_.folder) / "x.cells", std::ios::binary) << broken;
+    std::ofstream(fs::path(cache_.folder) / "0123456789abcdef.cells", std::ios::binary) << broken;
     const BuildReport report = bake_as_expected(config);
     EXPECT_EQ(report.cache_hits, 0U) << "byte " << at;
-    EXPECT_FALSE(fs::exists(fs::path(cache_.folder) / "x.cells")) << "byte " << at;
+    EXPECT_FALSE(fs::exists(fs::path(cache_.folder) / "0123456789abcdef.cells")) << "byte " << at;
   }
+}
+
+// A cache is a folder that may hold more than its packs, such as notes with an ending of ours.
+TEST_F(Cache, LeavesTheFilesOfOthersAlone) {
+  const BuildConfig config = prepare(random_soup(300, 0.1, 5), 6);
+  fs::create_directories(cache_.folder);
+  for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
+    std::ofstream(fs::path(cache_.folder) / name) << name;
+  cache_.most_packs = 1;
+  cache_.most_bytes = 1;
+  bake_as_expected(config);
+  for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
+    EXPECT_TRUE(fs::exists(fs::path(cache_.folder) / name)) << name;
 }
 
 // As long as it lives, the process can open nothing.
@@ -203,7 +216,8 @@ TEST_F(Cache, ThatHasGrownFitsIntoLittleMemory) {
   EXPECT_EQ(alone.cache_ignored, 0U);
   const std::vector<fs::path> own = packs();
   for (int i = 0; i < 30; ++i)  // whose entries take more than twice the budget
-    write_strange_pack(cache_.folder + "/" + std::to_string(i) + ".cells", 16'000);
+    write_strange_pack(cache_.folder + "/" + std::to_string(1000000000000000 + i) + ".cells",
+                       16'000);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
   const BuildReport newest = bake_as_expected(config, 2);

@@ -288,13 +288,25 @@ TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
     config.path = plan_.path("openjd.json");
     const auto json = nlohmann::json::parse(openjd_template(plan_, config));
     const auto arguments = json["steps"][0]["script"]["actions"]["onRun"]["args"];
+    EXPECT_EQ(arguments.back(), "--scratch={{Param.Scratch}}");
     return std::pair<std::string, std::string>(json["parameterDefinitions"][1]["default"],
-                                               arguments.back());
+                                               json["parameterDefinitions"][2]["default"]);
   };
   const std::string here = std::filesystem::current_path().string() + "/";
   EXPECT_EQ(described("bin/svdag", "spill"), std::pair(here + "bin/svdag", here + "spill"));
   EXPECT_EQ(described("svdag", "/spill"), std::pair(std::string("svdag"), std::string("/spill")));
   EXPECT_EQ(described("svdag", "/link/../spill").second, "/link/../spill");  // of the host's link
+}
+
+// In a template "{{x}}" is a variable; defaults of parameters are none.
+TEST_F(Engines, WriteNoTemplateIntoATemplate) {
+  for (const std::string& name : {std::string("{{city}}.svdag"), std::string(130, 'a')}) {
+    plan_.steps.back().output = name;
+    const auto json = nlohmann::json::parse(openjd_template(plan_, {"", "/a {{b}}", ""}));
+    EXPECT_EQ(json["name"], "svdag");
+    EXPECT_EQ(json["steps"].dump().find("{{b"), std::string::npos);
+    EXPECT_EQ(json["parameterDefinitions"][2]["default"], "/a {{b}}");
+  }
 }
 
 TEST_F(Engines, LeadNodesToTheProgramAndTheScratchFolder) {

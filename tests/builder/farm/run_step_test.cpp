@@ -276,6 +276,22 @@ TEST_F(Steps, SayThatThePlanIsDamagedForGood) {
   EXPECT_SVDAG_ERROR(do_step(plan, plan.steps[1]), ExitCode::kBadInput, "triangles");
 }
 
+// What lies beside another name may be anybody's.
+TEST_F(Steps, ThatWriteElsewhereDiscardNothing) {
+  prepare(bumpy_sphere(40), 8);
+  const Plan plan = plan_of(config("plan", 2));
+  for (const PlanStep& step : plan.steps) do_step(plan, step);
+  for (const PlanStep* step : {&plan.steps.front(), &plan.steps.back()}) {
+    StepConfig elsewhere;
+    elsewhere.output = folder_.file(step->is_shard() ? "mine.run" : "mine.svdag");
+    const std::string scratch = elsewhere.output + ".scratch";
+    leave_unfinished(scratch, "resolution: 16\n", plan.grid);
+    EXPECT_SVDAG_ERROR(do_step(plan, *step, elsewhere), ExitCode::kUsage, "mine");
+    EXPECT_TRUE(std::filesystem::exists(scratch));
+    EXPECT_FALSE(std::filesystem::exists(elsewhere.output));
+  }
+}
+
 TEST_F(Steps, MayWriteElsewhere) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));

@@ -142,6 +142,18 @@ class Export(unittest.TestCase):
         self.assertIn("atrium2k.basic_dag.dag.bin", out)
         BAKERY.run("svdag", "export", "named.svdag", "--format", "hashdag", "-o", "atrium", "--level", "10")
         self.assertEqual(READERS["hashdag"](BAKERY.folder / "atrium1k.basic_dag.dag.bin").resolution, 1024)
+        BAKERY.run("svdag", "export", "named.svdag", "-o", "ended.dag.bin")
+        self.assertTrue((BAKERY.folder / "ended2k.basic_dag.dag.bin").exists())
+        wrong = "atrium64k.basic_dag.dag.bin"
+        self.assertIn("names a grid of 64K^3", BAKERY.run("svdag", "export", "named.svdag", "-o", wrong, "--format", "hashdag", code=2))
+        self.assertFalse((BAKERY.folder / wrong).exists())
+
+    def test_a_place_that_floats_cannot_keep_is_refused(self):
+        near, far = (BAKERY.bake(name, askew()[:2], "-s", "0.01", f"--bounds={x},0,0,{x + 1},1,1")
+                     for name, x in (("near", 1000), ("far", 4000000.3)))
+        BAKERY.run("svdag", "export", "near.svdag", "--format", "symvox", "-o", "near-symvox.svdag")
+        self.assertEqual(near.L, far.L)
+        self.assertIn("float32", BAKERY.run("svdag", "export", "far.svdag", "--format", "symvox", "-o", "far-symvox.svdag", code=2))
 
     def test_an_archive_is_the_same_bytes_each_time(self):
         first = self.export("askew", "npz").read_bytes()

@@ -183,6 +183,8 @@ class Import(unittest.TestCase):
         dag = self.read(write_foreign.binvox(dense, (4, 5, 6), max(high) / 2), "b.binvox", "-r", "32")
         self.assertEqual(nodes_of(dag), nodes_of(self.small))
         self.expect_place(dag, (4, 5, 6), 0.5)
+        noted = write_foreign.binvox(dense, (4, 5, 6), max(high) / 2).replace(b"\n", b"\n# of another program\nauthor: me\n", 1)
+        self.assertEqual(nodes_of(self.read(noted, "b.binvox", "-r", "32")), nodes_of(self.small))
 
     def test_vox_models_with_and_without_a_scene_graph(self):
         lone = write_foreign.vox((self.few, (32, 32, 32)))
@@ -227,8 +229,30 @@ class Import(unittest.TestCase):
         others = {"names": numpy.array(["a longer name"]), "numbers": numpy.array([1, 2], ">f8"),
                   "complex": numpy.array([1j]), "table": numpy.zeros(3, [("a", "<i4"), ("b", "<f4")])}
         self.assertEqual(self.read(write_foreign.npz(x=x, **others), "o.npz").voxel_count, len(self.few))
+        colours = numpy.zeros((len(x), 3), "u1")
+        for named in ({"coordinates": x, "colours": colours, "other": x}, {"coordinates": x, "points": x.astype("<f4")}):
+            self.assertEqual(self.read(write_foreign.npz(**named), "o.npz").voxel_count, len(self.few))
         (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**others))
         self.assertIn("of a type that is not read: names\n", BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
+    def test_arrays_of_which_two_may_be_meant_are_refused(self):
+        x, points = numpy.array(self.few, "<i4"), numpy.array(self.few, "<f4")
+        colours = numpy.zeros((len(x), 3), "u1")
+        for arrays, sentence in (({"x": x, "colours": colours}, "more than one array"),
+                                 ({"points": points, "colours": colours}, "which may be colours"),
+                                 ({"coordinates": points, "colours": colours}, "is not N x 3 integers")):
+            (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**arrays))
+            self.assertIn(sentence, BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
+    def test_a_bit_that_was_flipped_in_an_archive_is_seen(self):
+        good = write_foreign.npz(x=numpy.array(self.few, "<i4"), resolution=numpy.array(32))
+        begin = good.index(b"\x93NUMPY") + 128
+        for at in (begin, begin + 2 * len(self.few), begin + 12 * len(self.few) - 4):
+            data = bytearray(good)
+            data[at] ^= 1
+            (BAKERY.folder / "flipped.npz").write_bytes(data)
+            self.assertIn("checksum", BAKERY.run("svdag", "import", "flipped.npz", "-o", "w.svdag", code=3))
+        self.assertEqual(self.read(good, "flipped.npz").voxel_count, len(self.few))
 
     def test_little_memory_gives_the_same_bytes(self):
         BAKERY.bake("large", askew(), "-r", "1K")
@@ -260,6 +284,10 @@ class Import(unittest.TestCase):
         data[45] = 1  # mirrorX of the root
         (BAKERY.folder / "m.svdag").write_bytes(data)
         self.assertIn("ussvdag", BAKERY.run("svdag", "import", "m.svdag", "-o", "c.svdag", code=3))
+        data = bytearray(write_foreign.symvox(self.few.tolist(), 5))
+        data[-3] = 1  # a ninth voxel of the last leaf
+        (BAKERY.folder / "m.svdag").write_bytes(data)
+        self.assertIn("more than 8 voxels", BAKERY.run("svdag", "import", "m.svdag", "-o", "c.svdag", code=3))
 
 
 if __name__ == "__main__":
