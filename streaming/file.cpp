@@ -150,13 +150,16 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   }
   if (::access(folder.c_str(), F_OK) != 0)
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  const std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
+  // From the moment on when there is a file nothing is asked of the memory until it is known here:
+  // it would stay.
+  std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
+  File file(-1, shown, ExitCode::kOutput);
   fd = retry_interrupted([&] {
     return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   });
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  File file(fd, shown, ExitCode::kOutput);
-  file.temporary_ = name;
+  file.fd_ = fd;
+  file.temporary_ = std::move(name);
   return file;
 }
 
@@ -249,11 +252,11 @@ void File::sync() {
 
 void File::link_as(const std::string& path) {
   if (temporary_.empty()) {
-    const std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
+    std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
     const std::string self = "/proc/self/fd/" + std::to_string(fd_);
     if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
       fail_call(ExitCode::kOutput, "cannot be named", path, errno);
-    temporary_ = name;
+    temporary_ = std::move(name);  // a copy could fail for lack of memory, and the name would stay
   }
   apply_mask(fd_, path);
   if (::rename(temporary_.c_str(), path.c_str()) != 0 && !(errno == ENOENT && names(path, fd_)))

@@ -15,13 +15,15 @@ from shim import Fault
 
 FIRST = 10_000  # requests, each refused in the long form
 SHORT = 60  # places, and each refused once and from then on
+LAST = 100  # requests, each refused: the output gets its name there
 
 
 def places(requests):
-    """Every request, or few of them: dense at the beginning, then farther and farther apart."""
+    """Every request, or few of them: dense at the beginning, then farther and farther apart; and the last ones."""
+    last = set(range(requests - LAST + 1, requests + 1))
     if bakes.LONG:
-        return range(1, min(requests, FIRST) + 1)
-    return sorted({round(requests ** (i / (SHORT - 1))) for i in range(SHORT)})
+        return sorted(set(range(1, min(requests, FIRST) + 1)) | last)
+    return sorted({round(requests ** (i / (SHORT - 1))) for i in range(SHORT)} | last)
 
 
 def complaints_about_the_next(kitchen, folder):
