@@ -113,7 +113,9 @@ void ScratchDir::remove_lock(const Folder& folder) noexcept {
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  const bool listed = attempt([&] { made_ = names(); });  // else at least those that are known
+  // What was made here is known, and asks for no memory; else at least what is known goes.
+  const bool listed = folder_.made() || attempt([&] { made_ = names(); });
+  made_.erase(kOwner);
   // Beside a file that could not be removed the lock stays, so that it can be seen whose it is.
   if (remove_files(folder_, made_) && listed) remove_lock(folder_);
 }

@@ -48,10 +48,9 @@ def complaints_about(kitchen, folder, fault, outcome):
     renamed = outcome.counts.get("rename", 0) > 0
     if state != ("new" if outcome.code == 0 or renamed else "old"):
         found.append(f"the output is {state}")
-    may_stay = fault.stays or renamed or "--resume" in outcome.stderr  # renamed: it was being cleaned up
-    found += bakes.leftovers(folder, [bakes.OF_SCRATCH] * may_stay)
-    asked = outcome.code != 0 or bakes.scratch_left(folder)
-    return found + (complaints_about_the_next(kitchen, folder) if asked else [])
+    may_stay = fault.stays or "--resume" in outcome.stderr
+    return (found + bakes.leftovers(folder, [bakes.OF_SCRATCH] * may_stay) +
+            (complaints_about_the_next(kitchen, folder) if outcome.code != 0 else []))
 
 
 def run_one(kitchen, fault):
