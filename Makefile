@@ -113,7 +113,7 @@ bench-accuracy: deps
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
 
 bench-vdb: build
-	@$(PYTHON) tests/bench/vdb_sandwich.py --programs $(PROGRAMS)
+	@$(PYTHON) tests/bench/vdb_bounds.py --programs $(PROGRAMS)
 
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows
@@ -135,7 +135,7 @@ deb: build
 # nvcc from PATH, or from pinned wheels (300 MB, into build/cuda-venv).
 cuda: deps
 	@command -v nvcc >/dev/null || $(MAKE) -s cuda-packages
-	@nvcc=$$(command -v nvcc || sh verify/trace/install_nvcc.sh build/cuda-venv) && \
+	@nvcc=$$(command -v nvcc || sh verify/trace/program/install_nvcc.sh build/cuda-venv) && \
 	CUDACXX=$$nvcc cmake --preset cuda --log-level=WARNING >/dev/null && \
 	cmake --build --preset cuda --target svdag-trace && \
 	echo "build/cuda/svdag-trace"

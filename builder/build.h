@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "builder/cell_store.h"
-#include "builder/octree/part.h"
+#include "builder/cache/cell_store.h"
+#include "builder/octree/grid_part.h"
 #include "builder/overlap/overlap.h"
 #include "builder/split/split.h"
 #include "io/dag/format.h"
-#include "streaming/executor.h"
-#include "streaming/progress.h"
+#include "streaming/process/executor.h"
+#include "streaming/process/progress.h"
 
 namespace svdag {
 
@@ -21,7 +21,7 @@ namespace svdag {
 // or damaged, kResumeSame discards it then.
 enum class Unfinished { kRefuse, kResume, kResumeSame, kRestart };
 
-// A split that was made before, by a plan (builder/farm/plan.h).
+// A split that was made before, by a plan (builder/farm/plan/plan.h).
 struct ReadySplit {
   std::string description;  // of the bake
   Grid grid;

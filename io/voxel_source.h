@@ -27,7 +27,7 @@ using FullCubeSink = std::function<void(const FullCube&)>;
 
 // Where voxel (0, 0, 0) has its corner, how large a voxel is, and how many there are per axis. What
 // a file does not say is 0, 1 and 0.
-struct VoxelPlace {
+struct GridPlacement {
   Point corner{0};
   double voxel_size = 1;
   uint64_t resolution = 0;  // at least; 0: as many as the voxels need

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "streaming/file.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/dag/format.h"
-#include "streaming/checksum.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 

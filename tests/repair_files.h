@@ -7,10 +7,10 @@
 #include <span>
 #include <string>
 
-#include "builder/farm/cell_pack.h"
-#include "builder/farm/pack_blocks.h"
+#include "builder/cache/cell_pack.h"
+#include "builder/cache/pack_blocks.h"
 #include "builder/run/run_format.h"
-#include "streaming/checksum.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 

@@ -14,9 +14,9 @@
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
 #include "io/json_text.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {

@@ -9,10 +9,10 @@
 #include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
-#include "streaming/scratch_dir.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {

@@ -17,7 +17,7 @@ CellRange parse_part(const std::string& text) {
   if (std::sscanf(text.c_str(), "%llu/%llu%n", &number, &count, &used) != 2 ||
       used != int(text.size()))
     fail_usage("--part: \"" + text + "\" is not I/N, for example 3/8");
-  return Part::share(number, count);
+  return GridPart::share(number, count);
 }
 
 void add_measurement_options(CLI::App* app, DescentConfig* descent) {

@@ -1,8 +1,8 @@
 #include "builder/commands/command_files.h"
 
-#include "builder/farm/plan_folder.h"
+#include "builder/farm/plan/plan_folder.h"
 #include "streaming/error.h"
-#include "streaming/memory_budget.h"
+#include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 

@@ -9,9 +9,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "builder/farm/plan.h"
+#include "builder/farm/plan/plan.h"
 #include "io/scene/scene.h"
-#include "streaming/file_names.h"
+#include "streaming/file/file_names.h"
 
 namespace svdag {
 

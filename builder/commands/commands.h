@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "builder/build.h"
-#include "builder/farm/cell_cache.h"
-#include "builder/farm/make_plan.h"
-#include "builder/merge_runs.h"
+#include "builder/cache/cell_cache.h"
+#include "builder/farm/planner/make_plan.h"
+#include "builder/merge/merge_runs.h"
 
 namespace svdag {
 

@@ -7,7 +7,7 @@
 #include "io/help/help_text.h"
 #include "io/suggest.h"
 #include "streaming/error.h"
-#include "streaming/terminal.h"
+#include "streaming/process/terminal.h"
 
 namespace svdag {
 namespace {

@@ -10,8 +10,8 @@
 #include "io/dag/symvox_header.h"
 #include "io/json_text.h"
 #include "io/units.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 namespace {

@@ -1,9 +1,9 @@
 #include <cstdio>
 
 #include "builder/commands/commands.h"
-#include "builder/farm/plan_folder.h"
-#include "builder/farm/print_plan.h"
-#include "builder/farm/receipt.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/farm/plan/receipt.h"
+#include "builder/farm/planner/print_plan.h"
 #include "io/units.h"
 #include "streaming/error.h"
 

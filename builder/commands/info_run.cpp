@@ -3,6 +3,7 @@
 
 #include "builder/commands/commands.h"
 #include "builder/run/run_check.h"
+#include "builder/workspace/memory_shares.h"
 #include "io/json_text.h"
 #include "io/units.h"
 
@@ -64,7 +65,7 @@ void print_text(const RunFile& run) {
 void info_run(const InfoCommandConfig& config) {
   MemoryBudget budget(memory_or_default(config.memory));
   const RunFile run = RunFile::open(config.paths.front(), &budget);
-  check_run(run, budget.limit() / 4, &budget);
+  check_run(run, MemoryShares(budget.limit()).check_bitmap, &budget);
   config.json ? print_json(run) : print_text(run);
 }
 

@@ -5,8 +5,8 @@
 #include "builder/commands/options.h"
 #include "builder/commands/sibling.h"
 #include "io/help/command_line.h"
-#include "streaming/interrupt.h"
-#include "streaming/program.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/process/program.h"
 
 namespace svdag {
 namespace {

@@ -3,8 +3,8 @@
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 
 namespace svdag {
 namespace {

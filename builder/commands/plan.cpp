@@ -3,10 +3,10 @@
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "builder/commands/scene_notes.h"
-#include "builder/farm/plan_folder.h"
-#include "builder/farm/print_plan.h"
-#include "streaming/atomic_file.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/farm/planner/print_plan.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 
 namespace svdag {
 namespace {

@@ -1,11 +1,11 @@
 #include <cstdio>
 
 #include "builder/commands/commands.h"
-#include "builder/farm/plan_folder.h"
-#include "builder/farm/run_local.h"
-#include "builder/farm/shell.h"
-#include "streaming/interrupt.h"
-#include "streaming/terminal.h"
+#include "builder/farm/engines/run_local.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/process/shell.h"
+#include "streaming/process/terminal.h"
 
 namespace svdag {
 

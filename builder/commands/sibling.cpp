@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "builder/farm/process.h"
+#include "builder/farm/engines/process.h"
 #include "streaming/error.h"
 
 namespace svdag {

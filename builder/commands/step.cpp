@@ -5,13 +5,13 @@
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
-#include "builder/farm/run_step.h"
-#include "builder/farm/shell.h"
-#include "builder/farm/step_name.h"
+#include "builder/farm/engines/run_step.h"
+#include "builder/farm/plan/step_name.h"
 #include "builder/run/bake_output.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/process/shell.h"
 
 namespace svdag {
 namespace {

@@ -2,11 +2,11 @@
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
-#include "builder/farm/submit_openjd.h"
-#include "builder/farm/submit_slurm.h"
-#include "streaming/atomic_file.h"
+#include "builder/farm/engines/submit_openjd.h"
+#include "builder/farm/engines/submit_slurm.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "builder/descend/descend.h"
-#include "streaming/executor.h"
+#include "streaming/process/executor.h"
 
 namespace svdag {
 

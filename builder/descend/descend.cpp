@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -15,28 +15,6 @@ constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio (Kn
 constexpr int kFlushLog2 = 6;  // cubes of 64^3 voxels look whether a flush is due
 
 }  // namespace
-
-void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
-                 std::array<EntryList, 8>* children) {
-  constexpr size_t kBatch = 64;  // answers of the kernel that stay in the first-level cache
-  std::array<ChildOverlap, kBatch> overlaps;
-  const LatticePoint corner = cube.corner(levels);
-  const int64_t side = int64_t(1) << cube.side_log2(levels);
-  for (EntryList& child : *children) child.clear();
-  for (size_t begin = 0; begin < list.size(); begin += kBatch) {
-    const size_t count = std::min(kBatch, list.size() - begin);
-    config.kernels->children(&list[begin], count, corner, side, overlaps.data());
-    for (size_t i = 0; i < count; ++i) {
-      const TriangleSetup* triangle = list[begin + i].triangle;
-      for (unsigned left = overlaps[i].touched; left != 0; left &= left - 1) {
-        const int c = std::countr_zero(left);
-        EdgeMask edges = EdgeMask(overlaps[i].edges[c]);
-        if (config.covering) edges = needed_edges(*triangle, edges);
-        (*children)[size_t(c)].push_back({triangle, edges});
-      }
-    }
-  }
-}
 
 Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table,
                  const MortonSet* done, Spiller* spiller)
@@ -51,7 +29,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table
       divided_(size_t(grid.levels)),
       path_(size_t(grid.levels)) {}
 
-void Descent::run(const Cube& cube, const EntryList& list) {
+void Descent::run(const Cube& cube, const TriangleList& list) {
   check_interrupt();
   admitted_.fill({});  // other triangles may stand at the same addresses now
   memo_.forget();
@@ -134,7 +112,7 @@ void Descent::make_roots(Step* step) {
   step->voxels = 0;
 }
 
-SubDag Descent::node(const Cube& cube, const EntryList& list) {
+SubDag Descent::node(const Cube& cube, const TriangleList& list) {
   if (list.empty() || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
     return {};
   bool leave_open = false;
@@ -157,9 +135,9 @@ SubDag Descent::node(const Cube& cube, const EntryList& list) {
   return divide(cube, list, leave_open);
 }
 
-SubDag Descent::divide(const Cube& cube, const EntryList& list, bool leave_open) {
+SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool leave_open) {
   ++divided_[size_t(cube.level)];
-  std::array<EntryList, 8>& lists = scratch_[size_t(cube.level)];
+  std::array<TriangleList, 8>& lists = scratch_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_, &lists);
   Step& step = path_[size_t(cube.level)];
   step = {cube, {}, 0, leave_open};
@@ -173,7 +151,7 @@ SubDag Descent::divide(const Cube& cube, const EntryList& list, bool leave_open)
   return {table_->add_node(cube.level, step.children), step.voxels};
 }
 
-std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const EntryList& list) {
+std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
   if (list.size() > 1) return config_.patches ? find_patch(cube, list) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
@@ -182,10 +160,10 @@ std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const EntryList& l
   return memo_.find(*known, cube);
 }
 
-std::optional<SubDag> Descent::find_patch(const Cube& cube, const EntryList& list) {
+std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& list) {
   const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
   if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
-  const auto covering = std::find_if(list.begin(), list.end(), [](const Entry& entry) {
+  const auto covering = std::find_if(list.begin(), list.end(), [](const ListedTriangle& entry) {
     return covers(*entry.triangle, entry.edges);
   });
   const bool covered = covering != list.end();
@@ -217,7 +195,7 @@ const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& tr
   return admitted_[slot].known;
 }
 
-SubDag Descent::brick(const Cube& cube, const EntryList& list) {
+SubDag Descent::brick(const Cube& cube, const TriangleList& list) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =

@@ -11,34 +11,28 @@
 #include <span>
 #include <vector>
 
-#include "builder/descend/node_table.h"
 #include "builder/descend/patch.h"
 #include "builder/descend/plane_memo.h"
 #include "builder/octree/morton.h"
 #include "builder/octree/morton_set.h"
 #include "builder/octree/octree_cube.h"
-#include "builder/overlap/entry.h"
-#include "builder/overlap/kernels.h"
+#include "builder/overlap/kernels/divide_list.h"
+#include "builder/overlap/triangle_list.h"
+#include "builder/reduce/node_table.h"
 #include "io/grid.h"
 
 namespace svdag {
 
 // What the descent decides, and by which ways. The ways give the same bits: each can be switched
 // off, and tests hold what is left against the rest.
-struct DescentConfig {
+struct DescentConfig : OverlapConfig {
   Rule rule = Rule::kConservative;  // which voxels are set
-  const Kernels* kernels = &svdag::kernels();
-  bool covering = true;       // switch the edges of a triangle off where it covers a cube
-  bool plane_memo = true;     // answer covered cubes from a memo; needs `covering`
+  bool plane_memo = true;           // answer covered cubes from a memo; needs `covering`
   double memo_repeats = 0.5;  // contents of a plane must repeat so often to be kept; 0: keep all
   uint64_t memo_bytes = UINT64_MAX;  // of the memo, at most; nor more than 1/32 of the budget
   bool patches = true;               // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};        // for tests: without all of them voxels are wrong
 };
-
-// Divides `list`, the list of `cube`, among its children.
-void divide_list(const EntryList& list, const Cube& cube, int levels, const DescentConfig& config,
-                 std::array<EntryList, 8>* children);
 
 class Descent;
 
@@ -69,7 +63,7 @@ class Descent {
   // Bakes `cube` (level <= brick level), whose triangles are in `list`; if a voxel is set there,
   // its sub-DAG joins roots(): as one, or, if the table was emptied meanwhile or a part was done
   // before, as the roots of its parts. Cubes must be disjoint.
-  void run(const Cube& cube, const EntryList& list);
+  void run(const Cube& cube, const TriangleList& list);
   // Takes `cube`, which was baked by someone else: its sub-DAG is in the table.
   void adopt(const Cube& cube, const SubDag& dag);
   // Nothing stands in `range`: it is finished without being run.
@@ -103,8 +97,8 @@ class Descent {
     std::optional<PlaneMemo::Known> known;
   };
 
-  SubDag node(const Cube& cube, const EntryList& list);
-  SubDag divide(const Cube& cube, const EntryList& list, bool leave_open);
+  SubDag node(const Cube& cube, const TriangleList& list);
+  SubDag divide(const Cube& cube, const TriangleList& list, bool leave_open);
   void begin(const Cube& cube);
   void end(const Cube& cube, const SubDag& dag);
   bool is_flush_due() const;
@@ -112,10 +106,10 @@ class Descent {
   void pause(int level, uint64_t reached);
   void spill(int level);
   void make_roots(Step* step);
-  std::optional<SubDag> find_in_memo(const Cube& cube, const EntryList& list);
-  std::optional<SubDag> find_patch(const Cube& cube, const EntryList& list);
+  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list);
+  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list);
   const std::optional<PlaneMemo::Known>& admitted(const TriangleSetup& triangle);
-  SubDag brick(const Cube& cube, const EntryList& list);
+  SubDag brick(const Cube& cube, const TriangleList& list);
   Brick selected_voxels(const Cube& cube) const;
 
   Grid grid_;
@@ -126,10 +120,10 @@ class Descent {
   std::array<Admitted, 64> admitted_;  // direct-mapped, see admitted()
   double cell_side_ = 0;               // of the cell being baked, in voxels
 
-  const MortonSet* done_;                          // null: nothing
-  bool ask_done_ = false;                          // something in the cell being baked is done
-  Spiller* spiller_;                               // null: the table holds everything
-  std::vector<std::array<EntryList, 8>> scratch_;  // per level, reused
+  const MortonSet* done_;                             // null: nothing
+  bool ask_done_ = false;                             // something in the cell being baked is done
+  Spiller* spiller_;                                  // null: the table holds everything
+  std::vector<std::array<TriangleList, 8>> scratch_;  // per level, reused
   std::vector<uint64_t> divided_;
   std::vector<Step> path_;  // [level]
   int first_level_ = 0;     // of path_ that is in use: the cell's

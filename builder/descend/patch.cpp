@@ -26,9 +26,9 @@ bool edge_may_meet(const TriangleSetup& t, int e, const LatticePoint& corner,
   return true;
 }
 
-bool has_mate(std::span<const Entry> list, const TriangleSetup& t, int w, int e,
+bool has_mate(std::span<const ListedTriangle> list, const TriangleSetup& t, int w, int e,
               const PatchConditions& conditions) noexcept {
-  for (const Entry& other : list) {
+  for (const ListedTriangle& other : list) {
     const TriangleSetup& m = *other.triangle;
     if (&m == &t) continue;
     for (int f = 0; f < 3; ++f) {
@@ -42,14 +42,14 @@ bool has_mate(std::span<const Entry> list, const TriangleSetup& t, int w, int e,
 
 }  // namespace
 
-bool may_be_patch(std::span<const Entry> list, int64_t voxels) noexcept {
+bool may_be_patch(std::span<const ListedTriangle> list, int64_t voxels) noexcept {
   // Over the cube the offsets of two planes part by (difference of slopes) * s, in voxels; an
   // interval of offsets is about 1/s^2 long.
   const double s = double(voxels + 1), tolerance = 1 / (s * s * s);
   const TriangleSetup& first = *list[0].triangle;
   if (first.cover == 0) return false;
   const int w = first.dominant, u = (w + 1) % 3, v = (w + 2) % 3;
-  for (const Entry& entry : list) {
+  for (const ListedTriangle& entry : list) {
     const TriangleSetup& t = *entry.triangle;
     if (t.cover == 0 || t.dominant != w) return false;
     const double limit = tolerance * std::abs(t.normal[w] * first.normal[w]);
@@ -60,12 +60,13 @@ bool may_be_patch(std::span<const Entry> list, int64_t voxels) noexcept {
   return true;
 }
 
-std::optional<OffsetRange> offsets_of_patch(std::span<const Entry> list, const LatticePlane& plane,
-                                            const LatticePoint& corner, int64_t side,
+std::optional<OffsetRange> offsets_of_patch(std::span<const ListedTriangle> list,
+                                            const LatticePlane& plane, const LatticePoint& corner,
+                                            int64_t side,
                                             const PatchConditions& conditions) noexcept {
   OffsetRange all{INT64_MAX, INT64_MIN};
   const int w = 3 - plane.u - plane.v;
-  for (const Entry& entry : list) {
+  for (const ListedTriangle& entry : list) {
     const TriangleSetup& t = *entry.triangle;
     if (t.cover == 0 || t.wide || t.dominant != w) return std::nullopt;
     const auto one = offsets_along(plane, t, corner, conditions.whole_column ? side : 0);
@@ -75,10 +76,10 @@ std::optional<OffsetRange> offsets_of_patch(std::span<const Entry> list, const L
   return all;
 }
 
-bool has_no_border(std::span<const Entry> list, int w, const LatticePoint& corner, int64_t side,
-                   const PatchConditions& conditions) noexcept {
+bool has_no_border(std::span<const ListedTriangle> list, int w, const LatticePoint& corner,
+                   int64_t side, const PatchConditions& conditions) noexcept {
   if (!conditions.mates) return true;
-  for (const Entry& entry : list) {
+  for (const ListedTriangle& entry : list) {
     const TriangleSetup& t = *entry.triangle;
     for (int e = 0; e < 3; ++e) {
       // An edge function that is off is positive in the whole column.
@@ -89,7 +90,7 @@ bool has_no_border(std::span<const Entry> list, int w, const LatticePoint& corne
   return true;
 }
 
-bool covers_witness(std::span<const Entry> list, const LatticePlane& plane,
+bool covers_witness(std::span<const ListedTriangle> list, const LatticePlane& plane,
                     const LatticePoint& corner, int fraction, int64_t voxels,
                     const Witness& witness) noexcept {
   const int w = 3 - plane.u - plane.v;
@@ -100,7 +101,7 @@ bool covers_witness(std::span<const Entry> list, const LatticePlane& plane,
     const bool upper = (plane.n[a] > 0) != least;
     point[a] += (witness.voxel[a] + upper) << fraction;
   }
-  return std::any_of(list.begin(), list.end(), [&](const Entry& entry) {
+  return std::any_of(list.begin(), list.end(), [&](const ListedTriangle& entry) {
     const TriangleSetup& t = *entry.triangle;
     for (int e = 0; e < 3; ++e) {
       if (exact_edge_sign(t, 3 * w + e, point) < 0) return false;

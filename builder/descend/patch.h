@@ -27,7 +27,7 @@
 #include <span>
 
 #include "builder/descend/plane_memo.h"
-#include "builder/overlap/entry.h"
+#include "builder/overlap/triangle_list.h"
 
 namespace svdag {
 
@@ -41,18 +41,19 @@ struct PatchConditions {
 
 // Whether the normals are so near that P1 may hold in a cube of `voxels` on a side: a quick look,
 // in double and without a proof. All must have one dominant axis.
-bool may_be_patch(std::span<const Entry> list, int64_t voxels) noexcept;
+bool may_be_patch(std::span<const ListedTriangle> list, int64_t voxels) noexcept;
 
 // P1: a range that holds g - g(corner) of every triangle over the column of Q; none if a triangle
 // has another dominant axis than the plane or an offset is out of range.
-std::optional<OffsetRange> offsets_of_patch(std::span<const Entry> list, const LatticePlane& plane,
-                                            const LatticePoint& corner, int64_t side,
+std::optional<OffsetRange> offsets_of_patch(std::span<const ListedTriangle> list,
+                                            const LatticePlane& plane, const LatticePoint& corner,
+                                            int64_t side,
                                             const PatchConditions& conditions) noexcept;
 // P2.
-bool has_no_border(std::span<const Entry> list, int w, const LatticePoint& corner, int64_t side,
-                   const PatchConditions& conditions) noexcept;
+bool has_no_border(std::span<const ListedTriangle> list, int w, const LatticePoint& corner,
+                   int64_t side, const PatchConditions& conditions) noexcept;
 // P3: `voxel` is a set voxel of the cube with `voxels` on a side.
-bool covers_witness(std::span<const Entry> list, const LatticePlane& plane,
+bool covers_witness(std::span<const ListedTriangle> list, const LatticePlane& plane,
                     const LatticePoint& corner, int fraction, int64_t voxels,
                     const Witness& witness) noexcept;
 

@@ -213,9 +213,9 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
   }
   const int log2 = planes_[number].bucket_log2[size_t(level)];
   const int64_t bucket = range.low >> log2;
-  const Entry* set = set_of(&table, tag_of(number, bucket));
+  const MemoEntry* set = set_of(&table, tag_of(number, bucket));
   for (size_t way = 0; way < kWays; ++way) {
-    const Entry& e = set[way];
+    const MemoEntry& e = set[way];
     if (e.plane == number + 1 && e.low <= range.low && range.high <= e.high) {
       ++counts_.hits;
       *out = {e.low, e.high, e.node, e.voxels, e.witness};
@@ -293,13 +293,13 @@ bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answ
   return true;
 }
 
-PlaneMemo::Entry* PlaneMemo::set_of(Table* table, uint32_t tag) {
+PlaneMemo::MemoEntry* PlaneMemo::set_of(Table* table, uint32_t tag) {
   return &table->entries[(tag & table->mask) * kWays];
 }
 
 void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer) {
   if (2 * table->used > table->entries.size()) grow(table);
-  Entry* set = set_of(table, tag);
+  MemoEntry* set = set_of(table, tag);
   size_t way = 0;
   while (way < kWays && set[way].plane != 0) ++way;
   if (way == kWays) {
@@ -323,7 +323,7 @@ void PlaneMemo::settle() {
 
 void PlaneMemo::drop_contents() {
   for (Table& table : tables_) {
-    std::fill(table.entries.begin(), table.entries.end(), Entry{});
+    std::fill(table.entries.begin(), table.entries.end(), MemoEntry{});
     table.unsettled.clear();
     table.used = 0;
   }
@@ -334,14 +334,14 @@ void PlaneMemo::drop_contents() {
 void PlaneMemo::grow(Table* table) {
   const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
   if (size == table->entries.size()) return;
-  if (!charge((size - table->entries.size()) * sizeof(Entry))) return;
+  if (!charge((size - table->entries.size()) * sizeof(MemoEntry))) return;
   table->entries = {};
   table->memory = {};  // the old ones go before the new ones come
-  size_t bytes = size * sizeof(Entry) + kLine;
+  size_t bytes = size * sizeof(MemoEntry) + kLine;
   table->memory = HugePages(bytes);  // zeros: free entries
   void* begin = table->memory.data();
-  begin = std::align(kLine, size * sizeof(Entry), begin, bytes);
-  table->entries = {static_cast<Entry*>(begin), size};
+  begin = std::align(kLine, size * sizeof(MemoEntry), begin, bytes);
+  table->entries = {static_cast<MemoEntry*>(begin), size};
   table->mask = uint32_t(size / kWays - 1);
   table->unsettled.clear();
   table->used = 0;

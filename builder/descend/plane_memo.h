@@ -28,13 +28,13 @@
 #include <span>
 #include <vector>
 
-#include "builder/descend/node_table.h"
 #include "builder/octree/octree_cube.h"
-#include "builder/overlap/entry.h"
-#include "builder/overlap/kernels.h"
+#include "builder/overlap/kernels/kernels.h"
 #include "builder/overlap/lattice_plane.h"
+#include "builder/overlap/triangle_list.h"
+#include "builder/reduce/node_table.h"
 #include "io/dag/format.h"
-#include "streaming/huge_pages.h"
+#include "streaming/memory/huge_pages.h"
 
 namespace svdag {
 
@@ -93,7 +93,7 @@ class PlaneMemo {
     uint32_t voxels;
     uint32_t witness;  // a set voxel, see Witness
   };
-  struct Entry {
+  struct MemoEntry {
     int64_t low, high;
     uint32_t node;
     uint32_t voxels;
@@ -103,7 +103,7 @@ class PlaneMemo {
   // The entries of one level: small cubes have few contents, so their table stays in the cache.
   struct Table {
     HugePages memory;
-    std::span<Entry> entries;         // in `memory`; a set begins at a line of the cache
+    std::span<MemoEntry> entries;     // in `memory`; a set begins at a line of the cache
     std::vector<uint32_t> unsettled;  // entries written since the last flush
     size_t used = 0, limit = 0;
     uint32_t mask = 0;  // sets - 1
@@ -137,7 +137,7 @@ class PlaneMemo {
   void prefetch(uint32_t number, int level, int64_t offset);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
-  static Entry* set_of(Table* table, uint32_t tag);
+  static MemoEntry* set_of(Table* table, uint32_t tag);
   void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
   // Whether `bytes` more were granted.
   bool charge(uint64_t bytes);

@@ -1,8 +1,8 @@
 #include "builder/descend/self_test.h"
 
 #include "builder/descend/window.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 namespace {

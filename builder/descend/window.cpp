@@ -21,7 +21,7 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
   NodeTable table(grid.levels, budget != nullptr ? budget : &unlimited);
   std::vector<TriangleSetup> setups;
   setups.reserve(triangles.size());
-  EntryList list;
+  TriangleList list;
   const LatticeBox closed = window.closed(grid.levels);
   for (const LatticeTriangle& triangle : triangles) {
     setups.push_back(make_setup(triangle));

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "builder/merge/rank_maps.h"
-#include "builder/run/run.h"
-#include "streaming/block_source.h"
+#include "builder/reduce/run.h"
+#include "streaming/spill/block_source.h"
 
 namespace svdag {
 

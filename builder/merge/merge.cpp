@@ -6,14 +6,14 @@
 #include "builder/merge/merge_level.h"
 #include "builder/merge/top_tree.h"
 #include "builder/run/run_file.h"
-#include "builder/spill/shares.h"
+#include "builder/workspace/memory_shares.h"
 
 namespace svdag {
 namespace {
 
 class Merger {
  public:
-  Merger(std::span<Run> runs, std::vector<SubDagRoot> roots, const Part& part,
+  Merger(std::span<Run> runs, std::vector<SubDagRoot> roots, const GridPart& part,
          const MergeConfig& config, BakeOutput* output, Executor* executor)
       : runs_(runs),
         config_(config),
@@ -164,13 +164,14 @@ class Merger {
 
 MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t workers,
                             uint64_t source_bytes) {
-  const Shares shares(budget->limit(), workers);
-  return {budget, scratch, shares.maps, shares.maps / workers,
+  const MemoryShares shares(budget->limit(), workers);
+  return {budget, scratch, shares.maps, shares.map_window,
           std::max<size_t>(2, shares.sources / source_bytes)};
 }
 
-std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots, const Part& part,
-                              const MergeConfig& config, BakeOutput* output, Executor* executor) {
+std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,
+                              const GridPart& part, const MergeConfig& config, BakeOutput* output,
+                              Executor* executor) {
   return Merger(runs, std::move(roots), part, config, output, executor).run(part.levels() - 2);
 }
 

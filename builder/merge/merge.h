@@ -15,18 +15,18 @@
 // composing them is sequential as well.
 //
 // The result is the minimal DAG, byte for byte what reducing the whole octree at once would give;
-// or, of a part of the grid, a sub-DAG per top of the part (builder/octree/part.h), in one closed
-// run.
+// or, of a part of the grid, a sub-DAG per top of the part (builder/octree/grid_part.h), in one
+// closed run.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "builder/octree/sub_dag_root.h"
+#include "builder/reduce/run.h"
 #include "builder/run/bake_output.h"
-#include "builder/run/run.h"
-#include "builder/spill/scratch.h"
-#include "streaming/executor.h"
+#include "builder/workspace/scratch.h"
+#include "streaming/process/executor.h"
 
 namespace svdag {
 
@@ -45,7 +45,8 @@ MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t worke
 
 // Writes all levels to `output`, which the caller finishes with the roots that this returns: those
 // of the tops of `part`. Uses the runs up. The cells must be disjoint and lie in the part.
-std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots, const Part& part,
-                              const MergeConfig& config, BakeOutput* output, Executor* executor);
+std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,
+                              const GridPart& part, const MergeConfig& config, BakeOutput* output,
+                              Executor* executor);
 
 }  // namespace svdag

@@ -12,8 +12,8 @@
 #include "builder/merge/rank_maps.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
-#include "streaming/tournament.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/sort/tournament.h"
 
 namespace svdag {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "builder/spill/scratch.h"
-#include "streaming/huge_vector.h"
+#include "builder/workspace/scratch.h"
+#include "streaming/memory/huge_vector.h"
 
 namespace svdag {
 

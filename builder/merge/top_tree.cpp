@@ -13,7 +13,7 @@ std::pair<int32_t, uint32_t> place_of(const SubDagRoot& root) {
 
 }  // namespace
 
-TopTree::TopTree(std::vector<SubDagRoot> roots, const Part& part)
+TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part)
     : roots_(std::move(roots)), part_(part) {
   std::sort(roots_.begin(), roots_.end(), [](const SubDagRoot& a, const SubDagRoot& b) {
     return place_of(a) != place_of(b) ? place_of(a) < place_of(b) : a.morton < b.morton;

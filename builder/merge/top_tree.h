@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "builder/octree/part.h"
+#include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
 #include "io/dag/dag_writer.h"
 
@@ -14,7 +14,7 @@ namespace svdag {
 class TopTree {
  public:
   // The roots lie in `part`, which must outlive the tree.
-  TopTree(std::vector<SubDagRoot> roots, const Part& part);
+  TopTree(std::vector<SubDagRoot> roots, const GridPart& part);
 
   // After level `level` was merged, in this order: resolve_own() with the indices of what
   // sorted_nodes() returned; resolve_run() for each run with its map from rank to index, or once
@@ -46,7 +46,7 @@ class TopTree {
   std::pair<Roots, Roots> roots_of(int level, uint32_t run) const;
 
   std::vector<SubDagRoot> roots_;  // by level and run
-  const Part& part_;
+  const GridPart& part_;
   std::vector<SubDagRoot> tops_;
   std::vector<Place> places_;   // occupied cubes of the current level, ascending
   std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats

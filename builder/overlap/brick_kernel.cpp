@@ -79,7 +79,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
 
 }  // namespace
 
-Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction,
+Brick overlap_brick(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                     DecisionCounts* counts) noexcept {
   const TriangleSetup& t = *entry.triangle;
   Brick voxels = voxels_in_box(t, corner, fraction);

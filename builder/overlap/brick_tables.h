@@ -8,7 +8,7 @@
 namespace svdag {
 
 struct BrickTables {            // plain arrays: vector code must not instantiate templates
-                                // (builder/overlap/kernels.h)
+                                // (builder/overlap/kernels/kernels.h)
   Brick slab[3][4]{};           // [axis][i]: voxels with coordinate i
   Brick slabs[3][4][4]{};       // [axis][i][j]: voxels with coordinate i .. j
   uint8_t coordinate[64][3]{};  // of each bit

@@ -106,7 +106,7 @@ Brick segments_crossing(const PlaneSide& above, int w, int fraction, Brick voxel
 
 }  // namespace
 
-Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction,
+Brick overlap_brick_thin(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                          DecisionCounts* counts) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const PlaneSide above = plane_side(t, corner, double(int64_t(1) << fraction), counts);

@@ -1,13 +1,13 @@
 // Which children of a cube, and which voxels of a brick, a triangle touches: the plain path.
 //
-// This is the reference that every kernel of builder/overlap/kernels.h is held against.
+// This is the reference that every kernel of builder/overlap/kernels/kernels.h is held against.
 //
 // Invariant of both: the triangle's bounding box meets the closed cube, and every edge function
 // that is not in `edges` holds everywhere in it. Children are decided on the safe side (an unsure
 // one counts as touched, an unsure edge stays on); voxels are decided exactly.
 #pragma once
 
-#include "builder/overlap/entry.h"
+#include "builder/overlap/triangle_list.h"
 #include "io/brick.h"
 
 namespace svdag {
@@ -30,7 +30,7 @@ inline uint8_t children_in_box(const LatticeBox& box, int64_t x, int64_t y, int6
 }
 
 // `corner` and `side` of the parent cube in lattice units.
-ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
+ChildOverlap overlap_children(const ListedTriangle& entry, const LatticePoint& corner,
                               int64_t side) noexcept;
 
 // How often the sign of a separating function at a voxel was asked for, and how often double could
@@ -48,11 +48,11 @@ struct DecisionCounts {
 
 // The voxels of the brick with minimum corner `corner` that the triangle touches; voxels have side
 // 2^fraction.
-Brick overlap_brick(const Entry& entry, const LatticePoint& corner, int fraction,
+Brick overlap_brick(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                     DecisionCounts* counts) noexcept;
 
 // The voxels that the triangle sets under rule thin (builder/overlap/brick_thin.cpp).
-Brick overlap_brick_thin(const Entry& entry, const LatticePoint& corner, int fraction,
+Brick overlap_brick_thin(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                          DecisionCounts* counts) noexcept;
 
 }  // namespace svdag

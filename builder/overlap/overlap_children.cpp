@@ -64,7 +64,7 @@ EdgeVerdict children_at_edge(const TriangleSetup& t, int k, const LatticePoint& 
 
 }  // namespace
 
-ChildOverlap overlap_children(const Entry& entry, const LatticePoint& corner,
+ChildOverlap overlap_children(const ListedTriangle& entry, const LatticePoint& corner,
                               int64_t side) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const double half = double(side / 2);

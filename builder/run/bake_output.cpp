@@ -1,8 +1,8 @@
 #include "builder/run/bake_output.h"
 
 #include "builder/run/run_writer.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 
@@ -31,7 +31,7 @@ bool names_run(const std::string& path) {
 }
 
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const Part& part) {
+                                        const GridPart& part) {
   if (names_run(path)) return std::make_unique<RunWriter>(path, grid, rule, part);
   return std::make_unique<DagOutput>(path, grid, rule);
 }

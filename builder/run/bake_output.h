@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/octree/part.h"
+#include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
 #include "io/dag/dag_writer.h"
 
@@ -56,6 +56,6 @@ bool names_run(const std::string& path);
 
 // The output for `part`, by the name; a `.svdag` holds the whole grid.
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const Part& part);
+                                        const GridPart& part);
 
 }  // namespace svdag

@@ -5,7 +5,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_writer.h"
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {

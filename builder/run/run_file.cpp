@@ -127,7 +127,7 @@ void RunFile::read_part(MemoryBudget* budget) {
   }
   require_run(run_number(header_, stored) == header_.run, file_,
               "its number is not that of its part", offsetof(RunHeader, run));
-  part_ = Part(std::move(ranges), int(header_.levels));
+  part_ = GridPart(std::move(ranges), int(header_.levels));
 }
 
 void RunFile::read_roots(MemoryBudget* budget) {

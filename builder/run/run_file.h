@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "builder/octree/part.h"
+#include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
 #include "builder/run/run_format.h"
 #include "io/dag/format.h"
-#include "streaming/block_source.h"
-#include "streaming/file.h"
-#include "streaming/file_state.h"
-#include "streaming/memory_budget.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_state.h"
+#include "streaming/memory/memory_budget.h"
+#include "streaming/spill/block_source.h"
 
 namespace svdag {
 
@@ -33,7 +33,7 @@ class RunFile {
   const RunLayout& layout() const { return layout_; }
   Grid grid() const;
   Rule rule() const { return Rule(header_.rule); }
-  const Part& part() const { return part_; }
+  const GridPart& part() const { return part_; }
   // In Morton order; `run` is 0 in them.
   const std::vector<SubDagRoot>& roots() const { return roots_; }
   uint64_t keys(int level) const { return header_.keys[level]; }
@@ -52,7 +52,7 @@ class RunFile {
   RunHeader header_;
   RunLayout layout_;
   MemoryBudget::Reservation counted_;  // part and roots
-  Part part_;
+  GridPart part_;
   std::vector<SubDagRoot> roots_;
 };
 

@@ -1,7 +1,7 @@
 // The file format `.run`, version 1: the structures of docs/run-format.md.
 //
-//   header (1024 bytes) | blocks (builder and scratch frame them alike: streaming/spill_block.h) |
-//   end
+//   header (1024 bytes) | blocks (builder and scratch frame them alike:
+//   streaming/spill/spill_block.h) | end
 //
 // The payloads of the blocks, one behind the other, are one stream of sections, each of which
 // begins at a multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "streaming/checksum.h"
-#include "streaming/spill_block.h"
+#include "streaming/file/checksum.h"
+#include "streaming/spill/spill_block.h"
 
 namespace svdag {
 

@@ -18,7 +18,7 @@ std::vector<StoredRange> stored(const std::vector<MortonRange>& ranges) {
 
 }  // namespace
 
-RunWriter::RunWriter(const std::string& path, const Grid& grid, Rule rule, Part part)
+RunWriter::RunWriter(const std::string& path, const Grid& grid, Rule rule, GridPart part)
     : file_(path), part_(std::move(part)), level_(grid.levels - 1), block_(kRunBlockBytes) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kRunMagic, sizeof kRunMagic);

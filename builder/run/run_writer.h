@@ -3,11 +3,11 @@
 // The bytes are canonical: they depend on the grid, the rule, the part and the voxels in it, and on
 // nothing else. For
 //   the sub-DAG of a cube is one (it is minimal), and which cubes have roots follows from the part
-//   (its tops, builder/octree/part.h), not from how it was baked;
+//   (its tops, builder/octree/grid_part.h), not from how it was baked;
 //   every node is reached from a root, since a merge of closed runs adds none that is not;
 //   nodes are numbered by their rank in content order, roots and ranges stand in Morton order;
 //   the largest snap move is that of all triangles that meet the closed part, and a maximum over
-//   parts is that of the whole (Part::meets);
+//   parts is that of the whole (GridPart::meets);
 //   blocks are filled without gaps, and nothing is written of who wrote, when, or with what.
 // So the hash over them names the content, whatever threads, memory or tree of merges made it.
 // Rejected: compressed blocks (their bytes would be those of a version of the compressor).
@@ -18,14 +18,14 @@
 
 #include "builder/run/bake_output.h"
 #include "builder/run/run_format.h"
-#include "streaming/atomic_file.h"
-#include "streaming/checksum.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 
 class RunWriter final : public BakeOutput {
  public:
-  RunWriter(const std::string& path, const Grid& grid, Rule rule, Part part);
+  RunWriter(const std::string& path, const Grid& grid, Rule rule, GridPart part);
 
   void begin_level(int level) override;
   uint32_t add_brick(Brick brick) override;
@@ -44,7 +44,7 @@ class RunWriter final : public BakeOutput {
   void append_roots(std::span<const SubDagRoot> roots);
 
   AtomicFile file_;
-  Part part_;
+  GridPart part_;
   RunHeader header_{};
   int level_;
   Brick last_brick_ = 0;  // the keys before, to assert their order

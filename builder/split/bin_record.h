@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "builder/split/triangle_bins.h"
-#include "streaming/record.h"
+#include "streaming/spill/record.h"
 
 namespace svdag {
 

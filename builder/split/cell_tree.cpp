@@ -12,7 +12,7 @@ namespace {
 
 // Of a triangle in a cell: lists divided on the way down hold it a few times, mostly in cubes ever
 // smaller.
-constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(Entry);
+constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(ListedTriangle);
 
 }  // namespace
 
@@ -88,7 +88,7 @@ uint64_t CellTree::bytes(size_t workers) const {
   const uint64_t on_a_path =
       std::accumulate(heaviest_inner_.begin(), heaviest_inner_.end(), uint64_t(0));
   return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) + inner_ * kPrepared +
-         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(Entry);
+         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
 }
 
 void CellTree::seal() {
@@ -111,7 +111,7 @@ std::vector<Cube> CellTree::occupied_cells(uint64_t most) const {
   return cells;
 }
 
-void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint64_t most,
+void CellTree::collect(const Node* node, const Cube& cube, TriangleList list, uint64_t most,
                        std::vector<Cube>* cells) const {
   if (cube.level == cell_level_) {
     const uint64_t own = node != nullptr ? node->triangles.size() : 0;
@@ -125,7 +125,7 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint6
   if (node != nullptr) {
     for (const TriangleSetup& t : node->setups) list.push_back({&t, t.edges});
   }
-  std::array<EntryList, 8> lists;
+  std::array<TriangleList, 8> lists;
   divide_list(list, cube, grid_.levels, {}, &lists);
   for (unsigned c = 0; c < 8; ++c) {
     const Node* child = node != nullptr ? node->children[c].get() : nullptr;
@@ -134,7 +134,7 @@ void CellTree::collect(const Node* node, const Cube& cube, EntryList list, uint6
   }
 }
 
-CellCursor::CellCursor(const CellTree& tree, const DescentConfig& config)
+CellCursor::CellCursor(const CellTree& tree, const OverlapConfig& config)
     : tree_(tree),
       config_(config),
       path_(size_t(tree.cell_level() + 1)),
@@ -142,7 +142,8 @@ CellCursor::CellCursor(const CellTree& tree, const DescentConfig& config)
   enter(tree.root(), tree.root_.get(), {});
 }
 
-void CellCursor::enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited) {
+void CellCursor::enter(const Cube& cube, const CellTree::Node* node,
+                       const TriangleList& inherited) {
   Step& step = path_[size_t(cube.level)];
   step.cube = cube;
   step.node = node;
@@ -152,7 +153,7 @@ void CellCursor::enter(const Cube& cube, const CellTree::Node* node, const Entry
   for (const TriangleSetup& t : node->setups) step.list.push_back({&t, t.edges});
 }
 
-const EntryList& CellCursor::list(const Cube& cube) {
+const TriangleList& CellCursor::list(const Cube& cube) {
   prepare(path_to(ancestor(cube, tree_.cell_level())));
   for (int level = tree_.cell_level(); level < cube.level; ++level) {
     const Cube from = ancestor(cube, level), to = ancestor(cube, level + 1);

@@ -12,11 +12,10 @@
 #include <memory>
 #include <vector>
 
-#include "builder/descend/descend.h"
-#include "builder/octree/octree_cube.h"
-#include "builder/overlap/entry.h"
-#include "streaming/memory_budget.h"
-#include "streaming/segmented_array.h"
+#include "builder/octree/morton.h"
+#include "builder/overlap/kernels/divide_list.h"
+#include "streaming/memory/memory_budget.h"
+#include "streaming/memory/segmented_array.h"
 
 namespace svdag {
 
@@ -50,7 +49,7 @@ class CellTree {
 
   void insert(Node* node, const Cube& cube, uint32_t triangle, const LatticeBox& box);
   void prepare(Node* node, int level);
-  void collect(const Node* node, const Cube& cube, EntryList list, uint64_t most,
+  void collect(const Node* node, const Cube& cube, TriangleList list, uint64_t most,
                std::vector<Cube>* cells) const;
   void charge(uint64_t bytes);
 
@@ -70,31 +69,31 @@ class CellTree {
 // path, so the divided lists along the path are kept from one cell to the next.
 class CellCursor {
  public:
-  CellCursor(const CellTree& tree, const DescentConfig& config);
+  CellCursor(const CellTree& tree, const OverlapConfig& config);
 
   // The list of `cube`, a cell or a cube in one; valid until the next call.
-  const EntryList& list(const Cube& cube);
+  const TriangleList& list(const Cube& cube);
 
  private:
   struct Step {
     Cube cube;
     const CellTree::Node* node;  // null: nothing of its own here and below
-    EntryList list;              // what concerns the cube from inner nodes
+    TriangleList list;           // what concerns the cube from inner nodes
     bool divided = false;        // `children` holds the divided list
-    std::array<EntryList, 8> children;
+    std::array<TriangleList, 8> children;
   };
 
-  void enter(const Cube& cube, const CellTree::Node* node, const EntryList& inherited);
+  void enter(const Cube& cube, const CellTree::Node* node, const TriangleList& inherited);
   const Step& path_to(const Cube& cell);
   void prepare(const Step& cell);
 
   const CellTree& tree_;
-  DescentConfig config_;
+  OverlapConfig config_;
   std::vector<Step> path_;             // [k] is at level k
   int depth_;                          // path_[root level .. depth_] are valid
   std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
-  EntryList list_;
-  std::array<EntryList, 8> parts_;  // of list_, on the way to a cube in the cell
+  TriangleList list_;
+  std::array<TriangleList, 8> parts_;  // of list_, on the way to a cube in the cell
 };
 
 }  // namespace svdag

@@ -13,7 +13,7 @@ enum class Place { kInside, kClipped, kOutside };
 
 // Where the triangle's box lies in relation to the closed box of the voxels that may be set;
 // outside, too, if it misses the closed part.
-Place place_of(const LatticeTriangle& t, const Grid& grid, const Part* part) {
+Place place_of(const LatticeTriangle& t, const Grid& grid, const GridPart* part) {
   const LatticeBox selection = grid.closed(grid.selection), box = box_of(t);
   if (!box.meets(selection) || (part != nullptr && !part->meets(box))) return Place::kOutside;
   return selection.holds(box) ? Place::kInside : Place::kClipped;

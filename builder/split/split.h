@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "builder/octree/part.h"
+#include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
 #include "builder/split/triangle_bins.h"
 #include "io/scene/scene.h"
-#include "streaming/progress.h"
+#include "streaming/process/progress.h"
 
 namespace svdag {
 
@@ -21,7 +21,7 @@ struct SplitConfig {
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
   Scratch* scratch = nullptr;            // null: they never are
-  const Part* part = nullptr;            // triangles that miss it are dropped; null: the whole grid
+  const GridPart* part = nullptr;        // triangles that miss it are dropped; null: the whole grid
   // Called once, when the first `read` triangles, dropped ones among them, have become so many
   // bytes in bins, and more will.
   std::function<void(uint64_t read, uint64_t bytes)> on_spill = {};

@@ -57,7 +57,7 @@ void TriangleBins::add(const LatticeTriangle& triangle) {
 void TriangleBins::deal(const LatticeTriangle& triangle, const TriangleSetup& setup,
                         const Cube& cube) {
   if (cube.level == bin_level_) return append(cube, triangle, setup.box);
-  const Entry entry{&setup, setup.edges};
+  const ListedTriangle entry{&setup, setup.edges};
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
   const ChildOverlap overlap = overlap_children(entry, cube.corner(grid_.levels), side);
   for (unsigned c = 0; c < 8; ++c) {

@@ -12,7 +12,7 @@
 
 #include "builder/octree/morton.h"
 #include "builder/overlap/triangle_setup.h"
-#include "builder/spill/scratch.h"
+#include "builder/workspace/scratch.h"
 #include "io/triangle.h"
 
 namespace svdag {

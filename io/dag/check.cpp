@@ -9,8 +9,8 @@
 #include "io/dag/grid_fields.h"
 #include "io/dag/symvox_header.h"
 #include "io/grid.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 namespace {

@@ -4,11 +4,11 @@
 // One pass in file order: checksums of all blocks and, because the sections stand deepest first, a
 // bitmap of the node starts of one level suffices to check the pointers of the level above.
 // Pointers lead strictly to the next level, so the graph is acyclic and bounded. Whether nodes are
-// in order, unique and minimal is a question for verify/integrity.h.
+// in order, unique and minimal is a question for verify/integrity/integrity.h.
 #pragma once
 
 #include "io/dag/format.h"
-#include "streaming/file.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 

@@ -6,7 +6,7 @@
 
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
-#include "streaming/mapped_file.h"
+#include "streaming/file/mapped_file.h"
 
 namespace svdag {
 
@@ -14,7 +14,7 @@ class DagFile {
  public:
   // Throws Error (kBadInput) with path and offset if anything is not as docs/format.md says:
   // magic, version, sizes, checksums, pointers out of bounds. Order and minimality are not looked
-  // at (verify/integrity.h does).
+  // at (verify/integrity/integrity.h does).
   static DagFile open(const std::string& path);
 
   const std::string& path() const { return file_.path(); }

@@ -5,8 +5,8 @@
 
 #include "io/dag/grid_fields.h"
 #include "io/dag/metadata.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 
 namespace svdag {
 

@@ -11,7 +11,7 @@
 #include "io/brick.h"
 #include "io/dag/format.h"
 #include "io/grid.h"
-#include "streaming/atomic_file.h"
+#include "streaming/file/atomic_file.h"
 
 namespace svdag {
 

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "streaming/file.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "io/grid.h"
-#include "streaming/byte_stream.h"
 #include "streaming/error.h"
+#include "streaming/file/byte_stream.h"
 
 namespace svdag {
 

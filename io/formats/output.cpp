@@ -1,6 +1,6 @@
 #include "io/formats/output.h"
 
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 

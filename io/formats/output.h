@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "streaming/atomic_file.h"
+#include "streaming/file/atomic_file.h"
 
 namespace svdag {
 

@@ -1,4 +1,5 @@
-// A grid of cubes as a limited child sends it (streaming/limited_child.h), and as it is kept.
+// A grid of cubes as a limited child sends it (streaming/process/limited_child.h), and as it is
+// kept.
 //
 // The first block is a CubeHead and the grid's name; all later ones are CubeRecords. They are read
 // as those of a hostile program: types, names, transforms, sides and places that no grid has are

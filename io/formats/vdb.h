@@ -88,9 +88,9 @@ class VdbGrid {
 void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
 
 // Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and
-// time (streaming/limited_child.h); `sandbox`: in one that can only compute. Broken files, other
-// types and transforms that are not linear are an Error (kBadInput); a float grid without a range
-// is one (kUsage).
+// time (streaming/process/limited_child.h); `sandbox`: in one that can only compute. Broken files,
+// other types and transforms that are not linear are an Error (kBadInput); a float grid without a
+// range is one (kUsage).
 std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& name,
                                   const std::optional<ValueRange>& range, bool sandbox = false);
 

@@ -5,11 +5,11 @@
 
 #include "io/dag/cube_walk.h"
 #include "io/voxel_source.h"
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 
-struct Window {
+struct VoxelWindow {
   Grid grid;        // of the level; its selection is the window
   CubeWalk* walk;   // of the level
   uint64_t voxels;  // set in the window

@@ -10,7 +10,7 @@
 #include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/terminal.h"
+#include "streaming/process/terminal.h"
 
 namespace svdag {
 namespace {

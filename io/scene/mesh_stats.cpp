@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "io/scene/collinear.h"
+#include "io/scene/polygons/collinear.h"
 #include "streaming/error.h"
 
 namespace svdag {

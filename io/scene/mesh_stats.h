@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "io/scene/scene.h"
-#include "streaming/memory_budget.h"
+#include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/scene/gltf_buffers.h"
-#include "io/scene/text_scan.h"
+#include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/mesh_reader.h"
+#include "io/scene/mesh/mesh_reader.h"
 
 namespace svdag {
 
@@ -28,7 +28,7 @@ struct SceneCounts {
 
 class Scene {
  public:
-  // Opens nothing yet. `budget` and `spill` (io/scene/mesh_reader.h) must outlive the scene.
+  // Opens nothing yet. `budget` and `spill` (io/scene/mesh/mesh_reader.h) must outlive the scene.
   Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill = nullptr);
 
   // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless

@@ -7,8 +7,8 @@
 
 #include "builder/overlap/overlap.h"
 #include "io/lattice.h"
-#include "verify/occupancy.h"
-#include "verify/sample.h"
+#include "verify/judge/clip_judge.h"
+#include "verify/sample/sample.h"
 
 namespace svdag::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include "io/float_rounding.h"
 #include "io/scene/scene.h"
 #include "tests/bench/accuracy_case.h"
-#include "verify/sample.h"
+#include "verify/sample/sample.h"
 
 namespace svdag::bench {
 namespace {

@@ -21,7 +21,7 @@ class BuilderDescent {
   void run(const Cube& cell, const std::vector<LatticeTriangle>& triangles, BrickList* out) {
     std::vector<TriangleSetup> setups;
     setups.reserve(triangles.size());
-    EntryList list;
+    TriangleList list;
     const LatticePoint corner = cell.corner(grid_.levels);
     const int64_t side = int64_t(1) << cell.side_log2(grid_.levels);
     for (const LatticeTriangle& t : triangles) {
@@ -33,7 +33,7 @@ class BuilderDescent {
   }
 
  private:
-  void descend(const Cube& cube, const EntryList& list, BrickList* out) {
+  void descend(const Cube& cube, const TriangleList& list, BrickList* out) {
     if (list.empty()) return;
     if (cube.level < grid_.levels - 2) {
       auto& lists = lists_[size_t(cube.level)];
@@ -48,7 +48,7 @@ class BuilderDescent {
 
   Grid grid_;
   DecisionCounts counts_;  // not read: the kernel counts for the report of a bake
-  std::vector<std::array<EntryList, 8>> lists_;
+  std::vector<std::array<TriangleList, 8>> lists_;
 };
 
 LatticePoint voxel_corner(const Grid& grid, const Cube& cube) {

@@ -21,7 +21,7 @@
 #include "io/scene/scene.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "verify/occupancy.h"
+#include "verify/judge/clip_judge.h"
 
 namespace svdag::bench {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`make bench-plan`: what plans predict, beside what their steps then take.
 
-Each row bakes a scene in one piece and by a plan of 16 shards. The constants of builder/farm/predict.cpp are fitted to
+Each row bakes a scene in one piece and by a plan of 16 shards. The constants of builder/farm/planner/predict.cpp are fitted to
 generated scenes and to nothing else: --calibrate measures those and prints the constants. The shared scenes judge them.
 The tables go between the markers of docs/farm.md; rows that are not asked for again are kept in build/bench/plan.json.
 """

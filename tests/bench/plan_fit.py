@@ -1,4 +1,4 @@
-"""The constants of what plans predict (builder/farm/predict.cpp), from measured bakes and steps.
+"""The constants of what plans predict (builder/farm/planner/predict.cpp), from measured bakes and steps.
 
 Seconds are linear in what is counted, with the same constants for bakes, shards and merges, none negative. The fit is by
 least squares of the logarithms of measured / predicted, so a short step counts as much as a long one and twice too much

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/dag/dag_view.h"
-#include "streaming/huge_vector.h"
+#include "streaming/memory/huge_vector.h"
 
 namespace svdag::bench {
 

@@ -10,8 +10,8 @@
 #include <functional>
 #include <string>
 
-#include "streaming/external_sort.h"
-#include "streaming/file_folder.h"
+#include "streaming/file/file_folder.h"
+#include "streaming/sort/external_sort.h"
 #include "tests/bench/sort_keys.h"
 #include "tests/bench/stop_watch.h"
 #ifdef SVDAG_HAS_STXXL

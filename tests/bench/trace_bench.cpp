@@ -1,9 +1,9 @@
 // Rays per second of the processor, on one thread: trace_bench FILE.svdag [px,py,pz,tx,ty,tz]
 //
-// The workloads of verify/trace/workload.h for a picture of 320 x 176 pixels, 16 rays per pixel for
-// soft shadows and ambient occlusion, which reaches a twentieth of the scene. Three ways: the plain
-// traversal, the fast one of the file, and the 64-tree's. Every answer of the fast ways is compared
-// with the plain traversal's.
+// The workloads of verify/trace/kernel/workload.h for a picture of 320 x 176 pixels, 16 rays per
+// pixel for soft shadows and ambient occlusion, which reaches a twentieth of the scene. Three ways:
+// the plain traversal, the fast one of the file, and the 64-tree's. Every answer of the fast ways
+// is compared with the plain traversal's.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -11,10 +11,10 @@
 
 #include "io/dag/dag_file.h"
 #include "tests/verify/trace/plain_traversal.h"
-#include "verify/trace/presets.h"
-#include "verify/trace/rays.h"
-#include "verify/trace/tree64.h"
-#include "verify/trace/workload.h"
+#include "verify/trace/kernel/rays.h"
+#include "verify/trace/kernel/tree64.h"
+#include "verify/trace/kernel/workload.h"
+#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {

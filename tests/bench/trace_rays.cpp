@@ -2,7 +2,7 @@
 
 #include "io/float_rounding.h"
 #include "tests/bench/trace_rows.h"
-#include "verify/trace/beam.h"
+#include "verify/trace/kernel/beam.h"
 
 namespace svdag::bench {
 namespace {

@@ -17,12 +17,12 @@
 #include "streaming/error.h"
 #include "tests/bench/relaid_dag.h"
 #include "tests/verify/trace/plain_traversal.h"
-#include "verify/snapped_scene.h"
-#include "verify/trace/beam.h"
-#include "verify/trace/processor.h"
-#include "verify/trace/rays.h"
-#include "verify/trace/tree64.h"
-#include "verify/trace/triangle.h"
+#include "verify/sample/snapped_scene.h"
+#include "verify/trace/judge/triangle.h"
+#include "verify/trace/kernel/beam.h"
+#include "verify/trace/kernel/processor.h"
+#include "verify/trace/kernel/rays.h"
+#include "verify/trace/kernel/tree64.h"
 
 namespace svdag::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "io/dag/dag_file.h"
 #include "tests/bench/peers/embree.h"
-#include "verify/trace/workload.h"
+#include "verify/trace/kernel/workload.h"
 
 namespace svdag::bench {
 

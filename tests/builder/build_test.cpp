@@ -16,7 +16,7 @@
 #include "tests/soup.h"
 #include "tests/stress/paths.h"
 #include "tests/temp_folder.h"
-#include "verify/occupancy.h"
+#include "verify/judge/clip_judge.h"
 
 namespace svdag {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/formats/binvox.h"
+#include "io/formats/voxels/binvox.h"
 #include "tests/fuzz/import_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,5 +1,6 @@
-// Lets a fuzzer see what its children have reached (streaming/limited_child.h): the counters of
-// coverage lie in memory that it shares with them, instead of in pages that fork() copies.
+// Lets a fuzzer see what its children have reached (streaming/process/limited_child.h): the
+// counters of coverage lie in memory that it shares with them, instead of in pages that fork()
+// copies.
 //
 // The compiler gathers the counters in sections of their own, and the linker says where these begin
 // and end. The directives below add nothing but the alignment of a page, so that sharing begins

@@ -14,34 +14,34 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build" / "coverage"
-TEXT = ["io/scene/text_scan.cpp", "io/scene/decimal.h", "io/scene/triangulate.cpp"]
+TEXT = ["io/scene/readers/text_scan.cpp", "io/scene/readers/decimal.h", "io/scene/polygons/triangulate.cpp"]
 GLTF = [f"io/scene/gltf{part}.cpp" for part in ("", "_buffers", "_document", "_elements", "_json", "_kept", "_nodes", "_transform", "_uri")]
 READERS = {
-    "ply": ["io/scene/ply.cpp", "io/scene/ply_header.cpp", "io/scene/ply_values.h", "io/scene/ply_faces.h"],
-    "stl": ["io/scene/stl.cpp"],
-    "obj": ["io/scene/obj.cpp", "io/scene/obj_plain.h", *TEXT],
-    "off": ["io/scene/off.cpp"],
+    "ply": ["io/scene/readers/ply.cpp", "io/scene/readers/ply_header.cpp", "io/scene/readers/ply_values.h", "io/scene/readers/ply_faces.h"],
+    "stl": ["io/scene/readers/stl.cpp"],
+    "obj": ["io/scene/readers/obj.cpp", "io/scene/readers/obj_plain.h", *TEXT],
+    "off": ["io/scene/readers/off.cpp"],
     "gltf": GLTF,
-    "draco": ["io/scene/draco.cpp"],
-    "openmesh": ["io/scene/openmesh.cpp"],
+    "draco": ["io/scene/readers/draco.cpp"],
+    "openmesh": ["io/scene/readers/openmesh.cpp"],
     "svdag": ["io/dag/check.cpp"],
-    "plain_file": ["verify/trace/plain_file.cpp"],
-    "report": ["verify/report_html.cpp"],
+    "plain_file": ["verify/trace/program/plain_file.cpp"],
+    "report": ["verify/report/report_html.cpp"],
     "run": ["builder/run/run_file.cpp", "builder/run/run_check.cpp", "builder/run/run_format.cpp"],
-    "journal": ["streaming/journal.cpp", "streaming/record.h", "builder/saved_bake.cpp", "builder/split/bin_record.cpp"],
-    "pack": ["builder/farm/cell_pack.cpp", "builder/farm/pack_blocks.cpp"],
-    "plan": ["builder/farm/plan.cpp", "builder/farm/plan_index.cpp", "builder/farm/receipt.cpp"],
+    "journal": ["streaming/spill/journal.cpp", "streaming/spill/record.h", "builder/bake/saved_bake.cpp", "builder/split/bin_record.cpp"],
+    "pack": ["builder/cache/cell_pack.cpp", "builder/cache/pack_blocks.cpp"],
+    "plan": ["builder/farm/plan/plan.cpp", "builder/farm/plan/plan_index.cpp", "builder/farm/plan/receipt.cpp"],
     "command_line": [f"builder/commands/{kind}_options.cpp" for kind in ("build", "farm", "info", "shared")],
     "batch": ["builder/commands/batch.cpp"],
-    "trace_options": ["verify/trace/trace_options.cpp"],
+    "trace_options": ["verify/trace/program/trace_options.cpp"],
     "words": ["io/units.cpp", "io/suggest.cpp", "io/formats/value_range.cpp"],
-    "hashdag": ["io/formats/hashdag.cpp"],
-    "symvox": ["io/formats/symvox.cpp", "io/dag/symvox_header.cpp"],
-    "transform_dag": ["io/formats/transform_dag.cpp"],
-    "npz": ["io/formats/npz.cpp", "io/formats/zip.cpp"],
-    "binvox": ["io/formats/binvox.cpp"],
-    "vox": ["io/formats/vox_read.cpp"],
-    "vdb": ["io/formats/vdb_child.cpp", "io/formats/vdb_read.cpp", "io/formats/sent_cubes.cpp"],
+    "hashdag": ["io/formats/dags/hashdag.cpp"],
+    "symvox": ["io/formats/dags/symvox.cpp", "io/dag/symvox_header.cpp"],
+    "transform_dag": ["io/formats/dags/transform_dag.cpp"],
+    "npz": ["io/formats/voxels/npz.cpp", "io/formats/voxels/zip.cpp"],
+    "binvox": ["io/formats/voxels/binvox.cpp"],
+    "vox": ["io/formats/voxels/vox_read.cpp"],
+    "vdb": ["io/formats/vdb/vdb_child.cpp", "io/formats/vdb/vdb_read.cpp", "io/formats/sent_cubes.cpp"],
 }
 
 

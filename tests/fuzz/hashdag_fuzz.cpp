@@ -1,4 +1,4 @@
-#include "io/formats/hashdag.h"
+#include "io/formats/dags/hashdag.h"
 #include "tests/fuzz/import_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -48,13 +48,13 @@ inline int fuzz_graph(std::unique_ptr<NodeGraph> (*reader)(const File&), const u
   return 0;
 }
 
-inline int fuzz_voxels(VoxelPlace (*reader)(const File&, const VoxelSink&), const uint8_t* data,
+inline int fuzz_voxels(GridPlacement (*reader)(const File&, const VoxelSink&), const uint8_t* data,
                        size_t size) {
   struct Enough {};
   const MemoryFile memory(std::as_bytes(std::span(data, size)));
   size_t visited = 0;
   try {
-    const VoxelPlace place = reader(memory.file(), [&](std::span<const Voxel> voxels) {
+    const GridPlacement place = reader(memory.file(), [&](std::span<const Voxel> voxels) {
       uint32_t bits = 0;
       for (const Voxel& voxel : voxels) bits |= voxel[0] | voxel[1] | voxel[2];
       if (voxels.empty() || bits >> kMaxLevels != 0) std::abort();

@@ -1,7 +1,7 @@
 // Arbitrary bytes as the journal of a bake, as they are and with their checksums repaired: what is
 // whole of it is read, and makes sense or is an Error; what makes sense can be written and read
 // again. A journal of another layout is one of nothing.
-#include "builder/saved_bake.h"
+#include "builder/bake/saved_bake.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
 #include "tests/repair_files.h"

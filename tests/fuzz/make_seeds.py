@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """make_seeds.py PROGRAMS CORPUS: valid files of our own as seeds of the fuzzers.
 
-Small ones, as the programs write them; the journal as builder/saved_bake.cpp has it. They are kept in tests/fuzz/corpus,
+Small ones, as the programs write them; the journal as builder/bake/saved_bake.cpp has it. They are kept in tests/fuzz/corpus,
 so this is run again where a format changes.
 """
 import base64

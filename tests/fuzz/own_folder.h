@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "streaming/file_folder.h"
+#include "streaming/file/file_folder.h"
 
 namespace svdag {
 

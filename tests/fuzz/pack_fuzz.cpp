@@ -1,6 +1,6 @@
 // Arbitrary bytes as a pack of a cell cache, as they are and with their checksums repaired: an
 // Error, or cells that can be taken.
-#include "builder/farm/cell_pack.h"
+#include "builder/cache/cell_pack.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_files.h"
 

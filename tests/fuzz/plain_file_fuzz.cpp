@@ -7,11 +7,11 @@
 #include "io/dag/check.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_checksums.h"
-#include "verify/trace/plain_file.h"
-#include "verify/trace/presets.h"
-#include "verify/trace/rays.h"
-#include "verify/trace/tree64.h"
-#include "verify/trace/workload.h"
+#include "verify/trace/kernel/rays.h"
+#include "verify/trace/kernel/tree64.h"
+#include "verify/trace/kernel/workload.h"
+#include "verify/trace/program/plain_file.h"
+#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {

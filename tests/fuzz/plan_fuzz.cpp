@@ -1,10 +1,10 @@
 // Arbitrary bytes as a plan: plan.json, index and receipts, one after the other with a line
 // "---" between them; with their hashes repaired. An Error, or a plan whose steps, bins and
 // receipts can be asked for.
-#include "builder/farm/leaf_bins.h"
-#include "builder/farm/plan.h"
-#include "builder/farm/receipt.h"
-#include "streaming/checksum.h"
+#include "builder/farm/plan/leaf_bins.h"
+#include "builder/farm/plan/plan.h"
+#include "builder/farm/plan/receipt.h"
+#include "streaming/file/checksum.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
 

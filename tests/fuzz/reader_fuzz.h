@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "io/scene/mesh_reader.h"
+#include "io/scene/mesh/mesh_reader.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 

@@ -5,8 +5,8 @@
 #include "io/dag/dag_stats.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/verify/raw_dag.h"
-#include "verify/integrity.h"
-#include "verify/report_html.h"
+#include "verify/integrity/integrity.h"
+#include "verify/report/report_html.h"
 
 namespace svdag {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/verify/raw_dag.h"
-#include "verify/trace/trace_options.h"
+#include "verify/trace/program/trace_options.h"
 
 namespace svdag {
 namespace {

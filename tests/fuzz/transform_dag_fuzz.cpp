@@ -1,4 +1,4 @@
-#include "io/formats/transform_dag.h"
+#include "io/formats/dags/transform_dag.h"
 #include "tests/fuzz/import_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

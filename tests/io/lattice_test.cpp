@@ -24,7 +24,8 @@ Grid some_grid(const Box& box, int levels, bool of_lattice) {
   return grid;
 }
 
-// Points that have a lattice point: others are refused, see TwoToThe62StepsAreAnErrorAndOneLessIsNot.
+// Points that have a lattice point: others are refused, see
+// TwoToThe62StepsAreAnErrorAndOneLessIsNot.
 rc::Gen<Point> points_near(const Grid& grid) {
   return rc::gen::suchThat(points(), [grid](const Point& p) {
     const Point offset = (p - grid.origin) / grid.voxel_size;

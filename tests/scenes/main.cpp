@@ -6,7 +6,7 @@
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/program.h"
+#include "streaming/process/program.h"
 #include "tests/scenes/kinds.h"
 #include "tests/scenes/ply_writer.h"
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 #include "tests/scenes/numbers.h"
 #include "tests/scenes/permutation.h"
 

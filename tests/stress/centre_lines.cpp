@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "verify/exact.h"
+#include "verify/judge/exact.h"
 
 namespace svdag {
 namespace {

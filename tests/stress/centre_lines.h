@@ -8,8 +8,8 @@
 //   side   on which side of a closed mesh a voxel's centre lies: parity of crossings above it.
 //
 // How: the crossing's coordinate along w is a rational number; its floor and whether it is an
-// integer are found by one exact division (verify/exact.h), then ties go by the sign that d gives.
-// The builder asks for signs of the plane at the ends of segments instead: the two share no
+// integer are found by one exact division (verify/judge/exact.h), then ties go by the sign that d
+// gives. The builder asks for signs of the plane at the ends of segments instead: the two share no
 // formula.
 #pragma once
 

@@ -4,7 +4,7 @@
 
 #include "tests/stress/centre_lines.h"
 #include "tests/stress/paths.h"
-#include "verify/occupancy.h"
+#include "verify/judge/clip_judge.h"
 
 namespace svdag {
 namespace {

@@ -25,8 +25,8 @@ struct Tally {
 // voxels set outside the region although only the region was selected.
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
-// The region as the judge sets it: conservative by clipping (verify/occupancy.h), thin by the
-// crossings of centre lines (tests/stress/centre_lines.h).
+// The region as the judge sets it: conservative by clipping (verify/judge/clip_judge.h), thin by
+// the crossings of centre lines (tests/stress/centre_lines.h).
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
 // The voxelizer as it is used, against the judge; and one of its other paths

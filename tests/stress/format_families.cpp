@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/float_rounding.h"
-#include "io/scene/gltf_transform.h"
+#include "io/scene/gltf/gltf_transform.h"
 #include "tests/stress/world.h"
 
 namespace svdag {
@@ -46,7 +46,7 @@ Soup gltf_nodes(const Spot& spot, StressRandom* random) {
 }
 
 // Integers of `bits` bits over a range of the grid's size, dequantised in double as
-// io/scene/draco.cpp does: float minimum and range, min + k * (range / (2^bits - 1)).
+// io/scene/readers/draco.cpp does: float minimum and range, min + k * (range / (2^bits - 1)).
 Family draco(const char* name, int bits) {
   return {name, [bits](const Spot& spot, StressRandom* random) {
             const double last = double((int64_t(1) << bits) - 1);

@@ -1,12 +1,12 @@
 // The judges agree with each other on every family: clipping and centre lines in integers
-// (verify/), CGAL's exact kernel (verify/judge_cgal.h), and the suite's own centre lines.
+// (verify/), CGAL's exact kernel (verify/judge/judge_cgal.h), and the suite's own centre lines.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "tests/stress/compare_windows.h"
 #include "tests/stress/family.h"
-#include "verify/judge.h"
+#include "verify/judge/judge.h"
 
 namespace svdag {
 namespace {

@@ -1,5 +1,5 @@
 // Random numbers of the stress suite: the same on every machine and for every standard library
-// (the distributions of <random> are not). Not those of verify/random.h, with which
+// (the distributions of <random> are not). Not those of verify/sample/random.h, with which
 // a user's seed draws samples: either may change without the other.
 #pragma once
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/verify/rational_judge.h"
-#include "verify/judge.h"
+#include "verify/judge/judge.h"
 
 namespace svdag {
 

@@ -11,7 +11,7 @@
 #include "io/grid.h"
 #include "io/triangle.h"
 #include "tests/verify/voxels_where.h"
-#include "verify/occupancy.h"
+#include "verify/judge/clip_judge.h"
 
 namespace svdag {
 

@@ -13,7 +13,7 @@
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
 #include "io/units.h"
-#include "streaming/checksum.h"
+#include "streaming/file/checksum.h"
 #include "tests/verify/rational_judge.h"
 
 namespace svdag {

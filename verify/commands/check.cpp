@@ -6,10 +6,10 @@
 #include "io/dag/dag_file.h"
 #include "io/json_text.h"
 #include "io/units.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "streaming/printable.h"
-#include "verify/integrity.h"
+#include "verify/integrity/integrity.h"
 
 namespace svdag {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "io/dag/dag_file.h"
 #include "io/units.h"
-#include "streaming/memory_budget.h"
+#include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 

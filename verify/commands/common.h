@@ -5,8 +5,8 @@
 #include <string>
 
 #include "io/grid.h"
-#include "streaming/lap_timer.h"
-#include "streaming/progress.h"
+#include "streaming/process/lap_timer.h"
+#include "streaming/process/progress.h"
 
 namespace svdag {
 

@@ -7,12 +7,12 @@
 #include "io/dag/dag_file.h"
 #include "io/json_text.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "streaming/file.h"
-#include "verify/diff.h"
-#include "verify/difference_points.h"
-#include "verify/same_place.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/file.h"
+#include "verify/compare/diff.h"
+#include "verify/compare/difference_points.h"
+#include "verify/compare/same_place.h"
 
 namespace svdag {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "streaming/memory_budget.h"
+#include "streaming/memory/memory_budget.h"
 #include "verify/commands/common.h"
-#include "verify/compare.h"
-#include "verify/snapped_scene.h"
+#include "verify/sample/compare.h"
+#include "verify/sample/snapped_scene.h"
 
 namespace svdag {
 

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
-#include "streaming/program.h"
+#include "streaming/process/program.h"
 #include "verify/commands/options.h"
 
 namespace svdag {

@@ -8,8 +8,8 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/commands/judged_scene.h"
-#include "verify/sample.h"
-#include "verify/statistics.h"
+#include "verify/report/statistics.h"
+#include "verify/sample/sample.h"
 
 namespace svdag {
 namespace {

@@ -22,7 +22,7 @@ struct MeshConfig {
 // (kUsage) if a sample could draw nothing, though there may be something.
 int run(const MeshConfig& config);
 
-// The same by OpenVDB, which gives two bounds and no exact set (verify/sandwich.h).
+// The same by OpenVDB, which gives two bounds and no exact set (verify/compare/distance_bounds.h).
 class DagFile;
 int run_sandwich(const MeshConfig& config, const DagFile& file);
 

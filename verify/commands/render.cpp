@@ -6,13 +6,13 @@
 #include <cstdio>
 
 #include "io/dag/dag_file.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "streaming/file.h"
-#include "streaming/memory_budget.h"
-#include "verify/trace/picture_name.h"
-#include "verify/trace/presets.h"
-#include "verify/trace/tree64.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/file.h"
+#include "streaming/memory/memory_budget.h"
+#include "verify/trace/kernel/tree64.h"
+#include "verify/trace/program/picture_name.h"
+#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {

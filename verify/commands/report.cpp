@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 #include "verify/commands/render.h"
-#include "verify/report_html.h"
-#include "verify/trace/presets.h"
+#include "verify/report/report_html.h"
+#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {

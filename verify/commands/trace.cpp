@@ -10,8 +10,8 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/commands/judged_scene.h"
-#include "verify/sample.h"
-#include "verify/trace/ray_judge.h"
+#include "verify/sample/sample.h"
+#include "verify/trace/judge/ray_judge.h"
 
 namespace svdag {
 namespace {

@@ -15,8 +15,8 @@ struct TraceConfig {
   uint64_t memory = 0;  // 0: half of what the machine allows
 };
 
-// kOk, or kDiffers if a claim of verify/trace/ray_judge.h does not hold, or the grid does not hold
-// the scene. An Error (kUsage) if nothing was judged, though there may be something.
+// kOk, or kDiffers if a claim of verify/trace/judge/ray_judge.h does not hold, or the grid does not
+// hold the scene. An Error (kUsage) if nothing was judged, though there may be something.
 int run(const TraceConfig& config);
 
 }  // namespace svdag

@@ -7,9 +7,9 @@
 #include "io/dag/dag_level.h"
 #include "io/json_text.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "verify/compare_vdb.h"
+#include "streaming/file/atomic_file.h"
+#include "verify/compare/compare_vdb.h"
 
 namespace svdag {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "verify/trace/beam.h"
-#include "verify/trace/rays.h"
+#include "verify/trace/kernel/beam.h"
+#include "verify/trace/kernel/rays.h"
 
 namespace svdag {
 namespace {

@@ -1,11 +1,11 @@
 // Renders a picture on the processor, a row of tiles per task.
 #pragma once
 
-#include "streaming/executor.h"
-#include "streaming/progress.h"
+#include "streaming/process/executor.h"
+#include "streaming/process/progress.h"
 #include "verify/trace/image.h"
+#include "verify/trace/kernel/tree64_view.h"
 #include "verify/trace/shade.h"
-#include "verify/trace/tree64_view.h"
 
 namespace svdag {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 
 // The only file that sees stb; its code is not held to our warnings.
 #pragma GCC diagnostic push

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/trace/traverse.h"
+#include "verify/trace/kernel/traverse.h"
 
 namespace svdag {
 

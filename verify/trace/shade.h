@@ -1,7 +1,7 @@
 // From what a camera ray met to a colour.
 #pragma once
 
-#include "verify/trace/workload.h"
+#include "verify/trace/kernel/workload.h"
 
 namespace svdag {
 

@@ -1,8 +1,8 @@
 #include "builder/commands/export/selection.h"
-#include "io/formats/hashdag.h"
-#include "io/formats/octree.h"
-#include "io/formats/symvox.h"
-#include "io/formats/transform_dag.h"
+#include "io/formats/dags/hashdag.h"
+#include "io/formats/dags/octree.h"
+#include "io/formats/dags/symvox.h"
+#include "io/formats/dags/transform_dag.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -5,11 +5,11 @@
 
 #include "builder/commands/export/selection.h"
 #include "io/dag/dag_level.h"
-#include "io/formats/hashdag.h"
-#include "io/formats/octree.h"
+#include "io/formats/dags/hashdag.h"
+#include "io/formats/dags/octree.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 
 namespace svdag {
 namespace {

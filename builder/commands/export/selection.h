@@ -6,7 +6,7 @@
 #include "builder/commands/export/export.h"
 #include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
-#include "streaming/memory_budget.h"
+#include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 

@@ -1,9 +1,9 @@
 #include "io/formats/vdb.h"
 #include "builder/commands/export/selection.h"
 #include "io/units.h"
-#include "streaming/checksum.h"
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/file/checksum.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {

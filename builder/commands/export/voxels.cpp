@@ -1,8 +1,8 @@
 #include "builder/commands/export/selection.h"
-#include "io/formats/binvox.h"
-#include "io/formats/npz.h"
-#include "io/formats/ply_points.h"
-#include "io/formats/vox.h"
+#include "io/formats/voxels/binvox.h"
+#include "io/formats/voxels/npz.h"
+#include "io/formats/voxels/ply_points.h"
+#include "io/formats/voxels/vox.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -12,11 +12,11 @@ namespace {
 constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says more or less
 
 // Its voxels are counted, for nothing proves the number in the header of a file.
-Window window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const auto memory = budget->reserve(selection->walk.bytes_to_count(selection->grid.selection),
                                       "counts of voxels");
-  const Window window{selection->grid, &selection->walk,
-                      selection->walk.count_voxels(selection->grid.selection)};
+  const VoxelWindow window{selection->grid, &selection->walk,
+                           selection->walk.count_voxels(selection->grid.selection)};
   const uint64_t most = config.max_voxels.value_or(kMostVoxels);
   if (window.voxels > most)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
@@ -26,8 +26,8 @@ Window window_of(Selection* selection, const ExportConfig& config, MemoryBudget*
 }
 
 uint64_t export_window(Selection* selection, const ExportConfig& config, MemoryBudget* budget,
-                       void (*write)(const Window&, const std::string&)) {
-  const Window window = window_of(selection, config, budget);
+                       void (*write)(const VoxelWindow&, const std::string&)) {
+  const VoxelWindow window = window_of(selection, config, budget);
   write(window, config.output);
   return window.voxels;
 }

@@ -9,23 +9,23 @@
 #include "builder/run/bake_output.h"
 #include "io/dag/format.h"
 #include "io/dag/symvox_header.h"
-#include "io/formats/binvox.h"
-#include "io/formats/hashdag.h"
-#include "io/formats/npz.h"
-#include "io/formats/symvox.h"
-#include "io/formats/transform_dag.h"
-#include "io/formats/vox.h"
+#include "io/formats/dags/hashdag.h"
+#include "io/formats/dags/symvox.h"
+#include "io/formats/dags/transform_dag.h"
+#include "io/formats/voxels/binvox.h"
+#include "io/formats/voxels/npz.h"
+#include "io/formats/voxels/vox.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
-#include "streaming/atomic_file.h"
 #include "streaming/error.h"
-#include "streaming/file_ending.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/file_ending.h"
 
 namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = VoxelPlace (*)(const File&, const VoxelSink&);
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&);
 using Head = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, Head) {

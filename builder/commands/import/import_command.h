@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/import.h"
+#include "builder/import/import.h"
 #include "io/formats/value_range.h"
 
 namespace svdag {

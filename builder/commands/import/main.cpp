@@ -6,8 +6,8 @@
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/counts.h"
-#include "streaming/interrupt.h"
-#include "streaming/program.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/process/program.h"
 
 namespace svdag {
 namespace {

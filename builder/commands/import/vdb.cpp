@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "streaming/error.h"
-#include "streaming/interrupt.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
 
 // Where voxel `first` of index space has its corner, and how large voxels are.
-VoxelPlace place_of(const std::string& path, const IndexToWorld& centres,
-                    const LatticePoint& first) {
-  VoxelPlace place;
+GridPlacement place_of(const std::string& path, const IndexToWorld& centres,
+                       const LatticePoint& first) {
+  GridPlacement place;
   place.voxel_size = centres.axes[0].x;
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
@@ -62,7 +62,7 @@ VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
   place_ = place_of(path, grid_->centres(), first_);
 }
 
-VoxelPlace VdbVoxels::read(const VoxelSink& voxels, const FullCubeSink& cubes) const {
+GridPlacement VdbVoxels::read(const VoxelSink& voxels, const FullCubeSink& cubes) const {
   VoxelBatch batch(voxels);
   grid_->visit([&](const VoxelCube& cube) {
     check_interrupt();

@@ -20,12 +20,12 @@ class VdbVoxels {
   // Voxels that are handed on one by one.
   uint64_t count() const { return count_; }
   // Hands on every voxel once, those of tiles and full leaves as cubes.
-  VoxelPlace read(const VoxelSink& voxels, const FullCubeSink& cubes) const;
+  GridPlacement read(const VoxelSink& voxels, const FullCubeSink& cubes) const;
 
  private:
   std::unique_ptr<VdbGrid> grid_;
   LatticePoint first_{0};  // becomes voxel (0, 0, 0)
-  VoxelPlace place_;
+  GridPlacement place_;
   uint64_t count_ = 0;
 };
 

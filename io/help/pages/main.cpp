@@ -8,7 +8,7 @@
 
 #include "io/help/pages/completion.h"
 #include "io/help/pages/man_page.h"
-#include "streaming/program.h"
+#include "streaming/process/program.h"
 
 namespace svdag {
 namespace {

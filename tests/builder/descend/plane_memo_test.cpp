@@ -124,7 +124,7 @@ TEST(PlaneMemo, ComputesTheSameWhereverItsTrianglesStandInMemory) {
   std::set<uint64_t> computed;
   for (int i = 0; i < 10; ++i) {
     std::vector<std::unique_ptr<TriangleSetup[]>> kept;
-    EntryList list;
+    TriangleList list;
     for (const LatticeTriangle& triangle : triangles) {
       kept.push_back(std::make_unique<TriangleSetup[]>(1 + random() % 8));
       kept.back()[0] = make_setup(triangle);

@@ -29,8 +29,8 @@ TEST(SelfTest, AsksEveryKernelAHundredThousandQuestions) {
 int answers = 0;  // that are right before one is wrong
 
 template <Kernels::Voxels Kernels::*kVoxels>
-Brick err_once(const Entry* entries, size_t count, const LatticePoint& corner, int fraction,
-               Brick wanted, DecisionCounts* counts) noexcept {
+Brick err_once(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+               int fraction, Brick wanted, DecisionCounts* counts) noexcept {
   const Brick brick = (plain_kernels().*kVoxels)(entries, count, corner, fraction, wanted, counts);
   return answers-- == 0 ? brick ^ (wanted & -wanted) : brick;
 }

@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "verify/occupancy.h"
+#include "verify/judge/clip_judge.h"
 
 namespace svdag {
 namespace {

@@ -1,8 +1,8 @@
 // Plans of tests.
 #pragma once
 
-#include "builder/farm/make_plan.h"
-#include "builder/farm/run_step.h"
+#include "builder/farm/engines/run_step.h"
+#include "builder/farm/planner/make_plan.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"

@@ -26,7 +26,7 @@ Grid small_grid(int levels) {
 
 // Two bricks and two nodes: cells 1 and 4 of level 1 have roots, cells 2 and 3 are empty.
 void write_small(const std::string& path) {
-  RunWriter writer(path, small_grid(4), Rule::kThin, Part::of_cells({1, 1, 5}, 4));
+  RunWriter writer(path, small_grid(4), Rule::kThin, GridPart::of_cells({1, 1, 5}, 4));
   writer.begin_level(2);
   EXPECT_EQ(writer.add_brick(7), 0U);
   EXPECT_EQ(writer.add_brick(9), 1U);
@@ -79,7 +79,7 @@ TEST(RunFile, HoldsWhatWasWritten) {
 TEST(RunFile, LevelsOfManyBlocksBeginAndEndWithinThem) {
   const TempFolder folder;
   const std::string path = folder.file("a.run");
-  RunWriter writer(path, small_grid(4), Rule::kConservative, Part::whole(4));
+  RunWriter writer(path, small_grid(4), Rule::kConservative, GridPart::whole(4));
   const uint32_t bricks = 30'001, nodes = 9'003;
   writer.begin_level(2);
   for (uint32_t i = 0; i < bricks; ++i) writer.add_brick(3 * i + 1);

@@ -8,9 +8,9 @@ namespace {
 
 // Entries of the list of `cube` and of all below it that hold all of its triangles: those of one
 // way down to bricks, with the lists of the children beside it.
-uint64_t entries_on_the_way(const EntryList& list, const Cube& cube, int levels) {
+uint64_t entries_on_the_way(const TriangleList& list, const Cube& cube, int levels) {
   if (cube.level == levels - 2) return list.size();
-  std::array<EntryList, 8> children;
+  std::array<TriangleList, 8> children;
   divide_list(list, cube, levels, {}, &children);
   uint64_t sum = list.size(), deepest = 0;
   unsigned next = 0;
@@ -41,10 +41,10 @@ TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
     tree.add(t);
     setups.push_back(make_setup(t));
   }
-  EntryList all;
+  TriangleList all;
   for (const TriangleSetup& t : setups) all.push_back({&t, t.edges});
-  const uint64_t held = entries_on_the_way(all, Cube(), grid.levels) * sizeof(Entry);
-  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(Entry));  // they do stand on every level
+  const uint64_t held = entries_on_the_way(all, Cube(), grid.levels) * sizeof(ListedTriangle);
+  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they do stand on every level
   EXPECT_GE(tree.bytes(1) - tree.bytes(0), held);
   EXPECT_EQ(tree.bytes(9) - tree.bytes(8), tree.bytes(1) - tree.bytes(0));
 }

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "io/scene/collinear.h"
-#include "io/scene/draco.h"
+#include "io/scene/polygons/collinear.h"
+#include "io/scene/readers/draco.h"
 #include "tests/any_of.h"
-#include "tests/io/scene/gltf_builder.h"
+#include "tests/io/scene/gltf/gltf_builder.h"
 #include "tests/shared_scenes.h"
 #include "tests/temp_folder.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/mesh_reader.h"
+#include "io/scene/mesh/mesh_reader.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 

@@ -1,10 +1,10 @@
-// The plain traversal, the reference of verify/trace/traverse.h: a frame per level, one cube at a
-// time, children by the planes in their middle, and no position but what the planes say.
+// The plain traversal, the reference of verify/trace/kernel/traverse.h: a frame per level, one cube
+// at a time, children by the planes in their middle, and no position but what the planes say.
 #pragma once
 
 #include <cstring>
 
-#include "verify/trace/ray.h"
+#include "verify/trace/kernel/ray.h"
 
 namespace svdag {
 

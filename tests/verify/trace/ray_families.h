@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/verify/raw_dag.h"
-#include "verify/trace/ray.h"
+#include "verify/trace/kernel/ray.h"
 
 namespace svdag {
 

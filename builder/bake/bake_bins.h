@@ -1,0 +1,54 @@
+// Bakes spilled triangles, bin by bin, whatever a bin holds.
+//
+// A bin whose triangles fit in memory becomes a CellTree. One that does not is dealt into bins of
+// its parts, which are baked in turn and freed; and one that is but a small cube and still does not
+// fit (10^9 triangles in one voxel) is collected in a bitmap, batch by batch.
+#pragma once
+
+#include "builder/bake/voxelize.h"
+#include "builder/split/split.h"
+
+namespace svdag {
+
+// Calls visit(bin) for the bins in order; each counts for progress by its triangles.
+template <class Visit>
+void for_each_bin(const std::vector<TriangleBin>& bins, Progress* progress, const Visit& visit) {
+  double all = 0, done = 0;
+  for (const TriangleBin& bin : bins) all += double(bin.triangles);
+  for (const TriangleBin& bin : bins) {
+    const double begin = done / all;
+    done += double(bin.triangles);
+    const Progress::Interval part(progress, begin, done / all);
+    visit(bin);
+  }
+}
+
+class BinBaker {
+ public:
+  // All must outlive the baker. `split` tells the cells and the share of memory.
+  BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
+           const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
+           Progress* progress);
+
+  // `file` holds the bin.
+  void bake(SpillFile* file, const TriangleBin& bin);
+
+ private:
+  // visit(triangles) for batch after batch, until it returns false; whether it never did.
+  template <class Visit>
+  bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
+  std::unique_ptr<CellTree> load(SpillFile* file, const TriangleBin& bin);
+  void bake_dense(SpillFile* file, const TriangleBin& bin);
+  void bake_parts(SpillFile* file, const TriangleBin& bin);
+
+  const Grid& grid_;
+  const SplitConfig& split_;
+  const DescentConfig& descent_;
+  const MortonSet* done_;
+  Voxelizer* voxelizer_;
+  MemoryBudget* budget_;
+  Executor* executor_;
+  Progress* progress_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,136 @@
+#include "builder/bake/description.h"
+
+#include <sstream>
+
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/byte_stream.h"
+#include "streaming/file/checksum.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr const char* kAlgorithm = "1";  // changes when nodes or bricks would
+
+std::string hash_of(const File& file) {
+  ByteStream stream(file);
+  Hasher128 hasher;
+  for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {
+    check_interrupt();
+    hasher.update(bytes);
+    stream.skip(bytes.size());
+  }
+  return to_hex(hasher.digest());
+}
+
+// So that two texts never look the same, whatever is in them, and each stays on its line.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+// One pattern with a space in it is not two patterns.
+std::string list(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) {
+    const bool plain = !item.empty() && item.find_first_of(" \"\\\n") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? item : '"' + escaped(item) + '"');
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<SceneFile> scene_files(const Scene& scene) {
+  std::vector<SceneFile> files;
+  scene.visit_files([&](const File& file) {
+    files.push_back({file.path(), file.size(), hash_of(file)});
+  });
+  return files;
+}
+
+std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // a lack of memory must not shorten the text
+  if (config.part)
+    out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
+        << config.part->level << '\n';
+  if (config.ready != nullptr) return out.str() + config.ready->description;
+  out << "algorithm: " << kAlgorithm << '\n';
+  out << "rule: " << rule_name(config.descent.rule) << '\n';
+  if (config.voxel_size != 0) {
+    out << "voxel size: " << format_double(config.voxel_size) << '\n';
+  } else {
+    out << "resolution: " << (uint64_t(1) << config.levels) << '\n';
+  }
+  if (config.bounds) {
+    out << "bounds:";
+    for (const Point& p : {config.bounds->min, config.bounds->max}) {
+      for (int a = 0; a < 3; ++a) out << ' ' << format_double(p[a]);
+    }
+    out << '\n';
+  }
+  out << "included parts: " << list(config.scene.names.include) << '\n';
+  out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
+  out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
+  for (const SceneFile& file : files)
+    out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
+  return out.str();
+}
+
+bool is_of_this_algorithm(const std::string& description) {
+  return description.starts_with("algorithm: " + std::string(kAlgorithm) + "\n");
+}
+
+const std::vector<SceneFile>& Description::files() {
+  if (files_.empty()) {
+    watch_.begin();
+    std::vector<SceneFile> files = scene_files(scene_);
+    watch_.check();
+    files_ = std::move(files);
+  }
+  return files_;
+}
+
+std::string Description::text() {
+  return describe(config_, config_.ready != nullptr ? std::vector<SceneFile>() : files());
+}
+
+std::optional<std::string> Description::text_if_unchanged() {
+  if (changed_) return std::nullopt;
+  try {
+    return text();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kOutput) throw;
+    changed_ = true;
+    return std::nullopt;
+  }
+}
+
+std::string difference(const std::string& saved, const std::string& now) {
+  std::istringstream a(saved), b(now);
+  a.exceptions(std::ios::badbit);
+  b.exceptions(std::ios::badbit);
+  std::string old_line, new_line;
+  for (;;) {
+    const bool more_old = bool(std::getline(a, old_line));
+    const bool more_new = bool(std::getline(b, new_line));
+    if (!more_old && !more_new) return {};
+    if (more_old && more_new && old_line == new_line) continue;
+    const auto shown = [](bool more, const std::string& line) {
+      return more ? "\"" + line + "\"" : std::string("nothing");
+    };
+    return shown(more_old, old_line) + " then, " + shown(more_new, new_line) + " now";
+  }
+}
+
+}  // namespace svdag

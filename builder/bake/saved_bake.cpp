@@ -1,0 +1,206 @@
+#include "builder/bake/saved_bake.h"
+
+#include <algorithm>
+
+#include "builder/split/bin_record.h"
+#include "builder/workspace/scratch.h"
+
+namespace svdag {
+namespace {
+
+// Changes when any record does, those of builder/split/bin_record.h included. Journals without a
+// layout begin with the length of their description instead, which is that of a text of several
+// lines.
+constexpr uint32_t kLayout = 3;
+
+// Field by field: no byte of a hostile file becomes a bool or an enumerator unseen.
+void put_grid(const Grid& grid, RecordWriter* out) {
+  out->put(uint32_t(grid.kind));
+  out->put(int32_t(grid.levels));
+  out->put(grid.voxel_size);
+  for (int a = 0; a < 3; ++a) out->put(grid.origin[a]);
+  out->put(grid.k0);
+  out->put(uint32_t(grid.bounded));
+  out->put(grid.selection);
+}
+
+Grid get_grid(RecordReader* in) {
+  Grid grid;
+  uint32_t kind = 0, bounded = 0;
+  in->get(&kind);
+  in->get(&grid.levels);
+  in->get(&grid.voxel_size);
+  for (int a = 0; a < 3; ++a) in->get(&grid.origin[a]);
+  in->get(&grid.k0);
+  in->get(&bounded);
+  in->get(&grid.selection);
+  grid.kind = Grid::Kind(kind);
+  grid.bounded = bounded == 1;
+  in->require(bounded <= 1 && grid.is_possible(), "impossible grid");
+  return grid;
+}
+
+void put_counts(const SplitCounts& counts, RecordWriter* out) {
+  out->put(counts.scene.triangles);
+  out->put(counts.scene.quantisation);
+  out->put(counts.scene.invalid);
+  out->put(counts.scene.undeformed);
+  out->put(counts.clipped);
+  out->put(counts.outside);
+  out->put(counts.degenerate);
+  out->put(counts.largest_snap);
+}
+
+SplitCounts get_counts(RecordReader* in) {
+  SplitCounts counts;
+  in->get(&counts.scene.triangles);
+  in->get(&counts.scene.quantisation);
+  in->get(&counts.scene.invalid);
+  in->get(&counts.scene.undeformed);
+  in->get(&counts.clipped);
+  in->get(&counts.outside);
+  in->get(&counts.degenerate);
+  in->get(&counts.largest_snap);
+  return counts;
+}
+
+void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
+  uint32_t layout = 0;
+  in->get(&layout);
+  if (layout != kLayout)
+    throw Error(ExitCode::kUsage, "is of another version of svdag: discard it with --restart",
+                path);
+  in->get(&saved->description);
+  saved->grid = get_grid(in);
+  in->get(&saved->block_bytes);
+  in->require(Scratch::can_have_blocks_of(saved->block_bytes), "impossible size of blocks");
+}
+
+void grow(uint32_t* blocks, const SpillStream& stream) {
+  for (const uint32_t block : stream.blocks) *blocks = std::max(*blocks, block + 1);
+}
+
+// The ranges and roots of a run lie in the grid, and each root in a level that has such a rank.
+void check_run(const BakedRun& baked, int levels, const RecordReader& in) {
+  const uint64_t all = uint64_t(1) << 3 * levels;
+  for (const MortonRange& range : baked.finished)
+    in.require(range.begin <= range.end && range.end <= all, "a run is not in the grid");
+  for (const SubDagRoot& root : baked.roots) {
+    in.require(root.level >= 0 && root.level <= levels - 2 && root.morton >> 3 * root.level == 0,
+               "a root is not in the grid");
+    const bool brick = root.level == levels - 2;
+    const uint64_t keys =
+        brick ? baked.run.bricks.spilled->bytes / sizeof(Brick)
+              : baked.run.nodes[size_t(root.level)].spilled->bytes / sizeof(NodeKey);
+    in.require(root.rank < keys, "a root has no node");
+  }
+}
+
+template <class Key>
+RunLevel<Key> get_level(RecordReader* in) {
+  RunLevel<Key> level;
+  level.spilled = get_stream(in);
+  in->require(level.spilled->bytes % sizeof(Key) == 0, "a level ends within a node");
+  return level;
+}
+
+// `run` is not set in them.
+std::vector<SubDagRoot> get_roots(RecordReader* in) {
+  std::vector<SubDagRoot> roots;
+  uint64_t count = 0;
+  for (in->get(&count); count > 0; --count) {
+    SubDagRoot& root = roots.emplace_back();
+    in->get(&root.morton);
+    in->get(&root.level);
+    in->get(&root.rank);
+  }
+  return roots;
+}
+
+void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
+  out->put(uint64_t(roots.size()));
+  for (const SubDagRoot& root : roots) {
+    out->put(root.morton);
+    out->put(root.level);
+    out->put(root.rank);
+  }
+}
+
+BakedRun get_run(RecordReader* in, int levels) {
+  BakedRun baked;
+  uint64_t nodes = 0;
+  in->get(&nodes);
+  in->require(nodes + 2 == uint64_t(levels), "a run has other levels than the grid");
+  baked.run.nodes.resize(nodes);
+  baked.run.bricks = get_level<Brick>(in);
+  for (auto& level : baked.run.nodes) level = get_level<NodeKey>(in);
+  baked.roots = get_roots(in);
+  in->get(&baked.voxels);
+  in->get(&baked.finished);
+  check_run(baked, levels, *in);
+  return baked;
+}
+
+template <class Key>
+void put_level(const RunLevel<Key>& level, RecordWriter* out) {
+  SVDAG_ASSERT(level.spilled);
+  put_stream(*level.spilled, out);
+}
+
+}  // namespace
+
+RecordWriter bake_record(const std::string& description, const Grid& grid, uint64_t block_bytes) {
+  RecordWriter record;
+  record.put(kLayout);
+  record.put(description);
+  put_grid(grid, &record);
+  record.put(block_bytes);
+  return record;
+}
+
+RecordWriter split_record(const SplitScene& split) {
+  RecordWriter record;
+  put_counts(split.counts, &record);
+  put_bins(split.bins, &record);
+  return record;
+}
+
+RecordWriter run_record(const BakedRun& baked) {
+  RecordWriter record;
+  record.put(uint64_t(baked.run.nodes.size()));
+  put_level(baked.run.bricks, &record);
+  for (const auto& level : baked.run.nodes) put_level(level, &record);
+  put_roots(baked.roots, &record);
+  record.put(baked.voxels);
+  record.put(baked.finished);
+  return record;
+}
+
+SavedBake read_saved(std::span<const JournalRecord> records, const std::string& path) {
+  SavedBake saved;
+  for (const JournalRecord& record : records) {
+    RecordReader in(record.payload, path, ExitCode::kOutput);
+    const SavedKind kind = SavedKind(record.kind);
+    in.require((kind == SavedKind::kBake) == (&record == records.data()),
+               "it does not begin with the bake");
+    if (kind == SavedKind::kBake) {
+      get_bake(&in, path, &saved);
+    } else if (kind == SavedKind::kSplit) {
+      saved.split.emplace();
+      saved.split->counts = get_counts(&in);
+      saved.split->bins = get_bins(&in, saved.grid.levels);
+      for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
+    } else if (kind == SavedKind::kRun) {
+      const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;
+      grow(&saved.run_blocks, *run.bricks.spilled);
+      for (const auto& level : run.nodes) grow(&saved.run_blocks, *level.spilled);
+    } else {
+      in.require(kind == SavedKind::kSession, "a record is of an unknown kind");
+      ++saved.sessions;
+    }
+    in.finish();
+  }
+  return saved;
+}
+
+}  // namespace svdag

@@ -1,0 +1,208 @@
+#include "builder/cache/cell_cache.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <tuple>
+
+#include "builder/cache/cell_key.h"
+#include "builder/cache/pack_blocks.h"
+#include "builder/workspace/memory_shares.h"
+#include "streaming/counts.h"
+
+namespace svdag {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".cells";
+
+std::string random_name() {
+  std::random_device device;
+  char name[17];
+  std::snprintf(name, sizeof name, "%08x%08x", unsigned(device()), unsigned(device()));
+  return std::string(name) + kEnding;
+}
+
+// Somebody else's file in the folder, whatever it is called, is none.
+bool is_of_cache(const std::string& name) {
+  return name.size() == 16 + std::strlen(kEnding) && name.ends_with(kEnding) &&
+         name.find_first_not_of("0123456789abcdef") == 16;
+}
+
+// A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
+size_t packs_to_keep_open() {
+  struct rlimit files;
+  return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
+}
+
+// Of an Error being handled that is no fault of the pack: it passes, and the bake goes on without
+// it, but for a defect of ours.
+void let_pass(const Error& error) {
+  if (error.code() == ExitCode::kInternal) throw;
+}
+
+}  // namespace
+
+CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
+                     MemoryBudget* budget)
+    : config_(config),
+      grid_(grid),
+      rule_(rule),
+      budget_(budget),
+      folder_(Folder::open_shared(config.folder)) {
+  if (config_.most_open == 0) config_.most_open = packs_to_keep_open();
+  open_packs();
+}
+
+CellCache::~CellCache() {
+  try {
+    trim();
+  } catch (const std::exception&) {  // the next bake tries again
+  }
+}
+
+// All that there are, that used least recently first.
+std::vector<CellCache::Found> CellCache::find_packs() const {
+  std::vector<Found> packs;
+  for (const std::string& name : folder_.names()) {
+    if (!is_of_cache(name)) continue;
+    const fs::path path = fs::path(config_.folder) / name;
+    std::error_code gone;  // another bake may trim, too
+    const auto used = fs::last_write_time(path, gone);
+    const uint64_t bytes = gone ? 0 : fs::file_size(path, gone);
+    if (!gone) packs.push_back({used, name, bytes});
+  }
+  std::sort(packs.begin(), packs.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.used, a.name) < std::tie(b.used, b.name);
+  });
+  return packs;
+}
+
+void CellCache::open_packs() {
+  const MemoryShares shares(budget_->limit());
+  uint64_t left = shares.cache_index, entries = 0;
+  std::vector<Found> found = find_packs();
+  std::reverse(found.begin(), found.end());
+  for (const Found& file : found) {
+    try {
+      Pack pack(config_.folder + "/" + file.name);
+      const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(Place);
+      if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
+        ++ignored_;
+        continue;
+      }
+      pack.read_entries(budget_);
+      packs_.push_back({std::move(pack), {}});
+      left -= bytes;
+      entries += packs_.back().pack.entry_count();
+    } catch (const DamagedPack&) {
+      discard(file.name);
+    } catch (const Error& error) {
+      let_pass(error);
+    }
+  }
+  counted_ = budget_->reserve(entries * sizeof(Place), "places in the cell cache");
+  places_.reserve(entries);
+  make_index();
+}
+
+// Of equal keys the one stays whose pack was used last.
+void CellCache::make_index() {
+  for (uint32_t p = 0; p < packs_.size(); ++p) {
+    const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
+    for (uint32_t e = 0; e < count; ++e) places_.push_back({p, e});
+  }
+  std::sort(places_.begin(), places_.end(), [this](Place a, Place b) {
+    return std::tie(key_at(a).words, a.pack, a.entry) < std::tie(key_at(b).words, b.pack, b.entry);
+  });
+  const auto same = [this](Place a, Place b) { return key_at(a) == key_at(b); };
+  places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
+}
+
+CellKey CellCache::key(const Cube& cube, const TriangleList& list) const {
+  return cell_key(grid_, rule_, cube, list);
+}
+
+void CellCache::discard(const std::string& name) const {
+  try {
+    folder_.remove(name);
+  } catch (const Error&) {  // a cache that cannot be written to serves all the same
+  }
+}
+
+// Proves a pack before its first use; its file is marked as used.
+bool CellCache::usable(Open* open) {
+  if (open->proven || open->unusable) return open->proven;
+  if (open_ >= config_.most_open) return false;
+  open->unusable = true;
+  try {
+    open->pack.prove();
+    open->proven = true;
+    ++open_;
+    std::error_code ignored;  // a cache that cannot be written to serves all the same
+    fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
+  } catch (const DamagedPack&) {
+    discard(fs::path(open->pack.path()).filename().string());
+  } catch (const Error& error) {
+    let_pass(error);
+  }
+  return open->proven;
+}
+
+bool CellCache::take(const CellKey& key, const Cube& cube) {
+  const auto found = std::lower_bound(
+      places_.begin(), places_.end(), key,
+      [this](Place place, const CellKey& k) { return key_at(place).words < k.words; });
+  if (found == places_.end() || key_at(*found) != key) return false;
+  const std::lock_guard lock(mutex_);
+  Open& open = packs_[found->pack];
+  const PackEntry& entry = open.pack.entries()[found->entry];
+  const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
+  if (!fits || !usable(&open)) return false;
+  open.taken.push_back({found->entry, cube});
+  ++hits_;
+  return true;
+}
+
+void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
+                      const std::function<void(BakedRun)>& use) {
+  for (Open& open : packs_) {
+    if (open.taken.empty()) continue;
+    const std::optional<SpillTarget> place = target(open.pack.bytes());
+    use(open.pack.extract(std::move(open.taken), grid_.levels, budget_, place ? &*place : nullptr));
+    open.taken.clear();
+  }
+}
+
+void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!complaint_.empty()) return;
+  }
+  try {
+    write_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kOutput) throw;
+    const std::lock_guard lock(mutex_);
+    complaint_ = std::string("the cell cache is not written: ") + error.what();
+  }
+}
+
+void CellCache::trim() const {
+  const std::vector<Found> packs = find_packs();
+  uint64_t all = 0;
+  for (const Found& pack : packs) all += pack.bytes;
+  size_t left = packs.size();
+  for (const Found& pack : packs) {
+    if (all <= config_.most_bytes && left <= config_.most_packs) return;
+    folder_.remove(pack.name);
+    all -= pack.bytes;
+    --left;
+  }
+}
+
+}  // namespace svdag

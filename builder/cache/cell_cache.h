@@ -1,0 +1,89 @@
+// `--cache DIR`: cells that were baked before are taken from a folder instead of being baked.
+//
+// The folder holds packs (builder/cache/cell_pack.h), one for each table of nodes that a bake
+// filled with new cells. A bake reads the entries of all packs when it begins, takes what it meets,
+// and adds packs of its own at its end, each under a random name and complete from the moment that
+// it has the name: any number of bakes may share the folder. A pack is read through before anything
+// of it is taken, and stays open then, for another bake may remove it. A damaged pack is removed. A
+// pack that cannot be opened or read just now is skipped; so are packs beyond the number that may
+// be open at once, and the least recently used where the entries of all have no room in their share
+// of the memory (builder/workspace/memory_shares.h). The folder has two limits, of bytes and of
+// packs, for small packs are never joined and each costs a bake its reading: beyond them the packs
+// go that were not used for the longest time. Rejected: a file per cell (262,144 at 64K^3), one
+// data base (locks over NFS).
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "builder/cache/cell_pack.h"
+#include "io/dag/format.h"
+#include "streaming/file/file_folder.h"
+
+namespace svdag {
+
+struct CellCacheConfig {
+  std::string folder;                        // made, for this user alone, if it is not there
+  uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
+  size_t most_packs = 4096;
+  size_t most_open = 0;  // packs of which a bake takes; 0: by what the process may open
+};
+
+class CellCache final : public CellStore {
+ public:
+  CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule, MemoryBudget* budget);
+  // Removes packs until the folder is within its limits.
+  ~CellCache() override;
+
+  CellKey key(const Cube& cube, const TriangleList& list) const override;
+  bool take(const CellKey& key, const Cube& cube) override;
+  void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
+             const std::function<void(BakedRun)>& use) override;
+  // What cannot be written is not kept; complaint() says why.
+  void keep(const BakedRun& baked, SpillFile* runs) override;
+  uint64_t hits() const override { return hits_; }
+  uint64_t ignored() const override { return ignored_; }
+  std::string complaint() const override { return complaint_; }
+
+ private:
+  // ListedTriangle `entry` of packs_[pack].
+  struct Place {
+    uint32_t pack, entry;
+  };
+  struct Found {
+    std::filesystem::file_time_type used;
+    std::string name;
+    uint64_t bytes;
+  };
+  struct Open {
+    Pack pack;
+    std::vector<Pack::Taken> taken;
+    bool proven = false, unusable = false;
+  };
+  std::vector<Found> find_packs() const;
+  void open_packs();
+  void make_index();
+  const CellKey& key_at(Place place) const {
+    return packs_[place.pack].pack.entries()[place.entry].key;
+  }
+  void trim() const;
+  bool usable(Open* open);
+  void discard(const std::string& name) const;
+
+  CellCacheConfig config_;
+  Grid grid_;
+  Rule rule_;
+  MemoryBudget* budget_;
+  Folder folder_;
+  std::vector<Open> packs_;
+  size_t open_ = 0;                    // of them
+  MemoryBudget::Reservation counted_;  // places_
+  std::vector<Place> places_;          // of all keys, by key
+  std::mutex mutex_;
+  uint64_t hits_ = 0, ignored_ = 0;
+  std::string complaint_;
+};
+
+}  // namespace svdag

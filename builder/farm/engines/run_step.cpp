@@ -1,0 +1,106 @@
+#include "builder/farm/engines/run_step.h"
+
+#include <chrono>
+
+#include "builder/build.h"
+#include "builder/farm/plan/leaf_bins.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/merge/merge_runs.h"
+#include "streaming/spill/scratch_dir.h"
+
+namespace svdag {
+namespace {
+
+Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                   const std::string& output, Executor* executor, Progress* progress) {
+  SpillFile triangles(File::open_read(plan.path(kPlanTriangles)), plan.block_bytes, 0,
+                      ExitCode::kBadInput);
+  const ReadySplit ready = {plan.description, plan.grid, plan.counts,
+                            bins_of(plan.bins, step.cells, plan.grid.levels), &triangles};
+  BuildConfig build;
+  build.ready = &ready;
+  build.part = step.cells;
+  build.output = output;
+  build.descent.rule = plan.rule;
+  build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
+  build.scratch = config.scratch;
+  // What is left unfinished in the plan's folder is the plan's; beside another name it may be
+  // anybody's.
+  const Unfinished unfinished =
+      config.output.empty() ? Unfinished::kResumeSame : Unfinished::kResume;
+  build.unfinished = config.restart ? Unfinished::kRestart : unfinished;
+  if (config.checkpoint != 0) build.checkpoint = config.checkpoint;
+  const BuildReport report = svdag::build(build, executor, progress);
+  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch.peak};
+}
+
+// The outputs of the steps that a merge reads.
+std::vector<std::string> inputs_of(const Plan& plan, const PlanStep& step) {
+  std::vector<std::string> paths;
+  for (const size_t i : step.inputs) {
+    const PlanStep& input = plan.steps[i];
+    const std::string path = plan.path(input.output);
+    switch (state_of(plan, input, path, false)) {
+      case OutputState::kMissing:
+        fail_input(path, "is missing: " + input.name + " of the plan was not done");
+      case OutputState::kInvalid:
+        fail_input(path, "is not what " + input.name +
+                             " of this plan makes (another plan's, an older one, or damaged): do " +
+                             input.name + " again");
+      case OutputState::kValid:
+        paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
+Receipt merge_inputs(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                     const std::string& output, Executor* executor, Progress* progress) {
+  MergeRunsConfig merge;
+  merge.runs = inputs_of(plan, step);
+  merge.output = output;
+  merge.memory = config.memory != 0 ? config.memory : step.predicted.budget;
+  merge.scratch = config.scratch;
+  merge.discard_unfinished = config.output.empty();
+  const MergeRunsReport report = merge_runs(merge, executor, progress);
+  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch_written};
+}
+
+std::string output_of(const Plan& plan, const PlanStep& step, const StepConfig& config) {
+  return config.output.empty() ? plan.path(step.output) : config.output;
+}
+
+}  // namespace
+
+bool is_being_done(const Plan& plan, const PlanStep& step, const StepConfig& config) {
+  return ScratchDir::in_use(ScratchDir::path_for(output_of(plan, step, config), config.scratch));
+}
+
+StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                    Executor* executor, Progress* progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  StepReport report;
+  report.output = output_of(plan, step, config);
+  if (state_of(plan, step, report.output, true) == OutputState::kValid) {
+    report.kept = true;
+    report.receipt = *read_receipt(plan, step);
+    return report;
+  }
+  make_folder(plan.path("runs"));  // a copy of a plan may lack what was empty
+  const auto work = step.is_shard() ? bake_shard : merge_inputs;
+  try {
+    report.receipt = work(plan, step, config, report.output, executor, progress);
+  } catch (const ScratchInUse& in_use) {
+    throw Error(kDoneElsewhere,
+                "another process is doing " + step.name + " in this scratch folder: wait for it",
+                in_use.path());
+  }
+  report.receipt.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.receipt.cpu = cpu_seconds();
+  report.receipt.memory = peak_resident_bytes();
+  write_receipt(plan, step, report.receipt);
+  return report;
+}
+
+}  // namespace svdag

@@ -1,0 +1,130 @@
+#include "builder/farm/engines/submit_openjd.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "builder/farm/engines/process.h"
+#include "builder/farm/plan/step_name.h"
+#include "streaming/file/file.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
+constexpr int kLeastSeconds = 600;
+constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the step that a task does
+
+// Open Job Description wants relative defaults of paths.
+std::string relative_to(const std::string& folder, const std::string& path) {
+  std::error_code error;
+  const auto relative = std::filesystem::relative(path, folder, error);
+  return error ? path : relative.string();
+}
+
+// Names are templates, too, and short.
+std::string job_name(const Plan& plan) {
+  constexpr size_t kLongest = 128;
+  const std::string name = "svdag " + plan.steps.back().output;
+  return name.size() > kLongest || name.find("{{") != std::string::npos ? "svdag" : name;
+}
+
+// Steps that may run at the same time, as one step of the template with a task each.
+struct Stage {
+  std::string name;
+  std::vector<size_t> steps;
+};
+
+// The shards, then the merges by their height over them.
+std::vector<Stage> stages_of(const Plan& plan) {
+  std::vector<size_t> height;
+  std::map<size_t, Stage> stages;
+  for (size_t i = 0; i < plan.steps.size(); ++i) {
+    size_t own = 0;
+    for (const size_t input : plan.steps[i].inputs) own = std::max(own, height[input] + 1);
+    height.push_back(own);
+    Stage& stage = stages[own];
+    stage.name = own == 0 ? "Shards" : "Merges" + std::to_string(own);
+    stage.steps.push_back(i);
+  }
+  std::vector<Stage> list;
+  for (auto& [own, stage] : stages) list.push_back(std::move(stage));
+  return list;
+}
+
+Json requirements(const Plan& plan, const Stage& stage) {
+  uint64_t memory = 0, threads = 1;
+  for (const size_t i : stage.steps) {
+    memory = std::max(memory, plan.steps[i].predicted.memory);
+    threads = std::max<uint64_t>(threads, plan.steps[i].threads);
+  }
+  return {{"amounts",
+           Json::array({{{"name", "amount.worker.memory"}, {"min", (memory + (1 << 20) - 1) >> 20}},
+                        {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
+}
+
+Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage) {
+  const bool shards = plan.steps[stage.steps.front()].is_shard();
+  const std::string tasks = number_in(plan.steps[stage.steps.front()].name) + "-" +
+                            number_in(plan.steps[stage.steps.back()].name);
+  double seconds = 0;
+  for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
+  Json arguments = {shards ? "build" : "merge", "{{Param.Plan}}"};
+  arguments.push_back(shards ? "--shard" : "--step");
+  arguments.push_back(shards ? kNumber : merge_name(kNumber));
+  if (!config.scratch.empty()) {
+    arguments.push_back("--scratch={{Param.Scratch}}");
+  }
+  return {{"name", stage.name},
+          {"parameterSpace",
+           {{"taskParameterDefinitions",
+             Json::array({{{"name", "Number"}, {"type", "INT"}, {"range", tasks}}})}}},
+          {"hostRequirements", requirements(plan, stage)},
+          {"script",
+           {{"actions",
+             {{"onRun",
+               {{"command", "{{Param.Svdag}}"},
+                {"args", arguments},
+                {"timeout", std::max(kLeastSeconds, int(kTimeFactor * seconds))}}}}}}}};
+}
+
+}  // namespace
+
+std::string openjd_template(const Plan& plan, const OpenJdConfig& asked) {
+  OpenJdConfig config = asked;  // as hosts see it, who work in folders of their own
+  config.program = program_on_hosts(asked.program);
+  if (!asked.scratch.empty()) config.scratch = from_anywhere(asked.scratch);
+  for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
+    require_utf8(path);
+  Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};
+  json["parameterDefinitions"] =
+      Json::array({{{"name", "Plan"},
+                    {"type", "PATH"},
+                    {"objectType", "DIRECTORY"},
+                    {"dataFlow", "INOUT"},
+                    {"description", "The folder that svdag plan wrote"},
+                    {"default", relative_to(folder_of(config.path), plan.folder)}},
+                   {{"name", "Svdag"},
+                    {"type", "STRING"},
+                    {"description", "The program svdag on the hosts"},
+                    {"default", config.program}}});
+  if (!config.scratch.empty())
+    json["parameterDefinitions"].push_back(
+        {{"name", "Scratch"},
+         {"type", "STRING"},
+         {"description", "The folder on the hosts for what does not fit in memory"},
+         {"default", config.scratch}});
+  std::string before;
+  for (const Stage& stage : stages_of(plan)) {
+    Json step = step_json(plan, config, stage);
+    if (!before.empty()) step["dependencies"] = Json::array({{{"dependsOn", before}}});
+    json["steps"].push_back(step);
+    before = stage.name;
+  }
+  return json.dump(1) + "\n";
+}
+
+}  // namespace svdag

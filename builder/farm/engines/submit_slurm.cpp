@@ -1,0 +1,323 @@
+#include "builder/farm/engines/submit_slurm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include "builder/farm/engines/process.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/farm/plan/receipt.h"
+#include "builder/farm/plan/step_name.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/process/interrupt.h"
+#include "streaming/process/shell.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kUsualArray = 1000;     // tasks, where Slurm does not say how many it allows
+constexpr size_t kLargestArray = 10000;  // a list of more would be too long for a command line
+constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
+constexpr uint64_t kLeastMinutes = 10;
+constexpr uint64_t kMiB = uint64_t(1) << 20;
+constexpr auto kPoll = std::chrono::milliseconds(500);
+constexpr int kPatience = 120;  // polls that squeue may fail for in a row
+
+// The steps of one sbatch.
+struct Job {
+  std::string name;
+  std::vector<size_t> steps;  // shards, or one merge
+  std::string script;         // its path
+  uint64_t memory = 0;
+  size_t threads = 1;
+  double seconds = 0;
+  std::string id;  // once submitted
+};
+
+Answer ask_sbatch(const std::vector<std::string>& command) {
+  try {
+    return ask_process(command);
+  } catch (const Error& error) {
+    fail_usage(std::string(error.what()) + ": is Slurm installed here?");
+  }
+}
+
+// The largest power of ten of which every remainder may be the number of a task; 1 where Slurm has
+// no arrays.
+size_t array_size() {
+  Answer answer;
+  try {
+    answer = ask_process({"scontrol", "show", "config"});
+  } catch (const Error&) {  // not installed beside sbatch
+    return kUsualArray;
+  }
+  const size_t at = answer.code == 0 ? answer.output.find("MaxArraySize") : std::string::npos;
+  const size_t digits = answer.output.find_first_of("0123456789", at);
+  if (at == std::string::npos || digits == std::string::npos) return kUsualArray;
+  const uint64_t most = std::strtoull(answer.output.c_str() + digits, nullptr, 10);
+  size_t size = 1;
+  while (size < kLargestArray && 10 * size <= most) size *= 10;
+  return size;
+}
+
+// "3" and "5-7" for 3, 5, 6, 7: the tasks of an array.
+std::string task_list(const std::vector<size_t>& numbers) {
+  std::string list;
+  for (size_t begin = 0, end; begin < numbers.size(); begin = end) {
+    for (end = begin + 1; end < numbers.size() && numbers[end] == numbers[end - 1] + 1;) ++end;
+    list += (list.empty() ? "" : ",") + std::to_string(numbers[begin]);
+    if (end - begin > 1) list += "-" + std::to_string(numbers[end - 1]);
+  }
+  return list;
+}
+
+// Slurm takes a % in the name of a log for the begin of a pattern.
+std::string without_patterns(const std::string& path) {
+  std::string text;
+  for (const char c : path) text += c == '%' ? "%%" : std::string(1, c);
+  return text;
+}
+
+// What becomes of jobs, and what the user may do about it; `ids` have commas between them.
+void tell_queued(const char* why, std::string ids) {
+  std::fprintf(stderr, "svdag: %swhat was submitted goes on (squeue --jobs=%s)", why, ids.c_str());
+  std::replace(ids.begin(), ids.end(), ',', ' ');
+  std::fprintf(stderr, " until it is done, or cancelled (scancel %s)\n", ids.c_str());
+}
+
+class Submission {
+ public:
+  Submission(const Plan& plan, const SlurmConfig& config)
+      : plan_(plan), config_(config), array_(array_size()) {}
+
+  void run() {
+    collect();
+    if (jobs_.empty()) {
+      if (!config_.quiet) std::printf("every step of the plan is done\n");
+      return;
+    }
+    make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty
+    submit_all();
+    if (config_.wait) wait();
+  }
+  // Of the jobs that were submitted, with commas between them.
+  std::string jobs() const {
+    std::string ids;
+    for (const Job& job : jobs_) {
+      if (!job.id.empty()) ids += (ids.empty() ? "" : ",") + job.id;
+    }
+    return ids;
+  }
+
+ private:
+  void collect();
+  void add(size_t step, Job* job) const;
+  // Shards are the first steps of a plan.
+  static size_t number_of(size_t shard) { return shard + 1; }
+  size_t task_of(size_t shard) const { return number_of(shard) % array_; }
+  bool is_array(const Job& job) const {
+    return array_ > 1 && plan_.steps[job.steps.front()].is_shard();
+  }
+  std::string log_of(const Job& job) const;
+  void submit_all();
+  void submit(Job* job);
+  std::string script_of(const Job& job) const;
+  std::string dependencies_of(const Job& job) const;
+  void wait() const;
+  bool any_queued(const std::string& ids) const;
+
+  const Plan& plan_;
+  const SlurmConfig& config_;
+  size_t array_;  // shards whose numbers agree but for the remainder go in one array
+  std::vector<Job> jobs_;
+  std::map<size_t, std::string> ids_;  // of the steps that were submitted: "12" or "12_3"
+};
+
+void Submission::collect() {
+  const size_t none = SIZE_MAX;
+  size_t current = none;  // array of the last job
+  for (size_t i = 0; i < plan_.steps.size(); ++i) {
+    const PlanStep& step = plan_.steps[i];
+    // Every byte: what is damaged would stay so, for no job would do it again.
+    if (state_of(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
+    const size_t array = step.is_shard() && array_ > 1 ? number_of(i) / array_ : none;
+    if (array == none || array != current) {
+      jobs_.emplace_back();
+      jobs_.back().name = array == none
+                              ? step.name
+                              : "shards-" + std::to_string(std::max<size_t>(1, array * array_));
+    }
+    current = array;
+    add(i, &jobs_.back());
+  }
+}
+
+void Submission::add(size_t i, Job* job) const {
+  const PlanStep& step = plan_.steps[i];
+  job->steps.push_back(i);
+  job->memory = std::max(job->memory, step.predicted.memory);
+  job->threads = std::max(job->threads, step.threads);
+  job->seconds = std::max(job->seconds, step.predicted.seconds);
+}
+
+// One step, by the task of the array that runs it.
+std::string Submission::script_of(const Job& job) const {
+  const PlanStep& step = plan_.steps[job.steps.front()];
+  std::vector<std::string> words = plan_.command(step);
+  if (is_array(job)) words.pop_back();  // the number
+  std::string command = shell_word(program_on_hosts(config_.program));
+  for (const std::string& word : words) command += " " + shell_word(word);
+  if (is_array(job))
+    command += " \"$((SLURM_ARRAY_TASK_ID + " +
+               std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) + "))\"";
+  if (!config_.scratch.empty())
+    command += " --scratch " + shell_word(from_anywhere(config_.scratch));
+  return "#!/bin/sh\n" + command +
+         "\n"
+         "code=$?\n"
+         "# What may pass (disk, memory, another process, a signal) is tried again, no other.\n"
+         "case $code in\n"
+         "  4 | 5 | 75 | 12[89] | 1[3-9]? | 2[0-9][0-9])\n"
+         "    if [ \"${SLURM_RESTART_COUNT:-0}\" -lt 2 ]; then\n"
+         "      scontrol requeue \"$SLURM_JOB_ID\" && sleep 60\n"
+         "    fi ;;\n"
+         "esac\n"
+         "exit $code\n";
+}
+
+std::string Submission::dependencies_of(const Job& job) const {
+  std::string list;
+  for (const size_t input : plan_.steps[job.steps.front()].inputs) {
+    if (const auto id = ids_.find(input); id != ids_.end()) list += ":" + id->second;
+  }
+  return list;
+}
+
+// Each shard's log bears the shard's own number: that of its array in front of the task's, which
+// has leading zeros then.
+std::string Submission::log_of(const Job& job) const {
+  std::string name = job.name;
+  if (is_array(job)) {
+    const size_t array = number_of(job.steps.front()) / array_;
+    const size_t digits = std::to_string(array_).size() - 1;
+    name =
+        shard_name(array == 0 ? "%a" : std::to_string(array) + "%" + std::to_string(digits) + "a");
+  }
+  return without_patterns(plan_.folder) + "/logs/" + name + ".slurm.log";
+}
+
+void Submission::submit_all() {
+  try {
+    for (Job& job : jobs_) submit(&job);
+  } catch (const Error&) {
+    if (const std::string ids = jobs(); !ids.empty()) tell_queued("", ids);
+    throw;
+  }
+}
+
+void Submission::submit(Job* job) {
+  job->script = plan_.path("logs/" + job->name + ".sh");
+  AtomicFile file(job->script);
+  file.append(script_of(*job));
+  file.commit();
+  const bool array = is_array(*job);
+  const uint64_t minutes = std::max(kLeastMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
+  std::vector<std::string> command = {
+      "sbatch",
+      "--parsable",
+      "--requeue",
+      "--open-mode=append",
+      "--job-name=" + job->name,
+      "--output=" + log_of(*job),
+      "--mem=" + std::to_string((job->memory + kMiB - 1) / kMiB) + "M",
+      "--cpus-per-task=" + std::to_string(job->threads),
+      "--time=" + std::to_string(minutes)};
+  if (array) {
+    std::vector<size_t> tasks;
+    for (const size_t i : job->steps) tasks.push_back(task_of(i));
+    command.push_back("--array=" + task_list(tasks));
+  }
+  const std::string after = dependencies_of(*job);
+  if (!after.empty()) {
+    command.push_back("--dependency=afterok" + after);
+    command.push_back("--kill-on-invalid-dep=yes");
+  }
+  command.insert(command.end(), config_.options.begin(), config_.options.end());
+  command.push_back(job->script);
+  const Answer answer = ask_sbatch(command);
+  if (answer.code != 0)  // it may pass: a limit of jobs, a controller that restarts
+    throw Error(ExitCode::kOutput, "sbatch refused " + job->name + ": " + one_line(answer.output));
+  const std::string line =
+      last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
+  job->id = line.substr(0, line.find(';'));
+  for (const size_t i : job->steps)
+    ids_[i] = array ? job->id + "_" + std::to_string(task_of(i)) : job->id;
+  if (!config_.quiet)
+    std::printf("%s: job %s%s%s\n", job->name.c_str(), job->id.c_str(),
+                after.empty() ? "" : " after ", after.empty() ? "" : after.c_str() + 1);
+  std::fflush(stdout);
+}
+
+// Whether one of the jobs is still queued or runs.
+bool Submission::any_queued(const std::string& ids) const {
+  const Answer answer =
+      ask_process({"squeue", "--noheader", "--array", "--jobs=" + ids, "--format=%T"});
+  // squeue knows nothing of jobs that ended a while ago, and calls them invalid.
+  if (answer.code != 0 && answer.output.find("Invalid job id") == std::string::npos)
+    throw Error(ExitCode::kOutput, "squeue failed: " + one_line(answer.output));
+  return answer.code == 0 && answer.output.find_first_not_of(" \n") != std::string::npos;
+}
+
+void Submission::wait() const {
+  const std::string ids = jobs();
+  for (int failures = 0;;) {
+    std::this_thread::sleep_for(kPoll);
+    check_interrupt();
+    try {
+      if (!any_queued(ids)) break;
+      failures = 0;
+    } catch (const Error&) {  // a controller that restarts answers a while later
+      if (++failures > kPatience) throw;
+    }
+  }
+  std::string missing;
+  size_t count = 0;
+  for (const PlanStep& step : plan_.steps) {
+    const bool last = &step == &plan_.steps.back();  // the others were read by the merges
+    if (state_of(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
+    if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
+  }
+  if (count == 0) {
+    if (!config_.quiet) std::printf("%s is done\n", plan_.path(plan_.steps.back().output).c_str());
+    return;
+  }
+  throw Error(ExitCode::kOutput, "the jobs ended, but " + std::to_string(count) +
+                                     " steps of the plan were not done, first " + missing +
+                                     ": see " + plan_.path("logs/") +
+                                     "; submitting again does only what is missing");
+}
+
+void tell_interrupted(const std::string& ids) {
+  if (ids.empty()) {
+    std::fprintf(stderr, "svdag: stopped; nothing was submitted\n");
+    return;
+  }
+  tell_queued("stopped; ", ids);
+}
+
+}  // namespace
+
+void submit_slurm(const Plan& plan, const SlurmConfig& config) {
+  Submission submission(plan, config);
+  try {
+    submission.run();
+  } catch (const Interrupted&) {
+    tell_interrupted(submission.jobs());
+    throw;
+  }
+}
+
+}  // namespace svdag

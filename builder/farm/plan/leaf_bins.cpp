@@ -1,0 +1,119 @@
+#include "builder/farm/plan/leaf_bins.h"
+
+#include <algorithm>
+
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kBatch = 4096;      // triangles read at once
+constexpr uint64_t kMostCopies = 3;  // of a triangle, on average, by one dealing
+
+class Dealer {
+ public:
+  Dealer(const Grid& grid, const LeafConfig& config, Scratch* scratch, SpillFile* out)
+      : grid_(grid), config_(config), scratch_(scratch), out_(out) {}
+
+  void deal(SplitScene* scene) {
+    if (!scene->tree) {
+      for (const TriangleBin& bin : scene->bins) place(scratch_->triangles(), bin);
+      return;
+    }
+    TriangleBins bins = bins_below(Cube(), scene->tree->triangles());
+    for (uint64_t i = 0; i < scene->tree->triangles(); ++i) bins.add(scene->tree->triangle(i));
+    scene->tree.reset();
+    place_all(bins.finish());
+  }
+
+  std::vector<TriangleBin> take() { return std::move(leaves_); }
+
+ private:
+  // The level of the cube that the bin was made for; that of the bin may be smaller.
+  int level_of(const TriangleBin& bin) const {
+    int level = grid_.levels;
+    while (level > 0 && bin.range.end - bin.range.begin > uint64_t(1) << 3 * (grid_.levels - level))
+      --level;
+    return level;
+  }
+
+  // A surface in 4^depth parts: no deeper than makes them light.
+  TriangleBins bins_below(const Cube& cube, uint64_t triangles) const {
+    const int most = std::min(TriangleBins::depth_for(config_.open_bytes, *scratch_, grid_, cube),
+                              std::max(1, config_.deepest - cube.level));
+    int depth = 1;
+    while (depth < most && config_.light << (2 * depth) < triangles) ++depth;
+    return TriangleBins(grid_, cube, depth, scratch_->passing(), scratch_);
+  }
+
+  void place_all(const std::vector<TriangleBin>& bins) {
+    for (const TriangleBin& bin : bins) {
+      place(scratch_->passing(), bin);
+      scratch_->passing()->free(bin.stream);
+    }
+  }
+
+  void place(SpillFile* from, const TriangleBin& bin) {
+    const int level = level_of(bin);
+    if (bin.triangles <= config_.light || level >= config_.deepest) return copy(from, bin);
+    const Cube made_for = ancestor(bin.cube, level);
+    std::vector<TriangleBin> parts;
+    {
+      TriangleBins bins = bins_below(made_for, bin.triangles);
+      read(from, bin, [&](const LatticeTriangle& triangle) { bins.add(triangle); });
+      parts = bins.finish();
+    }
+    uint64_t copies = 0;
+    for (const TriangleBin& part : parts) copies += part.triangles;
+    if (copies <= kMostCopies * bin.triangles) return place_all(parts);
+    for (const TriangleBin& part : parts) scratch_->passing()->free(part.stream);
+    copy(from, bin);
+  }
+
+  void copy(SpillFile* from, const TriangleBin& bin) {
+    SpillReader reader(from, bin.stream, scratch_->budget());
+    SpillWriter writer(out_, leaves_.size() + 1, scratch_->budget());
+    for (auto block = reader.next(); !block.empty(); block = reader.next()) writer.append(block);
+    leaves_.push_back({bin.cube, bin.range, bin.triangles, writer.finish()});
+    check_interrupt();
+  }
+
+  template <class Visit>
+  void read(SpillFile* from, const TriangleBin& bin, const Visit& visit) {
+    BinReader reader(from, bin, scratch_->budget());
+    std::vector<LatticeTriangle> triangles;
+    for (; reader.read(kBatch, &triangles); triangles.clear()) {
+      check_interrupt();
+      for (const LatticeTriangle& triangle : triangles) visit(triangle);
+    }
+  }
+
+  const Grid& grid_;
+  const LeafConfig& config_;
+  Scratch* scratch_;
+  SpillFile* out_;
+  std::vector<TriangleBin> leaves_;
+};
+
+}  // namespace
+
+std::vector<TriangleBin> make_leaf_bins(SplitScene* scene, const Grid& grid,
+                                        const LeafConfig& config, Scratch* scratch,
+                                        SpillFile* out) {
+  Dealer dealer(grid, config, scratch, out);
+  dealer.deal(scene);
+  return dealer.take();
+}
+
+std::vector<TriangleBin> bins_of(const std::vector<TriangleBin>& bins, const CellRange& cells,
+                                 int levels) {
+  const int shift = 3 * (levels - cells.level);
+  const uint64_t begin = cells.begin << shift, end = cells.end << shift;
+  std::vector<TriangleBin> met;
+  for (const TriangleBin& bin : bins) {
+    if (bin.range.begin < end && bin.range.end > begin) met.push_back(bin);
+  }
+  return met;
+}
+
+}  // namespace svdag

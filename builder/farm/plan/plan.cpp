@@ -1,0 +1,267 @@
+#include "builder/farm/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "builder/bake/description.h"
+#include "builder/farm/plan/plan_index.h"
+#include "builder/farm/plan/step_name.h"
+#include "io/json_number.h"
+#include "streaming/counts.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPlanJson = "plan.json";
+constexpr int kFormat = 4;  // changes when a key, or what the index holds, does
+
+template <class Vector>
+Json three(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+LatticePoint get_point(const Json& json) {
+  LatticePoint v;
+  for (int a = 0; a < 3; ++a) v[a] = whole_number<int64_t>(json.at(size_t(a)));
+  return v;
+}
+
+uint64_t count_of(const Json& json, const char* key) {
+  return whole_number<uint64_t>(json.at(key));
+}
+
+Json grid_json(const Grid& grid) {
+  return {{"kind", grid.kind == Grid::Kind::kBox ? "box" : "lattice"},
+          {"levels", grid.levels},
+          {"voxel_size", grid.voxel_size},
+          {"origin", three(grid.origin)},
+          {"k0", three(grid.k0)},
+          {"bounded", grid.bounded},
+          {"selection_min", three(grid.selection.min)},
+          {"selection_max", three(grid.selection.max)}};
+}
+
+Grid get_grid(const Json& json) {
+  Grid grid;
+  grid.kind = json.at("kind") == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
+  grid.levels = whole_number<int>(json.at("levels"));
+  grid.voxel_size = json.at("voxel_size");
+  for (int a = 0; a < 3; ++a) grid.origin[a] = json.at("origin").at(size_t(a));
+  grid.k0 = get_point(json.at("k0"));
+  grid.bounded = json.at("bounded");
+  grid.selection = {get_point(json.at("selection_min")), get_point(json.at("selection_max"))};
+  return grid;
+}
+
+Json counts_json(const SplitCounts& counts) {
+  return {{"triangles", counts.scene.triangles},
+          {"invalid", counts.scene.invalid},
+          {"undeformed", counts.scene.undeformed},
+          {"quantisation", counts.scene.quantisation},
+          {"outside", counts.outside},
+          {"clipped", counts.clipped},
+          {"degenerate", counts.degenerate},
+          {"largest_snap_voxels", counts.largest_snap}};
+}
+
+SplitCounts get_counts(const Json& json) {
+  SplitCounts counts;
+  counts.scene.triangles = count_of(json, "triangles");
+  counts.scene.invalid = count_of(json, "invalid");
+  counts.scene.undeformed = count_of(json, "undeformed");
+  counts.scene.quantisation = json.at("quantisation");
+  counts.outside = count_of(json, "outside");
+  counts.clipped = count_of(json, "clipped");
+  counts.degenerate = count_of(json, "degenerate");
+  counts.largest_snap = json.at("largest_snap_voxels");
+  return counts;
+}
+
+double rounded(double seconds) {
+  return std::round(1000 * seconds) / 1000;
+}
+
+Json prediction_json(const Prediction& p) {
+  return {{"cpu_seconds", rounded(p.cpu)}, {"seconds", rounded(p.seconds)},
+          {"budget_bytes", p.budget},      {"memory_bytes", p.memory},
+          {"output_bytes", p.output},      {"scratch_bytes", p.scratch}};
+}
+
+Prediction get_prediction(const Json& json) {
+  return {json.at("cpu_seconds"),         json.at("seconds"),
+          count_of(json, "budget_bytes"), count_of(json, "memory_bytes"),
+          count_of(json, "output_bytes"), count_of(json, "scratch_bytes")};
+}
+
+Json step_json(const Plan& plan, const PlanStep& step) {
+  Json json = {{"name", step.name}};
+  if (step.is_shard()) {
+    json["cells"] = {
+        {"level", step.cells.level}, {"begin", step.cells.begin}, {"end", step.cells.end}};
+    json["triangles"] = step.triangles;
+  } else {
+    for (const size_t i : step.inputs) json["inputs"].push_back(plan.steps[i].name);
+  }
+  json["output"] = step.output;
+  json["threads"] = step.threads;
+  json["command"] = {"svdag"};
+  for (const std::string& word : plan.command(step)) json["command"].push_back(word);
+  json["predicted"] = prediction_json(step.predicted);
+  return json;
+}
+
+// Steps write into the folder of their plan, whoever has written that.
+bool stays_inside(const std::string& path) {
+  const std::string parts = "/" + path + "/";
+  return !path.empty() && path[0] != '/' && parts.find("/../") == std::string::npos &&
+         path.find('\0') == std::string::npos;
+}
+
+PlanStep get_step(const Json& json, const Plan& plan) {
+  PlanStep step;
+  step.name = json.at("name");
+  step.output = json.at("output");
+  if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
+    throw Error(ExitCode::kBadInput, "a step leads out of the plan's folder: " + step.output);
+  step.threads = count_of(json, "threads");
+  if (step.threads < 1 || step.threads > kMostThreads)
+    throw Error(ExitCode::kBadInput, "step " + step.name + " has an impossible number of threads");
+  step.predicted = get_prediction(json.at("predicted"));
+  if (json.contains("cells")) {
+    const Json& cells = json.at("cells");
+    step.cells = {whole_number<int>(cells.at("level")), count_of(cells, "begin"),
+                  count_of(cells, "end")};
+    step.triangles = count_of(json, "triangles");
+    const int level = step.cells.level;
+    if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
+        step.cells.end > uint64_t(1) << 3 * level)
+      throw Error(ExitCode::kBadInput, "the cells of step " + step.name + " are not in the grid");
+    if (!is_shard_name(step.name))
+      throw Error(ExitCode::kBadInput, "the shard " + step.name + " has no name of one");
+    return step;
+  }
+  for (const Json& name : json.at("inputs"))
+    step.inputs.push_back(size_t(&find_step(plan, name.get<std::string>()) - plan.steps.data()));
+  if (step.inputs.empty())
+    throw Error(ExitCode::kBadInput, "the merge " + step.name + " has no inputs");
+  return step;
+}
+
+void parse(const std::string& text, Plan* plan, std::string* index_hash) {
+  const Json json = Json::parse(text);
+  if (json.at("format") != kFormat)
+    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
+  for (const Json& input : json.at("inputs"))
+    plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
+  plan->description = json.at("description");
+  if (!is_of_this_algorithm(plan->description))
+    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
+  plan->grid = get_grid(json.at("grid"));
+  if (!plan->grid.is_possible()) throw Error(ExitCode::kBadInput, "has an impossible grid");
+  plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
+  plan->counts = get_counts(json.at("scene"));
+  plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
+  plan->cells = count_of(json.at("one_bake"), "cells");
+  *index_hash = json.at("index_hash");
+  for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
+  if (plan->steps.empty()) throw Error(ExitCode::kBadInput, "has no steps");
+}
+
+std::string without_slashes(std::string path) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+std::string read_all(const std::string& path) {
+  const File file = File::open_read(path);
+  std::string text(file.size(), ' ');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+}  // namespace
+
+size_t Plan::shards() const {
+  return size_t(std::count_if(steps.begin(), steps.end(),
+                              [](const PlanStep& step) { return step.is_shard(); }));
+}
+
+std::vector<std::string> Plan::command(const PlanStep& step) const {
+  if (step.is_shard()) return {"build", folder, "--shard", number_in(step.name)};
+  return {"merge", folder, "--step", step.name};
+}
+
+void require_utf8(const std::string& path) {
+  try {
+    (void)Json(path).dump();
+  } catch (const Json::type_error&) {
+    fail_usage(path + ": its name is no UTF-8, which a plan cannot write down: rename it");
+  }
+}
+
+bool is_plan(const std::string& path) {
+  return name_exists(path + "/" + kPlanJson);
+}
+
+std::string plan_json(const Plan& plan, const std::string& index_hash) {
+  Json json = {{"svdag", "plan"}, {"format", kFormat}};
+  for (const PlanInput& input : plan.inputs)
+    json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"hash", input.hash}});
+  json["description"] = plan.description;
+  json["grid"] = grid_json(plan.grid);
+  json["rule"] = rule_name(plan.rule);
+  json["scene"] = counts_json(plan.counts);
+  json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
+  json["bins"] = plan.bins.size();
+  json["index_hash"] = index_hash;
+  for (const PlanStep& step : plan.steps) json["steps"].push_back(step_json(plan, step));
+  return json.dump(1) + "\n";
+}
+
+void save_plan(Plan* plan) {
+  const std::string text = plan_json(*plan, save_index(*plan));
+  AtomicFile file(plan->path(kPlanJson));
+  file.append(text);
+  file.commit();
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(text)));
+  plan->hash = to_hex(hasher.digest());
+}
+
+Plan load_plan(const std::string& folder, bool with_bins) {
+  Plan plan;
+  plan.folder = absolute_path(without_slashes(folder));
+  const std::string path = plan.path(kPlanJson);
+  if (!is_plan(folder))
+    fail_input(folder, "is no plan: there is no plan.json in it (svdag plan makes one)");
+  const std::string text = read_all(path);
+  std::string index_hash;
+  try {
+    parse(text, &plan, &index_hash);
+  } catch (const Json::exception& error) {
+    fail_input(path, std::string("is damaged: ") + error.what());
+  } catch (const Error& error) {
+    fail_input(path, error.what());
+  }
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(text)));
+  plan.hash = to_hex(hasher.digest());
+  if (with_bins) load_index(index_hash, &plan);
+  return plan;
+}
+
+const PlanStep& find_step(const Plan& plan, const std::string& name) {
+  for (const PlanStep& step : plan.steps) {
+    if (step.name == name) return step;
+  }
+  fail_usage("the plan has no step " + name);
+}
+
+}  // namespace svdag

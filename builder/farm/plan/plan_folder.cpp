@@ -1,0 +1,60 @@
+#include "builder/farm/plan/plan_folder.h"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "builder/farm/plan/receipt.h"
+#include "streaming/error.h"
+#include "streaming/file/file_calls.h"
+
+namespace svdag {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_planned(const std::string& folder, const std::string& name, const std::string& output) {
+  static const std::set<std::string> kAtFirst = {"plan.scratch", "runs", "logs"};
+  static const std::set<std::string> kLater = {"index", kPlanTriangles, "openjd.json"};
+  if (name.starts_with('.') || kAtFirst.contains(name)) return true;  // hidden: never overwritten
+  // runs/ is there before the files: without it they are somebody else's.
+  if (!fs::is_directory(folder + "/runs")) return false;
+  return kLater.contains(name) || name == output || name == output + ".scratch";
+}
+
+}  // namespace
+
+bool make_folder(const std::string& path) {
+  if (::mkdir(path.c_str(), 0777) == 0) return true;
+  if (errno == EEXIST) return false;
+  fail_call(ExitCode::kOutput, "this folder cannot be made", path, errno);
+}
+
+std::vector<std::string> own_files(const std::string& folder) {
+  return {folder + "/plan.json", folder + "/index", folder + "/" + kPlanTriangles};
+}
+
+std::vector<std::string> files_of(const Plan& plan) {
+  std::vector<std::string> files = own_files(plan.folder);
+  for (const PlanStep& step : plan.steps) {
+    files.push_back(plan.path(step.output));
+    files.push_back(receipt_path(plan, step));
+  }
+  return files;
+}
+
+void refuse_strange_files(const std::string& folder, const std::string& output) {
+  // No folder, or one that cannot be listed: whoever writes there will say so.
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
+       entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    if (!is_planned(folder, name, output))
+      fail_usage(folder + " holds " + name + ", which is no part of a plan: choose another folder");
+  }
+}
+
+}  // namespace svdag

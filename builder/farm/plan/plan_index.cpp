@@ -1,0 +1,45 @@
+#include "builder/farm/plan/plan_index.h"
+
+#include "builder/split/bin_record.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+
+namespace svdag {
+namespace {
+
+constexpr const char* kIndex = "index";
+
+std::string hash_of(std::span<const std::byte> bytes) {
+  Hasher128 hasher;
+  hasher.update(bytes);
+  return to_hex(hasher.digest());
+}
+
+}  // namespace
+
+std::string save_index(const Plan& plan) {
+  RecordWriter record;
+  record.put(uint64_t(plan.block_bytes));
+  put_bins(plan.bins, &record);
+  AtomicFile file(plan.path(kIndex));
+  file.append(record.bytes());
+  file.commit();
+  return hash_of(record.bytes());
+}
+
+void load_index(const std::string& hash, Plan* plan) {
+  const File file = File::open_read(plan->path(kIndex));
+  std::vector<std::byte> bytes(file.size());
+  file.read_at(0, bytes);
+  if (hash_of(bytes) != hash)
+    fail_input(file.path(), "is not the index of this plan: make the plan again");
+  RecordReader in(bytes, file.path(), ExitCode::kBadInput);
+  uint64_t block_bytes = 0;
+  in.get(&block_bytes);
+  in.require(Scratch::can_have_blocks_of(block_bytes), "impossible size of blocks");
+  plan->block_bytes = size_t(block_bytes);
+  plan->bins = get_bins(&in, plan->grid.levels);
+  in.finish();
+}
+
+}  // namespace svdag

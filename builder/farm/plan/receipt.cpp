@@ -1,0 +1,101 @@
+#include "builder/farm/plan/receipt.h"
+
+#include <nlohmann/json.hpp>
+
+#include "builder/run/bake_output.h"
+#include "builder/run/run_check.h"
+#include "builder/run/run_file.h"
+#include "io/dag/check.h"
+#include "io/json_number.h"
+#include "io/json_text.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+
+namespace svdag {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr uint64_t kLargestReceipt = 1 << 16;
+constexpr uint64_t kCheckMemory = uint64_t(64) << 20;
+
+std::string content_of_run(const std::string& path, bool thorough) {
+  MemoryBudget budget;
+  const RunFile run = RunFile::open(path, &budget);
+  if (thorough) check_run(run, kCheckMemory, &budget);
+  return to_hex(run.header().content_hash);
+}
+
+std::string content_of_dag(const std::string& path, bool thorough) {
+  const File file = File::open_read(path);
+  Header header;
+  if (thorough) {
+    header = check_dag(file);
+  } else {
+    file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
+    if (header.file_bytes != file.size()) fail_input(path, "is cut short");
+  }
+  return to_hex(header.content_hash);
+}
+
+}  // namespace
+
+std::string receipt_path(const Plan& plan, const PlanStep& step) {
+  return plan.path("runs/" + step.name + ".json");
+}
+
+void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receipt) {
+  const Json json = {{"plan", plan.hash},
+                     {"step", step.name},
+                     {"content_hash", receipt.content_hash},
+                     {"bytes", receipt.bytes},
+                     {"seconds", receipt.seconds},
+                     {"cpu_seconds", receipt.cpu},
+                     {"memory_bytes", receipt.memory},
+                     {"scratch_bytes", receipt.scratch}};
+  AtomicFile file(receipt_path(plan, step));
+  file.append(json_text(json, 1) + "\n");
+  file.commit();
+}
+
+std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
+  const std::string path = receipt_path(plan, step);
+  if (!name_exists(path)) return {};
+  const File file = File::open_read(path);
+  std::string text(std::min(file.size(), kLargestReceipt), ' ');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("plan") != plan.hash || json.at("step") != step.name) return {};
+    Receipt receipt;
+    receipt.content_hash = json.at("content_hash");
+    receipt.bytes = whole_number<uint64_t>(json.at("bytes"));
+    receipt.seconds = json.at("seconds");
+    receipt.cpu = json.at("cpu_seconds");
+    receipt.memory = whole_number<uint64_t>(json.at("memory_bytes"));
+    receipt.scratch = whole_number<uint64_t>(json.at("scratch_bytes"));
+    return receipt;
+  } catch (const Json::exception&) {
+    return {};
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
+                     bool thorough) {
+  if (!name_exists(path)) return OutputState::kMissing;
+  const std::optional<Receipt> receipt = read_receipt(plan, step);
+  if (!receipt) return OutputState::kInvalid;
+  try {
+    const std::string content =
+        names_run(path) ? content_of_run(path, thorough) : content_of_dag(path, thorough);
+    return content == receipt->content_hash ? OutputState::kValid : OutputState::kInvalid;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    return OutputState::kInvalid;
+  }
+}
+
+}  // namespace svdag

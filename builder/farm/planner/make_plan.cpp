@@ -1,0 +1,275 @@
+#include "builder/farm/planner/make_plan.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "builder/bake/choose_grid.h"
+#include "builder/bake/description.h"
+#include "builder/bake/scene_watch.h"
+#include "builder/farm/plan/leaf_bins.h"
+#include "builder/farm/plan/merge_tree.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/farm/plan/step_name.h"
+#include "builder/farm/planner/pilot.h"
+#include "builder/workspace/workspace.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
+
+namespace svdag {
+namespace {
+
+constexpr int kDeepestBins = 6;             // as the cells
+constexpr uint64_t kBinsPerShard = 8;       // a shard reads an eighth too much at each end
+constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not worth their blocks
+constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
+constexpr size_t kSmallestBlock = 1 << 14;
+
+void refuse_a_plan(const std::string& folder) {
+  if (is_plan(folder))
+    fail_usage(folder + " holds a plan, and plans do not change: choose another folder");
+}
+
+// Names that a plan could not write down are refused before there is work to lose.
+void require_names(const PlanConfig& config) {
+  const SceneConfig& scene = config.build.scene;
+  require_utf8(config.folder);
+  require_utf8(config.output);
+  for (const std::string& path : scene.paths) require_utf8(absolute_path(path));
+  for (const auto& names : {scene.names.include, scene.names.exclude})
+    for (const std::string& name : names) require_utf8(name);
+}
+
+// Where a plan spills: apart from the bake of the same output, which may have left work to
+// resume.
+std::string scratch_path(const PlanConfig& config) {
+  const std::string name =
+      config.folder.empty() ? config.build.output + ".dry-run" : config.folder + "/plan";
+  return ScratchDir::path_for(name, config.build.scratch);
+}
+
+// From a scene to a plan; one function per phase.
+class Planner {
+ public:
+  Planner(const PlanConfig& config, Progress* progress)
+      : config_(config),
+        progress_(progress),
+        workspace_(scratch_path(config), config.build.memory, 1),
+        vertices_(workspace_.vertices()),
+        scene_(config.build.scene, workspace_.budget(), &vertices_),
+        watch_(scene_) {
+    make_room();
+  }
+
+  Plan run() {
+    read_scene();
+    survey();
+    make_steps();
+    if (!config_.folder.empty()) save();
+    progress_->finish();
+    return std::move(plan_);
+  }
+
+ private:
+  void make_room();
+  void read_scene();
+  void describe_inputs();
+  void survey();
+  void make_steps();
+  void add_shards(const std::vector<ShardWork>& works);
+  void add_merges(const std::vector<ShardWork>& works);
+  void save();
+  StepLimits limits() const { return {config_.step_threads, config_.build.memory}; }
+
+  const PlanConfig& config_;
+  Progress* progress_;
+  Workspace workspace_;
+  SpillSpace vertices_;
+  Scene scene_;
+  SceneWatch watch_;
+  std::unique_ptr<SpillFile> triangles_;
+  PilotConfig pilot_config_;
+  Pilot pilot_;
+  std::vector<CellRange> shards_;
+  Plan plan_;
+};
+
+// What a killed plan left behind goes; a bake whose output has the name of this scratch does not.
+// Another process may have finished its plan before it gave the scratch folder back.
+void Planner::make_room() {
+  if (!config_.folder.empty()) refuse_a_plan(config_.folder);
+  if (!workspace_.has_unfinished_bake()) return workspace_.folder()->clear();
+  workspace_.folder()->keep();
+  fail_usage(workspace_.folder()->path() +
+             " holds an unfinished bake: finish it, or choose another --scratch");
+}
+
+void Planner::read_scene() {
+  if (!config_.folder.empty())
+    scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
+  progress_->phase("read bounds", 0);
+  watch_.begin();
+  const Box box = config_.build.bounds ? Box() : scene_.bounds();
+  plan_.folder = config_.folder;
+  plan_.grid = choose_grid(config_.build, box);
+  plan_.rule = config_.build.descent.rule;
+  progress_->phase("hash", 0);
+  describe_inputs();
+  progress_->phase("split", 0);
+  SplitConfig split_config;
+  split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kDeepestBins);
+  split_config.triangle_bytes = workspace_.shares().triangles;
+  split_config.scratch = workspace_.scratch();
+  SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
+  watch_.check();
+  plan_.counts = scene.counts;
+  if (scene.counts.scene.triangles == 0)
+    fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");
+  progress_->phase("deal triangles", 0);
+  LeafConfig leaf;
+  leaf.light = std::max(kLightBin, scene.counts.scene.triangles / (kBinsPerShard * config_.shards));
+  leaf.deepest = std::min(kDeepestBins, plan_.grid.levels - 2);
+  leaf.open_bytes = workspace_.shares().open_bins;
+  plan_.block_bytes = std::clamp(std::bit_floor(size_t(leaf.light * kBytesPerTriangle / 4)),
+                                 kSmallestBlock, workspace_.scratch()->block_bytes());
+  triangles_ = std::make_unique<SpillFile>(config_.folder.empty()
+                                               ? workspace_.folder()->create(kPlanTriangles)
+                                               : File::create_anonymous(config_.folder),
+                                           plan_.block_bytes);
+  plan_.bins = make_leaf_bins(&scene, plan_.grid, leaf, workspace_.scratch(), triangles_.get());
+}
+
+void Planner::describe_inputs() {
+  const std::vector<SceneFile> files = scene_files(scene_);
+  plan_.description = describe(config_.build, files);
+  for (const SceneFile& file : files)
+    plan_.inputs.push_back({absolute_path(file.path), file.bytes, file.hash});
+}
+
+void Planner::survey() {
+  progress_->phase("survey", 0);
+  pilot_config_.descent = config_.build.descent;
+  pilot_config_.shards = config_.shards;
+  pilot_config_.table_bytes = workspace_.shares().pilot_table;
+  pilot_config_.triangle_bytes = workspace_.shares().triangles;
+  pilot_ = run_pilot(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, workspace_.budget());
+  plan_.cells = pilot_.cells.size();
+  plan_.one_bake_cpu = cpu_of_bake(pilot_.work, pilot_.found, plan_.counts.scene.triangles);
+  shards_ = cut_evenly(pilot_.cells, pilot_.cell_level, config_.shards);
+}
+
+void Planner::make_steps() {
+  progress_->phase("survey shards", 0);
+  const std::vector<ShardWork> works =
+      survey_shards(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, pilot_, shards_,
+                    workspace_.budget());
+  add_shards(works);
+  add_merges(works);
+}
+
+void Planner::add_shards(const std::vector<ShardWork>& works) {
+  for (size_t i = 0; i < shards_.size(); ++i) {
+    PlanStep step;
+    step.name = shard_name(i + 1);
+    step.cells = shards_[i];
+    step.triangles = works[i].triangles;
+    step.output = "runs/" + step.name + ".run";
+    step.threads = config_.step_threads;
+    step.predicted = predict_shard(works[i], limits());
+    plan_.steps.push_back(step);
+  }
+}
+
+// The share of nodes that shards have in common is 0 for one shard and measured for all; between,
+// it is interpolated in the logarithm of their number.
+void Planner::add_merges(const std::vector<ShardWork>& works) {
+  const size_t shards = works.size();
+  std::vector<NodeCounts> found;   // by step
+  std::vector<NodeCounts> summed;  // of its shards
+  std::vector<size_t> leaves(shards, 1);
+  NodeCounts all;
+  for (const ShardWork& work : works) {
+    found.push_back(work.found);
+    summed.push_back(work.found);
+    all.nodes += work.found.nodes;
+    all.bricks += work.found.bricks;
+  }
+  const double most = std::log(double(std::max<size_t>(2, shards)));
+  const double node_share = std::min(1.0, pilot_.found.nodes / std::max(1.0, all.nodes));
+  const double brick_share = std::min(1.0, pilot_.found.bricks / std::max(1.0, all.bricks));
+  const MergeTree tree = merge_tree(shards, config_.fan_in);
+  for (size_t m = 0; m < tree.size(); ++m) {
+    PlanStep step;
+    step.name = merge_name(m + 1);
+    step.inputs = tree[m];
+    NodeCounts read, sum;
+    size_t count = 0;
+    for (const size_t i : step.inputs) {
+      read = {read.nodes + found[i].nodes, read.bricks + found[i].bricks};
+      sum = {sum.nodes + summed[i].nodes, sum.bricks + summed[i].bricks};
+      count += leaves[i];
+    }
+    const double way = std::log(double(count)) / most;
+    found.push_back(
+        {sum.nodes * std::pow(node_share, way), sum.bricks * std::pow(brick_share, way)});
+    summed.push_back(sum);
+    leaves.push_back(count);
+    const bool last = m + 1 == tree.size();
+    step.output = last ? config_.output : "runs/" + step.name + ".run";
+    step.threads = 1;
+    step.predicted = predict_merge(read, found.back(), last, {1, config_.build.memory});
+    plan_.steps.push_back(step);
+  }
+}
+
+// The triangles get their name, then the index, then what says that the plan is whole.
+void Planner::save() {
+  progress_->phase("save", 0);
+  refuse_a_plan(config_.folder);  // of a planner with another --scratch, who was faster
+  make_folder(plan_.path("runs"));
+  make_folder(plan_.path("logs"));
+  triangles_->link_as(plan_.path(kPlanTriangles));
+  save_plan(&plan_);
+}
+
+}  // namespace
+
+void discard_dry_run(const BuildConfig& build) {
+  PlanConfig dry;
+  dry.build = build;
+  const std::string path = scratch_path(dry);
+  std::error_code none;
+  if (!std::filesystem::exists(path, none) || ScratchDir::in_use(path)) return;
+  try {
+    ScratchDir folder(path);
+    if (folder.has(kJournalName)) folder.keep();  // of a bake whose output has such a name
+  } catch (const Error&) {                        // somebody else's; it is in nobody's way
+  }
+}
+
+Plan make_plan(const PlanConfig& config, Progress* progress) {
+  PlanConfig own = config;
+  bool made = false;
+  if (!own.folder.empty()) {
+    while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
+    own.folder = absolute_path(own.folder);
+    refuse_a_plan(own.folder);
+    require_names(own);
+    refuse_strange_files(own.folder, own.output);
+    made = make_folder(own.folder);
+  }
+  try {
+    // The last step gives it its name: nobody shall bake for one that cannot be given.
+    if (!own.folder.empty()) AtomicFile::check(own.folder + "/" + own.output);
+    return Planner(own, progress).run();
+  } catch (...) {
+    if (made) (void)!::rmdir(own.folder.c_str());  // unless there is something in it
+    throw;
+  }
+}
+
+}  // namespace svdag

@@ -1,0 +1,91 @@
+#include "builder/farm/planner/print_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "io/units.h"
+#include "streaming/process/shell.h"
+
+namespace svdag {
+namespace {
+
+struct Sums {
+  double cpu = 0, longest = 0;
+  uint64_t memory = 0, output = 0, scratch = 0;  // memory and scratch: of the one that takes most
+  size_t steps = 0;
+
+  void add(const Prediction& p) {
+    cpu += p.cpu;
+    longest = std::max(longest, p.seconds);
+    memory = std::max(memory, p.memory);
+    scratch = std::max(scratch, p.scratch);
+    output += p.output;
+    ++steps;
+  }
+};
+
+void print_sums(const char* what, const Sums& sums) {
+  std::printf(
+      "  %3zu %s: %.2f CPU seconds, the longest takes %.2f s; memory at most %s; they write %s%s\n",
+      sums.steps, what, sums.cpu, sums.longest, format_bytes(sums.memory).c_str(),
+      format_bytes(sums.output).c_str(),
+      sums.scratch != 0 ? (", scratch at most " + format_bytes(sums.scratch)).c_str() : "");
+}
+
+// Seconds from the first step to the last if there is a machine for every step.
+double critical_path(const Plan& plan) {
+  std::vector<double> ends;
+  for (const PlanStep& step : plan.steps) {
+    double begin = 0;
+    for (const size_t i : step.inputs) begin = std::max(begin, ends[i]);
+    ends.push_back(begin + step.predicted.seconds);
+  }
+  return ends.empty() ? 0 : ends.back();
+}
+
+void print_steps(const Plan& plan) {
+  std::printf("\n  %-12s %8s %8s %10s %10s %10s  %s\n", "step", "CPU s", "seconds", "memory",
+              "output", "scratch", "command");
+  for (const PlanStep& step : plan.steps) {
+    const Prediction& p = step.predicted;
+    std::vector<std::string> words = plan.command(step);
+    words.insert(words.begin(), "svdag");
+    const std::string command = shell_words(words);
+    std::printf("  %-12s %8.2f %8.2f %10s %10s %10s  %s\n", step.name.c_str(), p.cpu, p.seconds,
+                format_bytes(p.memory).c_str(), format_bytes(p.output).c_str(),
+                format_bytes(p.scratch).c_str(), plan.folder.empty() ? "" : command.c_str());
+  }
+}
+
+}  // namespace
+
+void print_plan(const Plan& plan, bool steps) {
+  Sums shards, merges;
+  for (const PlanStep& step : plan.steps) (step.is_shard() ? shards : merges).add(step.predicted);
+  std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
+              plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
+              format_resolution(uint64_t(plan.grid.resolution())).c_str(),
+              format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(),
+              plan.one_bake_cpu);
+  print_sums(shards.steps == 1 ? "shard" : "shards", shards);
+  print_sums(merges.steps == 1 ? "merge" : "merges", merges);
+  std::printf("  with a machine per step: %.2f s\n", critical_path(plan));
+  if (steps) print_steps(plan);
+}
+
+void print_bake(const Plan& plan, const std::string& output) {
+  const Prediction& p = plan.steps.front().predicted;
+  const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);
+  std::printf("%s: %s^3, %s triangles in %s cells\n", output.c_str(),
+              format_resolution(uint64_t(plan.grid.resolution())).c_str(),
+              format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
+  std::printf("  about %.2f CPU seconds, %.2f s on %zu thread%s\n", plan.one_bake_cpu, seconds,
+              plan.steps.front().threads, plan.steps.front().threads == 1 ? "" : "s");
+  std::printf("  a file of about %s, scratch of about %s\n",
+              format_bytes(plan.steps.back().predicted.output).c_str(),
+              format_bytes(p.scratch).c_str());
+  std::printf("  at most %s of memory with --memory %lluM\n", format_bytes(p.memory).c_str(),
+              static_cast<unsigned long long>(p.budget >> 20));
+}
+
+}  // namespace svdag

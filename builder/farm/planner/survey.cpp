@@ -1,0 +1,140 @@
+#include "builder/farm/planner/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "builder/reduce/run.h"
+#include "builder/split/cell_tree.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kBatch = 4096;  // triangles read at once
+
+// Towards minus infinity: an error of less than one unit of the coarse lattice, far below a voxel.
+LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
+  for (LatticePoint& v : triangle.v) {
+    for (int a = 0; a < 3; ++a) v[a] >>= shift;
+  }
+  return triangle;
+}
+
+}  // namespace
+
+Work& Work::operator+=(const Work& other) {
+  divided += other.divided;
+  computed += other.computed;
+  return *this;
+}
+
+Work Work::operator-(const Work& other) const {
+  return {divided - other.divided, computed - other.computed};
+}
+
+Work Work::operator*(double factor) const {
+  return {divided * factor, computed * factor};
+}
+
+Grid coarser_grid(const Grid& grid, int level) {
+  Grid coarse = grid;
+  const int up = grid.levels - level;
+  coarse.levels = level;
+  coarse.voxel_size = std::ldexp(grid.voxel_size, up);
+  for (int a = 0; a < 3; ++a) {
+    coarse.selection.min[a] = grid.selection.min[a] >> up;
+    coarse.selection.max[a] = -(-grid.selection.max[a] >> up);
+  }
+  return coarse;
+}
+
+// The table, the descent into it, and what they have counted.
+class Survey::Baker : public Spiller {
+ public:
+  Baker(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
+      : config_(config),
+        table_(grid.levels, budget),
+        descent_(grid, config.descent, &table_, nullptr, this) {}
+
+  void run(const Cube& cell, const TriangleList& list) { descent_.run(cell, list); }
+
+  Work work() const {
+    const auto& divided = descent_.divided();
+    return {std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
+  }
+
+  bool due(const NodeTable& table) override { return freeze_bytes(table) >= config_.table_bytes; }
+  void spill(const Descent&) override {
+    bricks_ += table_.size(table_.brick_level());
+    for (int k = 0; k < table_.brick_level(); ++k) nodes_ += table_.size(k);
+    table_.close();
+    for (int k = table_.brick_level(); k >= 0; --k) table_.clear(k);
+  }
+
+  uint64_t bricks() {
+    descent_.settle();
+    return bricks_ + table_.size(table_.brick_level());
+  }
+  uint64_t nodes() {
+    descent_.settle();
+    uint64_t nodes = nodes_;
+    for (int k = 0; k < table_.brick_level(); ++k) nodes += table_.size(k);
+    return nodes;
+  }
+
+ private:
+  const SurveyConfig& config_;
+  NodeTable table_;
+  Descent descent_;
+  uint64_t nodes_ = 0, bricks_ = 0;  // of tables that were emptied
+};
+
+Survey::Survey(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
+    : fine_(grid), grid_(coarser_grid(grid, config.level)), config_(config), budget_(budget) {
+  SVDAG_ASSERT(config.level <= grid.levels && config.cell_level <= config.level - 2);
+  baker_ = std::make_unique<Baker>(grid_, config_, budget);
+}
+
+Survey::~Survey() = default;
+
+bool Survey::count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted,
+                   const Visit& visit) {
+  if (bin.triangles * sizeof(LatticeTriangle) > config_.triangle_bytes) return false;
+  const int shift = fine_.levels + fine_.fraction() - grid_.levels - grid_.fraction();
+  const Cube root = ancestor(bin.cube, std::min(bin.cube.level, config_.cell_level));
+  CellTree tree(grid_, root, config_.cell_level, budget_);
+  BinReader reader(file, bin, budget_);
+  std::vector<LatticeTriangle> triangles;
+  for (; reader.read(kBatch, &triangles); triangles.clear()) {
+    check_interrupt();
+    for (const LatticeTriangle& triangle : triangles) tree.add(shifted(triangle, shift));
+    if (tree.bytes(1) > config_.triangle_bytes) return false;
+  }
+  tree.seal();
+  CellCursor cursor(tree, config_.descent);
+  for (const Cube& cell : tree.occupied_cells()) {
+    const uint64_t code = morton(cell.coordinate);
+    if (wanted && !wanted(code)) continue;
+    const Work before = baker_->work();
+    baker_->run(cell, cursor.list(cell));
+    visit(code, baker_->work() - before);
+    if (part_ != nullptr && wanted_by_part_(code)) part_->baker_->run(cell, cursor.list(cell));
+  }
+  return true;
+}
+
+void Survey::share_with(Survey* part, Wanted wanted) {
+  part_ = part;
+  wanted_by_part_ = std::move(wanted);
+}
+
+uint64_t Survey::nodes() {
+  return baker_->nodes();
+}
+
+uint64_t Survey::bricks() {
+  return baker_->bricks();
+}
+
+}  // namespace svdag

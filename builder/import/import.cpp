@@ -1,0 +1,203 @@
+#include "builder/import/import.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "builder/import/full_cubes.h"
+#include "builder/import/graph_reduction.h"
+#include "builder/merge/merge.h"
+#include "builder/octree/morton.h"
+#include "builder/reduce/brick_reduction.h"
+#include "builder/run/bake_output.h"
+#include "builder/workspace/disk_need.h"
+#include "builder/workspace/workspace.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/checksum.h"
+#include "streaming/sort/external_sort.h"
+
+namespace svdag {
+namespace {
+
+// A voxel by the Morton code of its place: its brick above, its bit in the brick in the low 6 bits.
+struct CodeWord {
+  uint32_t operator()(uint64_t code, size_t i) const { return uint32_t(code >> (i == 0 ? 32 : 0)); }
+};
+using VoxelSort = ExternalSort<uint64_t, CodeWord>;
+
+// Puts sorted voxels, as bricks, and the cubes between them into a reduction.
+class Reducer {
+ public:
+  Reducer(int levels, const FullCubes& cubes, BrickReduction* out)
+      : levels_(levels), cubes_(cubes), out_(out) {}
+
+  // Returns how many voxels there are, without repetitions.
+  uint64_t run(VoxelSort* sort) {
+    sort->finish([this](const auto& codes) {
+      for (const uint64_t voxel : codes) add(voxel);
+    });
+    put_cubes(UINT64_MAX);
+    put_brick();
+    out_->finish();
+    return voxels_;
+  }
+
+ private:
+  void add(uint64_t voxel) {
+    put_cubes(voxel);
+    if (voxel < covered_) return;
+    if (voxel >> 6 != code_) {
+      put_brick();
+      code_ = voxel >> 6;
+    }
+    brick_ |= Brick(1) << (voxel & 63);
+  }
+
+  void put_brick() {
+    if (brick_ != 0) out_->add(code_, brick_);
+    voxels_ += uint64_t(std::popcount(brick_));
+    brick_ = 0;
+  }
+
+  // Those that begin at `last` or before.
+  void put_cubes(uint64_t last) {
+    for (; next_ < cubes_.size() && cubes_[next_].begin <= last; ++next_) {
+      const FullCubes::Range cube = cubes_[next_];
+      put_brick();
+      out_->add_full(cube.begin >> 3 * cube.log2_side, levels_ - cube.log2_side);
+      covered_ = cube.end();
+      voxels_ += cube.end() - cube.begin;
+    }
+  }
+
+  const int levels_;
+  const FullCubes& cubes_;
+  BrickReduction* out_;
+  size_t next_ = 0;       // of the cubes
+  uint64_t covered_ = 0;  // voxels before this are those of cubes, or were added
+  uint64_t code_ = 0;     // of the brick that is being put together
+  Brick brick_ = 0;
+  uint64_t voxels_ = 0;
+};
+
+class Import {
+ public:
+  Import(const ImportConfig& config, Executor* executor)
+      : config_(config),
+        executor_(executor),
+        workspace_(ScratchDir::path_for(config.output, config.scratch), config.memory,
+                   executor->workers()) {
+    workspace_.clear(config.output,
+                     "finish or discard it first with svdag build, or choose another output");
+  }
+
+  ImportReport run(NodeGraph* graph) {
+    Grid grid = graph->grid();
+    if (config_.levels != 0 && config_.levels != grid.levels)
+      fail_usage("-r: the resolution of this file is " +
+                 format_resolution(uint64_t(grid.resolution())));
+    DagOutput output(config_.output, grid, Rule::kConservative);
+    const ReductionRoom room{workspace_.budget(), workspace_.shares().sort, executor_,
+                             [this] { return new_file(); }};
+    const uint64_t voxels = reduce_graph(graph, room, &output);
+    finish(&output, {}, voxels);
+    return describe(grid, output);
+  }
+
+  ImportReport run(const VoxelSource& source, uint64_t count) {
+    MemoryBudget* const budget = workspace_.budget();
+    Scratch* const scratch = workspace_.scratch();
+    std::optional<VoxelSort> sort;
+    sort.emplace(sort_room(), 2, CodeWord());
+    DiskNeed(scratch).expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
+    FullCubes cubes(budget);
+    uint32_t highest = 0;  // all coordinates, one over the other
+    const GridPlacement place = source(
+        [&](std::span<const Voxel> voxels) {
+          check_interrupt();
+          for (const auto& [x, y, z] : voxels) {
+            highest |= x | y | z;
+            sort->push(morton(LatticePoint(x, y, z)));
+          }
+        },
+        [&](const FullCube& cube) {
+          const auto& [x, y, z] = cube.origin;
+          highest |= x | y | z | ((uint32_t(1) << cube.log2_side) - 1);
+          cubes.add(cube);
+        });
+    cubes.sort();
+    const Grid grid = choose_grid(place, highest);
+    DagOutput output(config_.output, grid, Rule::kConservative);
+    BrickReduction bricks(grid.levels, {budget, scratch, workspace_.shares().brick_table});
+    const uint64_t voxels = Reducer(grid.levels, cubes, &bricks).run(&*sort);
+    sort.reset();  // the merge needs the room
+    const MergeConfig merging = share_for_merge(budget, bricks.spilled() ? scratch : nullptr,
+                                                executor_->workers(), 4 * scratch->block_bytes());
+    const auto roots = merge(bricks.runs(), std::move(bricks.roots()), GridPart::whole(grid.levels),
+                             merging, &output, executor_);
+    finish(&output, roots, voxels);
+    return describe(grid, output);
+  }
+
+ private:
+  File new_file() { return workspace_.folder()->create("sort" + std::to_string(files_++)); }
+
+  ExternalSortRoom sort_room() {
+    const uint64_t least = 2 * executor_->workers() * ExternalSortRoom::kLeast;
+    return {workspace_.budget(), std::max(workspace_.shares().sort, least), executor_,
+            [this] { return new_file(); }};
+  }
+
+  Grid choose_grid(const GridPlacement& place, uint32_t highest) const {
+    const uint64_t needed = std::max<uint64_t>(uint64_t(highest) + 1, place.resolution);
+    Grid grid;
+    grid.levels = config_.levels != 0 ? config_.levels
+                                      : std::max(kMinLevels, int(std::bit_width(needed - 1)));
+    if (grid.levels > kMaxLevels || uint64_t(highest) >> grid.levels != 0)
+      fail_usage("-r: the voxels need a grid of " + format_count(uint64_t(highest) + 1) +
+                 " at least");
+    grid.origin = place.corner;
+    grid.voxel_size = place.voxel_size;
+    bool good = std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
+    for (int a = 0; a < 3; ++a) good = good && std::isfinite(grid.origin[a]);
+    if (!good) fail_input(config_.source, "puts its voxels at an impossible place");
+    grid.selection = grid.whole();
+    return grid;
+  }
+
+  void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels) const {
+    if (config_.check_source) config_.check_source();
+    output->finish(roots, voxels, 0);
+  }
+
+  ImportReport describe(const Grid& grid, const DagOutput& output) const {
+    ImportReport report;
+    report.grid = grid;
+    report.voxels = output.voxels();
+    for (const uint64_t nodes : output.keys()) report.nodes += nodes;
+    report.file_bytes = output.file_bytes();
+    report.content_hash = output.content_hash();
+    report.spilled = files_;
+    return report;
+  }
+
+  const ImportConfig& config_;
+  Executor* executor_;
+  Workspace workspace_;
+  int files_ = 0;
+};
+
+}  // namespace
+
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor) {
+  return Import(config, executor).run(graph);
+}
+
+ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
+                           Executor* executor, uint64_t count) {
+  return Import(config, executor).run(source, count);
+}
+
+}  // namespace svdag

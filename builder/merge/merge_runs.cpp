@@ -1,0 +1,164 @@
+#include "builder/merge/merge_runs.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "builder/merge/merge.h"
+#include "builder/run/bake_output.h"
+#include "builder/run/run_check.h"
+#include "builder/workspace/workspace.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/process/lap_timer.h"
+
+namespace svdag {
+namespace {
+
+// What differs first between the bakes of two runs, or nothing.
+const char* difference(const RunFile& a, const RunFile& b) {
+  const Grid g = a.grid(), h = b.grid();
+  if (a.rule() != b.rule()) return "the rule differs";
+  if (g.kind != h.kind) return "one grid divides its scene, the other is a lattice";
+  const bool divides = g.kind == Grid::Kind::kBox;  // then the voxel size follows
+  if (divides && g.levels != h.levels) return "the resolution differs";
+  if (g.voxel_size != h.voxel_size) return "the voxel size differs";
+  if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
+    return "the grid holds another box";
+  if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
+  return nullptr;
+}
+
+std::string voxel_text(uint64_t code) {
+  const LatticePoint p = unmorton(code);
+  return "voxel (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
+         ")";
+}
+
+Run run_of(const RunFile& file) {
+  Run run;
+  run.bricks.file = &file;
+  run.nodes.resize(size_t(file.header().levels - 2));
+  for (auto& level : run.nodes) level.file = &file;
+  return run;
+}
+
+// What was proven of a run is so no more where another program writes to it: that is the reason
+// to tell, whatever a merge trips over.
+std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
+                                     const std::function<std::vector<SubDagRoot>()>& merge) {
+  const auto require_unchanged = [&] {
+    for (const RunFile& file : files) file.require_unchanged();
+  };
+  std::vector<SubDagRoot> tops;
+  try {
+    tops = merge();
+  } catch (const std::exception&) {
+    require_unchanged();
+    throw;
+  }
+  require_unchanged();
+  return tops;
+}
+
+}  // namespace
+
+GridPart joined_part(const std::vector<RunFile>& runs) {
+  struct Owned {
+    MortonRange range;
+    const RunFile* run;
+  };
+  std::vector<Owned> owned;
+  for (const RunFile& run : runs) {
+    if (const char* const what = difference(runs.front(), run))
+      fail_usage(runs.front().path() + " and " + run.path() + " are of different bakes: " + what);
+    for (const MortonRange& range : run.part().ranges()) owned.push_back({range, &run});
+  }
+  std::sort(owned.begin(), owned.end(),
+            [](const Owned& a, const Owned& b) { return a.range.begin < b.range.begin; });
+  std::vector<MortonRange> ranges;
+  for (size_t i = 0; i < owned.size(); ++i) {
+    if (i > 0 && owned[i].range.begin < owned[i - 1].range.end)
+      fail_usage(owned[i - 1].run->path() + " and " + owned[i].run->path() +
+                 " overlap: both hold " + voxel_text(owned[i].range.begin));
+    append_range(&ranges, owned[i].range);
+  }
+  return GridPart(std::move(ranges), runs.front().grid().levels);
+}
+
+void require_whole(const GridPart& part, const Grid& grid, const std::string& output) {
+  for (const Cube& cube : part.rest().tops()) {
+    const VoxelBox voxels = cube.voxels(grid.levels);
+    if (!voxels.meets(grid.selection)) continue;
+    const LatticePoint low = voxels.min;
+    fail_usage(output + ": a part of the grid is in none of the runs, first the " +
+               format_resolution(uint64_t(voxels.max.x - low.x)) + "^3 voxels from (" +
+               std::to_string(low.x) + ", " + std::to_string(low.y) + ", " + std::to_string(low.z) +
+               ") on: add the missing run, or merge to an output that ends in .run");
+  }
+}
+
+MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress) {
+  LapTimer seconds;
+  MergeRunsReport report;
+  Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
+                      executor->workers());
+  MemoryBudget* const budget = workspace.budget();
+  Scratch* const scratch = workspace.scratch();
+  std::vector<RunFile> files;
+  for (const std::string& path : config.runs) files.push_back(RunFile::open(path, budget));
+  GridPart part = joined_part(files);
+  report.grid = files.front().grid();
+  if (!names_run(config.output)) {
+    require_whole(part, report.grid, config.output);
+    part =
+        GridPart::whole(report.grid.levels);  // what is not there holds nothing that was asked for
+  }
+
+  if (config.discard_unfinished) {
+    workspace.folder()->clear();
+  } else {
+    workspace.clear(config.output, "finish it, or choose another output");
+  }
+  const auto output = open_output(config.output, report.grid, files.front().rule(), part);
+  progress->phase("check", files.size());
+  executor->for_each(files.size(), [&](size_t, size_t i) {
+    check_run(files[i], workspace.shares().check_bitmap, budget);
+    progress->advance();
+  });
+  report.seconds.check = seconds.lap();
+
+  progress->phase("merge", 0);
+  std::vector<Run> runs;
+  std::vector<SubDagRoot> roots;
+  double largest_snap = 0;
+  for (const RunFile& file : files) {
+    for (SubDagRoot root : file.roots()) {
+      root.run = uint32_t(runs.size());
+      roots.push_back(root);
+    }
+    runs.push_back(run_of(file));
+    report.voxels += file.header().voxels;
+    report.runs_bytes += file.header().file_bytes;
+    largest_snap = std::max(largest_snap, file.header().largest_snap);
+  }
+  // A source holds its block and, where maps are spilled, the writer of one.
+  const uint64_t source_bytes = kRunBlockBytes + 4 * scratch->block_bytes();
+  const auto tops = merge_proven(files, [&] {
+    return merge(runs, std::move(roots), part,
+                 share_for_merge(budget, scratch, executor->workers(), source_bytes), output.get(),
+                 executor);
+  });
+  report.seconds.merge = seconds.lap();
+  progress->phase("write", 0);
+  output->finish(tops, report.voxels, largest_snap);
+  progress->finish();
+  report.seconds.write = seconds.lap();
+  report.nodes = output->keys();
+  report.file_bytes = output->file_bytes();
+  report.content_hash = output->content_hash();
+  report.scratch_written = scratch->written_bytes();
+  report.peak_counted = budget->peak();
+  return report;
+}
+
+}  // namespace svdag

@@ -1,0 +1,85 @@
+// What the vector kernels share: lanes, coordinates, values at the first centre.
+//
+// Each separating function is taken at the centres of the children or voxels, in units of their
+// side: the coefficients add up to 1, so it reaches 1/2 to the farthest corner. At the first centre
+// it is computed in double, beside it in float. Error in these units: that of the double
+// (builder/overlap/triangle_setup.h), and kFloatError for the roundings to float of values below 8
+// and of at most three steps beside the first centre; beyond 8 no rounding can change a sign.
+// Unsure lanes are decided in integers, so float costs nothing but a few of these. Included once
+// per instruction set (builder/overlap/kernels/kernels_vector.cpp).
+#if defined(SVDAG_BUILDER_KERNEL_COMMON_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVDAG_BUILDER_KERNEL_COMMON_INL_H
+#undef SVDAG_BUILDER_KERNEL_COMMON_INL_H
+#else
+#define SVDAG_BUILDER_KERNEL_COMMON_INL_H
+#endif
+
+#include <hwy/highway.h>
+#include "builder/overlap/kernels/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svdag::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Eight = hn::CappedTag<float, 8>;     // children
+using Sixteen = hn::CappedTag<float, 16>;  // columns of a brick, voxels of two inner 2x2x2
+using Longs = hn::CappedTag<int64_t, 8>;
+constexpr size_t kEight = hn::MaxLanes(Eight());
+constexpr size_t kSixteen = hn::MaxLanes(Sixteen());
+constexpr size_t kLongs = hn::MaxLanes(Longs());
+
+constexpr float kFloatError = 0x1p-18f;
+
+// Coordinates of the child c = 4x + 2y + z, and of the first 16 voxels of a brick (io/brick.h): two
+// blocks of 2x2x2, one beside the other along z.
+alignas(64) constexpr float kPlace[3][16] = {{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1},
+                                             {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
+                                             {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3}};
+// Row i and column j of the 16 columns 4i + j of a brick.
+alignas(64) constexpr float kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr float kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+
+template <class D, class Mask>
+HWY_INLINE unsigned bits(D d, Mask mask) noexcept {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return (bytes[0] | unsigned(bytes[1]) << 8) & ((1U << hn::MaxLanes(d)) - 1);
+}
+
+struct Corner {
+  int64_t q[3];
+  double x[3];  // of the first centre: the corner plus half a side of child or voxel
+  double per_side;
+};
+
+HWY_INLINE Corner make_corner(const LatticePoint& p, double side) noexcept {
+  const double half = 0.5 * side;
+  return {{p.x, p.y, p.z}, {double(p.x) + half, double(p.y) + half, double(p.z) + half}, 1 / side};
+}
+
+// Values at the first centre, in sides.
+HWY_INLINE float plane_at(const TriangleSetup& t, const Corner& c) noexcept {
+  const double* v = t.vertex[0];
+  return float(((t.normal[0] * (c.x[0] - v[0]) + t.normal[1] * (c.x[1] - v[1])) +
+                t.normal[2] * (c.x[2] - v[2])) *
+               c.per_side);
+}
+
+template <int W>
+HWY_INLINE float edge_at(const TriangleSetup& t, int e, const Corner& c) noexcept {
+  constexpr int u = (W + 1) % 3, v = (W + 2) % 3;
+  const double* a = t.vertex[e];
+  const int k = 3 * W + e;
+  return float((t.edge_u[k] * (c.x[u] - a[u]) + t.edge_v[k] * (c.x[v] - a[v])) * c.per_side);
+}
+
+HWY_INLINE float error_of(const TriangleSetup& t, double reach, const Corner& c) noexcept {
+  return float(filter_error(t, reach) * c.per_side) * 1.001f + kFloatError;
+}
+
+}  // namespace
+}  // namespace svdag::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

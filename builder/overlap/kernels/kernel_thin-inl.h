@@ -1,0 +1,84 @@
+// Vector kernel: the 64 voxels of a brick, rule thin (builder/overlap/brick_thin.cpp).
+// Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
+#if defined(SVDAG_BUILDER_KERNEL_THIN_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVDAG_BUILDER_KERNEL_THIN_INL_H
+#undef SVDAG_BUILDER_KERNEL_THIN_INL_H
+#else
+#define SVDAG_BUILDER_KERNEL_THIN_INL_H
+#endif
+
+#include "builder/overlap/kernels/kernel_voxels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svdag::HWY_NAMESPACE {
+namespace {
+
+// Those of `voxels` whose ends of the centre segment along w, on side `upper`, are above the plane.
+HWY_INLINE Brick ends_above(const TriangleSetup& t, const Place& p, const PlaneValues& values,
+                            float error, int w, bool upper, Brick voxels) noexcept {
+  const Sixteen d;
+  const auto end = hn::Set(d, (upper ? 0.5f : -0.5f) * float(t.normal[w]));
+  const auto sure = hn::Set(d, error), maybe = hn::Set(d, -error);
+  Brick above = 0, not_below = 0;
+  for_voxels(values, [&](size_t shift, auto centre) HWY_ATTR {
+    const auto value = hn::Add(centre, end);
+    above |= Brick(bits(d, hn::Gt(value, sure))) << shift;
+    not_below |= Brick(bits(d, hn::Ge(value, maybe))) << shift;
+  });
+  p.counts->asked += unsigned(__builtin_popcountll(voxels));
+  for (Brick left = voxels & not_below & ~above; left != 0; left &= left - 1) {
+    const unsigned bit = unsigned(__builtin_ctzll(left));
+    ++p.counts->exact;
+    above |= Brick(end_is_above_plane(t, p.corner, p.fraction, bit, w, upper)) << bit;
+  }
+  return above;
+}
+
+// Those of `near` with a crossing of the segment along W.
+template <int W>
+HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const Place& p,
+                               const PlaneValues& values, float error, Brick near) noexcept {
+  const TriangleSetup& t = *entry.triangle;
+  if (t.normal[W] == 0 || near == 0) return 0;
+  p.counts->asked += 16 * unsigned(__builtin_popcount(entry.edges >> (3 * W) & 7));
+  const unsigned columns = columns_at_edges<W>(entry, p, 0, error, [&](int k, unsigned column) {
+    return column_centre_holds(t, k, p.corner, p.fraction, column);
+  });
+  const Brick inside = near & expand_columns(W, columns);
+  if (inside == 0) return 0;
+  return inside & (ends_above(t, p, values, error, W, false, inside) ^
+                   ends_above(t, p, values, error, W, true, inside));
+}
+
+HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const Place& p, Brick wanted) noexcept {
+  const TriangleSetup& t = *entry.triangle;
+  const bool covering = covers(t, entry.edges);
+  // A set voxel is touched as well, so it lies in the triangle's box.
+  const Brick near = covering ? wanted : wanted & voxels_in_box(t, p.c, p.fraction);
+  if (near == 0 || t.cover == 0) return 0;
+  const float error = error_of(t, 8 * p.side, p.c);
+  PlaneValues values;
+  plane_values(t, p, &values);
+  // Where the triangle covers the brick, a crossing along any axis implies the dominant one's.
+  const unsigned axes = covering ? 1U << t.dominant : 7U;
+  Brick voxels = 0;
+  if (axes & 1) voxels |= crossed_along<0>(entry, p, values, error, near);
+  if (axes & 2) voxels |= crossed_along<1>(entry, p, values, error, near & ~voxels);
+  if (axes & 4) voxels |= crossed_along<2>(entry, p, values, error, near & ~voxels);
+  return voxels;
+}
+
+Brick thin(const ListedTriangle* entries, size_t count, const LatticePoint& corner, int fraction,
+           Brick wanted, DecisionCounts* counts) noexcept {
+  const Place p = make_place(corner, fraction, counts);
+  Brick voxels = 0;
+  for (; count != 0 && voxels != wanted; --count, ++entries)
+    voxels |= thin_voxels(*entries, p, wanted & ~voxels);
+  return voxels;
+}
+
+}  // namespace
+}  // namespace svdag::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,166 @@
+// Vector kernel: the 64 voxels of a brick, rule conservative.
+// Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
+#if defined(SVDAG_BUILDER_KERNEL_VOXELS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVDAG_BUILDER_KERNEL_VOXELS_INL_H
+#undef SVDAG_BUILDER_KERNEL_VOXELS_INL_H
+#else
+#define SVDAG_BUILDER_KERNEL_VOXELS_INL_H
+#endif
+
+#include "builder/overlap/brick_tables.h"
+#include "builder/overlap/exact_voxel.h"
+#include "builder/overlap/kernels/kernel_common-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svdag::HWY_NAMESPACE {
+namespace {
+
+// The voxels that [min, max] touches on one axis.
+HWY_INLINE Brick slabs(int axis, int64_t min, int64_t max, int64_t corner, int fraction) noexcept {
+  int64_t first = -((corner - min) >> fraction) - 1, last = (max - corner) >> fraction;
+  if (first < 0) first = 0;
+  if (last > 3) last = 3;
+  return first <= last ? kBrickTables.slabs[axis][first][last] : 0;
+}
+
+HWY_INLINE Brick voxels_in_box(const TriangleSetup& t, const Corner& c, int fraction) noexcept {
+  return slabs(0, t.box.min.x, t.box.max.x, c.q[0], fraction) &
+         slabs(1, t.box.min.y, t.box.max.y, c.q[1], fraction) &
+         slabs(2, t.box.min.z, t.box.max.z, c.q[2], fraction);
+}
+
+// What the kernels know of the brick that they are asked about.
+struct Place {
+  const LatticePoint& corner;
+  int fraction;
+  double side;  // of a voxel
+  Corner c;
+  DecisionCounts* counts;
+};
+
+HWY_INLINE Place make_place(const LatticePoint& corner, int fraction,
+                            DecisionCounts* counts) noexcept {
+  const double side = double(int64_t(1) << fraction);
+  return {corner, fraction, side, make_corner(corner, side), counts};
+}
+
+// The columns 4i + j along W whose value of every undecided edge function, at their centre, is at
+// least -reach; where float cannot tell, decide(k, column) does.
+template <int W, class Decide>
+HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const Place& p, float reach,
+                                     float error, const Decide& decide) noexcept {
+  const Sixteen d;
+  const TriangleSetup& t = *entry.triangle;
+  const auto sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
+  unsigned columns = 0xffff;
+  for (unsigned left = entry.edges >> (3 * W) & 7; left != 0; left &= left - 1) {
+    const int e = __builtin_ctz(left), k = 3 * W + e;
+    const auto f = hn::Set(d, edge_at<W>(t, e, p.c));
+    const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+    unsigned above = 0, not_below = 0;
+    for (size_t i = 0; i < 16; i += kSixteen) {
+      const auto value = hn::Add(
+          f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su), hn::Mul(hn::Load(d, kColumn + i), sv)));
+      above |= bits(d, hn::Gt(value, sure)) << i;
+      not_below |= bits(d, hn::Ge(value, maybe)) << i;
+    }
+    for (unsigned unsure = columns & not_below & ~above; unsure != 0; unsure &= unsure - 1) {
+      const unsigned column = unsigned(__builtin_ctz(unsure));
+      ++p.counts->exact;
+      above |= unsigned(decide(k, column)) << column;
+    }
+    columns &= above;
+  }
+  return columns;
+}
+
+// The plane's values at the centres of the 64 voxels are quarter[j] + first[i] for bit 16j + i.
+struct PlaneValues {
+  alignas(64) float first[16];
+  float quarter[4];
+};
+
+HWY_INLINE void plane_values(const TriangleSetup& t, const Place& p, PlaneValues* out) noexcept {
+  const Sixteen d;
+  const float n[3] = {float(t.normal[0]), float(t.normal[1]), float(t.normal[2])};
+  for (size_t i = 0; i < 16; i += kSixteen) {
+    const auto xy = hn::Add(hn::Mul(hn::Load(d, kPlace[0] + i), hn::Set(d, n[0])),
+                            hn::Mul(hn::Load(d, kPlace[1] + i), hn::Set(d, n[1])));
+    hn::Store(hn::Add(xy, hn::Mul(hn::Load(d, kPlace[2] + i), hn::Set(d, n[2]))), d,
+              out->first + i);
+  }
+  const float f = plane_at(t, p.c);
+  out->quarter[0] = f;
+  out->quarter[1] = f + 2 * n[1];
+  out->quarter[2] = f + 2 * n[0];
+  out->quarter[3] = f + (2 * n[0] + 2 * n[1]);
+}
+
+// Calls take(bit, values) with the values of voxels bit, bit + 1, ...
+template <class Take>
+HWY_INLINE void for_voxels(const PlaneValues& values, const Take& take) noexcept {
+  const Sixteen d;
+  for (size_t j = 0; j < 4; ++j) {
+    const auto quarter = hn::Set(d, values.quarter[j]);
+    for (size_t i = 0; i < 16; i += kSixteen)
+      take(16 * j + i, hn::Add(quarter, hn::Load(d, values.first + i)));
+  }
+}
+
+HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float error,
+                                 Brick voxels) noexcept {
+  const Sixteen d;
+  PlaneValues values;
+  plane_values(t, p, &values);
+  const auto sure = hn::Set(d, 0.5f - error), maybe = hn::Set(d, 0.5f + error);
+  Brick on = 0, near = 0;
+  for_voxels(values, [&](size_t shift, auto value) HWY_ATTR {
+    on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
+    near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
+  });
+  p.counts->asked += unsigned(__builtin_popcountll(voxels));
+  for (Brick left = voxels & near & ~on; left != 0; left &= left - 1) {
+    const unsigned bit = unsigned(__builtin_ctzll(left));
+    ++p.counts->exact;
+    on |= Brick(voxel_meets_plane(t, p.corner, p.fraction, bit)) << bit;
+  }
+  return voxels & on;
+}
+
+template <int W>
+HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const Place& p,
+                                 float error) noexcept {
+  if ((entry.edges >> (3 * W) & 7) == 0) return ~Brick(0);
+  const unsigned columns = columns_at_edges<W>(entry, p, 0.5f, error, [&](int k, unsigned column) {
+    return column_reaches(*entry.triangle, k, p.corner, p.fraction, column);
+  });
+  return expand_columns(W, columns);
+}
+
+HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const Place& p,
+                                Brick wanted) noexcept {
+  const TriangleSetup& t = *entry.triangle;
+  Brick voxels = wanted;
+  if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
+  const float error = error_of(t, 8 * p.side, p.c);
+  p.counts->asked += 16 * unsigned(__builtin_popcount(entry.edges));
+  voxels &= reached_columns<0>(entry, p, error);
+  voxels &= reached_columns<1>(entry, p, error);
+  voxels &= reached_columns<2>(entry, p, error);
+  return voxels != 0 && t.cover != 0 ? voxels_on_plane(t, p, error, voxels) : voxels;
+}
+
+Brick conservative(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                   int fraction, Brick wanted, DecisionCounts* counts) noexcept {
+  const Place p = make_place(corner, fraction, counts);
+  Brick voxels = 0;
+  for (; count != 0 && voxels != wanted; --count, ++entries)
+    voxels |= touched_voxels(*entries, p, wanted & ~voxels);
+  return voxels;
+}
+
+}  // namespace
+}  // namespace svdag::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,82 @@
+#include "builder/overlap/kernels/kernels.h"
+
+#include <strings.h>
+
+#include <algorithm>
+
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// Vectors of 512 bits halve the steps of a brick and were slower all the same
+// (docs/performance.md).
+constexpr int kWidest = 8;
+
+void plain_children(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                    int64_t side, ChildOverlap* out) noexcept {
+  for (size_t i = 0; i < count; ++i) out[i] = overlap_children(entries[i], corner, side);
+}
+
+template <Brick (*overlap)(const ListedTriangle&, const LatticePoint&, int,
+                           DecisionCounts*) noexcept>
+Brick plain_voxels(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                   int fraction, Brick wanted, DecisionCounts* counts) noexcept {
+  Brick voxels = 0;
+  for (size_t i = 0; i < count && voxels != wanted; ++i)
+    voxels |= overlap(entries[i], corner, fraction, counts) & wanted;
+  return voxels;
+}
+
+PlaneVoxels plain_plane(const PlaneBrick& plane, int64_t low, int64_t high) noexcept {
+  PlaneVoxels out{0, -kFarOffset, kFarOffset, false};
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    const int64_t first = plane.outer[bit >> 3] + plane.inner[bit & 7], last = first + plane.span;
+    if (high < first) {
+      out.high = std::min(out.high, first - 1);
+    } else if (low > last) {
+      out.low = std::max(out.low, last + 1);
+    } else if (first <= low && high <= last) {
+      out.low = std::max(out.low, first);
+      out.high = std::min(out.high, last);
+      out.voxels |= Brick(1) << bit;
+    } else {
+      out.straddles = true;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+const Kernels& plain_kernels() {
+  static constexpr Kernels kPlain = {
+      "plain",    1, plain_children, plain_voxels<overlap_brick>, plain_voxels<overlap_brick_thin>,
+      plain_plane};
+  return kPlain;
+}
+
+const Kernels& kernels() {
+  static const Kernels kChosen = [] {
+    const std::vector<Kernels> all = vector_kernels();
+    for (const Kernels& k : all) {
+      if (k.lanes <= kWidest) return k;
+    }
+    return all.front();
+  }();
+  return kChosen;
+}
+
+const Kernels& kernels_by_name(const std::string& name) {
+  static const std::vector<Kernels> kVectors = vector_kernels();
+  std::string names;
+  for (const Kernels& kernels : kVectors) {
+    if (strcasecmp(kernels.name, name.c_str()) == 0) return kernels;
+    names += kernels.name + std::string(", ");
+  }
+  if (strcasecmp(plain_kernels().name, name.c_str()) == 0) return plain_kernels();
+  fail_usage("\"" + name + "\" are no vectors of this processor: choose one of " + names +
+             plain_kernels().name);
+}
+
+}  // namespace svdag

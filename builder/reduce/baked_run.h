@@ -1,0 +1,38 @@
+// A frozen node table with what it holds of the scene: the unit that is merged, saved for a
+// resumed bake, and added to the cell cache.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "builder/octree/morton.h"
+#include "builder/octree/sub_dag_root.h"
+#include "builder/reduce/run.h"
+
+namespace svdag {
+
+// Identifies the content of a cell: cells with equal keys have equal voxels.
+struct CellKey {
+  std::array<uint64_t, 4> words{};
+  bool operator==(const CellKey&) const = default;
+};
+
+// A cell that was baked whole, for the cell cache.
+struct BakedCell {
+  static constexpr size_t kNoRoot = SIZE_MAX;  // the cell is empty
+
+  CellKey key;
+  size_t root;  // index in BakedRun::roots
+  uint64_t voxels;
+};
+
+struct BakedRun {
+  Run run;
+  std::vector<SubDagRoot> roots;  // SubDagRoot::run is not set
+  uint64_t voxels = 0;
+  std::vector<MortonRange> finished;  // parts of the grid that are completely in this run
+  std::vector<BakedCell> cells;       // filled only if there is a cell store
+};
+
+}  // namespace svdag

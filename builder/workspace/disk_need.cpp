@@ -1,0 +1,52 @@
+#include "builder/workspace/disk_need.h"
+
+#include <algorithm>
+
+#include "io/triangle.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr uint64_t kBytesPerTriangle = 48;  // in bins, small ones, those on borders twice
+constexpr double kEarliest = 0.2;           // share of the work that tells about the rest
+
+}  // namespace
+
+void DiskNeed::check(uint64_t certain, uint64_t more, const char* purpose) const {
+  const uint64_t free = scratch_->folder()->free_bytes();
+  if (certain <= free) return;
+  throw Error(ExitCode::kOutput,
+              std::string("spilling the ") + purpose + " takes about " + format_bytes(more) +
+                  " more, but the disk has only " + format_bytes(free) +
+                  " free: make room, or choose another --scratch or more --memory",
+              scratch_->folder()->path());
+}
+
+void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
+  if (count <= triangle_bytes / sizeof(LatticeTriangle)) return;
+  triangles_ = count * kBytesPerTriangle;
+  check(triangles_ / 2, triangles_, "triangles");
+}
+
+void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
+  count = std::max(count, read);  // 0: nobody has counted them
+  // At least what there is: rounding may lose a byte of it.
+  triangles_ = std::max(bytes, uint64_t(double(bytes) * double(count) / double(read)));
+  check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
+}
+
+void DiskNeed::expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose) {
+  if (bytes <= in_memory) return;
+  records_ = bytes;
+  check(records_, records_, purpose);
+}
+
+void DiskNeed::expect_runs(uint64_t bytes, double share) {
+  if (share < kEarliest) return;
+  runs_ = uint64_t(double(bytes) / share);
+  if (runs_ > bytes) check((runs_ - bytes) / 2, runs_ - bytes, "nodes");
+}
+
+}  // namespace svdag

@@ -1,0 +1,17 @@
+// What of a .vdb is read by OpenVDB, in a limited child (vdb_child.cpp), without its headers.
+#pragma once
+
+#include <span>
+
+#include "io/formats/vdb.h"
+#include "streaming/process/limited_child.h"
+
+namespace svdag {
+
+// Sends the grid that read_vdb() was asked for, out of the bytes of the file `path`, as
+// sent_cubes.h says. Opens no file and starts no thread. Must run in a process that ends behind
+// it: what OpenVDB made is never freed, since its trees free themselves with threads.
+void decode_vdb(const std::string& path, std::span<const std::byte> bytes, const std::string& name,
+                const std::optional<ValueRange>& range, const BlockSink& send);
+
+}  // namespace svdag

@@ -1,0 +1,169 @@
+#include <fstream>
+#include <sstream>
+
+#include "io/formats/vdb/vdb_trees.h"
+#include "streaming/file/atomic_file.h"
+
+namespace svdag {
+namespace {
+
+openvdb::Coord coord(const LatticePoint& p) {
+  return {openvdb::Int32(p.x), openvdb::Int32(p.y), openvdb::Int32(p.z)};
+}
+
+openvdb::Vec3d vector(const Point& p) {
+  return {p.x, p.y, p.z};
+}
+
+// Whether the axes of voxels are those of the world.
+bool is_straight(const IndexToWorld& centres) {
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      if (a != b && centres.axes[size_t(a)][b] != 0) return false;
+  return true;
+}
+
+// A map of a scale and a translation. Every way to construct one goes through a matrix and back,
+// which is inexact, far from zero above all, and fails for voxels below 1.45e-5. What OpenVDB reads
+// out of a file it takes bit by bit, so it reads what its ScaleTranslateMap::write would write.
+openvdb::math::Transform::Ptr scale_translate(const openvdb::Vec3d& scale,
+                                              const openvdb::Vec3d& translation) {
+  using namespace openvdb::math;
+  const bool uniform = scale.x() == scale.y() && scale.x() == scale.z();
+  const openvdb::Vec3d inverse = 1.0 / scale, size(Abs(scale.x()), Abs(scale.y()), Abs(scale.z()));
+  std::stringstream file;
+  openvdb::io::setCurrentVersion(file);
+  openvdb::writeString(
+      file, uniform ? UniformScaleTranslateMap::mapType() : ScaleTranslateMap::mapType());
+  for (const openvdb::Vec3d& part :
+       {translation, scale, size, inverse, inverse * inverse, inverse / 2.0})
+    part.write(file);
+  const auto transform = std::make_shared<Transform>();
+  transform->read(file);
+  return transform;
+}
+
+openvdb::math::Transform::Ptr transform_of(const IndexToWorld& centres) {
+  const auto& axes = centres.axes;
+  if (is_straight(centres))
+    return scale_translate({axes[0].x, axes[1].y, axes[2].z}, vector(centres.origin));
+  openvdb::Mat4R matrix = openvdb::Mat4R::identity();  // acts on row vectors
+  for (int row = 0; row < 3; ++row)
+    for (int a = 0; a < 3; ++a) matrix[row][a] = axes[size_t(row)][a];
+  for (int a = 0; a < 3; ++a) matrix[3][a] = centres.origin[a];
+  return openvdb::math::Transform::createLinearTransform(matrix);
+}
+
+// A grid that OpenVDB can write. It copies each, for metadata of its own, and of the copy's
+// transform it would make a matrix, too; but nobody asks the copy where it lies.
+template <class GridType>
+class WritableGrid final : public GridType {
+ public:
+  using GridType::copyGrid;
+  using GridType::GridType;
+  openvdb::GridBase::ConstPtr copyGrid() const override {
+    return this->copyReplacingTransform(openvdb::math::Transform::createLinearTransform());
+  }
+};
+
+// Whether the file at `path` says what was to be written.
+template <class GridType>
+bool reads_back(const std::string& path, const openvdb::GridPtrVec& grids) {
+  openvdb::io::File file(path);
+  file.setCopyMaxBytes(0);
+  file.open(/*delayLoad=*/false);
+  for (const openvdb::GridBase::Ptr& grid : grids) {
+    const auto& mine = static_cast<const GridType&>(*grid);
+    const auto back = openvdb::gridPtrCast<GridType>(file.readGrid(mine.getName()));
+    if (!back || !back->transform().isLinear() ||
+        centres_of(back->transform()) != centres_of(mine.transform()) ||
+        !back->constTree().hasSameTopology(mine.constTree()))
+      return false;
+    for (auto value = back->cbeginValueOn(); value; ++value)
+      if (!*value) return false;
+  }
+  return true;
+}
+
+template <class GridType>
+void write_grids(const std::string& path, const openvdb::GridPtrVec& grids) {
+  openvdb::io::File(path).write(grids);
+  if (!reads_back<GridType>(path, grids)) throw openvdb::IoError("reads back as something else");
+}
+
+openvdb::GridPtrVec as_bool(const std::vector<openvdb::MaskGrid::Ptr>& masks) {
+  openvdb::GridPtrVec grids;
+  for (const openvdb::MaskGrid::Ptr& mask : masks) {
+    const auto tree =
+        std::make_shared<openvdb::BoolTree>(mask->tree(), false, true, openvdb::TopologyCopy());
+    const auto grid = std::make_shared<WritableGrid<openvdb::BoolGrid>>(tree);
+    grid->insertMeta(*mask);
+    grid->setTransform(mask->transformPtr());
+    grids.push_back(grid);
+  }
+  return grids;
+}
+
+class Writer final : public VdbWriter {
+ public:
+  void begin(const std::string& name, const IndexToWorld& centres) override {
+    const auto grid = std::make_shared<WritableGrid<openvdb::MaskGrid>>(false);
+    grid->setName(name);
+    grid->setTransform(transform_of(centres));
+    grids_.push_back(grid);
+  }
+
+  void metadata(const VdbMetadata& entries) override {
+    for (const auto& [key, value] : entries)
+      grids_.back()->insertMeta(key, openvdb::StringMetadata(value));
+  }
+
+  void add(const VoxelCube& cube) override {
+    openvdb::MaskTree& tree = grids_.back()->tree();
+    if (cube.side > kBlockSide || cube.block == Block::full()) {
+      const LatticePoint last = cube.origin + (cube.side - 1);
+      return tree.sparseFill({coord(cube.origin), coord(last)}, true, true);
+    }
+    openvdb::MaskTree::LeafNodeType& leaf = *tree.touchLeaf(coord(cube.origin));
+    openvdb::util::NodeMask<3> mask = leaf.getValueMask();
+    for (openvdb::Index x = 0; x < 8; ++x) mask.getWord<uint64_t>(x) |= cube.block.words[x];
+    leaf.setValueMask(mask);
+  }
+
+  void add_voxel(const LatticePoint& voxel) override {
+    grids_.back()->tree().setValueOn(coord(voxel));
+  }
+
+  void write(const std::string& path, VdbFormat format) override {
+    AtomicFile file(path);
+    try {
+      if (format == VdbFormat::kNano) {
+        SVDAG_ASSERT(grids_.size() == 1);
+        write_nano(*grids_.front(), file.open_name());
+      } else if (format == VdbFormat::kBool) {
+        write_grids<openvdb::BoolGrid>(file.open_name(), as_bool(grids_));
+      } else {
+        write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()});
+      }
+    } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      throw Error(ExitCode::kOutput, "could not be written whole: is the disk full?", path);
+    }
+    file.commit();
+  }
+
+ private:
+  std::vector<openvdb::MaskGrid::Ptr> grids_;
+};
+
+}  // namespace
+
+std::unique_ptr<VdbWriter> make_vdb_writer() {
+  openvdb::initialize();
+  return std::make_unique<Writer>();
+}
+
+}  // namespace svdag

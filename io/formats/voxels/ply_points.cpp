@@ -1,0 +1,24 @@
+#include "io/formats/voxels/ply_points.h"
+
+#include "io/formats/output.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+void write_ply_points(const VoxelWindow& window, const std::string& path) {
+  Output out(path);
+  out.put("ply\nformat binary_little_endian 1.0\ncomment centres of voxels of side " +
+          format_double(window.grid.voxel_size) + "\nelement vertex " +
+          std::to_string(window.voxels) +
+          "\nproperty double x\nproperty double y\nproperty double z\nend_header\n");
+  const Point corner = window.grid.corner();
+  const uint64_t written = for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+    for (int a = 0; a < 3; ++a)
+      out.put(corner[a] + (double(voxel[size_t(a)]) + 0.5) * window.grid.voxel_size);
+  });
+  SVDAG_ASSERT(written == window.voxels);
+  out.commit();
+}
+
+}  // namespace svdag

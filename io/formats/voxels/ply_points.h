@@ -1,0 +1,12 @@
+// The centres of voxels as the points of a PLY file: 3 x f64 world coordinates, little-endian.
+#pragma once
+
+#include <string>
+
+#include "io/formats/window.h"
+
+namespace svdag {
+
+void write_ply_points(const VoxelWindow& window, const std::string& path);
+
+}  // namespace svdag

@@ -1,0 +1,272 @@
+#include <cstdio>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "io/formats/voxels/vox.h"
+#include "streaming/error.h"
+#include "streaming/file/byte_stream.h"
+
+namespace svdag {
+namespace {
+
+using Offset = std::array<int64_t, 3>;
+using Dictionary = std::map<std::string, std::string>;
+
+constexpr uint32_t kNoLayer = ~0u;
+
+bool is_hidden(const Dictionary& attributes) {
+  const auto found = attributes.find("_hidden");
+  return found != attributes.end() && found->second == "1";
+}
+
+struct Model {
+  std::array<uint32_t, 3> size;
+  uint64_t offset, count;  // of its voxels in the file
+};
+
+// A node of the scene graph: a place (one child), a group (its children), or a shape (its models,
+// the frames of an animation: the first is read).
+struct Node {
+  Offset place{};
+  uint32_t layer = kNoLayer;
+  bool hidden = false;
+  bool rotated = false;
+  std::vector<uint32_t> children, models;
+  size_t visits = 0;  // of nodes, from this one on; 0: not counted
+};
+
+// Reads the numbers of one chunk; all that reach beyond it are errors.
+class ChunkReader {
+ public:
+  ChunkReader(ByteStream* stream, uint64_t bytes) : stream_(stream), left_(bytes) {
+    if (bytes > stream->remaining()) fail();
+  }
+  uint32_t number() {
+    uint32_t value;
+    take(sizeof value);
+    stream_->read(std::as_writable_bytes(std::span(&value, 1)));
+    return value;
+  }
+  std::string text() {
+    const uint32_t length = number();
+    take(length);
+    std::string text(length, '\0');
+    stream_->read(std::as_writable_bytes(std::span(text)));
+    return text;
+  }
+  // Of what follows, at least 4 bytes each.
+  uint32_t count() {
+    const uint32_t n = number();
+    if (n > left_ / 4) fail();
+    return n;
+  }
+  Dictionary dictionary() {
+    Dictionary entries;
+    for (uint32_t n = count(); n > 0; --n) {
+      const std::string key = text();
+      entries[key] = text();
+    }
+    return entries;
+  }
+  void skip_rest() { stream_->skip(std::exchange(left_, 0)); }
+  uint64_t left() const { return left_; }
+  uint64_t offset() const { return stream_->offset(); }
+  [[noreturn]] void fail() const {
+    fail_input(stream_->file().path(), "damaged .vox file: a chunk is larger than its contents",
+               stream_->offset());
+  }
+
+ private:
+  void take(uint64_t bytes) {
+    if (bytes > left_) fail();
+    left_ -= bytes;
+  }
+
+  ByteStream* stream_;
+  uint64_t left_;
+};
+
+class VoxReader {
+ public:
+  explicit VoxReader(const File& file) : file_(file) {}
+
+  GridPlacement read(const VoxelSink& sink) {
+    read_chunks();
+    if (nodes_.empty()) {
+      const size_t shown = std::min<size_t>(models_.size(), frames_ ? 1 : models_.size());
+      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_of(i));
+    } else {
+      count_visits(0, 0);
+      place_node(0, {}, 0);
+    }
+    Offset low{};  // what lies below 0
+    for (const auto& [model, corner] : placed_) {
+      for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], corner[a]);
+    }
+    VoxelBatch batch(sink);
+    for (const auto& [model, corner] : placed_) {
+      Offset at;
+      for (size_t a = 0; a < 3; ++a) at[a] = corner[a] - low[a];
+      read_voxels(models_[model], at, &batch);
+    }
+    batch.flush();
+    return {};
+  }
+
+ private:
+  // A small file may repeat its parts without end.
+  static constexpr size_t kMostVisits = size_t(1) << 20;
+  static constexpr uint64_t kMostVoxels = uint64_t(1) << 32;
+  static constexpr int kDeepest = 64;
+
+  Offset middle_of(uint32_t model) const {
+    Offset middle;
+    for (size_t a = 0; a < 3; ++a) middle[a] = models_[model].size[a] / 2;
+    return middle;
+  }
+
+  void read_chunks() {
+    ByteStream stream(file_);
+    ChunkReader head(&stream, std::min<uint64_t>(stream.remaining(), 20));
+    if (head.left() < 20 || head.number() != 0x20584f56)  // "VOX "
+      fail_input(file_.path(), "is not a .vox file (it does not begin with \"VOX \")", 0);
+    head.number();  // version
+    if (head.number() != 0x4e49414d) fail_input(file_.path(), "has no MAIN chunk", 8);
+    stream.skip(8);
+    std::array<uint32_t, 3> size{};
+    while (!stream.at_end()) {
+      std::array<char, 4> name;
+      stream.read(std::as_writable_bytes(std::span(name)));
+      ChunkReader sizes(&stream, 8);
+      const uint64_t own = sizes.number(), inner = sizes.number();
+      ChunkReader chunk(&stream, own + inner);
+      read_chunk({name.data(), 4}, &chunk, &size);
+      chunk.skip_rest();
+    }
+  }
+
+  void read_chunk(std::string_view name, ChunkReader* chunk, std::array<uint32_t, 3>* size) {
+    if (name == "SIZE") {
+      for (uint32_t& side : *size) side = chunk->number();
+    } else if (name == "XYZI") {
+      const uint32_t count = chunk->count();
+      models_.push_back({*size, chunk->offset(), count});
+    } else if (name == "PACK") {
+      frames_ = true;
+    } else if (name == "nTRN") {
+      const uint32_t id = chunk->number();
+      Node node;
+      node.hidden = is_hidden(chunk->dictionary());
+      node.children = {chunk->number()};
+      chunk->number();  // reserved
+      node.layer = chunk->number();
+      if (chunk->count() > 0) read_frame(chunk->dictionary(), &node);
+      nodes_[id] = std::move(node);
+    } else if (name == "nGRP" || name == "nSHP") {
+      Node& node = nodes_[chunk->number()];
+      node.hidden = is_hidden(chunk->dictionary());
+      for (uint32_t n = chunk->count(); n > 0; --n) {
+        (name == "nGRP" ? node.children : node.models).push_back(chunk->number());
+        if (name == "nSHP") chunk->dictionary();
+      }
+    } else if (name == "LAYR") {
+      const uint32_t layer = chunk->number();
+      if (is_hidden(chunk->dictionary())) hidden_layers_.insert(layer);
+    }
+  }
+
+  // A place that cannot be read matters only where a model is shown: place_node() refuses.
+  void read_frame(const Dictionary& frame, Node* node) const {
+    if (const auto r = frame.find("_r"); r != frame.end()) node->rotated = r->second != "4";
+    const auto t = frame.find("_t");
+    if (t == frame.end()) return;
+    long long x, y, z;
+    if (std::sscanf(t->second.c_str(), "%lld %lld %lld", &x, &y, &z) != 3)
+      fail_input(file_.path(), "damaged .vox file: a place is not three numbers");
+    node->place = {x, y, z};
+  }
+
+  Node& node_of(uint32_t id, int depth) {
+    const auto found = nodes_.find(id);
+    if (found == nodes_.end() || depth > kDeepest) fail_graph();
+    return found->second;
+  }
+  [[noreturn]] void fail_graph() const {
+    fail_input(file_.path(), "damaged .vox file: broken scene graph");
+  }
+
+  // Looks at each node once, before place_node() visits it once for every way that leads to it.
+  size_t count_visits(uint32_t id, int depth) {
+    Node& node = node_of(id, depth);
+    if (node.visits != 0) return node.visits;
+    size_t visits = 1;
+    for (const uint32_t child : node.children) {
+      visits += count_visits(child, depth + 1);
+      if (visits > kMostVisits) fail_graph();
+    }
+    return node.visits = visits;
+  }
+
+  // `refusal`: why what is shown below this node could not be read; none.
+  void place_node(uint32_t id, const Offset& from, int depth, const char* refusal = nullptr) {
+    const Node& node = node_of(id, depth);
+    if (node.hidden || hidden_layers_.contains(node.layer)) return;
+    if (node.rotated) refusal = "has rotated models, which are not read";
+    Offset at = from;
+    for (size_t a = 0; a < 3; ++a) {
+      const int64_t place = node.place[a];
+      const bool far = place < -(int64_t(1) << kMaxLevels) || place > int64_t(1) << kMaxLevels;
+      if (far) refusal = "has a model further than 1M voxels from 0";
+      if (!far) at[a] += place;
+    }
+    for (const uint32_t child : node.children) place_node(child, at, depth + 1, refusal);
+    if (node.models.empty()) return;
+    if (refusal != nullptr) fail_input(file_.path(), refusal);
+    place_model(node.models.front(), at);
+  }
+
+  // With voxel size/2 of it at `middle`.
+  void place_model(uint32_t model, const Offset& middle) {
+    if (model >= models_.size()) fail_graph();
+    voxels_ += models_[model].count;
+    if (placed_.size() >= kMostVisits || voxels_ > kMostVoxels)
+      fail_input(file_.path(), "repeats its models too often");
+    Offset corner = middle_of(model);
+    for (size_t a = 0; a < 3; ++a) corner[a] = middle[a] - corner[a];
+    placed_.emplace_back(model, corner);
+  }
+
+  void read_voxels(const Model& model, const Offset& at, VoxelBatch* batch) const {
+    ByteStream stream(file_, model.offset, model.offset + 4 * model.count);
+    while (!stream.at_end()) {
+      std::array<uint8_t, 4> record;
+      stream.read(std::as_writable_bytes(std::span(record)));
+      Voxel voxel;
+      for (size_t a = 0; a < 3; ++a) {
+        const int64_t x = at[a] + record[a];
+        if (record[a] >= model.size[a] || x >= int64_t(1) << kMaxLevels)
+          fail_input(file_.path(), "a voxel lies outside of its model or of 1M^3",
+                     stream.offset() - 4);
+        voxel[a] = uint32_t(x);
+      }
+      batch->add(voxel);
+    }
+  }
+
+  const File& file_;
+  std::vector<Model> models_;
+  std::map<uint32_t, Node> nodes_;
+  std::set<uint32_t> hidden_layers_;
+  bool frames_ = false;  // PACK: without a scene graph, models are the frames of an animation
+  std::vector<std::pair<uint32_t, Offset>> placed_;  // models and their corners
+  uint64_t voxels_ = 0;                              // of placed_
+};
+
+}  // namespace
+
+GridPlacement read_vox(const File& file, const VoxelSink& sink) {
+  return VoxReader(file).read(sink);
+}
+
+}  // namespace svdag

@@ -1,0 +1,147 @@
+#include "io/formats/output.h"
+#include "io/formats/voxels/vox.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr int64_t kTile = 256;
+constexpr uint32_t kVersion = 150;
+
+// A chunk whose size is filled in at the end.
+class Chunk {
+ public:
+  Chunk(const char* name, Output* out) : out_(out) {
+    out->put(std::string_view(name, 4));
+    out->put(uint32_t(0));
+    out->put(uint32_t(0));
+    begin_ = out->size();
+  }
+  void end() { out_->patch(begin_ - 8, uint32_t(out_->size() - begin_)); }
+  // Its bytes are inner chunks.
+  void end_of_inner() { out_->patch(begin_ - 4, uint32_t(out_->size() - begin_)); }
+
+ private:
+  Output* out_;
+  uint64_t begin_;
+};
+
+void put_text(const std::string& text, Output* out) {
+  out->put(uint32_t(text.size()));
+  out->put(text);
+}
+
+// Node `id` of the scene graph, which places node `child`.
+void put_place(uint32_t id, uint32_t child, const std::string& place, Output* out) {
+  Chunk chunk("nTRN", out);
+  out->put(id);
+  out->put(uint32_t(0));  // attributes
+  out->put(child);
+  out->put(int32_t(-1));  // reserved
+  out->put(int32_t(-1));  // layer
+  out->put(uint32_t(1));  // frames
+  out->put(uint32_t(place.empty() ? 0 : 1));
+  if (!place.empty()) {
+    put_text("_t", out);
+    put_text(place, out);
+  }
+  chunk.end();
+}
+
+void put_shape(uint32_t id, uint32_t model, Output* out) {
+  Chunk chunk("nSHP", out);
+  out->put(id);
+  out->put(uint32_t(0));
+  out->put(uint32_t(1));  // models
+  out->put(model);
+  out->put(uint32_t(0));
+  chunk.end();
+}
+
+// Returns how many voxels it has.
+uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side, Output* out) {
+  Chunk size("SIZE", out);
+  for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
+  size.end();
+  Chunk chunk("XYZI", out);
+  const uint64_t count_at = out->size();
+  out->put(uint32_t(0));
+  const uint64_t count = for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
+    for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
+    out->put(uint8_t(1));
+  });
+  out->patch(count_at, uint32_t(count));  // of 256^3 voxels at most
+  chunk.end();
+  return count;
+}
+
+// The tiles with a voxel of the window.
+std::vector<LatticePoint> tiles_of(const VoxelWindow& window) {
+  std::vector<LatticePoint> tiles;
+  const auto add = [&](const LatticePoint& tile) {
+    // In Morton order a tile is left once and for all.
+    if (tiles.empty() || tiles.back() != tile) tiles.push_back(tile);
+    return tiles.size() <= kMostVoxModels;
+  };
+  const bool all = window.walk->visit(window.box(), [&](const VoxelCube& cube) {
+    const LatticePoint first = cube.origin / kTile;
+    const int64_t n = std::max<int64_t>(cube.side / kTile, 1);
+    for (int64_t x = 0; x < n; ++x)
+      for (int64_t y = 0; y < n; ++y)
+        for (int64_t z = 0; z < n; ++z) {
+          if (!add(first + LatticePoint(x, y, z))) return false;
+        }
+    return true;
+  });
+  if (!all)
+    fail_usage("vox holds models of 256^3 voxels, and this window needs more than " +
+               format_count(kMostVoxModels) +
+               ": export a coarser --level, or a part with --bounds");
+  return tiles;
+}
+
+}  // namespace
+
+void write_vox(const VoxelWindow& window, const std::string& path) {
+  if (window.voxels > kMostVoxVoxels)
+    fail_usage("vox holds at most " + format_count(kMostVoxVoxels) +
+               " voxels here, this window has " + format_count(window.voxels) +
+               ": export a coarser --level, or a part with --bounds");
+  const std::vector<LatticePoint> tiles = tiles_of(window);
+  const int64_t side = std::min(kTile, window.grid.resolution());
+  Output out(path);
+  out.put("VOX ");
+  out.put(kVersion);
+  Chunk main("MAIN", &out);
+  uint64_t written = 0;
+  for (const LatticePoint& tile : tiles) {
+    VoxelBox box{tile * kTile, (tile + int64_t(1)) * kTile};
+    for (int a = 0; a < 3; ++a) {
+      box.min[a] = std::max(box.min[a], window.box().min[a]);
+      box.max[a] = std::min(box.max[a], window.box().max[a]);
+    }
+    written += put_model(window, box, side, &out);
+  }
+  SVDAG_ASSERT(written == window.voxels);
+  // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the place and the shape of model i.
+  put_place(0, 1, {}, &out);
+  Chunk group("nGRP", &out);
+  out.put(uint32_t(1));
+  out.put(uint32_t(0));
+  out.put(uint32_t(tiles.size()));
+  for (uint32_t i = 0; i < tiles.size(); ++i) out.put(2 + 2 * i);
+  group.end();
+  for (uint32_t i = 0; i < tiles.size(); ++i) {
+    const LatticePoint middle = tiles[i] * kTile + side / 2;
+    put_place(
+        2 + 2 * i, 3 + 2 * i,
+        std::to_string(middle.x) + " " + std::to_string(middle.y) + " " + std::to_string(middle.z),
+        &out);
+    put_shape(3 + 2 * i, i, &out);
+  }
+  main.end_of_inner();
+  out.commit();
+}
+
+}  // namespace svdag

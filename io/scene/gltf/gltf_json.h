@@ -1,0 +1,22 @@
+// The JSON text of a glTF file into a tree of values, with everything that says nothing about
+// geometry (materials, images, animations, skins) left out while parsing.
+//
+// The text is read through a window; what the values take is reserved in the budget. The tree is
+// built from the parser's events. Rejected: the parser's own callback filter, which searches every
+// array again for values to discard after each object in it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "streaming/file/file.h"
+#include "streaming/memory/memory_budget.h"
+
+namespace svdag {
+
+// Bytes [begin, end) of `file`. What is not JSON or nests deeper than 256 levels is an Error
+// (kBadInput). `memory` grows with the values.
+nlohmann::json parse_gltf_json(const File& file, uint64_t begin, uint64_t end,
+                               MemoryBudget::Reservation* memory);
+
+}  // namespace svdag

@@ -1,0 +1,26 @@
+// Where a glTF buffer's URI may lead: into the folder of the scene, or into the URI itself.
+//
+// A scene is untrusted: "../../etc/passwd", absolute paths, schemes, and symbolic links that leave
+// the folder are refused, and so is everything that is not a regular file.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "streaming/file/file.h"
+
+namespace svdag {
+
+inline bool is_data_uri(std::string_view uri) {
+  return uri.starts_with("data:");
+}
+
+// The bytes of a base64 data URI; `path` names the scene in errors.
+std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& path);
+
+// Opens the file that a relative, percent-encoded URI in the scene file `scene_path` names.
+File open_beside(const std::string& scene_path, std::string_view uri);
+
+}  // namespace svdag

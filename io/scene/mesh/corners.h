@@ -1,0 +1,149 @@
+// How a face loop gets the positions of its corners, wherever they are.
+//
+// A face loop is written once, for any `Corners`: corners[i] is the position of vertex i < size(),
+// and add() takes the next vertex where vertices stand between faces. Positions in memory are such
+// corners themselves. Others need two runs of the loop over the same bytes (vertex_windows.h), so
+// which corners it asks for, in which order, and which of them make triangles, must not depend on
+// positions.
+#pragma once
+
+#include <type_traits>
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/mesh/positions.h"
+#include "io/scene/mesh/vertex_marks.h"
+#include "streaming/error.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+
+// A run over spilled positions: how many there are so far.
+class SpilledCorners {
+ public:
+  // From when there were `size` of them.
+  SpilledCorners(Positions* positions, uint64_t size) : positions_(*positions), size_(size) {}
+
+  uint64_t size() const { return size_; }
+  // The first run adds those that it meets, the others meet them again.
+  void add(const Point& p) {
+    if (size_ == positions_.size()) positions_.add(p);
+    ++size_;
+  }
+  static constexpr bool spilled() { return false; }
+
+ protected:
+  Positions& positions_;
+
+ private:
+  uint64_t size_;
+};
+
+// The first run: notes what is asked for.
+class CornerRecorder : public SpilledCorners {
+ public:
+  using SpilledCorners::SpilledCorners;
+  Point operator[](uint64_t i) {
+    positions_.windows().record(i);
+    return Point(0);
+  }
+};
+
+// The second run: gives what was asked for, from the beginning. One at a time.
+class CornerReplayer : public SpilledCorners {
+ public:
+  CornerReplayer(Positions* positions, uint64_t size) : SpilledCorners(positions, size) {
+    positions->windows().rewind();
+  }
+  void add(const Point&) {
+    if (size() == positions_.size()) fail_changed();
+    SpilledCorners::add({});
+  }
+  Point operator[](uint64_t i) { return positions_.windows().next(i); }
+};
+
+// For the box alone: corners that carry their number.
+class CornerNumbers : public SpilledCorners {
+ public:
+  using SpilledCorners::SpilledCorners;
+  Point operator[](uint64_t i) { return {double(i), 0, 0}; }
+};
+
+// The triangle of three vertices. In memory they are read in whatever order is the quickest, else
+// in that of the arguments: both runs must ask alike.
+template <class Corners>
+void add_triangle(Corners& corners, uint64_t a, uint64_t b, uint64_t c, BatchWriter& writer) {
+  if constexpr (std::is_same_v<Corners, Positions>) {
+    writer.add(corners[a], corners[b], corners[c]);
+  } else {
+    const Point pa = corners[a], pb = corners[b], pc = corners[c];
+    writer.add(pa, pb, pc);
+  }
+}
+
+// A run whose triangles nobody sees. False for a broken file, which is no Error yet: the last run
+// meets it again, behind the triangles before it.
+template <class Corners, class Faces>
+bool finish_faces(Corners& corners, BatchWriter& writer, const Faces& faces) {
+  try {
+    faces(corners, writer);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    return false;
+  }
+  return true;
+}
+
+// Tries to do without the triangles: true if what they are was added to `into`.
+template <class Faces>
+bool read_box_alone(Positions* positions, uint64_t size, const Faces& faces, MeshBox* into) {
+  const ReadOptions& options = positions->options();
+  const uint64_t room = options.spill->share - options.spill->share / 8;  // beside some blocks
+  if (size / 8 > room) return false;
+  VertexMarks marks(options.budget, room);
+  uint64_t triangles = 0;
+  const TriangleSink mark = [&](const TriangleBatch& batch) {
+    check_interrupt();
+    triangles += batch.triangles.size();
+    for (const Triangle& t : batch.triangles) {
+      for (const Point& corner : t.v) marks.mark(uint64_t(corner.x));
+    }
+  };
+  BatchWriter writer(mark);
+  CornerNumbers numbers(positions, size);
+  if (!finish_faces(numbers, writer, faces)) return false;
+  writer.flush();
+  positions->hand_over();
+  const auto box = marks.box(&positions->windows());
+  if (!box) return false;
+  into->box.add(*box);
+  into->triangles += triangles;
+  return true;
+}
+
+// The first run of spilled positions, from when there were `size`, and the join.
+template <class Faces>
+void record_corners(Positions* positions, uint64_t size, const Faces& faces) {
+  const TriangleSink nowhere = [](const TriangleBatch&) { check_interrupt(); };
+  BatchWriter unseen(nowhere);
+  CornerRecorder recorder(positions, size);
+  finish_faces(recorder, unseen, faces);
+  positions->hand_over();
+  positions->windows().join();
+}
+
+// Calls faces(corners, writer), once, or where the positions were spilled or become so on the way
+// again and again from where it stopped. In the end `writer` has the same triangles, and the caller
+// the same Error.
+template <class Faces>
+void read_corners(Positions* positions, BatchWriter& writer, const Faces& faces) {
+  if (!positions->spilled()) faces(*positions, writer);
+  if (!positions->spilled()) return;
+  const uint64_t size = positions->size();
+  MeshBox* alone = positions->options().box_alone;
+  if (alone != nullptr && read_box_alone(positions, size, faces, alone)) return;
+  record_corners(positions, size, faces);
+  CornerReplayer replayer(positions, size);
+  faces(replayer, writer);
+}
+
+}  // namespace svdag

@@ -1,0 +1,135 @@
+// What every scene format gives: triangles in world space, in batches.
+//
+// One function per format, one file per function. A reader streams: it holds at most the vertex
+// positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
+// memory go to a spill file where it was given one (io/scene/mesh/positions.h). It checks every
+// count against the remaining bytes before it allocates, and answers a broken file with one Error
+// (kBadInput).
+// Readers hand on non-finite coordinates as they are; io/scene/scene.cpp decides about them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/triangle.h"
+#include "streaming/file/file.h"
+#include "streaming/memory/memory_budget.h"
+
+namespace svdag {
+
+// Consecutive triangles of one mesh; valid during the call only.
+struct TriangleBatch {
+  std::string_view mesh;  // glTF node or OBJ group, "" where the format has no names
+  uint64_t first = 0;     // number, within the mesh, of the first triangle of this batch
+  std::span<const Triangle> triangles;
+  double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
+  bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)
+};
+
+using TriangleSink = std::function<void(const TriangleBatch&)>;
+
+// Which named parts of a scene are wanted: shell patterns (*, ?, [..]) against glTF node names (a
+// node is chosen if it or an ancestor matches), OBJ group and object names, names of solids in text
+// STL, and file names. Parts without a name have the name "".
+struct NameFilter {
+  // Which patterns have matched a name, in their order.
+  struct Use {
+    std::vector<bool> include, exclude;
+  };
+
+  std::vector<std::string> include;  // if not empty, only what matches one of these
+  std::vector<std::string> exclude;  // never what matches one of these
+  Use* use = nullptr;                // if not null, gets what matches
+
+  bool excludes(const std::string& name) const;
+  bool includes(const std::string& name) const;  // true where `include` is empty
+  bool empty() const { return include.empty() && exclude.empty(); }
+};
+
+class SpillFile;
+
+// Where a reader may put the vertex positions of a mesh that do not fit in memory. STL needs none;
+// Draco and OpenMesh are decoded in memory and take no notice.
+struct SpillSpace {
+  // Bytes of the budget that the reader takes for positions: at least 16 blocks of the file. With
+  // blocks of b bytes a mesh may have share^2 / 8b bytes of positions (12 or 24 a vertex) at least.
+  uint64_t share = 0;
+  std::function<SpillFile*()> file;         // opened when it is first asked for
+  std::function<uint64_t()> stream_number;  // one that no stream of the file ever had
+};
+
+// What is left of a mesh for who wants its box alone.
+struct MeshBox {
+  Box box;
+  uint64_t triangles = 0;
+};
+
+struct ReadOptions {
+  const NameFilter* names = nullptr;  // never null in a reader
+  // The file's own name matched --include: its parts need not match again.
+  bool file_included = false;
+  MemoryBudget* budget = nullptr;  // never null in a reader
+  // Null: a mesh whose positions exceed the budget is an Error (kMemory).
+  const SpillSpace* spill = nullptr;
+  // Not null: a reader may add triangles to this instead of handing them on, if all are finite.
+  MeshBox* box_alone = nullptr;
+  // Decoders of others run in a limited child process (streaming/process/limited_child.h).
+  bool sandbox = false;
+
+  // Whether a part called `name` inside the file is wanted.
+  bool wants(const std::string& name) const {
+    const bool included = names->includes(name);  // asked in any case: a pattern that matches
+    return !names->excludes(name) && (file_included || included);
+  }
+};
+
+void read_ply(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink);  // and GLB
+void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
+
+// Collects triangles and hands them on in batches of up to kBatch; the readers' common tail.
+class BatchWriter {
+ public:
+  static constexpr size_t kBatch = 4096;
+
+  explicit BatchWriter(const TriangleSink& sink)
+      : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kFirst)) {}
+  // Starts the next mesh: flushes, and counts triangles from 0 again.
+  void mesh(std::string_view name, bool undeformed = false);
+  // The quantisation step of the triangles from here on.
+  void quantisation(double step);
+  // Corner by corner to its place: a Triangle built first and copied then would be read back in
+  // other pieces than it was written in, which waits for the store buffer.
+  void add(const Point& a, const Point& b, const Point& c) {
+    Triangle& t = batch_[size_];
+    t.v[0] = a;
+    t.v[1] = b;
+    t.v[2] = c;
+    if (++size_ == room_) make_room();
+  }
+  void flush();
+
+ private:
+  static constexpr size_t kFirst = 64;  // a small scene pays for few
+
+  void make_room();
+
+  const TriangleSink& sink_;
+  std::string mesh_;
+  uint64_t first_ = 0;
+  double quantisation_ = 0;
+  bool undeformed_ = false;
+  std::unique_ptr<Triangle[]> batch_;
+  size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and for how many it has memory
+};
+
+}  // namespace svdag

@@ -1,0 +1,92 @@
+// The vertex positions of one mesh: the only thing that a reader holds in memory.
+//
+// They grow in chunks, each reserved in the budget before it is allocated, so a header cannot ask
+// for more memory than the file has vertices, and growing never copies. The first chunk is no
+// larger than what the reader says there can be: small meshes take little. Positions that the file
+// stores as float are kept as float: half the memory, the same values. Positions beyond the share
+// that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
+// (io/scene/mesh/corners.h).
+// Rejected: std::vector (twice the memory while it grows, or trust in the header's count).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/mesh/vertex_windows.h"
+#include "io/triangle.h"
+#include "streaming/memory/memory_budget.h"
+
+namespace svdag {
+
+class Positions {
+ public:
+  enum class Precision { kSingle, kDouble };
+
+  // There are `most` positions at most; more than that are a defect of the reader.
+  Positions(const ReadOptions& options, Precision precision, uint64_t most)
+      : single_(precision == Precision::kSingle),
+        options_(options),
+        most_(most),
+        reservation_(options.budget->reserve(0, kPurpose)) {}
+
+  uint64_t size() const { return size_; }
+
+  void add(const Point& p) {
+    if ((size_ & chunk_mask_) == 0) grow();
+    if (single_) {
+      store(singles_.back().get(), p);
+    } else {
+      store(doubles_.back().get(), p);
+    }
+    ++size_;
+  }
+
+  // `i` < size(), and all positions are in memory.
+  Point operator[](uint64_t i) const {
+    return single_ ? fetch(singles_[i / kChunk].get(), i) : fetch(doubles_[i / kChunk].get(), i);
+  }
+
+  // Whether the positions have left memory.
+  bool spilled() const { return windows_ != nullptr; }
+  VertexWindows& windows() { return *windows_; }
+  // Spilled, and all were added: the windows have them all.
+  void hand_over() { hand_over(0, size_ - windows_->size()); }
+  const ReadOptions& options() const { return options_; }
+
+ private:
+  static constexpr uint64_t kChunk = 1 << 15;
+  static constexpr uint64_t kOutgoing = 1 << 9;  // positions that go to the windows at once
+  static constexpr const char* kPurpose = "vertex positions";
+
+  void grow();
+  void spill();
+  void hand_over(uint64_t chunk, uint64_t count);
+  uint64_t bytes_of(uint64_t count) const {
+    return count * 3 * (single_ ? sizeof(float) : sizeof(double));
+  }
+  void append_chunk(uint64_t count);
+  template <class T>
+  void store(T* chunk, const Point& p) {
+    T* out = chunk + 3 * (size_ & chunk_mask_);
+    for (int a = 0; a < 3; ++a) out[a] = static_cast<T>(p[a]);
+  }
+  template <class T>
+  static Point fetch(const T* chunk, uint64_t i) {
+    const T* in = chunk + 3 * (i % kChunk);
+    return {double(in[0]), double(in[1]), double(in[2])};
+  }
+
+  bool single_;
+  const ReadOptions& options_;
+  uint64_t most_;
+  uint64_t size_ = 0;
+  uint64_t chunk_mask_ = 0;  // of the chunk that is filled: its size less one
+  MemoryBudget::Reservation reservation_;
+  std::vector<std::unique_ptr<float[]>> singles_;
+  std::vector<std::unique_ptr<double[]>> doubles_;
+  std::unique_ptr<VertexWindows> windows_;  // spilled: the chunk is what is not yet there
+};
+
+}  // namespace svdag

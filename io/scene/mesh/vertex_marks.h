@@ -1,0 +1,50 @@
+// The box of the vertices that triangles use, without a join: a bit per vertex, then one pass over
+// the positions.
+//
+// Answers only where it is certain to be what the triangles themselves would give; else the join
+// has to tell: the marks do not fit in memory, a coordinate is NaN or infinite, or zeros of both
+// signs stand on one face of the box (the earlier of the two stays, in the order of triangles).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "io/scene/mesh/vertex_windows.h"
+
+namespace svdag {
+
+class VertexMarks {
+ public:
+  VertexMarks(MemoryBudget* budget, uint64_t most_bytes)
+      : most_bytes_(most_bytes), memory_(budget->reserve(0, kPurpose)) {}
+
+  void mark(uint64_t i) {
+    const size_t chunk = size_t(i / kChunk);
+    if (chunk >= chunks_.size() || !chunks_[chunk]) {
+      if (!make(chunk)) return;
+    }
+    chunks_[chunk][i % kChunk / 64] |= uint64_t(1) << i % 64;
+  }
+  bool marked(uint64_t i) const {
+    const size_t chunk = size_t(i / kChunk);
+    return chunk < chunks_.size() && chunks_[chunk] &&
+           (chunks_[chunk][i % kChunk / 64] >> i % 64 & 1) != 0;
+  }
+  // Nothing where the marks cannot tell.
+  std::optional<Box> box(VertexWindows* positions) const;
+
+ private:
+  static constexpr uint64_t kChunk = 1 << 13;  // vertices: 1 KiB
+  static constexpr const char* kPurpose = "marks of vertices";
+
+  bool make(size_t chunk);
+
+  uint64_t most_bytes_;
+  bool full_ = false;
+  MemoryBudget::Reservation memory_;
+  std::vector<std::unique_ptr<uint64_t[]>> chunks_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,139 @@
+// Vertex positions that do not fit in memory, brought to the corners that ask for them: an external
+// join of sequential passes, whatever the order of the faces.
+//
+// A window is a run of consecutive vertices that fits in memory.
+//   add      the positions go to one stream per window as they are read
+//   record   the face loop asks for corners without getting them: the index of each within its
+//            window is appended to the references of the window
+//   join     per window: its positions in memory, its references one by one, the positions asked
+//            for appended to its answers
+//   next     the face loop asks again: each corner takes the next answer of its window
+// The order of the corners is known to the face loop alone, so nothing is sorted and no number of a
+// corner is stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
+// back by corner (the same bytes three times).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/triangle.h"
+#include "streaming/memory/memory_budget.h"
+#include "streaming/spill/spill_file.h"
+
+namespace svdag {
+
+// A stream whose blocks are freed with it.
+class OwnedStream {
+ public:
+  OwnedStream() = default;
+  OwnedStream(SpillFile* file, SpillStream stream) : file_(file), stream_(std::move(stream)) {}
+  OwnedStream(OwnedStream&& other) noexcept
+      : file_(std::exchange(other.file_, nullptr)), stream_(std::move(other.stream_)) {}
+  OwnedStream& operator=(OwnedStream&& other) noexcept;
+  ~OwnedStream();
+
+  bool empty() const { return file_ == nullptr; }
+  SpillReader read(MemoryBudget* budget) const { return SpillReader(file_, stream_, budget); }
+
+ private:
+  SpillFile* file_ = nullptr;
+  SpillStream stream_;
+};
+
+// A run over the same bytes met other corners or vertices than the run before.
+[[noreturn]] void fail_changed();
+
+class VertexWindows {
+ public:
+  // Positions are three floats each, or (`single` is false) three doubles.
+  VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool single);
+
+  // Vertices of a window: a power of two.
+  uint64_t window() const { return uint64_t(1) << shift_; }
+  uint64_t size() const { return size_; }
+  uint64_t most_vertices() const { return most_windows_ << shift_; }
+
+  // Appends whole positions.
+  void add(std::span<const std::byte> positions);
+  void record(uint64_t i) {
+    const uint64_t w = i >> shift_;
+    if (w >= references_.size() || !references_[w]) open_references(w);
+    const uint32_t local = uint32_t(i & (window() - 1));
+    references_[w]->append(std::as_bytes(std::span(&local, 1)));
+  }
+  // Every position was added: calls use(i, position) for each, in order.
+  template <class Use>
+  void visit(const Use& use) {
+    finish_window();
+    uint64_t i = 0;
+    for (const OwnedStream& window_positions : positions_) {
+      Cursor from;
+      for (const uint64_t end = std::min(i + window(), size_); i < end; ++i)
+        use(i, next_of(from, window_positions));
+    }
+  }
+  // Every position was added and every corner recorded.
+  void join();
+  // The next corner asked for is again the first that was recorded.
+  void rewind();
+  // Position `i`, which must have been recorded here in the order of asking.
+  Point next(uint64_t i) {
+    const uint64_t w = i >> shift_;
+    return next_of(replay_[w], answers_[w]);
+  }
+
+ private:
+  // A place in a stream of positions.
+  struct Cursor {
+    const std::byte *here = nullptr, *end = nullptr;  // in the block of the reader
+    std::optional<SpillReader> reader;
+  };
+
+  Point next_of(Cursor& from, const OwnedStream& stream) {
+    if (size_t(from.end - from.here) < position_bytes_) return next_beyond(from, stream);
+    const std::byte* p = from.here;
+    from.here += position_bytes_;
+    return point_at(p);
+  }
+  Point point_at(const std::byte* p) const {
+    return single_ ? load_point<float>(p) : load_point<double>(p);
+  }
+  template <class T>
+  static Point load_point(const std::byte* p) {
+    std::array<T, 3> v;
+    std::memcpy(&v, p, sizeof v);
+    return {double(v[0]), double(v[1]), double(v[2])};
+  }
+  SpillWriter new_stream() { return SpillWriter(file_, new_number_(), budget_); }
+  void finish_window();
+  void open_references(uint64_t w);
+  void load(const OwnedStream& positions, std::byte* to) const;
+  template <class T>
+  OwnedStream answer(const OwnedStream& references, const std::byte* positions);
+  Point next_beyond(Cursor& from, const OwnedStream& stream);
+
+  SpillFile* file_;
+  const std::function<uint64_t()>& new_number_;
+  MemoryBudget* budget_;
+  bool single_;
+  size_t position_bytes_;
+  int shift_;
+  uint64_t most_windows_;  // whose references can be written at once
+  uint64_t size_ = 0;
+  std::optional<SpillWriter> positions_out_;  // of the last window
+  std::vector<OwnedStream> positions_, answers_;
+  std::vector<std::optional<SpillWriter>> references_;
+  std::vector<Cursor> replay_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,201 @@
+// Wavefront OBJ: polygons and groups, in one pass if the positions fit in memory.
+//
+// A face may use the vertices that stand before it, counted from 1, or backwards from -1. Texture
+// coordinates, normals and materials are skipped; free-form surfaces are refused, for they would be
+// missing from the scene. A face belongs to the last `o` and to all names of the last `g`: it is
+// wanted if none of these names is excluded and one of them is included.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "io/scene/mesh/corners.h"
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/obj_plain.h"
+#include "io/scene/readers/text_scan.h"
+
+namespace svdag {
+namespace {
+
+// Statements without surface, or about its looks.
+constexpr std::array<std::string_view, 28> kSkipped = {
+    "vt",       "vn",  "usemtl",     "s",         "l",      "p",     "mtllib",
+    "vp",       "mg",  "lod",        "usemap",    "maplib", "bevel", "c_interp",
+    "d_interp", "deg", "bmat",       "step",      "cstype", "curv",  "curv2",
+    "parm",     "end", "shadow_obj", "trace_obj", "ctech",  "stech", "sp"};
+
+// Where a pass over the lines stands, and what the lines before it say about those behind.
+struct ObjPlace {
+  uint64_t offset = 0, line = 1;
+  std::string object;
+  std::vector<std::string> groups;
+  std::string mesh;
+  bool wanted = true;
+};
+
+// One pass over the lines, for positions wherever they are (corners.h).
+template <class Corners>
+class ObjLines {
+ public:
+  ObjLines(const File& file, const ReadOptions& options, const ObjPlace& from, Corners* positions,
+           BatchWriter* writer)
+      : options_(options),
+        stream_(file, from.offset),
+        scanner_(&stream_, {'#', true}, from.line),
+        at_(from),
+        positions_(*positions),
+        triangulator_(options.budget, file.path()),
+        writer_(*writer) {}
+
+  // To the end of the file, or of the line with which the positions leave memory.
+  ObjPlace read() {
+    if (at_.offset == 0) choose();
+    while (!positions_.spilled() && !scanner_.at_end()) {
+      if (!read_plain_line()) read_line();
+      scanner_.next_line();
+    }
+    at_.offset = scanner_.offset();
+    at_.line = scanner_.line();
+    return at_;
+  }
+
+ private:
+  // A vertex or a face as nearly all files write them, or a line to skip; else false, and nothing
+  // was read.
+  bool read_plain_line() {
+    const std::string_view text = scanner_.visible();
+    const char* stop = nullptr;
+    if (text.starts_with("v ")) {
+      Point p;
+      stop = read_plain_vertex(text.substr(2), &p);
+      if (stop != nullptr) positions_.add(p);
+    } else if (text.starts_with("f ") && at_.wanted) {
+      PlainFace face;
+      stop = read_plain_face(text.substr(2), positions_.size(), &face);
+      if (stop != nullptr) add(face);
+    } else if (text.starts_with("vt ") || text.starts_with("vn ")) {
+      stop = text.data() + 2;
+    }
+    if (stop == nullptr) return false;
+    scanner_.skip_to(stop);
+    return true;
+  }
+
+  void add(const PlainFace& face) {
+    const auto& i = face.index;
+    if (face.corners == 3) {
+      const Point a = positions_[i[0]], b = positions_[i[1]],
+                  c = positions_[i[2]];  // in this order
+      return writer_.add(a, b, c);
+    }
+    for (size_t c = 0; c < face.corners; ++c) triangulator_.corner(positions_[i[c]]);
+    triangulator_.finish(writer_);
+  }
+
+  void read_line() {
+    const std::string_view statement = scanner_.word();
+    if (statement == "v") {
+      read_vertex();
+    } else if (statement == "f" || statement == "fo") {
+      read_face();
+    } else if (statement == "g") {
+      read_groups();
+    } else if (statement == "o") {
+      at_.object = scanner_.rest_of_line();
+      choose();
+    } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
+      refuse(statement);
+    }
+  }
+
+  [[noreturn]] void refuse(std::string_view statement) const {
+    scanner_.fail("has a statement \"" + std::string(statement.substr(0, 40)) +
+                  "\", which svdag does not read");
+  }
+
+  // What follows x, y, z (a weight, colours) is skipped.
+  void read_vertex() {
+    Point p;
+    for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
+    positions_.add(p);
+  }
+
+  void read_face() {
+    if (!at_.wanted) return;
+    std::array<Point, 3> first;
+    size_t corners = 0;
+    for (; !scanner_.at_line_end(); ++corners) {
+      const Point p = position(scanner_.integer('/'));
+      if (!scanner_.at_word_end()) skip_references();
+      if (corners < 3) {
+        first[corners] = p;
+        continue;
+      }
+      if (corners == 3)
+        std::for_each(first.begin(), first.end(), [&](const Point& q) { triangulator_.corner(q); });
+      triangulator_.corner(p);
+    }
+    if (corners == 3) writer_.add(first[0], first[1], first[2]);
+    if (corners > 3) triangulator_.finish(writer_);
+  }
+
+  // The "/2/3" of a corner "1/2/3".
+  void skip_references() {
+    scanner_.skip_while([](char c) { return (c >= '/' && c <= '9') || c == '-' || c == '+'; });
+    if (!scanner_.at_word_end())
+      scanner_.fail("has a corner of a face that is no index/index/index");
+  }
+
+  Point position(int64_t index) {
+    const uint64_t count = positions_.size();
+    const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
+    if (i >= count)
+      scanner_.fail("has a face with vertex " + std::to_string(index) + ", but " +
+                    std::to_string(count) + " vertices stand before it");
+    return positions_[i];
+  }
+
+  void read_groups() {
+    at_.groups.clear();
+    while (!scanner_.at_line_end()) at_.groups.emplace_back(scanner_.word());
+    choose();
+  }
+
+  // Decides about the faces that follow, and names their mesh.
+  void choose() {
+    std::vector<std::string> names = at_.groups;
+    if (!at_.object.empty() || names.empty()) names.push_back(at_.object);
+    const auto wants = [&](const std::string& name) { return options_.wants(name); };
+    const auto excluded = [&](const std::string& name) { return options_.names->excludes(name); };
+    at_.wanted = std::any_of(names.begin(), names.end(), wants) &&
+                 std::none_of(names.begin(), names.end(), excluded);
+    const std::string& mesh = names.front();
+    if (mesh != at_.mesh) writer_.mesh(mesh);
+    at_.mesh = mesh;
+  }
+
+  const ReadOptions& options_;
+  ByteStream stream_;
+  TextScanner scanner_;
+  ObjPlace at_;
+  Corners& positions_;
+  Triangulator triangulator_;
+  BatchWriter& writer_;
+};
+
+}  // namespace
+
+void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  Positions positions(options, Positions::Precision::kDouble, file.size());
+  BatchWriter writer(sink);
+  ObjPlace from;
+  read_corners(&positions, writer, [&](auto& corners, BatchWriter& out) {
+    ObjLines lines(file, options, from, &corners, &out);
+    const ObjPlace end = lines.read();
+    if constexpr (std::is_same_v<decltype(corners), Positions&>) from = end;
+  });
+  writer.flush();
+}
+
+}  // namespace svdag

@@ -1,0 +1,125 @@
+// OFF, the Object File Format (Geomview): text with polygons.
+//
+// Colours, normals and texture coordinates are what follows in the line of a vertex or a face;
+// they are skipped. The binary form and dimensions other than three are refused by name.
+#include <string>
+
+#include "io/scene/mesh/corners.h"
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/text_scan.h"
+
+namespace svdag {
+namespace {
+
+// A number of things that take at least `bytes` each (the last one may lack its line end).
+uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
+  scanner.at_end();
+  const int64_t n = scanner.integer();
+  if (n < 0 || uint64_t(n) > (scanner.remaining() + 1) / bytes)
+    scanner.fail("promises " + std::to_string(n) + " " + things + ", more than its bytes can hold");
+  return uint64_t(n);
+}
+
+// The faces, for positions wherever they are (corners.h).
+template <class Corners>
+class OffFaces {
+ public:
+  OffFaces(const File& file, TextScanner* scanner, Corners* positions, MemoryBudget* budget)
+      : scanner_(*scanner), positions_(*positions), triangulator_(budget, file.path()) {}
+
+  void read(uint64_t faces, BatchWriter& writer) {
+    for (; faces > 0; --faces) {
+      for (uint64_t corners = read_count(scanner_, "corners", 2); corners > 0; --corners)
+        read_corner();
+      triangulator_.finish(writer);
+      scanner_.next_line();
+    }
+  }
+
+ private:
+  void read_corner() {
+    scanner_.at_end();
+    const int64_t index = scanner_.integer();
+    if (index < 0 || uint64_t(index) >= positions_.size())
+      scanner_.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
+                    std::to_string(positions_.size()) + " vertices");
+    triangulator_.corner(positions_[uint64_t(index)]);
+  }
+
+  TextScanner& scanner_;
+  Corners& positions_;
+  Triangulator triangulator_;
+};
+
+class OffReader {
+ public:
+  OffReader(const File& file, const ReadOptions& options)
+      : options_(options),
+        stream_(file),
+        scanner_(&stream_, kSyntax),
+        positions_(options, Positions::Precision::kDouble, file.size()) {}
+
+  void read(const TriangleSink& sink) {
+    read_keyword();
+    const uint64_t vertices = read_count(scanner_, "vertices", 6);  // "0 0 0\n"
+    const uint64_t faces = read_count(scanner_, "faces", 2);        // "0\n"
+    scanner_.next_line();  // the number of edges means nothing
+    for (uint64_t i = 0; i < vertices; ++i) read_vertex();
+    BatchWriter writer(sink);
+    read_corners(&positions_, writer, [&](auto& corners, BatchWriter& out) {
+      ByteStream stream(stream_.file(), scanner_.offset());
+      TextScanner scanner(&stream, kSyntax, scanner_.line());
+      OffFaces(stream_.file(), &scanner, &corners, options_.budget).read(faces, out);
+    });
+    writer.flush();
+  }
+
+ private:
+  static constexpr TextScanner::Syntax kSyntax = {'#', false};
+
+  // [ST][C][N]OFF, the letters in any order (MeshLab writes NCOFF); then the counts, in the next
+  // line, in this one, or in this word (files of ModelNet: "OFF8 12 0").
+  void read_keyword() {
+    scanner_.at_end();
+    std::string_view rest = scanner_.word();
+    for (bool more = true; more;) {
+      more = false;
+      for (const std::string_view prefix : {"ST", "C", "N"}) {
+        if (!rest.starts_with(prefix)) continue;
+        rest.remove_prefix(prefix.size());
+        more = true;
+      }
+    }
+    if (rest.size() > 3 && rest.starts_with("OFF") && rest[3] >= '0' && rest[3] <= '9')
+      return scanner_.skip_to(rest.data() + 3);
+    if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF")
+      scanner_.fail("is an OFF file of a dimension other than three, which svdag does not read");
+    if (rest != "OFF") scanner_.fail("does not begin with \"OFF\"");
+    if (scanner_.next_letter() == 'B')
+      scanner_.fail("is a binary OFF file, which svdag does not read: convert it to text or PLY");
+  }
+
+  void read_vertex() {
+    Point p;
+    for (int a = 0; a < 3; ++a) {
+      scanner_.at_end();
+      p[a] = scanner_.number();
+    }
+    positions_.add(p);
+    scanner_.next_line();
+  }
+
+  const ReadOptions& options_;
+  ByteStream stream_;
+  TextScanner scanner_;
+  Positions positions_;
+};
+
+}  // namespace
+
+void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  if (options.wants("")) OffReader(file, options).read(sink);
+}
+
+}  // namespace svdag

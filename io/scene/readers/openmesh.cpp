@@ -1,0 +1,142 @@
+// OpenMesh's own format (.om), which only OpenMesh reads.
+//
+// OpenMesh holds the whole mesh (98 bytes per triangle) and drops faces that its halfedges cannot
+// express, so it reads nothing else for us, and its number of faces is checked against the file's.
+// Broken files end it in an assertion, so it always runs in a process of its own; under --sandbox,
+// one that can only compute.
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <sstream>
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/limited_decoder.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;  // float positions widen without rounding
+};
+using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+
+constexpr uint64_t kBytesPerElement = 128;  // halfedges, connectivity and status of one face
+
+// "OM", mesh type, version, then the numbers of vertices, faces and edges.
+struct Header {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+};
+
+Header read_header(const File& file) {
+  std::array<unsigned char, 16> b;
+  file.read_at(0, std::as_writable_bytes(std::span(b)));
+  const auto u32 = [&](size_t at) {
+    return uint32_t(b[at]) | uint32_t(b[at + 1]) << 8 | uint32_t(b[at + 2]) << 16 |
+           uint32_t(b[at + 3]) << 24;
+  };
+  if (b[0] != 'O' || b[1] != 'M') fail_input(file.path(), "is not an OpenMesh file");
+  const Header header{u32(4), u32(8)};
+  // A vertex takes 12 bytes or more, a face 3 or more, an edge one or more: OpenMesh makes room for
+  // as many as are said here.
+  if (header.vertices > file.size() / 12 || header.faces > file.size() / 3 ||
+      u32(12) > file.size()) {
+    fail_input(file.path(), "is cut off: fewer bytes than its vertices, faces and edges need");
+  }
+  return header;
+}
+
+// From memory, so that a limited child needs no file.
+void load(const File& file, std::span<const std::byte> bytes, Mesh* mesh) {
+  omerr().disable();  // the one error sentence is ours
+  omlog().disable();
+  OpenMesh::IO::Options options;
+  std::istringstream in(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  bool read = false;
+  try {
+    read = OpenMesh::IO::read_mesh(*mesh, in, ".om", options);
+  } catch (const std::exception&) {
+    read = false;
+  }
+  if (!read) fail_input(file.path(), "is a broken OpenMesh file");
+}
+
+// Calls `use` with the corners of a face. OpenMesh takes the links of halfedges from the file as
+// they are: they may lead nowhere, or round and round beside where they began. `left`: corners that
+// the mesh can still have, one per halfedge.
+template <class Use>
+void each_corner(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint64_t* left,
+                 const Use& use) {
+  const auto first = mesh.halfedge_handle(face);
+  auto halfedge = first;
+  do {
+    if (!mesh.is_valid_handle(halfedge) || (*left)-- == 0)
+      fail_input(file.path(), "is a broken OpenMesh file");
+    const auto vertex = mesh.to_vertex_handle(halfedge);
+    if (!mesh.is_valid_handle(vertex)) fail_input(file.path(), "is a broken OpenMesh file");
+    const OpenMesh::Vec3d& p = mesh.point(vertex);
+    use(Point(p[0], p[1], p[2]));
+    halfedge = mesh.next_halfedge_handle(halfedge);
+  } while (halfedge != first);
+}
+
+void decode(const File& file, std::span<const std::byte> bytes, const Header& header,
+            const TriangleSink& sink) {
+  Mesh mesh;
+  load(file, bytes, &mesh);
+  if (mesh.n_faces() != header.faces) {
+    fail_input(file.path(), "has " + std::to_string(header.faces) +
+                                " faces, of which OpenMesh could read only " +
+                                std::to_string(mesh.n_faces()));
+  }
+  BatchWriter out(sink);
+  MemoryBudget without_limit;  // the process of its own has one
+  Triangulator polygon(&without_limit, file.path());
+  uint64_t left = mesh.n_halfedges();
+  for (const auto face : mesh.faces()) {
+    each_corner(file, mesh, face, &left, [&](const Point& p) { polygon.corner(p); });
+    polygon.finish(out);
+  }
+  out.flush();
+}
+
+void decode_limited(const File& file, std::span<const std::byte> bytes, const Header& header,
+                    const ChildLimits& limits, const TriangleSink& sink) {
+  BatchWriter out(sink);
+  run_limited(
+      limits, file.path(),
+      [&](const BlockSink& send) {
+        decode(file, bytes, header,
+               [&](const TriangleBatch& batch) { send(std::as_bytes(batch.triangles)); });
+      },
+      [&](std::span<const std::byte> block) {
+        if (block.size() % sizeof(Triangle) != 0)
+          fail_input(file.path(), "has a decoder that sent what is no triangle");
+        for (; !block.empty(); block = block.subspan(sizeof(Triangle))) {
+          Triangle t;
+          std::memcpy(&t, block.data(), sizeof t);
+          out.add(t.v[0], t.v[1], t.v[2]);
+        }
+      });
+  out.flush();
+}
+
+}  // namespace
+
+void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  if (!options.wants("")) return;
+  const Header header = read_header(file);
+  const auto memory = options.budget->reserve(
+      2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
+  std::vector<std::byte> bytes(size_t(file.size()));
+  file.read_at(0, bytes);
+  ChildLimits limits = decoder_limits(bytes.size(), *options.budget, options.sandbox);
+  limits.memory += memory.bytes();  // it is the child that takes it
+  decode_limited(file, bytes, header, limits, sink);
+}
+
+}  // namespace svdag

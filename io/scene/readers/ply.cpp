@@ -1,0 +1,158 @@
+// PLY (Turk 1994): text and binary, polygons and triangle strips.
+//
+// The elements stand in any order. The vertices are read first; what stands before them is skipped
+// and read from its place afterwards. Faces stream (ply_faces.h).
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "io/scene/mesh/corners.h"
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/readers/ply_faces.h"
+#include "io/scene/readers/ply_values.h"
+
+namespace svdag {
+namespace {
+
+template <class Values>
+class PlyBody {
+ public:
+  PlyBody(const File& file, const PlyHeader& header, const ReadOptions& options)
+      : file_(file), header_(header), options_(options) {}
+
+  void read(PlyPlace begin, const TriangleSink& sink) {
+    const auto& elements = header_.elements;
+    const auto vertices = std::find_if(elements.begin(), elements.end(),
+                                       [](const PlyElement& e) { return e.name == "vertex"; });
+    {
+      Values values(file_, header_.format, begin);
+      if (vertices == elements.end()) values.fail("has no element \"vertex\"");
+      for (auto element = elements.begin(); element != vertices; ++element) {
+        places_.push_back(values.place());
+        skip_rows(values, *element);
+      }
+      read_vertices(values, *vertices);
+      places_.push_back(values.place());
+    }
+    BatchWriter writer(sink);
+    read_corners(&*positions_, writer, [&](auto& corners, BatchWriter& out) {
+      PlyFaces<Values, std::remove_reference_t<decltype(corners)>> faces(file_, &corners,
+                                                                         options_.budget, &out);
+      read_faces(faces);
+    });
+    writer.flush();
+  }
+
+ private:
+  // All elements but the vertices.
+  template <class Faces>
+  void read_faces(Faces& faces) {
+    const auto& elements = header_.elements;
+    const size_t earlier = places_.size() - 1;
+    for (size_t i = 0; i < earlier; ++i) {
+      Values values(file_, header_.format, places_[i]);
+      faces.read(values, elements[i]);
+    }
+    Values values(file_, header_.format, places_.back());
+    for (size_t i = earlier + 1; i < elements.size(); ++i) faces.read(values, elements[i]);
+  }
+
+  void read_vertices(Values& values, const PlyElement& element) {
+    // For every property the coordinate that it is, or 3.
+    std::vector<int> coordinate(element.properties.size(), 3);
+    bool single = true;
+    for (int a = 0; a < 3; ++a) {
+      const std::string name(1, char('x' + a));
+      const auto index = element.find(name);
+      if (!index || element.properties[*index].is_list())
+        values.fail("has vertices without a coordinate \"" + name + "\"");
+      coordinate[*index] = a;
+      const PlyType type = element.properties[*index].type;
+      single = single && (type == PlyType::kFloat32 || size_of(type) < 4);
+    }
+    check_count(values, element);
+    // A float property holds floats; text declared as a short integer may hold any number.
+    if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
+    positions_.emplace(options_,
+                       single ? Positions::Precision::kSingle : Positions::Precision::kDouble,
+                       element.count);
+    uint64_t row = 0;
+    if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
+      if (const auto offset = plain_vertices(values, element))
+        row = read_plain_vertices(values, *offset, element);
+    }
+    for (; row < element.count; ++row) {
+      std::array<double, 4> read{};
+      for (size_t i = 0; i < element.properties.size(); ++i) {
+        if (coordinate[i] < 3) {
+          read[size_t(coordinate[i])] = values.number(element.properties[i].type);
+        } else {
+          skip_property(values, element.properties[i]);
+        }
+      }
+      positions_->add({read[0], read[1], read[2]});
+    }
+  }
+
+  // Where x, y, z stand in a row that holds them as consecutive floats of this machine's order.
+  static std::optional<size_t> plain_vertices(const PlyBinaryValues& values,
+                                              const PlyElement& element) {
+    const auto x = element.find("x");
+    if (!x || element.has_lists() || values.order() != std::endian::native) return {};
+    for (size_t a = 0; a < 3; ++a) {
+      if (element.find(std::string(1, char('x' + a))) != *x + a ||
+          element.properties[*x + a].type != PlyType::kFloat32)
+        return {};
+    }
+    size_t offset = 0;
+    for (size_t i = 0; i < *x; ++i) offset += size_of(element.properties[i].type);
+    return offset;
+  }
+
+  uint64_t read_plain_vertices(PlyBinaryValues& values, size_t offset, const PlyElement& element) {
+    const size_t row_bytes = element.least_bytes();
+    uint64_t done = 0;
+    while (done < element.count) {
+      const auto bytes = values.stream().peek(row_bytes);
+      const uint64_t visible = std::min(bytes.size() / row_bytes, element.count - done);
+      if (visible == 0) break;
+      const std::byte* p = bytes.data() + offset;
+      for (uint64_t i = 0; i < visible; ++i, p += row_bytes) {
+        const auto v = load<std::array<float, 3>>(p, std::endian::native);
+        positions_->add({v[0], v[1], v[2]});
+      }
+      values.stream().skip(visible * row_bytes);
+      done += visible;
+    }
+    return done;
+  }
+
+  static bool all_float(const PlyElement& element, const std::vector<int>& coordinate) {
+    for (size_t i = 0; i < coordinate.size(); ++i) {
+      if (coordinate[i] < 3 && element.properties[i].type != PlyType::kFloat32) return false;
+    }
+    return true;
+  }
+
+  const File& file_;
+  const PlyHeader& header_;
+  const ReadOptions& options_;
+  std::vector<PlyPlace> places_;  // of the elements before the vertices, and of what follows those
+  std::optional<Positions> positions_;
+};
+
+}  // namespace
+
+void read_ply(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  if (!options.wants("")) return;
+  ByteStream stream(file);
+  const PlyHeader header = read_ply_header(&stream);
+  const PlyPlace body{stream.offset(), header.lines + 1};
+  if (header.format == PlyFormat::kAscii) {
+    PlyBody<PlyTextValues>(file, header, options).read(body, sink);
+  } else {
+    PlyBody<PlyBinaryValues>(file, header, options).read(body, sink);
+  }
+}
+
+}  // namespace svdag

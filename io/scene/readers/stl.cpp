@@ -1,0 +1,144 @@
+// STL (3D Systems 1989): binary and text.
+//
+// A file is binary if its size is that of its count of triangles, whatever it begins with: many
+// binary files begin with "solid" as well. Behind the triangles there may be less than another
+// would take (a line end, padding); with more, the count may be wrong, and the file is refused.
+// The normals and the attribute bytes are ignored. Solids of a text file have names, which serve as
+// mesh names.
+#include <array>
+#include <cctype>
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/readers/endian.h"
+#include "io/scene/readers/text_scan.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kHeader = 84;  // 80 bytes of text, the count
+constexpr size_t kRecord = 50;  // normal, three corners, attribute
+constexpr size_t kNormal = 12;
+
+// The count of a binary file; at least kHeader bytes.
+uint64_t binary_count(const File& file) {
+  std::array<std::byte, 4> bytes;
+  file.read_at(kHeader - bytes.size(), bytes);
+  return load_little<uint32_t>(bytes.data());
+}
+
+// "solid" behind blanks, and none of the zeros that a binary file has in its count at the latest.
+bool begins_as_text(const File& file) {
+  std::array<char, 512> head{};
+  const size_t n = file.read_some_at(0, std::as_writable_bytes(std::span(head)));
+  std::string_view text(head.data(), n);
+  if (text.find('\0') != std::string_view::npos) return false;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos || text.size() - start < 5) return false;
+  for (size_t i = 0; i < 5; ++i) {
+    if (std::tolower(static_cast<unsigned char>(text[start + i])) != "solid"[i]) return false;
+  }
+  return true;
+}
+
+void read_binary(const File& file, uint64_t count, BatchWriter& writer) {
+  ByteStream stream(file, kHeader);
+  while (count > 0) {
+    const auto bytes = stream.peek(kRecord);
+    const uint64_t rows = std::min<uint64_t>(bytes.size() / kRecord, count);
+    if (rows == 0) fail_input(file.path(), "ends too early", stream.offset());
+    const std::byte* p = bytes.data() + kNormal;
+    for (uint64_t i = 0; i < rows; ++i, p += kRecord) {
+      std::array<Point, 3> v;
+      for (size_t k = 0; k < 9; ++k)
+        v[k / 3][int(k % 3)] = double(load_little<float>(p + k * sizeof(float)));
+      writer.add(v[0], v[1], v[2]);
+    }
+    stream.skip(rows * kRecord);
+    count -= rows;
+  }
+}
+
+class TextReader {
+ public:
+  TextReader(const File& file, const ReadOptions& options, BatchWriter* writer)
+      : options_(options), stream_(file), scanner_(&stream_, {}), writer_(writer) {}
+
+  void read() {
+    while (!scanner_.at_end()) {
+      expect("solid");
+      const std::string name(scanner_.rest_of_line());
+      writer_->mesh(name);
+      const bool wanted = options_.wants(name);
+      while (next_is_facet()) read_facet(wanted);
+      scanner_.next_line();  // the name, once more
+    }
+  }
+
+ private:
+  std::string_view next_word() {
+    if (scanner_.at_end()) scanner_.fail("ends within a solid");
+    return scanner_.word();
+  }
+  static bool same(std::string_view found, std::string_view wanted) {
+    return std::equal(found.begin(), found.end(), wanted.begin(), wanted.end(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == b;
+    });
+  }
+  void expect(const char* wanted) { check(next_word(), wanted); }
+  void check(std::string_view found, const char* wanted) const {
+    if (!same(found, wanted))
+      scanner_.fail(std::string("has no \"") + wanted + "\" where it should");
+  }
+  // "facet" or the end of the solid.
+  bool next_is_facet() {
+    const std::string_view found = next_word();
+    if (same(found, "endsolid")) return false;
+    check(found, "facet");
+    return true;
+  }
+  void read_facet(bool wanted) {
+    expect("normal");
+    for (int i = 0; i < 3; ++i) next_word();  // often wrong, never needed
+    expect("outer");
+    expect("loop");
+    std::array<Point, 3> v;
+    for (Point& p : v) {
+      expect("vertex");
+      for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
+    }
+    expect("endloop");
+    expect("endfacet");
+    if (wanted) writer_->add(v[0], v[1], v[2]);
+  }
+
+  const ReadOptions& options_;
+  ByteStream stream_;
+  TextScanner scanner_;
+  BatchWriter* writer_;
+};
+
+}  // namespace
+
+void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  BatchWriter writer(sink);
+  const uint64_t size = file.size();
+  const uint64_t count = size < kHeader ? 0 : binary_count(file);
+  const uint64_t expected = kHeader + kRecord * count;
+  const bool padded = count > 0 && size > expected && size - expected < kRecord;
+  if (size != expected && begins_as_text(file)) {
+    TextReader(file, options, &writer).read();
+  } else if (size == expected || padded) {
+    if (options.wants("")) read_binary(file, count, writer);
+  } else if (size < kHeader) {
+    fail_input(file.path(), "is too short for an STL file");
+  } else {
+    fail_input(file.path(), "promises " + std::to_string(count) + " triangles, which take " +
+                                std::to_string(expected) + " bytes, but it has " +
+                                std::to_string(size));
+  }
+  writer.flush();
+}
+
+}  // namespace svdag

@@ -1,0 +1,24 @@
+// Stands in for draco.cpp where svdag is built without the Draco library.
+#ifndef SVDAG_HAS_DRACO
+
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/readers/draco.h"
+#include "streaming/error.h"
+
+namespace svdag {
+
+bool has_draco() {
+  return false;
+}
+
+DracoMesh decode_draco(const DracoSource& source, MemoryBudget*) {
+  fail_input(source.path, "is compressed with Draco, which this build of svdag cannot read");
+}
+
+void read_draco(const File& file, const ReadOptions& options, const TriangleSink&) {
+  decode_draco({{}, file.path()}, options.budget);
+}
+
+}  // namespace svdag
+
+#endif

@@ -1,0 +1,59 @@
+#include "streaming/file/atomic_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "streaming/file/mapped_file.h"
+
+namespace svdag {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string& checked(const std::string& target) {
+  AtomicFile::check(target);
+  return target;
+}
+
+}  // namespace
+
+// A rename replaces whatever has the name: as root, also /dev/null.
+void AtomicFile::check(const std::string& target) {
+  if (target == "-")
+    throw Error(ExitCode::kUsage, "-: an output is a file, which is there whole or not at all");
+  std::error_code error;
+  const fs::file_type type = fs::status(target, error).type();
+  if (error == std::errc::filename_too_long)
+    throw Error(ExitCode::kOutput, "is too long for the name of a file", target);
+  if (type == fs::file_type::directory)
+    throw Error(ExitCode::kOutput, "is a folder: name a file in it", target);
+  const bool free = type == fs::file_type::not_found || type == fs::file_type::regular ||
+                    type == fs::file_type::none;  // not known: whoever opens it says why
+  const bool descriptor = fs::read_symlink(target, error).native().starts_with("/proc/");
+  if (!free || descriptor)
+    throw Error(ExitCode::kOutput,
+                "is no regular file, and only such a one is replaced: choose another name", target);
+}
+
+AtomicFile::AtomicFile(const std::string& target)
+    : target_(checked(target)), file_(File::create_anonymous(folder_of(target), target)) {}
+
+void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  file_.write_at(offset, bytes);
+  size_ = std::max(size_, offset + bytes.size());
+}
+
+void AtomicFile::append(std::span<const std::byte> bytes) {
+  write_at(size_, bytes);
+}
+
+void AtomicFile::commit() {
+  file_.sync();
+  require_mapped_files();
+  check(target_);  // somebody may have made one meanwhile
+  file_.link_as(target_);
+  file_.close();
+  sync_folder(folder_of(target_));
+}
+
+}  // namespace svdag

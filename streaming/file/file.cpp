@@ -1,0 +1,310 @@
+#include "streaming/file/file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "streaming/file/file_calls.h"
+
+namespace svdag {
+namespace {
+
+// One sentence for each errno that a user meets; the kernel's words for the rest.
+std::string reason(int error) {
+  switch (error) {
+    case ENOENT:
+      return "no such file or folder";
+    case EACCES:
+    case EPERM:
+      return "permission denied";
+    case ENOSPC:
+      return "the disk is full";
+    case EDQUOT:
+      return "the disk quota is used up";
+    case EROFS:
+      return "the file system is read-only";
+    case EMFILE:
+      return "this process has too many open files (ulimit -n)";
+    case ESTALE:
+      return "the file server has replaced or forgotten it";
+    case ETIMEDOUT:
+      return "the file server does not answer";
+    default:
+      return std::strerror(error);
+  }
+}
+
+std::string random_suffix() {
+  uint64_t bits = 0;
+  if (getrandom(&bits, sizeof bits, 0) != ssize_t(sizeof bits)) bits = uint64_t(getpid());
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(bits));
+  return text;
+}
+
+// What may be well again a moment later, or with more of something, whatever was asked of a file:
+// it is no fault of what is in it.
+ExitCode code_of(int error, ExitCode otherwise) {
+  switch (error) {
+    case EIO:
+    case ESTALE:  // of a file server
+    case ETIMEDOUT:
+      return ExitCode::kOutput;
+    case EMFILE:
+    case ENFILE:
+    case ENOMEM:
+      return ExitCode::kMemory;
+    default:
+      return otherwise;
+  }
+}
+
+bool is_same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+// Whether `path` names the open file `fd`: what a rename has done that was sent to a file server
+// twice, and is said to have failed the second time.
+bool names(const std::string& path, int fd) {
+  struct stat own, named;
+  return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 && is_same(own, named);
+}
+
+// Whether link_as() can name a file that has no name: the kernel must tell what is open.
+bool can_be_named() {
+  return ::access("/proc/self/fd", X_OK) == 0;
+}
+
+// From direct transfers back to those through the page cache; false if they were that already.
+bool leave_direct(int fd) {
+  const int flags = ::fcntl(fd, F_GETFL);
+  return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
+}
+
+// The call that tells the mask sets it, for all threads: only before there are others.
+mode_t mask_at_start() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return mask;
+}
+const mode_t kMaskAtStart = mask_at_start();
+
+// The mask of now, in the second line of what the kernel tells of us (since Linux 4.7).
+mode_t current_mask() {
+  constexpr const char* kName = "\nUmask:";
+  const int fd = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return kMaskAtStart;
+  char text[512];
+  const ssize_t n = retry_interrupted([&] { return ::read(fd, text, sizeof text - 1); });
+  ::close(fd);
+  text[std::max<ssize_t>(n, 0)] = '\0';
+  const char* const line = std::strstr(text, kName);
+  return line != nullptr ? mode_t(std::strtoul(line + std::strlen(kName), nullptr, 8) & 0777)
+                         : kMaskAtStart;
+}
+
+// Opens the file up as the mask allows. Where there are no permissions, or the file is taken for
+// another user's, it stays as it is: that is no reason to lose it.
+void apply_mask(int fd, const std::string& path) {
+  if (::fchmod(fd, 0666 & ~current_mask()) == 0) return;
+  if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
+    fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
+}
+
+}  // namespace
+
+void fail_call(ExitCode code, const char* what, const std::string& path, int error) {
+  throw Error(code_of(error, code), std::string(what) + ": " + reason(error), path);
+}
+
+File File::open_read(const std::string& path) {
+  if (path == "-") fail_usage("-: files are read more than once, so standard input cannot be one");
+  // O_NONBLOCK: opening a pipe must not hang before fstat can refuse it.
+  const int fd =
+      retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
+  if (fd < 0) fail_call(ExitCode::kBadInput, "cannot be opened", path, errno);
+  File file(fd, path, ExitCode::kBadInput);
+  struct stat status;
+  if (::fstat(fd, &status) != 0) fail_call(ExitCode::kBadInput, "cannot be examined", path, errno);
+  if (!S_ISREG(status.st_mode)) fail_input(path, "is not a regular file");
+  return file;
+}
+
+File File::create_anonymous(const std::string& folder, const std::string& shown_as) {
+  const std::string& shown = shown_as.empty() ? folder : shown_as;
+  int fd = retry_interrupted(
+      [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
+  if (fd >= 0 && can_be_named()) return File(fd, shown, ExitCode::kOutput);
+  if (fd >= 0) {
+    ::close(fd);
+  } else if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT) {
+    fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  }
+  if (::access(folder.c_str(), F_OK) != 0)
+    fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  // From the moment on when there is a file nothing is asked of the memory until it is known here:
+  // it would stay.
+  std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
+  File file(-1, shown, ExitCode::kOutput);
+  fd = retry_interrupted([&] {
+    return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  });
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
+  file.fd_ = fd;
+  file.temporary_ = std::move(name);
+  return file;
+}
+
+File::File(File&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)),
+      unreadable_(other.unreadable_),
+      path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})) {}
+
+File& File::operator=(File&& other) noexcept {
+  if (this != &other) {
+    discard();
+    fd_ = std::exchange(other.fd_, -1);
+    unreadable_ = other.unreadable_;
+    path_ = std::move(other.path_);
+    temporary_ = std::exchange(other.temporary_, {});
+  }
+  return *this;
+}
+
+File::~File() {
+  discard();
+}
+
+void File::discard() noexcept {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  fd_ = -1;
+}
+
+uint64_t File::size() const {
+  struct stat status;
+  if (::fstat(fd_, &status) != 0) fail_call(unreadable_, "cannot be examined", path_, errno);
+  return uint64_t(status.st_size);
+}
+
+size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
+  size_t done = 0;
+  while (done < out.size()) {
+    const ssize_t n = retry_interrupted(
+        [&] { return ::pread(fd_, out.data() + done, out.size() - done, off_t(offset + done)); });
+    if (n < 0 && errno == EINVAL && leave_direct(fd_)) continue;
+    if (n < 0) fail_call(unreadable_, "cannot be read", path_, errno);
+    if (n == 0) break;
+    done += size_t(n);
+  }
+  return done;
+}
+
+void File::read_at(uint64_t offset, std::span<std::byte> out) const {
+  const size_t n = read_some_at(offset, out);
+  if (n < out.size()) throw Error(unreadable_, "ends too early", path_, offset + n);
+}
+
+void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = retry_interrupted([&] {
+      return ::pwrite(fd_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
+    });
+    if (n < 0 && errno == EINVAL && leave_direct(fd_)) continue;
+    if (n < 0) fail_call(ExitCode::kOutput, "cannot be written", path_, errno);
+    if (n == 0) fail_call(ExitCode::kOutput, "cannot be written", path_, ENOSPC);
+    done += size_t(n);
+  }
+}
+
+void File::truncate(uint64_t size) {
+  if (retry_interrupted([&] { return ::ftruncate(fd_, off_t(size)); }) != 0)
+    fail_call(ExitCode::kOutput, "cannot be cut", path_, errno);
+}
+
+bool File::use_direct() {
+  const int flags = ::fcntl(fd_, F_GETFL);
+  return flags >= 0 && ::fcntl(fd_, F_SETFL, flags | O_DIRECT) == 0;
+}
+
+bool File::try_lock() {
+  if (retry_interrupted([&] { return ::flock(fd_, LOCK_EX | LOCK_NB); }) == 0) return true;
+  if (errno == ENOLCK || errno == EOPNOTSUPP)
+    throw Error(ExitCode::kOutput,
+                "cannot be locked, as files can on local disks: choose one with --scratch", path_);
+  if (errno != EWOULDBLOCK) fail_call(ExitCode::kOutput, "cannot be locked", path_, errno);
+  return false;
+}
+
+void File::sync() {
+  if (::fsync(fd_) != 0) fail_call(ExitCode::kOutput, "cannot be brought to disk", path_, errno);
+}
+
+void File::link_as(const std::string& path) {
+  if (temporary_.empty()) {
+    std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
+    const std::string self = "/proc/self/fd/" + std::to_string(fd_);
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      fail_call(ExitCode::kOutput, "cannot be named", path, errno);
+    temporary_ = std::move(name);  // a copy could fail for lack of memory, and the name would stay
+  }
+  apply_mask(fd_, path);
+  if (::rename(temporary_.c_str(), path.c_str()) != 0 && !(errno == ENOENT && names(path, fd_)))
+    fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
+  temporary_.clear();
+  path_ = path;
+}
+
+void File::close() {
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0 && errno != EINTR)
+    fail_call(ExitCode::kOutput, "cannot be closed", path_, errno);
+}
+
+void sync_folder(const std::string& folder) {
+  const int fd =
+      retry_interrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", folder, errno);
+  const int result = ::fsync(fd);
+  const int error = errno;
+  ::close(fd);
+  if (result != 0) fail_folder_sync(folder, error);
+}
+
+void fail_folder_sync(const std::string& folder, int error) {
+  if (error != EINVAL && error != EOPNOTSUPP)
+    fail_call(ExitCode::kOutput, "cannot be brought to disk", folder, error);
+}
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool name_exists(const std::string& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) == 0) return true;
+  // To open the folder is to ask (the close-to-open rule of NFS).
+  const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  ::close(folder);
+  return ::stat(path.c_str(), &status) == 0;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  struct stat left, right;
+  return ::stat(a.c_str(), &left) == 0 && ::stat(b.c_str(), &right) == 0 && is_same(left, right);
+}
+
+}  // namespace svdag

@@ -1,0 +1,200 @@
+#include "streaming/file/file_folder.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "streaming/file/file_calls.h"
+
+namespace svdag {
+namespace {
+
+// O_NONBLOCK: opening a planted pipe must not hang.
+constexpr int kFile = O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+
+bool same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+}  // namespace
+
+Folder Folder::open_or_make(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();  // "link/" would follow the link
+  int fd = -1;
+  bool made = false;
+  do {  // again if the owner of the folder removes it between the two calls
+    made = ::mkdir(path.c_str(), 0700) == 0;
+    if (!made && errno != EEXIST)
+      fail_call(ExitCode::kOutput, "cannot write in this folder", folder_of(path), errno);
+    fd = retry_interrupted([&] { return ::open(path.c_str(), kFolder); });
+  } while (fd < 0 && errno == ENOENT);
+  if (fd < 0 && made) {
+    const int error = errno;
+    ::rmdir(path.c_str());
+    errno = error;
+  }
+  if (fd < 0 && (errno == ENOTDIR || errno == ELOOP))
+    throw Error(ExitCode::kOutput, "is a link or a file, but a folder is needed here", path);
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path, errno);
+  Folder folder(fd, std::move(path));
+  folder.made_ = made;
+  return folder;
+}
+
+Folder Folder::open_private(std::string path) {
+  Folder folder = open_or_make(std::move(path));
+  struct stat status;
+  try {
+    status = folder.status();
+    if (status.st_uid != ::geteuid() && !folder.gives_files_to(status.st_uid))
+      throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
+  } catch (const std::exception&) {
+    if (folder.made_) ::rmdir(folder.path_.c_str());
+    throw;
+  }
+  // A folder that was there may be open to others. Where there are no permissions this fails, and
+  // there is nothing to guard.
+  if ((status.st_mode & 0777) != 0700) (void)!::fchmod(folder.fd_, 0700);
+  return folder;
+}
+
+Folder Folder::open_shared(std::string path) {
+  Folder folder = open_or_make(std::move(path));
+  if (!folder.made_ && (folder.status().st_mode & S_IWOTH) != 0)
+    throw Error(ExitCode::kUsage,
+                "everybody may write in this folder, and what lies there would be believed: choose "
+                "one of your own, or of your group",
+                folder.path_);
+  return folder;
+}
+
+Folder::Folder(Folder&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), made_(other.made_) {}
+
+Folder::~Folder() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+// A file server or a mount may take us for somebody else; then it does so with files, too.
+bool Folder::gives_files_to(uid_t owner) const {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);
+  const int fd = retry_interrupted(
+      [&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT | O_EXCL, 0600); });
+  if (fd < 0 && (errno == EACCES || errno == EPERM)) return false;
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", path_, errno);
+  const File probe(fd, path_of(name), ExitCode::kOutput);
+  remove(name);
+  struct stat status;
+  return ::fstat(probe.descriptor(), &status) == 0 && status.st_uid == owner;
+}
+
+struct stat Folder::status() const {
+  struct stat status;
+  if (::fstat(fd_, &status) != 0) fail_call(ExitCode::kOutput, "cannot be examined", path_, errno);
+  return status;
+}
+
+bool Folder::has(const std::string& name) const {
+  struct stat status;
+  return ::fstatat(fd_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(status.st_mode);
+}
+
+File Folder::create(const std::string& name) const {
+  const int fd = retry_interrupted(
+      [&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT | O_EXCL, 0600); });
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be made", path_of(name), errno);
+  return File(fd, path_of(name), ExitCode::kOutput);
+}
+
+File Folder::open(const std::string& name) const {
+  return regular(retry_interrupted([&] { return ::openat(fd_, name.c_str(), kFile); }), name);
+}
+
+File Folder::open_or_create(const std::string& name) const {
+  const int fd =
+      retry_interrupted([&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT, 0600); });
+  if (fd < 0 && errno == ENOENT) return {};
+  return regular(fd, name);
+}
+
+// The file of descriptor `fd`, just opened as `name`. A second link to it may lie where others can
+// write, so there must be none.
+File Folder::regular(int fd, const std::string& name) const {
+  if (fd < 0 && (errno == ELOOP || errno == EISDIR || errno == ENXIO))
+    throw Error(ExitCode::kOutput, "is not a regular file of its own", path_of(name));
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path_of(name), errno);
+  File file(fd, path_of(name), ExitCode::kOutput);
+  struct stat status;
+  if (::fstat(fd, &status) != 0)
+    fail_call(ExitCode::kOutput, "cannot be examined", path_of(name), errno);
+  if (!S_ISREG(status.st_mode) || status.st_nlink > 1)
+    throw Error(ExitCode::kOutput, "is not a regular file of its own", path_of(name));
+  return file;
+}
+
+void Folder::remove(const std::string& name) const {
+  if (::unlinkat(fd_, name.c_str(), 0) != 0 && errno != ENOENT)
+    fail_call(ExitCode::kOutput, "cannot be removed", path_of(name), errno);
+}
+
+std::vector<std::string> Folder::names() const {
+  // A descriptor of its own, for reading moves it.
+  const int fd = retry_interrupted([&] { return ::openat(fd_, ".", kFolder); });
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
+  const auto close = [](DIR* list) { ::closedir(list); };
+  const std::unique_ptr<DIR, decltype(close)> list(::fdopendir(fd), close);
+  if (list == nullptr) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
+  std::vector<std::string> names;
+  errno = 0;  // the end and an error look the same but for this
+  while (const dirent* entry = ::readdir(list.get())) {
+    const std::string name = entry->d_name;
+    if (name != "." && name != "..") names.push_back(name);
+    errno = 0;
+  }
+  if (errno != 0) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
+  return names;
+}
+
+bool Folder::holds(const File& file, const std::string& name) const {
+  struct stat opened, named, folder, here;
+  return ::fstat(file.descriptor(), &opened) == 0 &&
+         ::fstatat(fd_, name.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0 && same(opened, named) &&
+         ::fstat(fd_, &folder) == 0 && ::lstat(path_.c_str(), &here) == 0 && same(folder, here);
+}
+
+void Folder::sync() const {
+  if (::fsync(fd_) != 0) fail_folder_sync(path_, errno);
+}
+
+uint64_t Folder::free_bytes() const {
+  struct statvfs status;
+  if (retry_interrupted([&] { return ::fstatvfs(fd_, &status); }) != 0)
+    fail_call(ExitCode::kOutput, "cannot be examined", path_, errno);
+  return uint64_t(status.f_bavail) * status.f_frsize;
+}
+
+bool Folder::remove_itself() const {
+  if (::rmdir(path_.c_str()) == 0) return true;
+  if (errno != ENOTEMPTY && errno != EEXIST)
+    fail_call(ExitCode::kOutput, "cannot be removed", path_, errno);
+  return false;
+}
+
+std::string absolute_path(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error).lexically_normal();
+  const fs::path folder = fs::weakly_canonical(absolute.parent_path(), error);
+  return error ? absolute.string() : (folder / absolute.filename()).string();
+}
+
+}  // namespace svdag

@@ -1,0 +1,46 @@
+#include "streaming/file/file_names.h"
+
+#include <sys/stat.h>
+
+#include <vector>
+
+#include "streaming/file/file.h"
+
+namespace svdag {
+namespace {
+
+// Device and inode; empty if there is no such file.
+std::string number_of(const std::string& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+}
+
+// Its place in its folder, and what is there now; names with one of them in common are one file.
+std::vector<std::string> keys_of(const std::string& path) {
+  std::vector<std::string> keys = {place_of(path)};
+  std::string file = number_of(path);
+  if (!file.empty()) keys.push_back(std::move(file));
+  return keys;
+}
+
+}  // namespace
+
+std::string place_of(const std::string& path) {
+  const std::string folder = number_of(folder_of(path));
+  return folder.empty() ? path : folder + "/" + path.substr(path.find_last_of('/') + 1);
+}
+
+void FileNames::add(const std::string& path) {
+  for (std::string& key : keys_of(path)) names_.emplace(std::move(key), path);
+}
+
+const std::string* FileNames::find(const std::string& path) const {
+  for (const std::string& key : keys_of(path)) {
+    const auto known = names_.find(key);
+    if (known != names_.end()) return &known->second;
+  }
+  return nullptr;
+}
+
+}  // namespace svdag

@@ -1,0 +1,157 @@
+#include "streaming/file/mapped_file.h"
+
+#include <signal.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace svdag {
+
+struct MappedFile::Mapping {
+  Mapping(File whole, size_t size, const FileState& before);
+  Mapping(const Mapping&) = delete;
+  ~Mapping();
+
+  bool holds(const void* address) const {
+    return std::less_equal<>()(data, address) &&
+           std::less<>()(address, static_cast<const char*>(data) + size);
+  }
+
+  // A server that cannot tell now has told all that was read.
+  bool changed() const noexcept {
+    try {
+      return state_of(file) != state;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  File file;
+  FileState state;
+  void* data;
+  size_t size;
+  // What the handler says; it may not allocate.
+  std::string lost;
+  std::unique_ptr<const std::string> written;
+};
+
+namespace {
+
+// What a handler may look at: no lock, no memory of its own. More files than these at a time are
+// mapped, too, and end without a sentence.
+std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
+static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
+std::atomic_flag told;
+std::atomic<const std::string*> changed_before{nullptr};  // what is told of one, never freed
+const char* teller = "";
+struct sigaction before_bus, before_segv;
+
+void say(const char* text) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
+}
+
+[[noreturn]] void end_with(const std::string& sentence) {
+  while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
+  say(teller);
+  say(": ");
+  say(sentence.c_str());
+  say("\n");
+  ::_exit(int(ExitCode::kBadInput));
+}
+
+extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
+  const bool sent = info->si_code <= 0;  // by somebody: there was no access
+  for (const auto& each : known) {
+    const MappedFile::Mapping* mapping = each.load();
+    if (sent || mapping == nullptr) continue;
+    if (number == SIGBUS && mapping->holds(info->si_addr)) end_with(mapping->lost);
+    if (number == SIGSEGV && mapping->changed()) end_with(*mapping->written);
+  }
+  // The access is tried again, and goes there.
+  ::sigaction(number, number == SIGBUS ? &before_bus : &before_segv, nullptr);
+  if (sent) ::raise(number);
+}
+
+constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
+constexpr const char* kWritten = "was changed while it was read";
+
+std::string tell_of(const File& file, const char* sentence) {
+  return Error(ExitCode::kBadInput, sentence, file.path()).what();
+}
+
+}  // namespace
+
+MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
+    : file(std::move(whole)),
+      state(before),
+      data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
+      size(bytes),
+      lost(tell_of(file, kLost)),
+      written(std::make_unique<const std::string>(tell_of(file, kWritten))) {
+  if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
+  for (auto& each : known) {
+    const Mapping* none = nullptr;
+    if (each.compare_exchange_strong(none, this)) break;
+  }
+}
+
+MappedFile::Mapping::~Mapping() {
+  if (changed()) {
+    const std::string* none = nullptr;
+    if (changed_before.compare_exchange_strong(none, written.get())) (void)written.release();
+  }
+  for (auto& each : known) {
+    const Mapping* self = this;
+    each.compare_exchange_strong(self, nullptr);
+  }
+  ::munmap(data, size);
+}
+
+MappedFile::MappedFile(File file, size_t size, const FileState& before)
+    : mapping_(std::make_unique<const Mapping>(std::move(file), size, before)) {}
+
+MappedFile::MappedFile(MappedFile&&) noexcept = default;
+
+MappedFile::~MappedFile() = default;
+
+const void* MappedFile::data() const {
+  return mapping_->data;
+}
+
+const std::string& MappedFile::path() const {
+  return mapping_->file.path();
+}
+
+void require_mapped_files() {
+  for (const auto& each : known) {
+    const MappedFile::Mapping* mapping = each.load();
+    if (mapping != nullptr && mapping->changed()) fail_input(mapping->file.path(), kWritten);
+  }
+}
+
+const std::string* changed_mapped_file() noexcept {
+  for (const auto& each : known) {
+    const MappedFile::Mapping* mapping = each.load();
+    if (mapping != nullptr && mapping->changed()) return mapping->written.get();
+  }
+  return changed_before;
+}
+
+void tell_of_lost_pages(const char* program) {
+  teller = program;
+  struct sigaction action = {};
+  action.sa_sigaction = tell_of_lost_page;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGBUS, &action, &before_bus);
+  ::sigaction(SIGSEGV, &action, &before_segv);
+}
+
+}  // namespace svdag

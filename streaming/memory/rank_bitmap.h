@@ -1,0 +1,90 @@
+// A set of positions that tells how many of it stand before one: from places to numbers.
+//
+// Notation: rank(i) = the number of positions below i in the set (Jacobson 1989). A count beside
+// each 64 bits answers it with one popcount. Memory is taken in chunks of 2^16 positions where
+// something is set, 1.5 bits per position: sets of a few ranges in a wide space are cheap.
+// Rejected: a table of u32 per position (20 times the size), a hash table (no order).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "streaming/memory/memory_budget.h"
+
+namespace svdag {
+
+class RankBitmap {
+ public:
+  // What a set of positions below `end` takes at most.
+  static constexpr uint64_t most_bytes(uint64_t end) {
+    return (end + kChunk - 1) / kChunk * sizeof(Chunk);
+  }
+  // `purpose`: of the memory, for an Error (kMemory).
+  RankBitmap(MemoryBudget* budget, const char* purpose)
+      : purpose_(purpose), reservation_(budget->reserve(0, purpose)) {}
+
+  void set(uint32_t i) {
+    const size_t chunk = i / kChunk;
+    if (chunk >= chunks_.size() || !chunks_[chunk]) add_chunk(chunk);
+    chunks_[chunk]->bits[i % kChunk / 64] |= uint64_t(1) << (i % 64);
+  }
+  // Whether `i` is in the set so far.
+  bool has(uint32_t i) const {
+    const size_t chunk = i / kChunk;
+    return chunk < chunks_.size() && chunks_[chunk] &&
+           (chunks_[chunk]->bits[i % kChunk / 64] >> (i % 64) & 1);
+  }
+  // Nothing is set after this; before it nothing else may be asked.
+  void seal() {
+    count_ = 0;
+    for (const auto& chunk : chunks_) {
+      if (!chunk) continue;
+      for (size_t w = 0; w < kWords; ++w) {
+        chunk->before[w] = uint32_t(count_);
+        count_ += uint64_t(std::popcount(chunk->bits[w]));
+      }
+    }
+  }
+
+  uint64_t count() const { return count_; }
+  // Of a position that is in the set.
+  uint32_t rank(uint32_t i) const {
+    const Chunk& chunk = *chunks_[i / kChunk];
+    const size_t word = i % kChunk / 64;
+    return chunk.before[word] +
+           uint32_t(std::popcount(chunk.bits[word] & ((uint64_t(1) << (i % 64)) - 1)));
+  }
+  // visit(position) of all, ascending.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (size_t c = 0; c < chunks_.size(); ++c) {
+      for (size_t w = 0; chunks_[c] && w < kWords; ++w) {
+        for (uint64_t bits = chunks_[c]->bits[w]; bits != 0; bits &= bits - 1)
+          visit(uint32_t(c * kChunk + w * 64 + size_t(std::countr_zero(bits))));
+      }
+    }
+  }
+
+ private:
+  static constexpr size_t kChunk = size_t(1) << 16, kWords = kChunk / 64;
+  struct Chunk {
+    std::array<uint64_t, kWords> bits{};
+    std::array<uint32_t, kWords> before{};  // set before each word
+  };
+
+  void add_chunk(size_t chunk) {
+    reservation_.resize(reservation_.bytes() + sizeof(Chunk), purpose_);
+    if (chunk >= chunks_.size()) chunks_.resize(chunk + 1);
+    chunks_[chunk] = std::make_unique<Chunk>();
+  }
+
+  const char* purpose_;
+  MemoryBudget::Reservation reservation_;
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  uint64_t count_ = 0;
+};
+
+}  // namespace svdag

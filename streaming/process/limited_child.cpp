@@ -1,0 +1,229 @@
+#include "streaming/process/limited_child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "streaming/error.h"
+#include "streaming/process/call_filter.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+constexpr uint64_t kLongestSentence = 1000;
+
+// What comes through the pipe: a frame, then its bytes.
+struct Frame {
+  enum Kind : uint32_t { kBlock = 1, kError = 2, kEnd = 3 };
+  uint32_t kind;
+  uint32_t code;  // of an Error
+  uint64_t bytes;
+};
+
+// --- In the child. What fails here ends it; the parent finds no end.
+
+void write_all(int pipe, const void* data, size_t size) {
+  for (const char* at = static_cast<const char*>(data); size > 0;) {
+    const ssize_t n = ::write(pipe, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) ::_exit(1);
+    at += n;
+    size -= size_t(n);
+  }
+}
+
+void write_frame(int pipe, Frame::Kind kind, uint32_t code, std::span<const std::byte> bytes) {
+  const Frame frame = {kind, code, bytes.size()};
+  write_all(pipe, &frame, sizeof frame);
+  write_all(pipe, bytes.data(), bytes.size());
+}
+
+void write_error(int pipe, ExitCode code, const char* sentence) {
+  const size_t size = std::min<size_t>(std::strlen(sentence), kLongestSentence);
+  write_frame(pipe, Frame::kError, uint32_t(code), std::as_bytes(std::span(sentence, size)));
+}
+
+// `soft`: where a signal says so; at `most` there is no more.
+void limit(int resource, uint64_t soft, uint64_t most) {
+  const rlimit value = {soft, most};
+  if (::setrlimit(__rlimit_resource(resource), &value) != 0) ::_exit(1);
+}
+
+// Bytes of address space that are in use.
+uint64_t address_space() {
+  unsigned long long pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr || std::fscanf(file, "%llu", &pages) != 1) ::_exit(1);
+  std::fclose(file);
+  return pages * uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+void give_up_rights(int pipe, const ChildLimits& limits) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // The handlers are for what the parent has: its outputs, and its files (mapped_file.h).
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGBUS, SIGSEGV})
+    ::signal(signal, SIG_DFL);
+  const uint64_t memory = address_space() + limits.memory;
+  limit(RLIMIT_AS, memory, memory);
+  limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1);
+  limit(RLIMIT_CORE, 0, 0);
+  limit(RLIMIT_FSIZE, 0, 0);
+  if (pipe > 0) ::close_range(0, unsigned(pipe) - 1, 0);
+  ::close_range(unsigned(pipe) + 1, ~0U, 0);
+  limit(RLIMIT_NOFILE, 0, 0);
+  if (limits.filter && !forbid_calls()) {
+    write_error(pipe, ExitCode::kUsage, "--sandbox: this system has no seccomp filters");
+    ::_exit(1);
+  }
+}
+
+[[noreturn]] void be_child(int pipe, const ChildLimits& limits,
+                           const std::function<void(const BlockSink&)>& work) {
+  give_up_rights(pipe, limits);
+  try {
+    work([pipe](std::span<const std::byte> bytes) {
+      for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), kChildBlock)))
+        write_frame(pipe, Frame::kBlock, 0, bytes.first(std::min(bytes.size(), kChildBlock)));
+    });
+    write_frame(pipe, Frame::kEnd, 0, {});
+  } catch (const Error& error) {
+    write_error(pipe, error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    write_error(pipe, ExitCode::kBadInput, "");  // said in words by the parent
+  } catch (...) {
+    ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+// --- In the parent.
+
+// The child, ended and waited for at the latest when this is destroyed.
+class Child {
+ public:
+  Child(const ChildLimits& limits, const std::function<void(const BlockSink&)>& work) {
+    std::array<int, 2> ends;
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw Error(ExitCode::kMemory, "--sandbox: no pipe can be had");
+    pipe_ = ends[0];
+    pid_ = ::fork();
+    if (pid_ == 0) be_child(ends[1], limits, work);
+    ::close(ends[1]);
+    if (pid_ < 0) {
+      ::close(pipe_);
+      throw Error(ExitCode::kMemory, "--sandbox: no process can be had");
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    ::close(pipe_);
+    if (pid_ > 0) end();
+  }
+
+  // Fills `out`; false if the child closes the pipe before, or lets us wait too long.
+  bool read(std::span<std::byte> out, uint64_t seconds) {
+    while (!out.empty()) {
+      check_interrupt();
+      pollfd ready = {pipe_, POLLIN, 0};
+      const uint64_t wait = std::min<uint64_t>(10 * seconds, 1'000'000) * 1000;
+      const int n = ::poll(&ready, 1, int(wait));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      const ssize_t got = ::read(pipe_, out.data(), out.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return false;
+      out = out.subspan(size_t(got));
+    }
+    return true;
+  }
+
+  // Why it has ended, or was ended.
+  std::string fate(const ChildLimits& limits) {
+    ::close(std::exchange(pipe_, -1));
+    for (int i = 0; i < 100 && !has_ended(); ++i) {  // a pipe is closed a little before the end
+      const timespec moment = {0, 10'000'000};
+      ::nanosleep(&moment, nullptr);
+    }
+    const int status = end();
+    if (!WIFSIGNALED(status)) return "it ended without a result";
+    switch (WTERMSIG(status)) {
+      case SIGSYS:
+        return "it asked the system for what no decoder needs";
+      case SIGXCPU:
+        return "it took more than " + std::to_string(limits.seconds) + " s of processor time";
+      case SIGKILL:
+        return "it did not answer, or was killed";
+      default:
+        return "it crashed";
+    }
+  }
+
+ private:
+  bool has_ended() const {
+    siginfo_t info = {};
+    return ::waitid(P_PID, id_t(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+  }
+
+  // A child that has ended already is not reached by the signal: its status stays what it was.
+  int end() {
+    ::kill(pid_, SIGKILL);
+    int status = 0;
+    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+    return status;
+  }
+
+  pid_t pid_ = -1;
+  int pipe_ = -1;
+};
+
+}  // namespace
+
+void run_limited(const ChildLimits& limits, const std::string& path,
+                 const std::function<void(const BlockSink& out)>& work, const BlockSink& use) {
+  const auto stopped = [&](const std::string& reason) {
+    check_interrupt();  // a terminal interrupts the child, too
+    fail_input(path, "the decoder was stopped: " + reason);
+  };
+  Child child(limits, work);
+  std::vector<std::byte> bytes;
+  for (;;) {
+    Frame frame = {};
+    if (!child.read(std::as_writable_bytes(std::span(&frame, 1)), limits.seconds))
+      stopped(child.fate(limits));
+    if (frame.kind == Frame::kEnd && frame.bytes == 0) return;
+    const bool sound = (frame.kind == Frame::kBlock && frame.bytes <= kChildBlock) ||
+                       (frame.kind == Frame::kError && frame.bytes <= kLongestSentence);
+    if (!sound) stopped("it sent what is no result");
+    bytes.resize(size_t(frame.bytes));
+    if (!child.read(bytes, limits.seconds)) stopped(child.fate(limits));
+    if (frame.kind == Frame::kBlock) {
+      use(bytes);
+      continue;
+    }
+    if (bytes.empty()) stopped("it needs more memory than it may have");
+    const ExitCode code = ExitCode(frame.code);
+    const bool known = code == ExitCode::kMemory || code == ExitCode::kUsage;
+    const std::string sentence(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    throw Error(known ? code : ExitCode::kBadInput, sentence);
+  }
+}
+
+}  // namespace svdag

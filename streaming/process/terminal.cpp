@@ -1,0 +1,39 @@
+#include "streaming/process/terminal.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+namespace svdag {
+namespace {
+
+// 0 where there is no terminal, or one that does not know.
+size_t columns_of(std::FILE* stream) {
+  struct winsize size = {};
+  return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+}  // namespace
+
+size_t text_width(std::FILE* stream) {
+  const char* asked = std::getenv("COLUMNS");
+  size_t columns = asked == nullptr ? 0 : std::strtoul(asked, nullptr, 10);
+  if (columns == 0) columns = columns_of(stream);
+  if (columns == 0) columns = 80;
+  return std::clamp<size_t>(columns, 40, 100);
+}
+
+size_t line_width(std::FILE* stream) {
+  const size_t columns = columns_of(stream);
+  return columns == 0 ? 80 : columns;
+}
+
+bool is_lively(std::FILE* stream) {
+  const char* term = std::getenv("TERM");
+  return ::isatty(::fileno(stream)) == 1 && !(term != nullptr && std::string_view(term) == "dumb");
+}
+
+}  // namespace svdag

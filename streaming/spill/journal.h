@@ -1,0 +1,43 @@
+// An append-only list of records that survives the process: what of a bake is done.
+//
+// A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
+// append() returns after the record is on disk; whoever appends has synced what it speaks of. Once
+// it has thrown, it throws the same again: a record behind one that is not whole is never read, and
+// after a failed fsync nobody knows what is on the disk. Reading stops at the first record that is
+// not whole, and the file is cut there: a killed process loses at most the record it was writing
+// (after ninja's deps log).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "streaming/file/file.h"
+
+namespace svdag {
+
+struct JournalRecord {
+  uint32_t kind = 0;
+  std::vector<std::byte> payload;
+};
+
+class Journal {
+ public:
+  // `file` is new and empty, or an earlier journal, of which *records gets what is whole.
+  Journal(File file, std::vector<JournalRecord>* records);
+
+  // A payload of more than 2^30 bytes is an Error (kOutput).
+  void append(uint32_t kind, std::span<const std::byte> payload);
+
+ private:
+  void write(uint32_t kind, std::span<const std::byte> payload);
+
+  File file_;
+  uint64_t end_ = 0;
+  std::exception_ptr failure_;  // of an append
+};
+
+}  // namespace svdag

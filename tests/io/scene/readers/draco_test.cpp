@@ -1,0 +1,280 @@
+// Draco meshes: bare files, glTF primitives, hostile data. Files are made by Draco's own encoder.
+#ifdef SVDAG_HAS_DRACO
+#include "io/scene/readers/draco.h"
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <draco/point_cloud/point_cloud_builder.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/io/scene/gltf/gltf_builder.h"
+
+namespace svdag {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int kUnquantized = 0;
+
+// A height field of n x n quads with heights in 0 .. 1.
+std::vector<std::array<std::array<float, 3>, 3>> field(int n) {
+  std::mt19937 random(1);
+  std::vector<float> height(size_t((n + 1) * (n + 1)));
+  for (float& h : height) h = float(random() % 1000) / 1000.0f;
+  const auto at = [&](int x, int y) {
+    return std::array<float, 3>{float(x), float(y), height[size_t(y * (n + 1) + x)]};
+  };
+  std::vector<std::array<std::array<float, 3>, 3>> faces;
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      faces.push_back({at(x, y), at(x + 1, y), at(x, y + 1)});
+      faces.push_back({at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  return faces;
+}
+
+std::string encode(int n, int bits, draco::MeshEncoderMethod method) {
+  const auto faces = field(n);
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(int(faces.size()));
+  const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    builder.SetAttributeValuesForFace(id, draco::FaceIndex(uint32_t(f)), faces[f][0].data(),
+                                      faces[f][1].data(), faces[f][2].data());
+  }
+  const auto mesh = builder.Finalize();
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(method);
+  if (bits != kUnquantized) {
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  }
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+  return {buffer.data(), buffer.size()};
+}
+
+DracoMesh decode(const std::string& bytes, uint64_t limit = MemoryBudget::kUnlimited,
+                 bool sandbox = false) {
+  MemoryBudget budget(limit);
+  DracoSource source{std::as_bytes(std::span(bytes)), "test.drc"};
+  source.sandbox = sandbox;
+  DracoMesh mesh = decode_draco(source, &budget);
+  mesh.memory.release();  // before the budget goes
+  return mesh;
+}
+
+using Corner = std::array<double, 3>;
+
+// Triangles in a canonical order: Draco keeps neither their order nor their first corner.
+std::vector<std::array<Corner, 3>> canonical(std::vector<std::array<Corner, 3>> faces) {
+  for (auto& f : faces) std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+std::vector<std::array<Corner, 3>> faces_of(const DracoMesh& mesh) {
+  std::vector<std::array<Corner, 3>> faces(mesh.indices.size() / 3);
+  for (size_t i = 0; i < 3 * faces.size(); ++i) {
+    const Point& p = mesh.positions[mesh.indices[i]];
+    faces[i / 3][i % 3] = {p.x, p.y, p.z};
+  }
+  return faces;
+}
+
+// `step` 0: the field itself; else its corners quantised from the minimum (0, 0, low).
+std::vector<std::array<Corner, 3>> expected_faces(int n, double step) {
+  float low = 1;
+  for (const auto& f : field(n)) {
+    for (const auto& p : f) low = std::min(low, p[2]);
+  }
+  const std::array<double, 3> minimum = {0, 0, double(low)};
+  std::vector<std::array<Corner, 3>> faces;
+  for (const auto& f : field(n)) {
+    auto& face = faces.emplace_back();
+    for (size_t i = 0; i < 3; ++i) {
+      for (size_t c = 0; c < 3; ++c) {
+        const double m = minimum[c];
+        face[i][c] = step == 0 ? f[i][c] : m + std::floor((f[i][c] - m) / step + 0.5) * step;
+      }
+    }
+  }
+  return faces;
+}
+
+class DracoMethods : public testing::TestWithParam<draco::MeshEncoderMethod> {};
+
+TEST_P(DracoMethods, UnquantizedTrianglesComeAsTheyAre) {
+  EXPECT_EQ(canonical(faces_of(decode(encode(9, kUnquantized, GetParam())))),
+            canonical(expected_faces(9, 0)));
+}
+
+TEST_P(DracoMethods, QuantizedPositionsStandOnTheirLatticeInDouble) {
+  const DracoMesh mesh = decode(encode(9, 12, GetParam()));
+  EXPECT_EQ(mesh.step, 9.0 / 4095);  // the extent of the field over 2^12 - 1
+  EXPECT_EQ(canonical(faces_of(mesh)), canonical(expected_faces(9, 9.0 / 4095)));
+}
+
+TEST_P(DracoMethods, NoDamagedByteCrashes) {
+  const std::string whole = encode(4, 11, GetParam());
+  size_t errors = 0;
+  const auto attempt = [&](const std::string& bytes) {
+    try {
+      decode(bytes, uint64_t(1) << 30);
+    } catch (const Error& error) {
+      ++errors;
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+    }
+  };
+  for (size_t size = 0; size < whole.size(); ++size) attempt(whole.substr(0, size));
+  EXPECT_EQ(errors, whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) {
+    for (const int flip : {1, 16, 128, 255}) {
+      std::string bytes = whole;
+      bytes[i] = char(bytes[i] ^ flip);
+      attempt(bytes);
+    }
+  }
+}
+
+TEST_P(DracoMethods, ALimitedChildDecodesTheSame) {
+  for (const int bits : {kUnquantized, 12}) {
+    const std::string bytes = encode(100, bits, GetParam());
+    const DracoMesh mesh = decode(bytes), limited = decode(bytes, uint64_t(1) << 28, true);
+    EXPECT_EQ(limited.positions, mesh.positions);
+    EXPECT_EQ(limited.indices, mesh.indices);
+    EXPECT_EQ(limited.step, mesh.step);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, DracoMethods,
+                         testing::Values(draco::MESH_SEQUENTIAL_ENCODING,
+                                         draco::MESH_EDGEBREAKER_ENCODING));
+
+// Header, method, then counts as variable-length integers (bitstream 2.2).
+std::string claim(char method, std::initializer_list<uint32_t> counts) {
+  std::string bytes = std::string("DRACO\x02\x02\x01", 8) + method + std::string(2, '\0');
+  if (method == draco::MESH_EDGEBREAKER_ENCODING) bytes += '\0';  // standard traversal
+  for (uint32_t v : counts) {
+    for (; v >= 128; v >>= 7) bytes += char(v | 128);
+    bytes += char(v);
+  }
+  return bytes + std::string(40, '\0');
+}
+
+TEST(DracoHostile, ClaimsBeyondTheBytesAreRefusedBeforeAllocation) {
+  for (const uint32_t count : {uint32_t(1) << 24, uint32_t(1) << 30, UINT32_MAX}) {
+    for (const std::string& bytes : {claim(draco::MESH_SEQUENTIAL_ENCODING, {count, 3}),
+                                     claim(draco::MESH_SEQUENTIAL_ENCODING, {1, count}),
+                                     claim(draco::MESH_EDGEBREAKER_ENCODING, {3, count}),
+                                     claim(draco::MESH_EDGEBREAKER_ENCODING, {count, 1})}) {
+      try {
+        decode(bytes);
+        FAIL() << count;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::kBadInput);
+        EXPECT_THAT(error.what(), HasSubstr("claims " + std::to_string(count)));
+      }
+    }
+  }
+}
+
+TEST(DracoHostile, ClaimsInsideTheBoundAskTheBudgetFirst) {
+  for (const bool sandbox : {false, true}) {
+    try {
+      decode(claim(draco::MESH_EDGEBREAKER_ENCODING, {100000, 200000}), uint64_t(1) << 20, sandbox);
+      FAIL() << "200000 faces do not fit in one MiB";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kMemory);
+    }
+  }
+}
+
+TEST(DracoHostile, ALimitedChildSaysTheSameOfIt) {
+  for (const std::string& bytes : {claim(draco::MESH_SEQUENTIAL_ENCODING, {UINT32_MAX, 3}),
+                                   claim(draco::MESH_EDGEBREAKER_ENCODING, {3, 100'000}),
+                                   std::string("DRACO"), std::string()}) {
+    const auto sentence = [&](bool sandbox) {
+      try {
+        decode(bytes, uint64_t(1) << 28, sandbox);
+      } catch (const Error& error) {
+        return std::to_string(int(error.code())) + error.what();
+      }
+      return std::string("nothing");
+    };
+    EXPECT_EQ(sentence(true), sentence(false));
+    EXPECT_THAT(sentence(true), HasSubstr("test.drc"));
+  }
+}
+
+TEST(DracoHostile, APointCloudIsNamedAsSuch) {
+  draco::PointCloudBuilder builder;
+  builder.Start(1);
+  const std::array<float, 3> point = {1, 2, 3};
+  const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  builder.SetAttributeValueForPoint(id, draco::PointIndex(0), point.data());
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(draco::Encoder().EncodePointCloudToBuffer(*builder.Finalize(false), &buffer).ok());
+  try {
+    decode({buffer.data(), buffer.size()});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("point cloud"));
+  }
+}
+
+TEST(DracoGltf, ACompressedPrimitiveIsDecodedAndPlaced) {
+  const std::string drc = encode(9, 12, draco::MESH_EDGEBREAKER_ENCODING);
+  GltfBuilder gltf;
+  gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const int view = gltf.view(std::vector<char>(drc.begin(), drc.end()));
+  const int mesh = gltf.mesh(
+      gltf.append("accessors", {{"componentType", 5126}, {"count", 100}, {"type", "VEC3"}}));
+  gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+  gltf.scene({gltf.append("nodes", {{"mesh", mesh}, {"translation", {0, 0, 32}}})});
+  const DracoMesh bare = decode(drc);
+  Corners expected;
+  for (const uint32_t i : bare.indices) {
+    const Point& p = bare.positions[i];
+    expected.push_back({p.x, p.y, p.z + 32});
+  }
+  EXPECT_EQ(read_corners(gltf), expected);
+  gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
+           ["POSITION"] = 5;
+  EXPECT_THAT(failure(gltf), HasSubstr("positions"));
+}
+
+// The indices may be compressed although the positions are not: those are no zeros.
+TEST(DracoGltf, IndicesWithoutPlainDataAreNotTakenForZeros) {
+  GltfBuilder gltf;
+  gltf.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  const int positions = gltf.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  gltf.show(gltf.mesh(positions));
+  nlohmann::json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["indices"] =
+      gltf.append("accessors", {{"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}});
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                           {"attributes", {{"NORMAL", 0}}}};
+  EXPECT_NE(failure(gltf), "");
+}
+
+TEST(DracoGltf, PlainDataIsPreferredToCompressed) {
+  GltfBuilder gltf;
+  gltf.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  const int mesh = gltf.mesh(gltf.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3"));
+  gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", 99}, {"attributes", {{"POSITION", 0}}}};
+  gltf.show(mesh);
+  EXPECT_EQ(read_corners(gltf), (Corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
+}  // namespace
+}  // namespace svdag
+#endif

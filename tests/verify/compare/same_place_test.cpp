@@ -1,0 +1,175 @@
+// Grids are in the same place up to rounding, and up to float32 where a file may have kept that.
+#include "verify/compare/same_place.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/dag/dag_level.h"
+
+namespace svdag {
+namespace {
+
+// `side` is no float32 at any resolution below.
+constexpr double kSide = 1.1;
+
+Box cube(double low, double side = kSide) {
+  return {Point(low, low / 2, -low), Point(low + side, low / 2 + side, -low + side)};
+}
+
+Grid bake(int levels, double low = 0.3) {
+  return divide_box(cube(low), levels);
+}
+
+Grid moved(Grid grid, double voxels, int axis = 1) {
+  grid.origin[axis] += voxels * grid.voxel_size;
+  return grid;
+}
+
+Grid scaled(Grid grid, double factor) {
+  grid.voxel_size *= factor;
+  return grid;
+}
+
+// As SymVox keeps it: corners of the box and the side as float32.
+Grid through_floats(Grid grid) {
+  const double side = std::ldexp(grid.voxel_size, grid.levels);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double middle =
+        (double(float(grid.origin[axis])) + double(float(grid.origin[axis] + side))) / 2;
+    grid.origin[axis] = middle - double(float(side)) / 2;
+  }
+  grid.voxel_size = std::ldexp(double(float(side)), -grid.levels);
+  return grid;
+}
+
+// Both orders must say the same.
+bool same(const Grid& a, const Grid& b) {
+  EXPECT_EQ(same_place(a, b), same_place(b, a));
+  return same_place(a, b);
+}
+
+TEST(SamePlace, OneResolutionAllowsAMillionthOfAVoxel) {
+  for (const int levels : {3, 10, 20}) {
+    const Grid grid = bake(levels);
+    EXPECT_TRUE(same(grid, grid));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_TRUE(same(grid, moved(grid, 0.5e-6, axis)));
+      for (const double voxels : {2e-6, 0.01, 0.5, 0.92, 1.0, -0.92})
+        EXPECT_FALSE(same(grid, moved(grid, voxels, axis))) << voxels;
+    }
+    // The far end of the grid moves by N times the difference.
+    const double n = double(grid.resolution());
+    EXPECT_TRUE(same(grid, scaled(grid, 1 + 0.5e-6 / n)));
+    for (const double voxels : {3e-6, 0.5, 0.9})
+      EXPECT_FALSE(same(grid, scaled(grid, 1 + voxels / n))) << voxels;
+  }
+  EXPECT_FALSE(same(bake(10), scaled(bake(10), 1.0005)));
+}
+
+TEST(SamePlace, DivisionsOfOneBoxAtAnyTwoResolutions) {
+  for (const double low : {0.0, 0.3, -7.7, 1e6}) {
+    for (int a = kMinLevels; a <= kMaxLevels; ++a) {
+      for (int b = kMinLevels; b <= a; ++b) EXPECT_TRUE(same(bake(a, low), bake(b, low)));
+    }
+  }
+}
+
+TEST(SamePlace, DivisionsOfOtherBoxes) {
+  const Grid fine = bake(10), coarse = bake(9);
+  for (const double voxels : {1e-5, 0.25, 0.5, -0.5, 1.0})
+    EXPECT_FALSE(same(fine, moved(coarse, voxels))) << voxels;
+  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kSide * 1.0005), 9)));
+  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kSide * 1.00001), 9)));
+}
+
+TEST(SamePlace, LevelsOfAGrid) {
+  const Grid fine = bake(10), level = level_grid(fine, 8);
+  EXPECT_TRUE(same(fine, level));
+  EXPECT_FALSE(same(fine, moved(level, 1e-5)));
+  EXPECT_FALSE(same(fine, scaled(level, 1 + 1e-6)));
+  // It is not what a bake of that resolution gives.
+  EXPECT_FALSE(same(level, bake(8)));
+}
+
+TEST(SamePlace, LatticesWithVoxelsOfTwiceTheSize) {
+  const Box box = {Point(1, 2, 3), Point(70, 71, 72)};
+  const Grid fine = cover_lattice(box, 0.1), coarse = cover_lattice(box, 0.2);
+  ASSERT_EQ(fine.levels, coarse.levels + 1);
+  EXPECT_TRUE(same(fine, coarse));
+  EXPECT_FALSE(same(fine, cover_lattice(box, 0.2001)));
+  Grid next = coarse;
+  next.k0.x += 1024;
+  EXPECT_FALSE(same(fine, next));
+}
+
+// A way of comparing is for grids that are of its kind: else grids fit by accident.
+TEST(SamePlace, BoxesAndLatticesAreNotMixed) {
+  Grid fine = bake(10), coarse = bake(10);
+  fine.origin = Point(-0.25);
+  fine.voxel_size = 0.5;
+  coarse.levels = 9;
+  coarse.origin = Point(0);
+  coarse.voxel_size = 1;
+  const auto kinds = [&](Grid::Kind a, Grid::Kind b) {
+    fine.kind = a;
+    coarse.kind = b;
+    return same(fine, coarse);
+  };
+  // Boxes of whose first centres one is 0 and one 1/2; as lattices both have a plane at -1/2.
+  EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kBox));
+  EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kLattice));
+  EXPECT_FALSE(kinds(Grid::Kind::kLattice, Grid::Kind::kBox));
+}
+
+TEST(SamePlace, FarFromZeroRoundingIsNoVoxel) {
+  for (const double corner : {0x1p50, 0x1p51, 0x1p52}) {
+    Grid grid = bake(3);
+    grid.voxel_size = 1;
+    grid.origin = Point(corner);
+    EXPECT_TRUE(same(grid, grid));
+    for (const double voxels : {1.0, 2.0, 4.0}) EXPECT_FALSE(same(grid, moved(grid, voxels)));
+  }
+  Grid beyond = bake(3);  // corner and size overflow when one is divided by the other
+  beyond.origin = Point(1e300);
+  beyond.voxel_size = 1e-300;
+  EXPECT_TRUE(same(beyond, beyond));
+}
+
+TEST(SamePlace, WhatFloatsKeepNearZero) {
+  for (const double low : {0.0, 0.3, -kSide / 2, -7.7}) {
+    for (const int levels : {3, 10, 16}) {
+      const Grid grid = bake(levels, low), kept = through_floats(grid);
+      EXPECT_TRUE(same(grid, kept)) << low << ", " << levels;
+      EXPECT_FALSE(same(grid, moved(kept, 0.2)));
+    }
+  }
+  const Grid middle = bake(20, -kSide / 2);
+  EXPECT_TRUE(same(middle, through_floats(middle)));
+  EXPECT_TRUE(same(bake(16), through_floats(level_grid(bake(16), 12))));
+}
+
+TEST(SamePlace, WhatOnlyFloatsMayDo) {
+  // The same distance between two bakes is none that rounding explains.
+  const Grid grid = bake(16), kept = through_floats(grid);
+  const double voxels = (kept.origin.y - grid.origin.y) / grid.voxel_size;
+  ASSERT_GT(std::abs(voxels), 1e-5);
+  EXPECT_FALSE(same(grid, moved(grid, voxels)));
+}
+
+TEST(SamePlace, FloatsThatCannotPlaceAVoxel) {
+  const Grid grid = bake(16, 1e5), kept = through_floats(grid);
+  ASSERT_GT(std::abs(kept.origin.x - grid.origin.x), grid.voxel_size / 8);
+  EXPECT_FALSE(same(grid, kept));
+}
+
+TEST(SamePlace, HugeAndTinyWorlds) {
+  for (const double side : {1e-290, 1e300}) {
+    const Grid grid = divide_box({Point(0), Point(side)}, 20);
+    EXPECT_TRUE(same(grid, grid));
+    EXPECT_FALSE(same(grid, moved(grid, 0.1)));
+  }
+}
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,261 @@
+// Rays against triangles pass what is right, and see one voxel missing or one voxel too many.
+#include "verify/trace/judge/ray_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/verify/judged_voxels.h"
+#include "tests/verify/soup.h"
+
+namespace svdag {
+namespace {
+
+#ifdef SVDAG_HAS_EMBREE
+
+constexpr uint64_t kRays = 20'000;
+
+struct Case {
+  Grid grid;
+  Rule rule;
+  std::vector<LatticeTriangle> soup;
+
+  VoxelSet voxels() const {
+    if (rule == Rule::kConservative) return soup_voxels(grid, soup);
+    VoxelSet all;
+    for (const LatticeTriangle& t : soup) all.merge(thin_set(t, grid.fraction(), grid.selection));
+    return all;
+  }
+};
+
+RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays) {
+  const RawFile file(raw_dag(c.grid, voxels));
+  MemoryBudget budget;
+  const double half = double(c.grid.resolution() / 2);
+  TriangleTracer tracer({{half, half, half}}, c.soup.size(), 1, &budget);
+  tracer.add(c.soup, c.grid.fraction());
+  tracer.build();
+  const RayJudge judge(file.view(), tracer, {c.rule, c.grid.selection, rays, 1}, &budget);
+  ParallelExecutor executor(2);
+  Progress progress;
+  RayJudgement result = judge.judge_rays(executor, progress);
+  std::vector<LatticePoint> all;
+  for (const auto& [x, y, z] : voxels) all.emplace_back(x, y, z);
+  result.append(judge.judge_voxels(all, executor, progress));
+  result.append(judge.judge_surface(kRays / 10, executor, progress));
+  return result;
+}
+
+TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    for (const int levels : {3, 5, 7}) {
+      for (const int side : {1, 4, 20}) {
+        const Grid grid = test_grid(levels);
+        const Case c{grid, rule, random_soup(grid, 30, uint64_t(levels), side)};
+        const RayJudgement r = judged(c, c.voxels());
+        EXPECT_EQ(r.late, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.far, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.uncovered, 0U) << levels << ", " << side;
+        EXPECT_EQ(r.points_judged > 0, rule == Rule::kConservative) << levels << ", " << side;
+        // Triangles of one lattice step are points to floats: no ray is said to hit them.
+        if (side > 1) {
+          EXPECT_GT(r.judged, kRays / 100) << levels << ", " << side;
+        }
+        EXPECT_EQ(r.both + r.neither + r.triangle_only + r.dag_only, kRays);
+        EXPECT_EQ(std::accumulate(r.depth.begin(), r.depth.end(), uint64_t(0)), r.both);
+        EXPECT_EQ(std::accumulate(r.one_side.begin(), r.one_side.end(), uint64_t(0)),
+                  r.triangle_only + r.dag_only);
+        EXPECT_LE(r.voxels_to_scene, rule == Rule::kThin ? 0.5 : std::sqrt(0.75));
+        if (rule == Rule::kConservative) {
+          EXPECT_EQ(r.triangle_only, 0U);
+          EXPECT_EQ(r.depth[0] + r.depth[1], 0U);
+          EXPECT_LE(r.scene_to_voxels, std::sqrt(0.75));
+        }
+      }
+    }
+  }
+}
+
+TEST(RayJudge, AScenePointIsAskedFromAllAround) {
+  for (const bool empty : {false, true}) {
+    Grid grid = test_grid(3);
+    const LatticePoint point(int64_t(7) << grid.fraction() >> 1);
+    const Case c{grid, Rule::kThin, {{{point, point, point}}}};
+    const RayJudgement r = judged(c, empty ? VoxelSet() : c.voxels());
+    EXPECT_EQ(r.both + r.neither + r.triangle_only + r.dag_only, kRays);
+    EXPECT_EQ(r.dag_only > 0, !empty && !c.voxels().empty());
+  }
+}
+
+TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
+  Grid grid = test_grid(6);
+  grid.bounded = true;
+  grid.selection = {LatticePoint(10, 20, 5), LatticePoint(40, 33, 50)};
+  const Case c{grid, Rule::kConservative, random_soup(grid, 60, 3, 30)};
+  const VoxelSet voxels = c.voxels();
+  ASSERT_GT(voxels.size(), 100U);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_TRUE(r.ok());
+  EXPECT_GT(r.both, 1000U);
+}
+
+TEST(RayJudge, VoxelsOutsideASelectionAreSeenHoweverNearATriangle) {
+  const Grid whole = test_grid(6);
+  Case c{whole, Rule::kConservative, random_soup(whole, 60, 3, 30)};
+  const VoxelSet voxels = c.voxels();
+  c.grid.bounded = true;
+  c.grid.selection = {LatticePoint(10, 20, 5), LatticePoint(40, 33, 50)};
+  const uint64_t inside = c.voxels().size();
+  ASSERT_LT(inside, voxels.size());
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_FALSE(r.ok());
+  EXPECT_GE(r.outside, voxels.size() - inside);  // all are asked once, some by rays, too
+  EXPECT_EQ(r.far, 0U);
+  ASSERT_FALSE(r.first.empty());
+  EXPECT_EQ(r.first[0].what, RayOffender::What::kOutside);
+}
+
+TEST(RayJudge, WhatNothingWasAskedOfIsNotTested) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const Case thin{grid, Rule::kThin, {{{from, to, to}}}};
+  EXPECT_FALSE(judged(thin, {}).tested());
+  EXPECT_TRUE(judged(thin, {{3, 4, 5}}).tested());
+  EXPECT_TRUE(judged({grid, Rule::kConservative, thin.soup}, {}).tested());
+}
+
+TEST(RayJudge, OneVoxelMissingIsSeen) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    // A wall across the grid, seen from both sides.
+    const Grid grid = test_grid(4);
+    const int64_t s = int64_t(1) << grid.fraction(), w = 16 * s, x = 7 * s + s / 3;
+    const Case c{grid,
+                 rule,
+                 {{{LatticePoint(x, 0, 0), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}},
+                  {{LatticePoint(x, w, w), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}}}};
+    VoxelSet voxels = c.voxels();
+    EXPECT_TRUE(judged(c, voxels).ok());
+    ASSERT_EQ(voxels.erase({7, 5, 9}), 1U);
+    const RayJudgement r =
+        judged(c, voxels, 10 * kRays);  // of thin, only rays along an axis are judged
+    EXPECT_GT(r.late, 0U);
+    EXPECT_EQ(r.far, 0U);
+    ASSERT_FALSE(r.first.empty());
+    EXPECT_EQ(r.first[0].what, RayOffender::What::kLate);
+    EXPECT_NEAR(r.first[0].point[0], 7 + 1.0 / 3, 1e-6);
+    EXPECT_GE(r.first[0].point[1], 5);
+    EXPECT_LE(r.first[0].point[1], 6);
+    EXPECT_GE(r.first[0].point[2], 9);
+    EXPECT_LE(r.first[0].point[2], 10);
+  }
+}
+
+TEST(RayJudge, OneVoxelTooManyIsSeen) {
+  const Grid grid = test_grid(6);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 1, 5, 4)};
+  VoxelSet voxels = c.voxels();
+  const auto [x, y, z] = *voxels.begin();
+  const VoxelSet::value_type far{(x + 32) % 64, (y + 32) % 64, (z + 32) % 64};
+  voxels.insert(far);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_GT(r.far, 0U);
+  EXPECT_GT(r.voxels_to_scene, 10);
+  ASSERT_FALSE(r.first.empty());
+  EXPECT_EQ(r.first[0].what, RayOffender::What::kFar);
+  EXPECT_EQ(r.first[0].point[0], double(std::get<0>(far)) + 0.5);
+}
+
+TEST(RayJudge, TheWholeGridAsVoxelsIsFarAndNotLate) {
+  const Grid grid = test_grid(3);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 1, 5, 1)};
+  VoxelSet voxels;
+  for (int64_t i = 0; i < 512; ++i) voxels.emplace(i >> 6, i >> 3 & 7, i & 7);
+  const RayJudgement r = judged(c, voxels);
+  EXPECT_EQ(r.late, 0U);
+  EXPECT_GT(r.far, 0U);
+}
+
+TEST(RayJudge, VoxelsWithoutAnyTriangleAreFar) {
+  const Grid grid = test_grid(4);
+  EXPECT_TRUE(judged({grid, Rule::kConservative, {}}, {}).ok());
+  const RayJudgement r = judged({grid, Rule::kConservative, {}}, {{3, 4, 5}});
+  EXPECT_GT(r.far, 1U);
+  EXPECT_EQ(r.far, r.voxels);
+  EXPECT_EQ(r.both, 0U);
+}
+
+// Rays pass triangles of zero area; their points do not.
+TEST(RayJudge, SegmentsWithoutVoxelsAreUncovered) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const Case c{grid, Rule::kConservative, {{{from, to, to}}}};
+  const RayJudgement right = judged(c, c.voxels());
+  EXPECT_TRUE(right.ok());
+  EXPECT_EQ(right.points_judged, kRays / 10);
+  const RayJudgement none = judged(c, {});
+  EXPECT_EQ(none.judged, 0U);
+  EXPECT_EQ(none.uncovered, kRays / 10);
+  EXPECT_FALSE(none.ok());
+  ASSERT_FALSE(none.first.empty());
+  EXPECT_EQ(none.first[0].what, RayOffender::What::kUncovered);
+  EXPECT_TRUE(std::isinf(none.first[0].by));
+  // One brick's worth of voxels missing in its middle.
+  VoxelSet voxels = c.voxels();
+  const size_t all = voxels.size();
+  std::erase_if(voxels, [](const auto& v) { return std::get<0>(v) / 4 == 2; });
+  ASSERT_LT(voxels.size(), all);
+  EXPECT_GT(judged(c, voxels).uncovered, 0U);
+}
+
+// A triangle that crosses no segment between centres sets nothing, so no distance accuses the file.
+TEST(RayJudge, ThinLeavesSegmentsUncovered) {
+  const Grid grid = test_grid(5);
+  const int64_t s = int64_t(1) << grid.fraction();
+  const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
+  const RayJudgement r = judged({grid, Rule::kThin, {{{from, to, to}}}}, {});
+  EXPECT_TRUE(r.ok());
+  EXPECT_EQ(r.points, kRays / 10);
+  EXPECT_EQ(r.points_judged, 0U);
+}
+
+// A wall on the border of the bounds belongs to the voxels inside; one beyond to none.
+TEST(RayJudge, WallsAtTheBoundsAreNotUncovered) {
+  Grid grid = test_grid(5);
+  grid.bounded = true;
+  grid.selection = {LatticePoint(4, 5, 6), LatticePoint(20, 21, 22)};
+  const int64_t s = int64_t(1) << grid.fraction(), w = 32 * s;
+  for (const int64_t x : {4 * s - 1, 4 * s, 4 * s + 1, 20 * s - 1, 20 * s, 20 * s + 1}) {
+    const Case c{grid,
+                 Rule::kConservative,
+                 {{{LatticePoint(x, 0, 0), LatticePoint(x, w, 0), LatticePoint(x, 0, w)}}}};
+    const VoxelSet voxels = c.voxels();
+    EXPECT_EQ(voxels.empty(), x < 4 * s || x > 20 * s) << x;
+    EXPECT_EQ(judged(c, voxels).uncovered, 0U) << x;
+  }
+}
+
+TEST(RayJudge, ThreadsDoNotReachTheAnswer) {
+  const Grid grid = test_grid(6);
+  const Case c{grid, Rule::kConservative, random_soup(grid, 30, 9, 10)};
+  const RawFile file(raw_dag(grid, c.voxels()));
+  MemoryBudget budget;
+  TriangleTracer tracer({{32, 32, 32}}, c.soup.size(), 1, &budget);
+  tracer.add(c.soup, grid.fraction());
+  tracer.build();
+  const RayJudge judge(file.view(), tracer, {c.rule, grid.selection, kRays, 1}, &budget);
+  Progress progress;
+  SequentialExecutor one;
+  ParallelExecutor three(3);
+  const RayJudgement a = judge.judge_rays(one, progress), b = judge.judge_rays(three, progress);
+  EXPECT_EQ(a.both, b.both);
+  EXPECT_EQ(a.dag_only, b.dag_only);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.voxels_to_scene, b.voxels_to_scene);
+}
+
+#endif
+
+}  // namespace
+}  // namespace svdag

@@ -1,0 +1,207 @@
+#include "verify/compare/distance_bounds.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "streaming/process/interrupt.h"
+#include "verify/compare/centre_distance.h"
+#include "verify/judge/judge_vdb.h"
+#include "verify/sample/window_triangles.h"
+
+namespace svdag {
+namespace {
+
+// A voxel that a distance does not clear: is some triangle within the bound?
+struct Suspect {
+  LatticePoint voxel;
+  bool set;      // in the file
+  bool certain;  // OpenVDB calls it wrong by more than its float error
+  bool near = false;
+
+  bool operator<(const Suspect& other) const {
+    return std::tie(voxel.x, voxel.y, voxel.z) <
+           std::tie(other.voxel.x, other.voxel.y, other.voxel.z);
+  }
+};
+
+class Window {
+ public:
+  Window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& box)
+      : walk_(walk), grid_(grid), thin_(rule == Rule::kThin), box_(box) {
+    const LatticePoint blocks = (box.max - box.min + (kBlockSide - 1)) / kBlockSide;
+    blocks_ = blocks;
+    seen_.resize(size_t(blocks.x * blocks.y * blocks.z));
+    result_.windows = 1;
+    const LatticePoint side = box.max - box.min;
+    result_.tested = uint64_t(side.x) * uint64_t(side.y) * uint64_t(side.z);
+  }
+
+  Sandwich judge(std::span<const LatticeTriangle> triangles, size_t threads) {
+    std::vector<LatticeTriangle> near;
+    std::vector<Triangle> parts;
+    double reach = 0;
+    for (const LatticeTriangle& t : triangles) {
+      if (!is_near(t, box_, grid_.fraction())) continue;
+      near.push_back(t);
+      append_near_part(t, box_, grid_.fraction(), &parts, &reach);
+    }
+    error_ = 1e-6 + reach * 0x1p-48;
+    if (!parts.empty())
+      vdb_distances(parts, threads, [&](const LatticePoint& at, std::span<const float, 512> d) {
+        check_block(at, d);
+      });
+    check_rest();
+    settle(near);
+    return result_;
+  }
+
+ private:
+  // The upper bound as quarters of its square, and itself.
+  int upper_quarters() const { return thin_ ? 1 : 3; }
+  double upper() const { return thin_ ? 0.5 : std::sqrt(0.75); }
+
+  bool in(const LatticePoint& v, const VoxelBox& box) const {
+    for (int a = 0; a < 3; ++a)
+      if (v[a] < box.min[a] || v[a] >= box.max[a]) return false;
+    return true;
+  }
+
+  size_t number_of(const LatticePoint& origin) const {
+    const LatticePoint b = (origin - box_.min) / kBlockSide;
+    return size_t((b.x * blocks_.y + b.y) * blocks_.z + b.z);
+  }
+
+  // One block of distances against the file's voxels; `at` relative to the window.
+  void check_block(const LatticePoint& at, std::span<const float, 512> distances) {
+    const LatticePoint origin = at + box_.min;
+    if (!in(origin, box_)) return;
+    seen_[number_of(origin)] = true;
+    const Block file = walk_->block(origin);
+    for (unsigned i = 0; i < 512; ++i) {
+      const LatticePoint voxel = origin + LatticePoint(i >> 6, i >> 3 & 7, i & 7);
+      if (in(voxel, box_)) check_voxel(voxel, file.words[i >> 6] >> (i & 63) & 1, distances[i]);
+    }
+  }
+
+  void check_voxel(const LatticePoint& voxel, bool set, double d) {
+    const bool selected = in(voxel, grid_.selection);
+    result_.file_voxels += set;
+    result_.inner += selected && d <= 0.5;
+    if (set && !selected) {  // wrong however near a triangle is
+      ++result_.extra;
+      show(voxel, false);
+    } else if (set) {
+      if (d >= upper() - error_) suspects_.push_back({voxel, true, d > upper() + error_});
+    } else if (!thin_ && d <= 0.5 + error_ && selected) {
+      suspects_.push_back({voxel, false, d < 0.5 - error_});
+    }
+  }
+
+  void show(const LatticePoint& voxel, bool missing) {
+    if (result_.first.size() < Comparison::kShown) result_.first.push_back({voxel, missing});
+  }
+
+  // The file's voxels where OpenVDB knows of no triangle.
+  void check_rest() {
+    walk_->visit(box_, [&](const VoxelCube& cube) {
+      LatticePoint at;
+      for (at.x = 0; at.x < cube.side; at.x += kBlockSide)
+        for (at.y = 0; at.y < cube.side; at.y += kBlockSide)
+          for (at.z = 0; at.z < cube.side; at.z += kBlockSide) {
+            if (seen_[number_of(cube.origin + at)]) continue;
+            const Block block = cube.side == kBlockSide ? cube.block : Block::full();
+            for (unsigned i = 0; i < 512; ++i)
+              if (block.words[i >> 6] >> (i & 63) & 1)
+                check_voxel(cube.origin + at + LatticePoint(i >> 6, i >> 3 & 7, i & 7), true, kFar);
+          }
+      return true;
+    });
+  }
+
+  // Decides the suspects: each triangle asks those in its own box, one voxel wider.
+  void settle(const std::vector<LatticeTriangle>& triangles) {
+    check_interrupt();
+    std::sort(suspects_.begin(), suspects_.end());
+    for (size_t i = 0; !suspects_.empty() && i < triangles.size(); ++i) ask(triangles[i]);
+    for (const Suspect& s : suspects_) {
+      const bool wrong = s.set != s.near;
+      if (!s.certain) ++result_.exact;
+      if (wrong) {
+        ++(s.set ? result_.extra : result_.missing);
+        show(s.voxel, !s.set);
+      } else if (s.certain) {
+        ++result_.vdb_errors;
+      }
+    }
+  }
+
+  void ask(const LatticeTriangle& t) {
+    const LatticeBox corners = box_of(t);
+    const int64_t shift = grid_.fraction();
+    const VoxelBox box{(corners.min >> shift) - int64_t(2), (corners.max >> shift) + int64_t(3)};
+    constexpr int64_t kLeast = INT64_MIN;
+    auto s = std::lower_bound(suspects_.begin(), suspects_.end(),
+                              Suspect{{box.min.x, kLeast, kLeast}, false, false});
+    for (; s != suspects_.end() && s->voxel.x < box.max.x; ++s)
+      if (!s->near && in(s->voxel, box))
+        s->near = centre_within(t, s->voxel, grid_.fraction(), s->set ? upper_quarters() : 1);
+  }
+
+  CubeWalk* walk_;
+  const Grid& grid_;
+  bool thin_;
+  VoxelBox box_;
+  LatticePoint blocks_{0};
+  std::vector<bool> seen_;  // blocks that OpenVDB spoke of
+  double error_ = 0;        // of a distance, in voxels
+  std::vector<Suspect> suspects_;
+  Sandwich result_;
+};
+
+}  // namespace
+
+void Sandwich::append(const Sandwich& later) {
+  windows += later.windows;
+  tested += later.tested;
+  file_voxels += later.file_voxels;
+  inner += later.inner;
+  missing += later.missing;
+  extra += later.extra;
+  exact += later.exact;
+  vdb_errors += later.vdb_errors;
+  for (const WrongVoxel& wrong : later.first)
+    if (first.size() < Comparison::kShown) first.push_back(wrong);
+}
+
+Windows::Windows(const Grid& grid)
+    : side_(std::min(kSandwichWindow, grid.resolution())), per_axis_(grid.resolution() / side_) {}
+
+Windows::Windows(const Grid& grid, std::span<const LatticePoint> voxels) : Windows(grid) {
+  drawn_.emplace();
+  for (const LatticePoint& voxel : voxels) drawn_->push_back(number_of(voxel));
+  std::sort(drawn_->begin(), drawn_->end());
+  drawn_->erase(std::unique(drawn_->begin(), drawn_->end()), drawn_->end());
+}
+
+uint64_t Windows::number_of(const LatticePoint& voxel) const {
+  const LatticePoint w = voxel / side_;
+  return uint64_t((w.x * per_axis_ + w.y) * per_axis_ + w.z);
+}
+
+uint64_t Windows::size() const {
+  return drawn_ ? drawn_->size() : uint64_t(per_axis_ * per_axis_ * per_axis_);
+}
+
+VoxelBox Windows::operator[](uint64_t i) const {
+  const int64_t number = int64_t(drawn_ ? (*drawn_)[i] : i);
+  const LatticePoint w(number / per_axis_ / per_axis_, number / per_axis_ % per_axis_,
+                       number % per_axis_);
+  return {w * side_, (w + int64_t(1)) * side_};
+}
+
+Sandwich judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,
+                      std::span<const LatticeTriangle> triangles, size_t threads) {
+  return Window(walk, grid, rule, window).judge(triangles, threads);
+}
+
+}  // namespace svdag

@@ -1,0 +1,235 @@
+#include "verify/integrity/integrity.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
+
+#include "io/grid.h"
+#include "verify/integrity/node_index.h"
+
+namespace svdag {
+namespace {
+
+using Key = std::array<uint64_t, 8>;
+
+// One pass over the levels, bricks first; `below_*` is what the level above needs to know.
+class Inspection {
+ public:
+  Inspection(const Header& header, const DagView& dag, IntegrityReport* report)
+      : header_(header), dag_(dag), report_(report) {
+    report_->nodes.assign(dag.brick_level() + 1, 0);
+  }
+
+  void run() {
+    bricks();
+    for (uint32_t level = dag_.brick_level(); level-- > 0;) inner(level);
+    const uint64_t roots = report_->nodes[0];
+    if (roots != (dag_.brick_count == 0 ? 0U : 1U))
+      report_->defects.push_back("level 0 has " + std::to_string(roots) + " nodes instead of one");
+    report_->voxels = below_voxels_.empty() ? 0 : below_voxels_[0];
+    for (uint32_t level = 0; level <= dag_.brick_level(); ++level) {
+      if (header_.sections[level].nodes != report_->nodes[level])
+        defect(level, "has " + std::to_string(report_->nodes[level]) + " nodes, its header says " +
+                          std::to_string(header_.sections[level].nodes));
+    }
+  }
+
+ private:
+  void defect(uint32_t level, const std::string& what) {
+    report_->defects.push_back("level " + std::to_string(level) + " " + what);
+  }
+
+  void bricks() {
+    const uint32_t level = dag_.brick_level();
+    report_->nodes[level] = dag_.brick_count;
+    below_voxels_.resize(dag_.brick_count);
+    uint64_t unordered = 0, last = 0;
+    for (uint64_t i = 0; i < dag_.brick_count; ++i) {
+      const uint64_t brick = dag_.bricks[i];
+      if (brick <= last) ++unordered;  // the first brick is compared with 0: none may be empty
+      last = brick;
+      below_voxels_[i] = uint64_t(std::popcount(brick));
+    }
+    if (unordered > 0)
+      defect(level, "has " + std::to_string(unordered) +
+                        " bricks that are empty, repeated or out of order");
+  }
+
+  void inner(uint32_t level) {
+    const uint32_t* words = dag_.words[level];
+    const uint64_t count = dag_.word_count[level];
+    const NodeIndex index(words, count);
+    std::vector<uint64_t> voxels(index.nodes());
+    std::vector<uint64_t> used((below_voxels_.size() + 63) / 64);
+    uint64_t unordered = 0, empty = 0, astray = 0, node = 0;
+    Key last{};
+    for (uint64_t w = 0; w < count; ++node) {
+      const uint32_t mask = words[w];
+      const uint64_t size = 1 + uint64_t(std::popcount(mask & 0xffU));
+      if (mask == 0 || mask > 0xffU) ++empty;
+      if (w + size > count) {
+        defect(level, "ends within a node");
+        break;
+      }
+      Key key{};
+      const uint32_t* child = words + w + 1;
+      for (unsigned c = 0; c < 8; ++c) {
+        if ((mask >> c & 1U) == 0) continue;
+        key[c] = uint64_t(*child) + 1;
+        if (!visit_child(level, *child++, &voxels[node], &used)) ++astray;
+      }
+      if (!(last < key)) ++unordered;  // Key{} is the empty node, below every other
+      last = key;
+      w += size;
+    }
+    report_->nodes[level] = index.nodes();
+    report(level, unordered, empty, astray, used);
+    below_voxels_ = std::move(voxels);
+    below_ = index;
+  }
+
+  // Adds a child's voxels and marks it as used; false if no node begins at that place.
+  bool visit_child(uint32_t level, uint32_t child, uint64_t* voxels, std::vector<uint64_t>* used) {
+    const bool to_brick = level + 1 == dag_.brick_level();
+    if (to_brick ? child >= dag_.brick_count : !below_.is_start(child)) return false;
+    const uint64_t rank = to_brick ? child : below_.rank(child);
+    *voxels += below_voxels_[rank];
+    (*used)[rank / 64] |= uint64_t(1) << (rank % 64);
+    return true;
+  }
+
+  void report(uint32_t level, uint64_t unordered, uint64_t empty, uint64_t astray,
+              const std::vector<uint64_t>& used) {
+    if (empty > 0) defect(level, "has " + std::to_string(empty) + " impossible child masks");
+    if (unordered > 0)
+      defect(level,
+             "has " + std::to_string(unordered) + " nodes that are repeated or out of order");
+    if (astray > 0) defect(level, "has " + std::to_string(astray) + " pointers that hit no node");
+    uint64_t marked = 0;
+    for (const uint64_t bits : used) marked += uint64_t(std::popcount(bits));
+    if (marked < below_voxels_.size())
+      defect(level + 1, "has " + std::to_string(below_voxels_.size() - marked) +
+                            " nodes that no node uses, so the DAG is not minimal");
+  }
+
+  const Header& header_;
+  const DagView& dag_;
+  IntegrityReport* report_;
+  std::vector<uint64_t> below_voxels_;  // per node of the level below
+  NodeIndex below_;                     // of the level below, unless those are bricks
+};
+
+// Is a voxel set outside the selection?
+//
+// Only cubes that the border of the selection cuts are looked into, and those of one node that it
+// cuts in the same way once: a floor in the border's plane has few nodes, but cubes without number.
+class OutsideSearch {
+ public:
+  explicit OutsideSearch(const DagView& dag) : dag_(dag), asked_(dag.levels) {}
+
+  bool find(const Header& h) {
+    VoxelBox selection;
+    for (int a = 0; a < 3; ++a) {
+      selection.min[a] = h.selection_min[a];
+      selection.max[a] = h.selection_max[a];
+    }
+    return !dag_.empty() && find(0, 0, selection);
+  }
+
+ private:
+  // `selection` is relative to the corner of the node's cube. No node is empty.
+  bool find(uint32_t level, uint32_t node, const VoxelBox& selection) {
+    const int64_t side = int64_t(1) << (dag_.levels - level);
+    const VoxelBox cut = clipped(selection, side);
+    if (cut.empty()) return true;
+    if (cut == VoxelBox{LatticePoint(0), LatticePoint(side)}) return false;
+    if (level == dag_.brick_level()) return find_in_brick(dag_.bricks[node], cut);
+    uint64_t& asked = asked_[level][node];
+    const uint64_t how = uint64_t(1) << borders_inside(cut, side);
+    if ((asked & how) != 0) return false;  // what was found would have ended the search
+    asked |= how;
+    for (unsigned c = 0; c < 8; ++c) {
+      const uint32_t child = dag_child(dag_, level, node, c);
+      const LatticePoint corner = LatticePoint(c >> 2, c >> 1 & 1, c & 1) * (side / 2);
+      if (child != kNoChild && find(level + 1, child, {cut.min - corner, cut.max - corner}))
+        return true;
+    }
+    return false;
+  }
+
+  // Which of the six borders of the selection run through the inside of a cube, as bits. In all
+  // cubes of a level they do so at the same place, for cubes begin at multiples of their side.
+  static unsigned borders_inside(const VoxelBox& cut, int64_t side) {
+    unsigned bits = 0;
+    for (int a = 0; a < 3; ++a) {
+      bits |= unsigned(cut.min[a] != 0) << 2 * a;
+      bits |= unsigned(cut.max[a] != side) << (2 * a + 1);
+    }
+    return bits;
+  }
+
+  static bool find_in_brick(uint64_t brick, const VoxelBox& selection) {
+    for (; brick != 0; brick &= brick - 1) {
+      const unsigned bit = unsigned(std::countr_zero(brick));
+      const LatticePoint voxel((bit >> 5 & 1) * 2 + (bit >> 2 & 1),
+                               (bit >> 4 & 1) * 2 + (bit >> 1 & 1), (bit >> 3 & 1) * 2 + (bit & 1));
+      if (!selection.holds({voxel, voxel + int64_t(1)})) return true;
+    }
+    return false;
+  }
+
+  // The part of `box` in the cube at 0.
+  static VoxelBox clipped(const VoxelBox& box, int64_t side) {
+    VoxelBox part;
+    for (int a = 0; a < 3; ++a) {
+      part.min[a] = std::clamp<int64_t>(box.min[a], 0, side);
+      part.max[a] = std::clamp<int64_t>(box.max[a], 0, side);
+    }
+    return part;
+  }
+
+  const DagView& dag_;
+  // [level], of nodes: which ways of being cut were looked into, a bit for each of the 2^6.
+  std::vector<std::unordered_map<uint32_t, uint64_t>> asked_;
+};
+
+// The corner of a lattice is a plane of the world, from which cells of up to 1024 voxels keep their
+// content; a box has no such planes.
+void check_lattice(const Header& header, std::vector<std::string>* defects) {
+  const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
+  for (const int64_t k0 : header.k0) {
+    if (lattice && k0 % 1024 != 0)
+      defects->push_back("the lattice plane k0 of the grid's corner is " + std::to_string(k0) +
+                         ", not a multiple of 1024");
+    if (!lattice && k0 != 0)
+      defects->push_back("the grid is a box, but has a lattice plane k0 = " + std::to_string(k0));
+  }
+  for (int a = 0; lattice && a < 3; ++a) {
+    if (header.corner[a] != (double(header.k0[a]) + 0.5) * header.voxel_size)
+      defects->push_back("the grid's corner is not at the lattice plane of its number k0");
+  }
+}
+
+}  // namespace
+
+IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata) {
+  IntegrityReport report;
+  Inspection(header, dag, &report).run();
+  // Walking down is only safe in a DAG whose pointers were found right.
+  if (report.defects.empty() && header.bounded != 0 && OutsideSearch(dag).find(header))
+    report.defects.push_back("a voxel outside the selection is set");
+  if (report.voxels != header.voxels)
+    report.defects.push_back("the header counts " + std::to_string(header.voxels) +
+                             " voxels, the DAG holds " + std::to_string(report.voxels));
+  check_lattice(header, &report.defects);
+  // A move is less than half a lattice step, plus the rounding of the move itself.
+  if (!(header.largest_snap >= 0 && header.largest_snap <= std::ldexp(0.5, -int(header.fraction))))
+    report.defects.push_back("the largest snap is more than half a lattice step");
+  for (std::string& defect : metadata_defects(header, metadata))
+    report.defects.push_back(std::move(defect));
+  return report;
+}
+
+}  // namespace svdag

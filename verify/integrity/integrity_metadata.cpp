@@ -1,0 +1,103 @@
+// The metadata's JSON against the header (docs/format.md, "Metadata"): field by field, so that a
+// defect has a name, and then as the one line that it must be, for JSON has many texts of a value.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "io/dag/metadata.h"
+#include "verify/integrity/integrity.h"
+
+namespace svdag {
+namespace {
+
+using nlohmann::json;
+
+json expected_metadata(const Header& h) {
+  json nodes = json::array();
+  for (uint32_t k = 0; k < h.section_count; ++k) nodes.push_back(h.sections[k].nodes);
+  return {{"format", "svdag"},
+          {"version", h.version},
+          {"levels", h.levels},
+          {"resolution", 1U << h.levels},
+          {"rule", h.rule == uint32_t(Rule::kThin) ? "thin" : "conservative"},
+          {"fraction_bits", h.fraction},
+          {"grid",
+           {{"kind", h.grid_kind == 0 ? "box" : "lattice"},
+            {"corner", h.corner},
+            {"voxel_size", h.voxel_size},
+            {"k0", h.k0},
+            {"bounded", h.bounded != 0},
+            {"selection",
+             {h.selection_min[0], h.selection_min[1], h.selection_min[2], h.selection_max[0],
+              h.selection_max[1], h.selection_max[2]}}}},
+          {"voxels", h.voxels},
+          {"nodes", nodes},
+          {"largest_snap", h.largest_snap}};
+}
+
+constexpr int kDeepest = 2;  // the selection, in the grid, in the object
+
+// The beginning of what may be anything.
+std::string beginning(const std::string& text) {
+  size_t end = std::min<size_t>(text.size(), 40);
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // within a character
+  return text.substr(0, end) + (end < text.size() ? "..." : "");
+}
+
+std::string quoted(const std::string& key) {
+  return "\"" + beginning(key) + "\"";
+}
+
+// Notes keys that come twice in one object: readers disagree about which of them counts.
+class RepeatedKeys {
+ public:
+  explicit RepeatedKeys(std::vector<std::string>* defects) : defects_(defects) {}
+
+  void see(json::parse_event_t event, const json& parsed) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event != json::parse_event_t::key) return;
+    const std::string key = parsed.get<std::string>();
+    if (!open_.back().insert(key).second && told_.insert(key).second)
+      defects_->push_back("the metadata has the key " + quoted(key) + " twice");
+  }
+
+ private:
+  std::vector<std::set<std::string>> open_;  // keys of the objects around
+  std::set<std::string> told_;
+  std::vector<std::string>* defects_;
+};
+
+}  // namespace
+
+std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata) {
+  std::vector<std::string> defects;
+  RepeatedKeys repeated(&defects);
+  bool deep = false;
+  const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
+    repeated.see(event, parsed);
+    deep = deep || depth > kDeepest + 1;
+    return !deep;  // what is no longer kept cannot exhaust the stack of who prints it
+  };
+  const json found = json::parse(metadata, see, /*allow_exceptions=*/false);
+  if (deep) return {"the metadata is nested too deep"};
+  if (!found.is_object()) return {"the metadata is not a JSON object"};
+  const json expected = expected_metadata(header);
+  for (const auto& [key, value] : expected.items()) {
+    if (!found.contains(key)) {
+      defects.push_back("the metadata lacks \"" + key + "\"");
+    } else if (found[key] != value) {
+      defects.push_back("the metadata says \"" + key + "\" is " +
+                        beginning(found[key].dump(-1, ' ', true)) + ", the header " + value.dump());
+    }
+  }
+  for (const auto& [key, value] : found.items()) {
+    if (!expected.contains(key))
+      defects.push_back("the metadata has an unknown key " + quoted(key));
+  }
+  if (defects.empty() && metadata != metadata_of(header))
+    return {"the metadata is not the one line that the format has for it"};
+  return defects;
+}
+
+}  // namespace svdag

@@ -1,0 +1,53 @@
+// Who decides which voxels a triangle sets: two judges behind one interface.
+//
+//   integer   clips the triangle by columns of cells, or walks its lines of centres, in integers
+//             (occupancy.h, thin.h)
+//   cgal      asks CGAL's exact kernel about one cell after the other (judge_cgal.h)
+//
+// They share no arithmetic and no idea, so that an error in one is seen by the other, but for the
+// box of cells that either asks about (touched_cells.h). Both judge both rules (docs/accuracy.md).
+// A judge keeps scratch memory: one per thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/dag/format.h"
+#include "verify/judge/clip_judge.h"
+
+namespace svdag {
+
+class Judge {
+ public:
+  using Sink = Clipper::Sink;
+
+  virtual ~Judge() = default;
+  // Hands every cell of side 2^shift inside `window` that the closed triangle meets to `sink`.
+  // Whatever the rule, a triangle sets voxels in these cells only.
+  virtual void cells(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
+                     const Sink& sink) = 0;
+  // Hands every voxel (of side 2^fraction) that the rule sets to `sink`, at least once.
+  virtual void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
+                      const Sink& sink) = 0;
+  // Whether the triangle meets the closed cell.
+  bool touches(const LatticeTriangle& triangle, int shift, const LatticePoint& cell);
+};
+
+struct JudgeChoice {
+  enum class Kind { kInteger, kCgal };
+
+  Kind kind = Kind::kInteger;
+  Rule rule = Rule::kConservative;
+};
+
+// kCgal in a build without CGAL is an Error (kUsage).
+std::unique_ptr<Judge> make_judge(const JudgeChoice& choice);
+std::vector<std::unique_ptr<Judge>> make_judges(const JudgeChoice& choice, size_t count);
+
+// "integer" or "cgal", and what that is for people.
+JudgeChoice::Kind parse_judge(const std::string& name);
+const char* name_of(JudgeChoice::Kind kind);
+const char* description_of(JudgeChoice::Kind kind, Rule rule);
+
+}  // namespace svdag

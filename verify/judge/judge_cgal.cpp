@@ -1,0 +1,120 @@
+#include "verify/judge/judge_cgal.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <algorithm>
+#include <variant>
+
+#include "verify/judge/touched_cells.h"
+
+namespace svdag {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Number = Kernel::FT;
+using Shape = std::variant<Kernel::Point_3, Kernel::Segment_3, Kernel::Triangle_3>;
+
+// A double holds 53 bits; two of them hold every lattice coordinate.
+Number number(int64_t q) {
+  constexpr int64_t kDouble = int64_t(1) << 53;
+  if (-kDouble <= q && q <= kDouble) return Number(double(q));
+  return Number(double(q >> 32)) * Number(0x1p32) + Number(double(q & 0xffffffff));
+}
+
+Kernel::Point_3 point(const LatticePoint& p) {
+  return {number(p.x), number(p.y), number(p.z)};
+}
+
+// The triangle as what it is: on a line, the ends are the least and the greatest of its points.
+Shape shape_of(const LatticeTriangle& t) {
+  std::array<Kernel::Point_3, 3> p{point(t.v[0]), point(t.v[1]), point(t.v[2])};
+  if (!CGAL::collinear(p[0], p[1], p[2])) return Kernel::Triangle_3(p[0], p[1], p[2]);
+  std::sort(p.begin(), p.end(), [](const Kernel::Point_3& a, const Kernel::Point_3& b) {
+    return CGAL::lexicographically_xyz_smaller(a, b);
+  });
+  if (p[0] == p[2]) return p[0];
+  return Kernel::Segment_3(p[0], p[2]);
+}
+
+bool meets(const Kernel::Point_3& shape, const Kernel::Iso_cuboid_3& box) {
+  return !box.has_on_unbounded_side(shape);
+}
+template <class Other>
+bool meets(const Other& shape, const Kernel::Iso_cuboid_3& box) {
+  return CGAL::do_intersect(shape, box);
+}
+
+class CgalJudge final : public Judge {
+ public:
+  explicit CgalJudge(Rule rule) : rule_(rule) {}
+
+  void cells(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
+             const Sink& sink) override {
+    take(triangle);
+    const VoxelBox box = touched_cells(box_of(triangle), shift, window);
+    if (!box.empty()) descend(box, shift, sink);
+  }
+
+  void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
+              const Sink& sink) override {
+    if (rule_ == Rule::kConservative) return cells(triangle, fraction, window, sink);
+    // A segment that crosses the triangle lies in its closed voxel but for d: when e tends to 0 the
+    // crossing stays in the limit, so the triangle meets the closed voxel.
+    cells(triangle, fraction, window, [&](const CellRun& voxel) {
+      if (crosses_a_centre_segment(voxel.first, fraction)) sink(voxel);
+    });
+  }
+
+ private:
+  // The same triangle is asked about again and again: CGAL keeps its exact numbers once computed.
+  void take(const LatticeTriangle& triangle) {
+    if (shape_of_ == triangle && taken_) return;
+    shape_of_ = triangle;
+    shape_ = shape_of(triangle);
+    taken_ = true;
+  }
+
+  void descend(const VoxelBox& box, int shift, const Sink& sink) {
+    const Kernel::Iso_cuboid_3 cube(point(box.min << int64_t(shift)),
+                                    point(box.max << int64_t(shift)));
+    if (!std::visit([&](const auto& shape) { return meets(shape, cube); }, shape_)) return;
+    const LatticePoint side = box.max - box.min;
+    const int axis = side.x >= side.y ? (side.x >= side.z ? 0 : 2) : (side.y >= side.z ? 1 : 2);
+    if (side[axis] == 1) return sink({box.min, axis, 1});
+    VoxelBox lower = box, upper = box;
+    lower.max[axis] = upper.min[axis] = box.min[axis] + side[axis] / 2;
+    descend(lower, shift, sink);
+    descend(upper, shift, sink);
+  }
+
+  bool crosses_a_centre_segment(const LatticePoint& voxel, int shift) const {
+    const auto* triangle = std::get_if<Kernel::Triangle_3>(&shape_);
+    if (triangle == nullptr) return false;
+    const Number half(double(int64_t(1) << shift >> 1));
+    constexpr double kMove[3] = {0x1p-256, 0x1p-512, 0x1p-768};
+    std::array<Number, 3> centre;
+    for (int a = 0; a < 3; ++a)
+      centre[size_t(a)] = number(voxel[a] << shift) + half + Number(kMove[a]);
+    for (size_t w = 0; w < 3; ++w) {
+      std::array<Number, 3> from = centre, to = centre;
+      from[w] -= half;
+      to[w] += half;
+      const Kernel::Segment_3 segment({from[0], from[1], from[2]}, {to[0], to[1], to[2]});
+      if (CGAL::do_intersect(segment, *triangle)) return true;
+    }
+    return false;
+  }
+
+  Rule rule_;
+  bool taken_ = false;
+  LatticeTriangle shape_of_{};
+  Shape shape_;
+};
+
+}  // namespace
+
+std::unique_ptr<Judge> make_cgal_judge(Rule rule) {
+  return std::make_unique<CgalJudge>(rule);
+}
+
+}  // namespace svdag

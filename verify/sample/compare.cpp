@@ -1,0 +1,205 @@
+#include "verify/sample/compare.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include "verify/sample/tile.h"
+
+namespace svdag {
+namespace {
+
+struct TileTriangle {
+  uint64_t tile;  // code
+  uint32_t triangle;
+  bool operator<(const TileTriangle& other) const {
+    return tile != other.tile ? tile < other.tile : triangle < other.triangle;
+  }
+};
+
+struct TileNode {
+  uint64_t tile;  // code
+  uint32_t node;
+};
+
+// Everything known about one tile; begin .. end are its entries in the sorted list.
+struct TileWork {
+  uint64_t tile;
+  uint32_t node;  // or kNoChild
+  size_t begin, end;
+};
+
+// A few thousand triangles or a few dozen tiles are one task of the executor.
+constexpr size_t kTriangleChunk = 4096;
+constexpr size_t kTileChunk = 64;
+
+size_t chunks(size_t count, size_t chunk) {
+  return (count + chunk - 1) / chunk;
+}
+
+using Judges = std::vector<std::unique_ptr<Judge>>;  // one per worker
+
+std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const LatticeTriangle> all,
+                                         const Judges& judges, Executor& executor,
+                                         Progress& progress) {
+  const int levels = tile_levels(grid.levels);
+  const int shift = grid.fraction() + levels;
+  VoxelBox window;
+  for (int a = 0; a < 3; ++a) {
+    window.min[a] = grid.selection.min[a] >> levels;
+    window.max[a] = ((grid.selection.max[a] - 1) >> levels) + 1;
+  }
+  if (grid.selection.empty()) window = {};
+  std::vector<std::vector<TileTriangle>> lists(executor.workers());
+  executor.for_each(chunks(all.size(), kTriangleChunk), [&](size_t worker, size_t chunk) {
+    const size_t end = std::min(all.size(), (chunk + 1) * kTriangleChunk);
+    for (size_t i = chunk * kTriangleChunk; i < end; ++i) {
+      judges[worker]->cells(all[i], shift, window, [&](const CellRun& run) {
+        LatticePoint tile = run.first;
+        for (int64_t n = 0; n < run.count; ++n, ++tile[run.axis])
+          lists[worker].push_back({cell_code(tile), uint32_t(i)});
+      });
+    }
+    progress.advance(end - chunk * kTriangleChunk);
+  });
+  // Tasks reach workers in any order; sorting by (tile, triangle) makes the list one and the same.
+  executor.for_each(lists.size(),
+                    [&](size_t, size_t i) { std::sort(lists[i].begin(), lists[i].end()); });
+  std::vector<TileTriangle> merged;
+  for (std::vector<TileTriangle>& list : lists) {
+    const auto middle = merged.insert(merged.end(), list.begin(), list.end());
+    std::vector<TileTriangle>().swap(list);
+    std::inplace_merge(merged.begin(), middle, merged.end());
+  }
+  return merged;
+}
+
+void collect_nodes(const DagView& dag, uint32_t tile_level, uint32_t level, uint32_t node,
+                   uint64_t code, std::vector<TileNode>* out) {
+  if (level == tile_level) return out->push_back({code, node});
+  for (unsigned c = 0; c < 8; ++c) {
+    const uint32_t child = dag_child(dag, level, node, c);
+    if (child != kNoChild) collect_nodes(dag, tile_level, level + 1, child, code << 3 | c, out);
+  }
+}
+
+// Merges the two sorted lists into one entry per tile that either of them names.
+std::vector<TileWork> plan_work(std::span<const TileTriangle> triangles,
+                                std::span<const TileNode> nodes) {
+  std::vector<TileWork> work;
+  size_t t = 0, n = 0;
+  while (t < triangles.size() || n < nodes.size()) {
+    const uint64_t from_triangle = t < triangles.size() ? triangles[t].tile : UINT64_MAX;
+    const uint64_t from_node = n < nodes.size() ? nodes[n].tile : UINT64_MAX;
+    TileWork tile{std::min(from_triangle, from_node), kNoChild, t, t};
+    while (t < triangles.size() && triangles[t].tile == tile.tile) ++t;
+    tile.end = t;
+    if (from_node == tile.tile) tile.node = nodes[n++].node;
+    work.push_back(tile);
+  }
+  return work;
+}
+
+// One worker's place to compare a tile in.
+class TileComparison {
+ public:
+  TileComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
+                 std::span<const TileTriangle> lists, Judge& judge)
+      : dag_(dag), grid_(grid), triangles_(triangles), lists_(lists), judge_(judge) {}
+
+  void compare(const TileWork& work, Comparison* result) {
+    const int levels = tile_levels(grid_.levels);
+    const LatticePoint corner = cell_of_code(work.tile) << int64_t(levels);
+    own_->clear();
+    file_->clear();
+    voxelize(work, corner, int64_t(1) << levels);
+    if (work.node != kNoChild)
+      fill_tile(dag_, dag_.levels - uint32_t(levels), work.node, 0, file_.get());
+    for (uint64_t code = 0; code < uint64_t(1) << (3 * (levels - 2)); ++code) {
+      const Brick own = own_->brick(code), file = file_->brick(code);
+      if ((own | file) != 0) result->add(own, file, corner + cell_of_code(code) * int64_t(4));
+    }
+  }
+
+ private:
+  void voxelize(const TileWork& work, const LatticePoint& corner, int64_t side) {
+    VoxelBox window;
+    for (int a = 0; a < 3; ++a) {
+      window.min[a] = std::max(corner[a], grid_.selection.min[a]);
+      window.max[a] = std::min(corner[a] + side, grid_.selection.max[a]);
+    }
+    const Clipper::Sink sink = [&](const CellRun& run) {
+      own_->set({run.first - corner, run.axis, run.count});
+    };
+    for (size_t i = work.begin; i < work.end; ++i)
+      judge_.voxels(triangles_[lists_[i].triangle], grid_.fraction(), window, sink);
+  }
+
+  const DagView& dag_;
+  const Grid& grid_;
+  std::span<const LatticeTriangle> triangles_;
+  std::span<const TileTriangle> lists_;
+  Judge& judge_;
+  std::unique_ptr<Tile> own_ = std::make_unique<Tile>();
+  std::unique_ptr<Tile> file_ = std::make_unique<Tile>();
+};
+
+}  // namespace
+
+void Comparison::add(uint64_t judge, uint64_t file, const LatticePoint& corner) {
+  ++bricks;
+  judge_voxels += uint64_t(std::popcount(judge));
+  file_voxels += uint64_t(std::popcount(file));
+  if (judge == file) return;
+  ++wrong_bricks;
+  missing += uint64_t(std::popcount(judge & ~file));
+  extra += uint64_t(std::popcount(file & ~judge));
+  for (unsigned bit = 0; bit < 64 && first.size() < kShown; ++bit) {
+    if (((judge ^ file) >> bit & 1U) == 0) continue;
+    // Two octal digits, outer and inner child number, are a Morton code of two levels.
+    first.push_back({corner + cell_of_code(bit), (judge >> bit & 1U) != 0});
+  }
+}
+
+void Comparison::append(const Comparison& later) {
+  bricks += later.bricks;
+  wrong_bricks += later.wrong_bricks;
+  judge_voxels += later.judge_voxels;
+  file_voxels += later.file_voxels;
+  missing += later.missing;
+  extra += later.extra;
+  for (const WrongVoxel& wrong : later.first) {
+    if (first.size() < kShown) first.push_back(wrong);
+  }
+}
+
+Comparison compare_all(const DagView& dag, const Grid& grid,
+                       std::span<const LatticeTriangle> triangles, const JudgeChoice& choice,
+                       Executor& executor, Progress& progress) {
+  const Judges judges = make_judges(choice, executor.workers());
+  progress.phase("sorting triangles into tiles", triangles.size());
+  const std::vector<TileTriangle> lists =
+      tile_triangles(grid, triangles, judges, executor, progress);
+  std::vector<TileNode> nodes;
+  const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
+  if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
+  const std::vector<TileWork> work = plan_work(lists, nodes);
+
+  progress.phase("comparing", work.size());
+  std::vector<TileComparison> places;
+  for (size_t i = 0; i < executor.workers(); ++i)
+    places.emplace_back(dag, grid, triangles, lists, *judges[i]);
+  std::vector<Comparison> parts(chunks(work.size(), kTileChunk));
+  executor.for_each(parts.size(), [&](size_t worker, size_t chunk) {
+    const size_t end = std::min(work.size(), (chunk + 1) * kTileChunk);
+    for (size_t i = chunk * kTileChunk; i < end; ++i)
+      places[worker].compare(work[i], &parts[chunk]);
+    progress.advance(end - chunk * kTileChunk);
+  });
+  progress.finish();
+  Comparison all;
+  for (const Comparison& part : parts) all.append(part);
+  return all;
+}
+
+}  // namespace svdag

@@ -1,0 +1,90 @@
+// Drawing bricks of a DAG, and both sides of a sample together.
+#include <bit>
+
+#include "streaming/error.h"
+#include "verify/integrity/node_index.h"
+#include "verify/sample/sample.h"
+
+namespace svdag {
+namespace {
+
+// For every inner node, how many occupied bricks of the grid lie below it.
+class BrickCounts {
+ public:
+  explicit BrickCounts(const DagView& dag) : dag_(dag), levels_(dag.brick_level()) {
+    for (uint32_t level = dag.brick_level(); level-- > 0;) {
+      Level& l = levels_[level];
+      l.index = NodeIndex(dag.words[level], dag.word_count[level]);
+      l.bricks.resize(l.index.nodes());
+      const uint32_t* words = dag.words[level];
+      for (uint64_t w = 0, node = 0; node < l.bricks.size(); ++node) {
+        const int children = std::popcount(words[w] & 0xffU);
+        for (int i = 1; i <= children; ++i) l.bricks[node] += of(level + 1, words[w + uint64_t(i)]);
+        w += 1 + uint64_t(children);
+      }
+    }
+  }
+
+  uint64_t of(uint32_t level, uint32_t node) const {
+    if (level == dag_.brick_level()) return 1;
+    return levels_[level].bricks[levels_[level].index.rank(node)];
+  }
+
+ private:
+  struct Level {
+    NodeIndex index;
+    std::vector<uint64_t> bricks;
+  };
+  const DagView& dag_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& random) {
+  std::vector<uint64_t> codes;
+  if (dag.empty()) return codes;
+  const BrickCounts counts(dag);
+  for (uint64_t i = 0; i < count; ++i) {
+    uint64_t rest = random.below(counts.of(0, 0)), code = 0;
+    uint32_t node = 0;
+    for (uint32_t level = 0; level < dag.brick_level(); ++level) {
+      for (unsigned c = 0; c < 8; ++c) {
+        const uint32_t child = dag_child(dag, level, node, c);
+        if (child == kNoChild) continue;
+        const uint64_t bricks = counts.of(level + 1, child);
+        if (rest < bricks) {
+          code = code << 3 | c;
+          node = child;
+          break;
+        }
+        rest -= bricks;
+      }
+    }
+    codes.push_back(code);
+  }
+  return codes;
+}
+
+std::vector<uint64_t> BrickDraw::all() const {
+  std::vector<uint64_t> all = scene.all();
+  all.insert(all.end(), file.begin(), file.end());
+  return all;
+}
+
+BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
+                      uint64_t seed) {
+  Random random(seed);
+  BrickDraw draw;
+  draw.scene = draw_scene(scene, grid, count - count / 2, random);
+  draw.file = sample_dag(dag, count - draw.scene.all().size(), random);
+  return draw;
+}
+
+void fail_untested() {
+  fail_usage(
+      "--sample: nothing could be drawn, so nothing was tested: the file has no voxel, and no "
+      "triangle was found in its grid; leave --sample out to compare all");
+}
+
+}  // namespace svdag

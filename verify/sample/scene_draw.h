@@ -1,0 +1,41 @@
+// Drawing bricks from a scene, each by a measure of which one can say what was bounded.
+//
+//   area          points uniform over the area of the triangles
+//   longest edge  points uniform along the longest edges of the triangles: a needle has length
+//                 where it has no area
+//   triangle      a triangle, all equally likely, and a point of it, moved by up to a voxel on
+//                 each axis: tiny triangles, points, and the bricks beside a surface
+//
+// All measures are of the part of the snapped scene that lies in the grid (with --bounds: in the
+// selection), so no draw misses it. The first two draws are independent and uniform: k of n points
+// in wrong bricks bound the share of that area, or length, which lies in wrong bricks. The third is
+// a search and bounds nothing.
+// Rejected: one measure for all. By area no needle is ever drawn, by length a carpet of small
+// triangles hides a plane, by number a tessellated screw hides the walls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "verify/sample/random.h"
+#include "verify/sample/snapped_scene.h"
+
+namespace svdag {
+
+enum class Measure { kArea, kLongestEdge, kTriangle };
+constexpr size_t kMeasures = 3;
+
+struct SceneDraw {
+  std::array<std::vector<uint64_t>, kMeasures> codes;  // Morton codes of bricks, one per draw
+  uint64_t near = 0;  // triangles whose box meets the selection; 0: the scene sets nothing there
+
+  std::vector<uint64_t> all() const;
+};
+
+// `count` draws, a third by each measure; what a measure cannot give (a scene without area, a scene
+// of points) is drawn by the next. Nothing only if no triangle was found in the selection. Streams
+// the scene twice.
+SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Random& random);
+
+}  // namespace svdag

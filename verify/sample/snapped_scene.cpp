@@ -1,0 +1,83 @@
+#include "verify/sample/snapped_scene.h"
+
+#include <algorithm>
+
+#include "io/lattice.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// The grid that a bake of the whole scene would choose, or nothing where none fits.
+bool follows_from(const Grid& grid, const Box& bounds) {
+  if (grid.bounded) return false;
+  try {
+    const Grid own = grid.kind == Grid::Kind::kBox ? divide_box(bounds, grid.levels)
+                                                   : cover_lattice(bounds, grid.voxel_size);
+    return own == grid;
+  } catch (const Error&) {
+    return false;  // the scene has no extent, or is too large for this voxel size
+  }
+}
+
+}  // namespace
+
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink) {
+  const Lattice lattice(grid);
+  const LatticeBox whole = grid.closed(grid.whole()), selection = grid.closed(grid.selection);
+  SnapCounts counts;
+  std::vector<LatticeTriangle> snapped;
+  counts.scene = scene.stream([&](const TriangleBatch& batch) {
+    snapped.clear();
+    for (const Triangle& t : batch.triangles) {
+      LatticeTriangle q;
+      double move = 0;
+      for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &move);
+      const LatticeBox box = box_of(q);
+      if (box.meets(selection)) counts.largest_move = std::max(counts.largest_move, move);
+      if (whole.meets(box)) {
+        snapped.push_back(q);
+      } else {
+        ++counts.outside;
+      }
+    }
+    if (!snapped.empty()) sink(snapped);
+  });
+  counts.largest_move /= double(int64_t(1) << grid.fraction());
+  return counts;
+}
+
+std::string snap_defect(double said, const SnapCounts& whole_scene) {
+  if (said == 0 || said == whole_scene.largest_move) return {};
+  return "the header says that the snap moved the scene by up to " + format_double(said) +
+         " voxels, it is " + format_double(whole_scene.largest_move);
+}
+
+GridJudgement judge_grid(const Grid& grid, const Box& bounds) {
+  GridJudgement judgement;
+  judgement.recomputed = follows_from(grid, bounds);
+  if (grid.kind == Grid::Kind::kLattice) {
+    for (int a = 0; a < 3; ++a) {
+      if (grid.k0[a] % 1024 != 0)
+        judgement.defects.push_back("the corner of the grid, plane " + std::to_string(grid.k0[a]) +
+                                    ", is not a multiple of 1024");
+    }
+  }
+  if (grid.bounded) return judgement;
+  const Lattice lattice(grid);
+  const LatticePoint low = lattice.snap(bounds.min), high = lattice.snap(bounds.max);
+  for (int a = 0; a < 3; ++a) {
+    const int64_t side = grid.resolution() << grid.fraction();
+    if (low[a] >= 0 && high[a] <= side) continue;
+    const double from = grid.corner()[a];
+    const double to = from + double(grid.resolution()) * grid.voxel_size;
+    judgement.defects.push_back(std::string("the grid does not hold the scene: on ") + "xyz"[a] +
+                                " the scene reaches from " + format_double(bounds.min[a]) + " to " +
+                                format_double(bounds.max[a]) + ", the grid from " +
+                                format_double(from) + " to " + format_double(to));
+  }
+  return judgement;
+}
+
+}  // namespace svdag

@@ -1,0 +1,21 @@
+// The set voxel nearest to a point.
+//
+// Branch and bound (Roussopoulos et al. 1995): a node is left out when the box of its voxels'
+// centres is further away than the best voxel so far; children are visited from the point's own
+// octant outwards, so the best is good from the start.
+#pragma once
+
+#include "verify/trace/kernel/traverse.h"
+
+namespace svdag {
+
+struct NearestVoxel {
+  bool found = false;   // false: no centre is nearer than what was asked for
+  double distance = 0;  // from the point to the voxel's centre, in voxels
+  uint32_t voxel[3] = {};
+};
+
+// The voxel whose centre is nearest to `point` and nearer than `within`.
+NearestVoxel nearest_voxel(const DagView& dag, const Vec3& point, double within);
+
+}  // namespace svdag

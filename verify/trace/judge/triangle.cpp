@@ -1,0 +1,78 @@
+#include "verify/trace/judge/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/float_rounding.h"
+
+namespace svdag {
+namespace {
+
+double distance_to_segment(const Vec3& point, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from, w = point - from;
+  const double square = dot(along, along);
+  const double share = square > 0 ? std::clamp(dot(w, along) / square, 0.0, 1.0) : 0;
+  return length(w - along * share);
+}
+
+}  // namespace
+
+VoxelTriangle in_voxels(const LatticeTriangle& triangle, int fraction) {
+  VoxelTriangle result;
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < 3; ++a)
+      result.v[i][a] = std::ldexp(double(triangle.v[size_t(i)][a]), -fraction);
+  }
+  return result;
+}
+
+Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle) {
+  const Vec3& d = ray.direction;
+  const double speed = length(d);
+  const double near = dot(triangle.v[0] - ray.origin, d) / (speed * speed);
+  const Vec3 origin = ray.origin + d * near;
+  Vec3 w[3];
+  for (int i = 0; i < 3; ++i) w[i] = triangle.v[i] - origin;
+  const Vec3 normal = cross(w[1] - w[0], w[2] - w[0]);
+  const double facing = dot(normal, d);
+  Crossing result;
+  if (facing == 0) return result;
+  result.found = true;
+  result.t = near + dot(w[0], normal) / facing;
+  result.cosine = std::abs(facing) / (length(normal) * speed);
+  result.inside = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &from = w[i], &to = w[(i + 1) % 3];
+    const double spread = length(cross(d, to - from));  // 0: the edge is seen as a point
+    if (spread == 0) continue;
+    const double volume = dot(d, cross(from, to));
+    result.inside = std::min(result.inside, (facing < 0 ? -volume : volume) / spread);
+  }
+  return result;
+}
+
+Ray float_ray(const Ray& ray, const Vec3& middle) {
+  const Vec3 direction = normalized(ray.direction);
+  Ray result;
+  for (int a = 0; a < 3; ++a) {
+    result.origin[a] = middle[a] + round_to_float(ray.origin[a] - middle[a]);
+    result.direction[a] = round_to_float(direction[a]);
+  }
+  return result;
+}
+
+double distance(const Vec3& point, const VoxelTriangle& triangle) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+    least = std::min(least, distance_to_segment(point, triangle.v[i], triangle.v[(i + 1) % 3]));
+  // Over the inside of the triangle the plane is nearer than the edges.
+  const Vec3 normal = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
+  const double size = length(normal);
+  if (size == 0) return least;
+  const Crossing crossing = cross_plane({point, normal * (1 / size)}, triangle);
+  if (crossing.found && crossing.inside >= 0) least = std::min(least, std::abs(crossing.t));
+  return least;
+}
+
+}  // namespace svdag

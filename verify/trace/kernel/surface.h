@@ -1,0 +1,139 @@
+// The normal of a surface that is known by its voxels only, for host and CUDA.
+//
+// Idea: Hoppe et al. 1992. The set voxels near a hit are samples of the surface; the direction in
+// which their covariance is smallest is its normal. Where the voxels form no sheet (a wire, a
+// single voxel) the face that the ray entered serves.
+#pragma once
+
+#include "verify/trace/kernel/vector.h"
+
+namespace svdag {
+
+constexpr int kNormalRadius = 4;  // voxels; the hit's brick and the 26 around it hold all of them
+
+// Sums of 1, p and p p^T over the set voxels within kNormalRadius of the hit, p relative to it.
+struct Moments {
+  int count = 0;
+  int first[3] = {};
+  int second[6] = {};  // xx, yy, zz, xy, yz, zx
+
+  SVDAG_HD void add(int x, int y, int z) {
+    if (x * x + y * y + z * z > kNormalRadius * kNormalRadius) return;
+    ++count;
+    const int p[3] = {x, y, z};
+    for (int a = 0; a < 3; ++a) {
+      first[a] += p[a];
+      second[a] += p[a] * p[a];
+      second[3 + a] += p[a] * p[(a + 1) % 3];
+    }
+  }
+  SVDAG_HD double covariance(int a, int b) const {
+    const int sum = a == b ? second[a] : second[3 + (b == (a + 1) % 3 ? a : b)];
+    return sum - double(first[a]) * first[b] / count;
+  }
+};
+
+// The way down to the last brick looked up: the next one is looked up from their common ancestor.
+class BrickPath {
+ public:
+  SVDAG_HD explicit BrickPath(const DagView& dag) : dag_(dag) {}
+  explicit BrickPath(DagView&&) = delete;
+
+  // As dag_brick.
+  SVDAG_HD uint64_t brick(uint32_t x, uint32_t y, uint32_t z) {
+    const uint32_t bricks = dag_.brick_level();
+    uint32_t level = 0;  // the deepest that both ways share
+    while (level < known_ && !(((x ^ x_) | (y ^ y_) | (z ^ z_)) >> (bricks - 1 - level))) ++level;
+    x_ = x, y_ = y, z_ = z;
+    for (; level < bricks; ++level) {
+      const uint32_t shift = bricks - 1 - level;
+      const unsigned c = 4 * (x >> shift & 1U) + 2 * (y >> shift & 1U) + (z >> shift & 1U);
+      nodes_[level + 1] = dag_child(dag_, level, nodes_[level], c);
+      if (nodes_[level + 1] == kNoChild) break;
+    }
+    known_ = level;
+    return level == bricks ? dag_.bricks[nodes_[bricks]] : 0;
+  }
+
+ private:
+  const DagView& dag_;
+  uint32_t x_ = 0, y_ = 0, z_ = 0;
+  uint32_t known_ = 0;  // nodes_[0 .. known_] lie on the way to brick (x_, y_, z_)
+  uint32_t nodes_[kMaxSections] = {};
+};
+
+// Adds the voxels of the brick at (x, y, z), relative to the hit.
+SVDAG_HD inline void add_brick(uint64_t brick, int x, int y, int z, Moments* moments) {
+  for (int bit = 0; brick != 0; ++bit, brick >>= 1) {
+    if (brick & 1U)
+      moments->add(x + (bit >> 4 & 2) + (bit >> 2 & 1), y + (bit >> 3 & 2) + (bit >> 1 & 1),
+                   z + (bit >> 2 & 2) + (bit & 1));
+  }
+}
+
+SVDAG_HD inline Moments moments_around(const DagView& dag, const uint32_t voxel[3]) {
+  Moments moments;
+  BrickPath path(dag);
+  const uint32_t bricks = dag.resolution() / 4;
+  for (int i = 0; i < 27; ++i) {
+    uint32_t at[3];
+    int corner[3];
+    const int step[3] = {i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) {
+      at[a] = voxel[a] / 4 + uint32_t(step[a]);  // wraps below 0, and is outside then
+      corner[a] = int(4 * at[a]) - int(voxel[a]);
+      inside = inside && at[a] < bricks;
+    }
+    if (inside)
+      add_brick(path.brick(at[0], at[1], at[2]), corner[0], corner[1], corner[2], &moments);
+  }
+  return moments;
+}
+
+// Makes m diagonal by Jacobi rotations; the columns of `axes` are the eigenvectors.
+SVDAG_HD inline void diagonalize(double m[3][3], double axes[3][3]) {
+  for (int i = 0; i < 9; ++i) axes[i / 3][i % 3] = i % 4 == 0;
+  for (int turn = 0; turn < 24; ++turn) {
+    const int p = turn % 3 == 2 ? 1 : 0, q = turn % 3 == 0 ? 1 : 2;
+    const double off = m[p][q], size = off < 0 ? -off : off;
+    if (size < 1e-12 * (m[p][p] + m[q][q])) continue;
+    const double theta = (m[q][q] - m[p][p]) / (2 * off), width = theta < 0 ? -theta : theta;
+    const double t = (theta < 0 ? -1 : 1) / (width + square_root(theta * theta + 1));
+    const double c = 1 / square_root(t * t + 1), d = t * c;
+    for (int k = 0; k < 3; ++k) {
+      const double a = m[k][p], b = m[k][q];
+      m[k][p] = c * a - d * b;
+      m[k][q] = d * a + c * b;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double a = m[p][k], b = m[q][k], x = axes[k][p], y = axes[k][q];
+      m[p][k] = c * a - d * b;
+      m[q][k] = d * a + c * b;
+      axes[k][p] = c * x - d * y;
+      axes[k][q] = d * x + c * y;
+    }
+  }
+}
+
+// Unit normal at the hit, turned towards where the ray came from. Where the ray was cut above the
+// voxels it is that of the face.
+SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Vec3& direction) {
+  Vec3 normal{};
+  normal[hit.axis] = direction[hit.axis] < 0 ? 1 : -1;
+  if (hit.level != dag.levels) return normal;
+  const Moments moments = moments_around(dag, hit.voxel);
+  double m[3][3], axes[3][3];
+  for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = moments.covariance(i / 3, i % 3);
+  diagonalize(m, axes);
+  int least = 0;
+  for (int a = 1; a < 3; ++a) least = m[a][a] < m[least][least] ? a : least;
+  const int one = (least + 1) % 3, two = (least + 2) % 3;
+  const double middle = m[one][one] < m[two][two] ? m[one][one] : m[two][two];
+  // A sheet: thin in one direction, wide in the two others.
+  if (!(m[least][least] < 0.7 * middle)) return normal;
+  normal = {{axes[0][least], axes[1][least], axes[2][least]}};
+  return dot(normal, direction) > 0 ? normal * -1 : normal;
+}
+
+}  // namespace svdag

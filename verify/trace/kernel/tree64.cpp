@@ -1,0 +1,163 @@
+#include "verify/trace/kernel/tree64.h"
+
+#include <algorithm>
+
+#include "streaming/counts.h"
+#include "verify/trace/kernel/processor.h"
+
+namespace svdag {
+namespace {
+
+constexpr uint64_t kRaysPerNode = 8;  // from here on time is gained, and not all rays hit
+constexpr uint64_t kMostBytes = sizeof(uint64_t) << 32;  // places are u32
+
+// A node's cells: the DAG's node (or brick) in each, or kNoChild.
+struct Cells {
+  uint32_t child[64];
+};
+
+uint32_t depth_of(const DagView& dag) {
+  return (dag.levels - 1) / 2;
+}
+
+// Whether nodes of the DAG's level are nodes of the tree, too.
+bool kept(const DagView& dag, uint32_t level) {
+  return (dag.brick_level() - level) % 2 == 0;
+}
+
+// The number of words of a node whose cells are of the DAG's `level`.
+uint64_t words_of(const DagView& dag, uint32_t level, uint32_t cells) {
+  return 1 + (level == dag.brick_level() ? cells : (cells + 1) / 2);
+}
+
+// Calls visit(c, child) for each child c of a node.
+template <class Visit>
+void for_children(const DagView& dag, uint32_t level, uint32_t node, const Visit& visit) {
+  const uint32_t* word = dag.words[level] + node;
+  for (uint32_t mask = *word & 0xffU; mask != 0; mask &= mask - 1)
+    visit(lowest_bit64(mask), *++word);
+}
+
+Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
+  Cells cells;
+  std::fill_n(cells.child, 64, kNoChild);
+  for_children(dag, level, node, [&](uint32_t b, uint32_t child) {
+    for_children(dag, level + 1, child,
+                 [&](uint32_t c, uint32_t grandchild) { cells.child[8 * b + c] = grandchild; });
+  });
+  return cells;
+}
+
+// Those of the root, and their level. With an odd number of levels they are of level 1.
+Cells of_root(const DagView& dag, uint32_t* level) {
+  *level = 2 - dag.levels % 2;
+  if (*level == 2) return two_levels(dag, 0, 0);
+  Cells cells;
+  for (unsigned i = 0; i < 64; ++i) cells.child[i] = dag_child(dag, 0, 0, i % 8);
+  return cells;
+}
+
+uint32_t present(const Cells& cells) {
+  return uint32_t(64 - std::count(cells.child, cells.child + 64, kNoChild));
+}
+
+// The words of all nodes of the tree: those of the root, and one node per node of each kept level.
+uint64_t count_words(const DagView& dag) {
+  uint32_t level = 0;
+  const uint32_t cells = present(of_root(dag, &level));
+  uint64_t words = words_of(dag, level, cells);
+  for (; level < dag.brick_level(); level += 2) {
+    for (uint64_t node = 0; node < dag.word_count[level];) {
+      uint32_t children = 0, grandchildren = 0;
+      for_children(dag, level, uint32_t(node), [&](uint32_t, uint32_t child) {
+        ++children;
+        grandchildren += uint32_t(popcount8(dag.words[level + 1][child] & 0xffU));
+      });
+      words += words_of(dag, level + 2, grandchildren);
+      node += 1 + children;
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+class Tree64::Maker {
+ public:
+  Maker(const DagView& dag, HugeVector<uint64_t>* words) : dag_(dag), words_(*words) {
+    for (uint32_t level = 1; level < dag.brick_level(); ++level) {
+      if (kept(dag, level)) places_[level].assign(dag.word_count[level], kNoChild);
+    }
+  }
+
+  void run() {
+    uint32_t level = 0;
+    const Cells cells = of_root(dag_, &level);
+    add(level, cells);
+  }
+
+ private:
+  // Adds a node whose cells are of `level`, and all below it; returns its place.
+  uint32_t add(uint32_t level, const Cells& cells) {
+    const uint64_t at = words_.size();
+    uint64_t mask = 0;
+    for (int i = 0; i < 64; ++i) mask |= uint64_t(cells.child[i] != kNoChild) << i;
+    const bool bricks = level == dag_.brick_level();
+    words_.resize(at + words_of(dag_, level, popcount64(mask)));
+    words_[at] = mask;
+    for (uint32_t i = 0; mask != 0; ++i, mask &= mask - 1) {
+      const uint32_t child = cells.child[lowest_bit64(mask)];
+      if (bricks) {
+        words_[at + 1 + i] = dag_.bricks[child];
+      } else {
+        const uint64_t place = place_of(level, child);
+        uint64_t& pair = words_[at + 1 + i / 2];
+        pair = i % 2 == 0 ? place : pair | place << 32;
+      }
+    }
+    return uint32_t(at);
+  }
+
+  uint32_t place_of(uint32_t level, uint32_t node) {
+    uint32_t& place = places_[level][node];
+    if (place == kNoChild) place = add(level + 2, two_levels(dag_, level, node));
+    return place;
+  }
+
+  const DagView& dag_;
+  HugeVector<uint64_t>& words_;
+  HugeVector<uint32_t> places_[kMaxSections];  // [level][node]: kNoChild until it has one
+};
+
+uint64_t Tree64::bytes(const DagView& dag) {
+  return dag.empty() ? 0 : count_words(dag) * sizeof(uint64_t);
+}
+
+Tree64::Tree64(const DagView& dag) : Tree64(dag, bytes(dag)) {}
+
+Tree64::Tree64(const DagView& dag, uint64_t bytes) {
+  view_.levels = dag.levels;
+  if (dag.empty()) return;
+  words_.reserve(as_u32(bytes / sizeof(uint64_t), "words of a 64-tree"));
+  Maker(dag, &words_).run();
+  view_.depth = depth_of(dag);
+  view_.words = words_.data();
+  for (uint32_t d = 0; d <= view_.depth; ++d) {
+    view_.side[d] = double(1U << 2 * (view_.depth - d));
+    view_.per_side[d] = 1 / view_.side[d];
+  }
+}
+
+Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
+  uint64_t nodes = dag.brick_count;
+  for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
+  if (!has_fast_target() || rays / kRaysPerNode <= nodes) return {};
+  uint64_t room = 0;  // of the maker
+  for (uint32_t level = 1; level < dag.brick_level(); ++level) {
+    if (kept(dag, level)) room += dag.word_count[level] * sizeof(uint32_t);
+  }
+  const uint64_t bytes = Tree64::bytes(dag);
+  return bytes + room <= memory && bytes <= kMostBytes ? Tree64(dag, bytes) : Tree64();
+}
+
+}  // namespace svdag

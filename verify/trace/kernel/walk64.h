@@ -1,0 +1,130 @@
+// One ray's walk through a 64-tree: the voxel of traverse.h, by other means.
+//
+// Idea: along a mirrored ray no coordinate falls, so met cells come in the ascending order of their
+// numbers. Of a node the cells that are both set and met (cells64.h) are therefore a queue that 64
+// bits hold. A walk is a stack of such queues: a step makes the queue of one node, then goes to the
+// first cell of the deepest queue that is not empty. Empty space and leaving nodes cost nothing,
+// and there is no branch to guess but the last, when a voxel is asked.
+//
+// A step ends with the address that the next one reads, already on its way to the cache: whoever
+// has several rays takes turns between them (rays.cpp), and none waits for memory.
+//
+// Invariant: every met voxel is in a met cell of a met node, so the first voxel that is met by its
+// own six times is the hit, entered at the latest of the near three: the bits of ray.h, whatever
+// the queues hold beside.
+//
+// For host and CUDA. No cuts: levels are taken two at a time here, and a cut may make cubes between
+// them solid; cut rays are traced by traverse.h.
+#pragma once
+
+#include "verify/trace/kernel/cells64.h"
+
+namespace svdag {
+
+class Walk64 {
+ public:
+  // False if the ray misses the grid; else step() until that is false.
+  SVDAG_HD bool start(const Tree64View& tree, const Ray& ray, Span span) {
+    found_ = false;
+    steps_ = 0;
+    ray_ = MirroredRay(ray, tree.resolution());
+    if (tree.empty() || !ray_.clip(tree.resolution(), &span)) return false;
+    times_ = RayTimes(ray_, span);
+    open_ = 0;
+    for (double& c : origin_) c = 0;
+    visit_ = {origin_, queues_[0].corner, tree.words, 0, 0};
+    return true;
+  }
+
+  // What step() enters; of its cells the caller finds those to look at (PlainCells, Avx2Cells).
+  SVDAG_HD const RayTimes& times() const { return times_; }
+  SVDAG_HD const Visit& visit() const { return visit_; }
+
+  // Enters visit(), of which `cells` are set and perhaps met. False at the ray's end.
+  SVDAG_HD bool step(const Tree64View& tree, uint64_t cells) {
+    ++steps_;
+    const bool brick = visit_.depth == tree.depth;
+    if ((cells & (uint64_t(0) - uint64_t(brick))) != 0) [[unlikely]] {
+      if (find(cells)) return false;
+      cells = 0;
+    }
+    Queue& queue = queues_[visit_.depth];
+    queue.cells = cells;
+    queue.node = visit_.node;
+    open_ |= uint32_t(cells != 0) << visit_.depth;
+    if (open_ == 0) [[unlikely]]
+      return false;
+    go_on(tree);
+    return true;
+  }
+
+  // Once step() was false.
+  SVDAG_HD bool found() const { return found_; }
+  SVDAG_HD Hit hit(const Tree64View& tree) const {
+    Hit hit;
+    if (found_) hit = ray_.hit(tree.levels, tree.levels, voxel_, t_);
+    hit.steps = steps_;
+    return hit;
+  }
+
+ private:
+  struct alignas(32) Queue {
+    double corner[4];      // of the node
+    uint64_t cells;        // to be looked at
+    const uint64_t* node;  // its mask
+  };
+
+  // Goes to the first cell of the deepest queue.
+  SVDAG_HD void go_on(const Tree64View& tree) {
+    const uint32_t depth = highest_bit(open_);
+    Queue& queue = queues_[depth];
+    const uint32_t cell = lowest_bit64(queue.cells);
+    queue.cells &= queue.cells - 1;
+    open_ ^= uint32_t(queue.cells == 0) << depth;
+    const uint32_t rank = popcount64(*queue.node & ((uint64_t(1) << (cell ^ times_.flip)) - 1));
+    // A brick is here, another child where its place says; arithmetic, so nothing is guessed.
+    const uint64_t* const children = queue.node + 1;
+    const uint64_t place = reinterpret_cast<const uint32_t*>(children)[rank];
+    const uint64_t brick = uint64_t(children + rank - tree.words);
+    const uint64_t bricks = uint64_t(0) - uint64_t(depth + 1 == tree.depth);
+    visit_.node = tree.words + (place ^ ((place ^ brick) & bricks));
+#if !defined(__CUDA_ARCH__)
+    __builtin_prefetch(visit_.node);
+    __builtin_prefetch(visit_.node + 8);  // the mask's children
+#endif
+    visit_.parent = queue.corner;
+    visit_.corner = queues_[depth + 1].corner;
+    visit_.cell = cell;
+    visit_.depth = depth + 1;
+  }
+
+  // The first of a brick's voxels that is met.
+  SVDAG_HD bool find(uint64_t voxels) {
+    for (; voxels != 0; voxels &= voxels - 1) {
+      double enter = times_.begin, exit = times_.end;
+      for (int a = 0; a < 3; ++a) {
+        voxel_[a] = uint32_t(visit_.corner[a]) + cell64_at(lowest_bit64(voxels), a);
+        const double near = ray_.time(a, voxel_[a]), far = ray_.time(a, voxel_[a] + 1);
+        enter = near > enter ? near : enter;
+        exit = far < exit ? far : exit;
+      }
+      t_ = enter;
+      found_ = enter < exit;
+      if (found_) return true;
+    }
+    return false;
+  }
+
+  Queue queues_[kMaxDepth + 1];  // that of the bricks is always empty
+  RayTimes times_;
+  alignas(32) double origin_[4];
+  Visit visit_;
+  uint32_t open_;  // bit d: queue d is not empty
+  uint32_t steps_;
+  bool found_;
+  uint32_t voxel_[3];
+  double t_;
+  MirroredRay ray_;
+};
+
+}  // namespace svdag

@@ -1,0 +1,200 @@
+// The workloads on an NVIDIA GPU: a thread per tile for beams, per pixel for primary and shadow
+// rays, per ray for the others. The kernels call the same functions as the processor does;
+// --fmad=false keeps every operation its own, so the answers agree bit by bit.
+#include <algorithm>
+#include <string>
+
+#include "streaming/error.h"
+#include "verify/trace/program/device.h"
+
+namespace svdag {
+namespace {
+
+constexpr unsigned kBlock = kTile * kTile;  // threads; a tile's pixels share a block
+
+void check(cudaError_t status, const char* doing) {
+  if (status == cudaSuccess) return;
+  const std::string why = std::string(doing) + ": " + cudaGetErrorString(status);
+  if (status == cudaErrorMemoryAllocation)
+    throw Error(ExitCode::kMemory, why + "; choose a smaller --size or a coarser DAG");
+  throw Error(ExitCode::kInternal, "the GPU failed while " + why);
+}
+
+// Memory on the device, of `count` values.
+template <typename T>
+class DeviceArray {
+ public:
+  explicit DeviceArray(size_t count) : count_(count) {
+    check(cudaMalloc(&data_, std::max<size_t>(count, 1) * sizeof(T)), "taking GPU memory");
+  }
+  DeviceArray(const DeviceArray&) = delete;
+  DeviceArray& operator=(const DeviceArray&) = delete;
+  ~DeviceArray() { cudaFree(data_); }  // nothing is left to do where this fails
+
+  T* data() const { return data_; }
+  void clear() const { check(cudaMemset(data_, 0, count_ * sizeof(T)), "clearing GPU memory"); }
+  void upload(const T* from) const {
+    check(cudaMemcpy(data_, from, count_ * sizeof(T), cudaMemcpyHostToDevice),
+          "copying to the GPU");
+  }
+  void download(std::vector<T>* to) const {
+    to->resize(count_);
+    check(cudaMemcpy(to->data(), data_, count_ * sizeof(T), cudaMemcpyDeviceToHost),
+          "copying from the GPU");
+  }
+
+ private:
+  T* data_ = nullptr;
+  size_t count_;
+};
+
+__global__ void beam_kernel(const __grid_constant__ DagView dag,
+                            const __grid_constant__ Workload work, uint32_t columns, uint32_t tiles,
+                            Span* spans) {
+  const uint32_t tile = blockIdx.x * blockDim.x + threadIdx.x;
+  if (tile >= tiles) return;
+  spans[tile] = tile_span(dag, work.picture, tile % columns * kTile, tile / columns * kTile);
+}
+
+// A block is a tile.
+__global__ void primary_kernel(const __grid_constant__ DagView dag,
+                               const __grid_constant__ Workload work, uint32_t columns,
+                               const Span* spans, Hit* hits) {
+  const uint32_t x = blockIdx.x % columns * kTile + threadIdx.x % kTile;
+  const uint32_t y = blockIdx.x / columns * kTile + threadIdx.x / kTile;
+  if (x >= work.picture.width || y >= work.picture.height) return;
+  const Span span = work.beams ? spans[blockIdx.x] : Span{};
+  hits[size_t(y) * work.picture.width + x] = trace_closest(dag, work.picture.ray(x, y), span);
+}
+
+__global__ void surfel_kernel(const __grid_constant__ DagView dag,
+                              const __grid_constant__ Workload work, const Hit* hits,
+                              Surfel* surfels) {
+  const uint32_t pixel = blockIdx.x * blockDim.x + threadIdx.x;
+  if (pixel >= work.picture.width * work.picture.height) return;
+  const uint32_t x = pixel % work.picture.width, y = pixel / work.picture.width;
+  surfels[pixel] = make_surfel(dag, work.picture.ray(x, y), hits[pixel]);
+}
+
+// A thread per ray; those of one pixel are neighbours.
+__global__ void secondary_kernel(const __grid_constant__ DagView dag,
+                                 const __grid_constant__ Workload work, int kind,
+                                 uint32_t per_pixel, const Surfel* surfels, uint32_t* blocked) {
+  const uint64_t ray = uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
+  const uint64_t pixel = ray / per_pixel;
+  if (pixel >= uint64_t(work.picture.width) * work.picture.height) return;
+  if (!surfels[pixel].found) return;
+  Tracer tracer(dag);
+  const Ray asked = secondary_ray(work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel));
+  if (tracer.closest(asked, secondary_span(work, kind), secondary_cut(work, kind)).found)
+    atomicAdd(&blocked[pixel], 1U);
+}
+
+unsigned blocks_for(uint64_t threads) {
+  return unsigned((threads + kBlock - 1) / kBlock);
+}
+
+// The least time of `rounds` runs.
+template <typename Launch>
+double least(uint32_t rounds, const Launch& launch) {
+  struct Events {
+    cudaEvent_t from = nullptr, to = nullptr;
+    ~Events() {
+      if (from != nullptr) cudaEventDestroy(from);
+      if (to != nullptr) cudaEventDestroy(to);
+    }
+  } events;
+  check(cudaEventCreate(&events.from), "making a timer");
+  check(cudaEventCreate(&events.to), "making a timer");
+  float best = 1e30F;
+  for (uint32_t round = 0; round < rounds; ++round) {
+    check(cudaEventRecord(events.from), "starting a timer");
+    launch();
+    check(cudaGetLastError(), "starting a kernel");
+    check(cudaEventRecord(events.to), "stopping a timer");
+    check(cudaEventSynchronize(events.to), "tracing");
+    float milliseconds = 0;
+    check(cudaEventElapsedTime(&milliseconds, events.from, events.to), "reading a timer");
+    best = std::min(best, milliseconds);
+  }
+  return 1e-3 * double(best);
+}
+
+std::string name_of_device() {
+  int count = 0;
+  const cudaError_t status = cudaGetDeviceCount(&count);
+  if (status != cudaSuccess || count == 0)
+    fail_usage(std::string("--device cuda: this machine has no NVIDIA GPU that works (") +
+               cudaGetErrorString(status == cudaSuccess ? cudaErrorNoDevice : status) + ")");
+  cudaDeviceProp properties;
+  check(cudaGetDeviceProperties(&properties, 0), "asking for the device");
+  return properties.name;
+}
+
+void require_room(uint64_t bytes) {
+  size_t free = 0, total = 0;
+  check(cudaMemGetInfo(&free, &total), "asking for free memory");
+  if (bytes <= free) return;
+  throw Error(ExitCode::kMemory, "the DAG and the picture need " + std::to_string(bytes >> 20) +
+                                     " MiB of GPU memory, and " + std::to_string(free >> 20) +
+                                     " MiB are free: choose a coarser DAG or a smaller --size");
+}
+
+// The file's view, with pointers into its copy on the device.
+DagView view_on_device(const PlainFile& file, const uint64_t* copy) {
+  DagView view = file.view;
+  const Header& header = file.header();
+  const char* base = reinterpret_cast<const char*>(copy);
+  for (uint32_t level = 0; level < view.brick_level(); ++level)
+    view.words[level] = reinterpret_cast<const uint32_t*>(base + header.sections[level].offset);
+  view.bricks =
+      reinterpret_cast<const uint64_t*>(base + header.sections[view.brick_level()].offset);
+  return view;
+}
+
+}  // namespace
+
+Answers trace_on_cuda(const PlainFile& file, const Workload& work) {
+  Answers answers;
+  answers.device = name_of_device();
+  const Picture& picture = work.picture;
+  const size_t pixels = size_t(picture.width) * picture.height;
+  const uint32_t columns = (picture.width + kTile - 1) / kTile;
+  const uint32_t tiles = columns * ((picture.height + kTile - 1) / kTile);
+  if (pixels * work.secondary.samples / kBlock >= 0x7fffffffU)
+    fail_usage("--size and --samples: too many rays for one launch on a GPU");
+  require_room(file.words.size() * 8 + tiles * sizeof(Span) +
+               pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
+  const DeviceArray<uint64_t> copy(file.words.size());
+  copy.upload(file.words.data());
+  const DagView dag = view_on_device(file, copy.data());
+  const DeviceArray<Span> spans(tiles);
+  const DeviceArray<Hit> hits(pixels);
+  const DeviceArray<Surfel> surfels(pixels);
+  const DeviceArray<uint32_t> blocked(pixels);
+  answers.rays[kPrimaryRays] = pixels;
+  answers.seconds[kPrimaryRays] = least(work.rounds, [&] {
+    if (work.beams)
+      beam_kernel<<<blocks_for(tiles), kBlock>>>(dag, work, columns, tiles, spans.data());
+    primary_kernel<<<tiles, kBlock>>>(dag, work, columns, spans.data(), hits.data());
+  });
+  surfel_kernel<<<blocks_for(pixels), kBlock>>>(dag, work, hits.data(), surfels.data());
+  check(cudaGetLastError(), "starting a kernel");
+  hits.download(&answers.hits);
+  surfels.download(&answers.surfels);
+  const auto found = uint64_t(std::count_if(answers.hits.begin(), answers.hits.end(),
+                                            [](const Hit& hit) { return hit.found; }));
+  for (int kind = kShadowRays; kind < kWorkloads; ++kind) {
+    const uint32_t per_pixel = rays_per_pixel(work, kind);
+    answers.rays[kind] = found * per_pixel;
+    answers.seconds[kind] = least(work.rounds, [&] {
+      blocked.clear();
+      secondary_kernel<<<blocks_for(pixels * per_pixel), kBlock>>>(dag, work, kind, per_pixel,
+                                                                   surfels.data(), blocked.data());
+    });
+    blocked.download(&answers.blocked[kind]);
+  }
+  return answers;
+}
+
+}  // namespace svdag

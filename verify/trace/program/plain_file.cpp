@@ -1,0 +1,114 @@
+#include "verify/trace/program/plain_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "streaming/error.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_state.h"
+
+namespace svdag {
+namespace {
+
+void require(bool condition, const std::string& path, const char* sentence) {
+  if (!condition) fail_input(path, std::string("damaged file: ") + sentence);
+}
+
+// Asked before anything else is read: of another file no other word means what it would in ours.
+void check_magic(const File& file, uint64_t size) {
+  unsigned char magic[sizeof kMagic];
+  if (size < sizeof magic) fail_input(file.path(), "is not a svdag file (it is too short)");
+  file.read_at(0, std::as_writable_bytes(std::span(magic)));
+  if (std::memcmp(magic, kMagic, sizeof magic) != 0)
+    fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
+}
+
+// Its size is held against its header before so much memory is taken.
+std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
+  const File file = File::open_read(path);
+  const FileState before = state_of(file);
+  const uint64_t size = before.size;
+  check_magic(file, size);
+  require(size >= sizeof(Header), path, "it ends within its header");
+  Header header;
+  file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
+  require(header.file_bytes == size, path, "its size is not the one in its header");
+  if (size > room)
+    throw Error(ExitCode::kMemory,
+                "is larger than this machine's memory; svdag-verify render traces it where it is",
+                path);
+  std::vector<uint64_t> words((size + 7) / 8);
+  file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
+  require_unchanged(file, before);
+  return words;
+}
+
+void check_header(const Header& h, const std::string& path) {
+  if (h.version != kFormatVersion)
+    fail_input(path, "has format version " + std::to_string(h.version) +
+                         ", this program reads version " + std::to_string(kFormatVersion));
+  require(h.header_bytes == sizeof(Header), path, "wrong header size");
+  require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
+          "the number of levels is not 3 to 20");
+  require(h.section_count == h.levels - 1, path, "wrong number of sections");
+  require(std::isnormal(h.voxel_size) && h.voxel_size > 0, path, "impossible voxel size");
+  for (const double corner : h.corner)
+    require(std::isfinite(corner), path, "impossible grid corner");
+  for (uint32_t level = 0; level < h.section_count; ++level) {
+    const Section& s = h.sections[level];
+    require(s.offset % kSectionAlignment == 0 && s.offset >= sizeof(Header) &&
+                s.offset <= h.file_bytes && s.bytes <= h.file_bytes - s.offset,
+            path, "a section is not inside the file");
+    const bool bricks = level + 1 == h.section_count;
+    require(s.bytes % (bricks ? 8 : 4) == 0 && s.bytes / (bricks ? 8 : 4) <= kMaxWords, path,
+            "impossible section size");
+    require(!bricks || s.nodes == s.bytes / 8, path, "impossible number of bricks");
+    require((s.bytes == 0) == (h.sections[h.section_count - 1].bytes == 0), path, "an empty level");
+  }
+}
+
+void check_bricks(const DagView& view, const std::string& path) {
+  for (uint64_t i = 0; i < view.brick_count; ++i)
+    require(view.bricks[i] != 0, path, "an empty brick");
+}
+
+// From the deepest inner level up: each node's children must be the first words of nodes of the
+// level below, found in the step before.
+void check_pointers(const DagView& view, const std::string& path) {
+  std::vector<bool> below;
+  for (uint32_t level = view.brick_level(); level-- > 0;) {
+    const uint32_t* words = view.words[level];
+    const uint64_t count = view.word_count[level];
+    const bool above_bricks = level + 1 == view.brick_level();
+    std::vector<bool> starts(count);
+    uint64_t nodes = 0;
+    for (uint64_t at = 0; at < count; ++nodes) {
+      const uint32_t mask = words[at];
+      require(mask > 0 && mask < 256, path, "a node has an impossible child mask");
+      starts[at++] = true;
+      for (int child = popcount8(mask); child > 0; --child, ++at) {
+        require(at < count, path, "the last node of a level is cut off");
+        const bool good = above_bricks ? words[at] < view.brick_count
+                                       : words[at] < below.size() && below[words[at]];
+        require(good, path, "a pointer leads nowhere");
+      }
+    }
+    require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "it has not one root");
+    below.swap(starts);
+  }
+}
+
+}  // namespace
+
+PlainFile read_plain_file(const std::string& path, uint64_t room) {
+  PlainFile file;
+  file.words = read_whole(path, room);
+  check_header(file.header(), path);
+  file.view = dag_view(file.words.data());
+  check_bricks(file.view, path);
+  check_pointers(file.view, path);
+  return file;
+}
+
+}  // namespace svdag
