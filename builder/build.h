@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builder/cache/cell_store.h"
+#include "builder/descend/descend.h"
 #include "builder/octree/grid_part.h"
 #include "builder/overlap/overlap.h"
 #include "builder/split/split.h"
