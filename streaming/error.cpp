@@ -24,6 +24,10 @@ Error::Error(ExitCode code, const std::string& sentence, const std::string& path
       path_(path),
       offset_(offset) {}
 
+Error Error::with_hint(const std::string& hint) const {
+  return Error(what() + printable(hint), *this);
+}
+
 void fail_input(const std::string& path, const std::string& sentence,
                 std::optional<uint64_t> offset) {
   throw Error(ExitCode::kBadInput, sentence, path, offset);

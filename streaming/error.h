@@ -31,11 +31,17 @@ class Error : public std::runtime_error {
   Error(ExitCode code, const std::string& sentence, const std::string& path = {},
         std::optional<uint64_t> offset = {});
 
+  // A copy whose sentence ends with `hint`.
+  Error with_hint(const std::string& hint) const;
+
   ExitCode code() const { return code_; }
   const std::string& path() const { return path_; }
   std::optional<uint64_t> offset() const { return offset_; }
 
  private:
+  Error(const std::string& what, const Error& like)
+      : std::runtime_error(what), code_(like.code_), path_(like.path_), offset_(like.offset_) {}
+
   ExitCode code_;
   std::string path_;
   std::optional<uint64_t> offset_;

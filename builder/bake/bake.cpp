@@ -1,19 +1,12 @@
-#include "builder/build.h"
-
-#include <atomic>
-#include <memory>
+// The bake as a pipeline: every phase is a function that returns what the next one takes.
+#include <optional>
 
 #include "builder/bake/bake_bins.h"
-#include "builder/bake/checkpoint.h"
 #include "builder/bake/choose_grid.h"
-#include "builder/bake/description.h"
-#include "builder/bake/voxelize.h"
+#include "builder/bake/run_collector.h"
+#include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
-#include "builder/workspace/disk_need.h"
-#include "builder/workspace/workspace.h"
-#include "streaming/counts.h"
-#include "streaming/error.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/spill/spoiled_scratch.h"
@@ -21,332 +14,281 @@
 namespace svdag {
 namespace {
 
-// A bake from its configuration to its report; one function per phase.
-class Bake {
- public:
-  Bake(const BuildConfig& config, Executor* executor, Progress* progress)
-      : config_(config),
-        executor_(executor),
-        progress_(progress),
-        workspace_(ScratchDir::path_for(config.output, config.scratch), config.memory,
-                   executor->workers()),
-        budget_(*workspace_.budget()),
-        shares_(workspace_.shares()),
-        folder_(*workspace_.folder()),
-        scratch_(*workspace_.scratch()),
-        vertices_(workspace_.vertices()),
-        scene_(config.scene, &budget_, &vertices_),
-        checkpoint_(&scratch_) {}
-
-  BuildReport run_or_tell();
-
- private:
-  BuildReport run();
-  std::string kept() const;
-  bool is_discarded(const Error& error) const;
-  void keep_scratch();
-  void find_unfinished();
-  void choose_grid();
-  void split();
-  void voxelize();
-  std::vector<SubDagRoot> merge(BakeOutput* output);
-  void describe_work(const Voxelizer& voxelizer);
-  void hand_on(BakedRun baked);
-  void take_from_store();
-  void save(BakedRun baked);
-  void add(BakedRun baked);
-  void end_phase(double* seconds, uint64_t* peak) {
-    *seconds = phase_.lap();
-    *peak = budget_.lap_peak();
-  }
-
-  const BuildConfig& config_;
-  Executor* executor_;
-  Progress* progress_;
-  Workspace workspace_;
-  MemoryBudget& budget_;
-  const MemoryShares& shares_;
-  ScratchDir& folder_;
-  Scratch& scratch_;
-  SpillSpace vertices_;
-  Scene scene_;
-  Checkpoint checkpoint_;
-  DiskNeed disk_need_{&scratch_};
-  Description description_{config_, scene_};
-  std::optional<SavedBake> saved_;  // by an earlier process
-  BuildReport report_;
-  std::optional<GridPart> part_;      // of the grid, that is baked
-  std::unique_ptr<CellStore> store_;  // of cells that were baked before; null: none
-  SplitConfig split_config_;
-  SplitScene split_;
-  std::mutex runs_mutex_;
-  std::vector<Run> runs_;
-  std::vector<SubDagRoot> roots_;
-  bool spilled_ = false;
-  uint64_t spilled_bytes_ = 0;      // of runs_
-  std::atomic<bool> saves_{false};  // something can be resumed
-  LapTimer phase_;
+// What all phases use.
+struct Tools {
+  const BuildConfig& config;
+  Executor* executor;
+  Progress* progress;
+  Workspace* workspace;
+  DiskNeed* disk_need;
 };
 
-// An earlier process may have left work behind: it is resumed, discarded, or in the way.
-void Bake::find_unfinished() {
-  if (!workspace_.has_unfinished_bake()) return folder_.clear();
-  folder_.keep();  // also if it cannot be read now
-  const auto wanted = [this](const std::string& description) {
-    return config_.unfinished != Unfinished::kResumeSame || description == description_.text();
-  };
-  if (config_.unfinished != Unfinished::kRestart) saved_ = checkpoint_.resume(wanted);
-  if (!saved_ || (saved_->runs.empty() && !saved_->split)) {
-    saved_.reset();
-    checkpoint_.discard();
-    folder_.keep(false);
-    return folder_.clear();
+// Measures the phases, one after the other.
+class PhaseMeter {
+ public:
+  explicit PhaseMeter(MemoryBudget* budget) : budget_(budget) {}
+  void skip() { timer_.lap(); }
+  void end_phase(double* seconds, uint64_t* peak) {
+    *seconds = timer_.lap();
+    *peak = budget_->lap_peak();
   }
-  if (config_.unfinished == Unfinished::kRefuse)
-    fail_usage(config_.output + ": an unfinished bake of it is in " + folder_.path() +
-               ": continue it with --resume or discard it with --restart");
-  const std::string other = difference(saved_->description, description_.text());
-  if (!other.empty())
-    fail_usage(config_.output + ": the unfinished bake is another one: " + other +
-               "; discard it with --restart");
-  saves_ = true;
-}
 
-void Bake::keep_scratch() {
-  folder_.keep();
-  saves_ = true;
-}
+ private:
+  MemoryBudget* budget_;
+  LapTimer timer_;
+};
 
-void Bake::choose_grid() {
-  progress_->phase("read bounds", 0);
-  if (saved_) {
-    report_.grid = saved_->grid;
-  } else if (config_.ready != nullptr) {
-    report_.grid = config_.ready->grid;
-  } else {
-    SceneCounts counts;
-    const Box box = config_.bounds ? Box() : scene_.bounds(&counts);
-    report_.grid = svdag::choose_grid(config_, box);
-    const uint64_t triangles = config_.part ? 0 : counts.triangles;  // of a part nobody knows
-    disk_need_.expect_triangles(triangles, shares_.triangles);
-    split_config_.on_spill = [this, triangles](uint64_t read, uint64_t bytes) {
-      disk_need_.expect_spilled(triangles, read, bytes);
+// The unfinished bake of an earlier process, if it is resumed. If it is discarded, the scratch
+// folder is empty afterwards.
+std::optional<SavedBake> find_unfinished(const BuildConfig& config, Workspace* workspace,
+                                         Checkpoint* checkpoint, Description* description) {
+  std::optional<SavedBake> saved;
+  if (workspace->has_unfinished_bake()) {
+    const auto wanted = [&](const std::string& text) {
+      return config.unfinished != Unfinished::kResumeSame || text == description->text();
     };
+    if (config.unfinished != Unfinished::kRestart) saved = checkpoint->resume(wanted);
+    if (saved && saved->runs.empty() && !saved->split) saved.reset();
+    if (!saved) checkpoint->discard();
   }
-  const int levels = report_.grid.levels;
-  part_ = config_.part ? GridPart::of_cells(*config_.part, levels) : GridPart::whole(levels);
-  end_phase(&report_.seconds.bounds, &report_.phase_peaks.bounds);
+  if (!saved) {
+    workspace->folder()->clear();
+    return saved;
+  }
+  if (config.unfinished == Unfinished::kRefuse)
+    fail_usage(config.output + ": an unfinished bake of it is in " + workspace->folder()->path() +
+               ": continue it with --resume or discard it with --restart");
+  const std::string other = difference(saved->description, description->text());
+  if (!other.empty())
+    fail_usage(config.output + ": the unfinished bake is another one: " + other +
+               "; discard it with --restart");
+  return saved;
 }
 
-void Bake::split() {
-  progress_->phase("split", 0);
-  split_config_ = {choose_cell_level(config_, report_.grid, budget_.limit()),
-                   executor_->workers(),
-                   shares_.triangles,
-                   &scratch_,
-                   config_.part ? &*part_ : nullptr,
-                   std::move(split_config_.on_spill)};
-  if (saved_ && saved_->split) {
-    split_ = std::move(*saved_->split);
-  } else if (config_.ready != nullptr) {
-    split_ = {config_.ready->counts, nullptr, config_.ready->bins};
-  } else {
-    split_ = svdag::split(scene_, report_.grid, split_config_, &budget_);
-    description_.watch()->check();  // the triangles are not read again
-    if (split_.counts.scene.triangles == 0)
-      fail_input(config_.scene.paths.front(), "the scene has no triangles to bake");
-    if (!split_.tree) {
-      checkpoint_.begin(description_.text(), report_.grid);
-      checkpoint_.save_split(split_);
-      keep_scratch();
-    }
-  }
-  report_.split = split_.counts;
-  end_phase(&report_.seconds.split, &report_.phase_peaks.split);
+struct ChosenGrid {
+  Grid grid;
+  uint64_t triangles = 0;  // in the bake; 0: unknown
+};
+
+ChosenGrid read_grid(const BuildConfig& config, const Scene& scene,
+                     const std::optional<SavedBake>& saved) {
+  if (saved) return {saved->grid};
+  if (config.ready != nullptr) return {config.ready->grid};
+  SceneCounts counts;
+  const Box box = config.bounds ? Box() : scene.bounds(&counts);
+  return {choose_grid(config, box), config.part ? 0 : counts.triangles};
 }
 
-void Bake::voxelize() {
-  std::vector<MortonRange> finished = part_->rest().ranges();  // what is not wanted
-  if (saved_) {
-    for (BakedRun& baked : saved_->runs) {
-      finished.insert(finished.end(), baked.finished.begin(), baked.finished.end());
-      add(std::move(baked));
-    }
-    report_.voxels_kept = report_.voxels;
-  }
-  const MortonSet done(std::move(finished));
-  Voxelizer voxelizer(report_.grid,
-                      {config_.descent, shares_.table, config_.checkpoint, &scratch_, &done,
-                       store_.get(), [this](BakedRun baked) { save(std::move(baked)); }},
-                      &budget_, executor_);
-  if (split_.tree) {
-    voxelizer.bake(*split_.tree, morton_range(Cube(), report_.grid.levels), progress_);
-    split_.tree.reset();  // the sort needs the room
-  } else {
-    BinBaker baker(report_.grid, split_config_, config_.descent, &done, &voxelizer, &budget_,
-                   executor_, progress_);
-    SpillFile* const file =
-        config_.ready != nullptr ? config_.ready->triangles : scratch_.triangles();
-    for_each_bin(split_.bins, progress_, [&](const TriangleBin& bin) { baker.bake(file, bin); });
-  }
-  describe_work(voxelizer);
-  end_phase(&report_.seconds.voxelize, &report_.phase_peaks.voxelize);
-  progress_->phase("sort", 0);
-  // Where others were saved, the last are, too: a bake killed in the merge voxelizes nothing again.
-  for (BakedRun& baked : voxelizer.finish(spilled_)) hand_on(std::move(baked));
-  take_from_store();
-  report_.runs = runs_.size();
-  end_phase(&report_.seconds.sort, &report_.phase_peaks.sort);
-}
-
-void Bake::hand_on(BakedRun baked) {
-  if (spilled_) return save(std::move(baked));
-  if (store_) store_->keep(baked, nullptr);
-  add(std::move(baked));
-}
-
-void Bake::take_from_store() {
-  if (!store_) return;
-  uint64_t left = shares_.triangles;  // nobody needs them any more
-  const auto target = [&](uint64_t bytes) -> std::optional<SpillTarget> {
-    if (!spilled_ && bytes <= left) {
-      left -= bytes;
-      return std::nullopt;
-    }
-    return SpillTarget{scratch_.runs(), scratch_.new_streams(uint64_t(report_.grid.levels))};
+SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const GridPart& part) {
+  SplitConfig split;
+  split.cell_level =
+      choose_cell_level(tools.config, chosen.grid, tools.workspace->budget()->limit());
+  split.workers = tools.executor->workers();
+  split.triangle_bytes = tools.workspace->shares().triangles;
+  split.scratch = tools.workspace->scratch();
+  split.part = tools.config.part ? &part : nullptr;
+  split.on_spill = [triangles = chosen.triangles, need = tools.disk_need](uint64_t read,
+                                                                          uint64_t bytes) {
+    need->expect_spilled(triangles, read, bytes);
   };
-  store_->taken(target, [this](BakedRun baked) { hand_on(std::move(baked)); });
-  report_.cache_hits = store_->hits();
-  report_.cache_ignored = store_->ignored();
-  report_.cache_complaint = store_->complaint();
-  store_.reset();
+  return split;
 }
 
-void Bake::describe_work(const Voxelizer& voxelizer) {
-  const VoxelizeCounts counts = voxelizer.counts();
-  report_.cell_level = split_config_.cell_level;
-  report_.cells = counts.cells;
-  report_.decisions = counts.decisions;
-  report_.memo = counts.memo;
-  report_.divided = counts.divided;
-}
-
-// What was spilled is kept for a process that resumes, if it can be told of what; from any worker.
-void Bake::save(BakedRun baked) {
-  if (store_) store_->keep(baked, scratch_.runs());
-  const std::lock_guard lock(runs_mutex_);
-  if (!checkpoint_.begun()) {
-    if (const auto text = description_.text_if_unchanged()) checkpoint_.begin(*text, report_.grid);
+// Saves the split if its triangles were spilled.
+SplitScene split_scene(const Tools& tools, const Scene& scene, const Grid& grid,
+                       const SplitConfig& config, Description* description,
+                       Checkpoint* checkpoint) {
+  SplitScene split = svdag::split(scene, grid, config, tools.workspace->budget());
+  description->watch()->check();  // the triangles are not read again
+  if (split.counts.scene.triangles == 0)
+    fail_input(tools.config.scene.paths.front(), "the scene has no triangles to bake");
+  if (!split.tree) {
+    checkpoint->begin(description->text(), grid);
+    checkpoint->save_split(split);
   }
-  if (checkpoint_.begun()) {
-    checkpoint_.save_run(baked);
-    keep_scratch();
+  return split;
+}
+
+// Bakes all triangles of `split`, but for those in `done`. The last runs stay in the voxelizer.
+void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, SplitScene* split,
+              const MortonSet& done, Voxelizer* voxelizer) {
+  Workspace* const workspace = tools.workspace;
+  if (split->tree) {
+    voxelizer->bake(*split->tree, morton_range(Cube(), grid.levels), tools.progress);
+    split->tree.reset();  // the sort needs the memory
+    return;
   }
-  add(std::move(baked));
-  disk_need_.expect_runs(spilled_bytes_, progress_->share());
+  BinBaker baker(grid, config, tools.config.descent, &done, voxelizer, workspace->budget(),
+                 tools.executor, tools.progress);
+  SpillFile* const file = tools.config.ready != nullptr ? tools.config.ready->triangles
+                                                        : workspace->scratch()->triangles();
+  for_each_bin(split->bins, tools.progress, [&](const TriangleBin& bin) { baker.bake(file, bin); });
 }
 
-void Bake::add(BakedRun baked) {
-  for (SubDagRoot& root : baked.roots) {
-    root.run = as_u32(runs_.size(), "runs");
-    roots_.push_back(root);
+// What no cell of this bake needs to visit: cells outside the part, and runs that are saved.
+MortonSet finished_ranges(const GridPart& part, const std::optional<SavedBake>& saved) {
+  std::vector<MortonRange> ranges = part.rest().ranges();
+  if (saved) {
+    for (const BakedRun& baked : saved->runs)
+      ranges.insert(ranges.end(), baked.finished.begin(), baked.finished.end());
   }
-  report_.voxels += baked.voxels;
-  if (baked.run.bricks.spilled) {
-    spilled_ = true;
-    spilled_bytes_ += baked.run.bricks.spilled->bytes;
-    for (const auto& level : baked.run.nodes) spilled_bytes_ += level.spilled->bytes;
+  return MortonSet(std::move(ranges));
+}
+
+void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildReport* report) {
+  report->cells = counts.cells;
+  report->decisions = counts.decisions;
+  report->memo = counts.memo;
+  report->divided = counts.divided;
+  if (store == nullptr) return;
+  report->cache_hits = store->hits();
+  report->cache_ignored = store->ignored();
+  report->cache_complaint = store->complaint();
+}
+
+std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
+                                   BakeOutput* output) {
+  Workspace* const workspace = tools.workspace;
+  const MergeConfig config =
+      share_for_merge(workspace->budget(), set->spilled ? workspace->scratch() : nullptr,
+                      tools.executor->workers(), 4 * workspace->scratch()->block_bytes());
+  return merge(set->runs, std::move(set->roots), part, config, output, tools.executor);
+}
+
+void report_resources(const Tools& tools, const BakeOutput& output, BuildReport* report) {
+  const Scratch& scratch = *tools.workspace->scratch();
+  report->nodes = output.keys();
+  report->file_bytes = output.file_bytes();
+  report->content_hash = output.content_hash();
+  report->scratch = {tools.disk_need->estimate(), scratch.peak_bytes(), scratch.written_bytes(),
+                     scratch.read_bytes()};
+  report->threads = tools.executor->workers();
+  report->seconds.cpu = cpu_seconds();
+  report->peak_counted = tools.workspace->budget()->peak();
+  report->peak_resident = peak_resident_bytes();
+}
+
+// `saved`: the bake that is resumed.
+BuildReport bake(const Tools& tools, const Scene& scene, Description* description,
+                 Checkpoint* checkpoint, std::optional<SavedBake> saved) {
+  const auto& [config, executor, progress, workspace, disk_need] = tools;
+  PhaseMeter meter(workspace->budget());
+  BuildReport report;
+  report.rule = config.descent.rule;
+  report.resumed = saved.has_value();
+  if (config.ready == nullptr) description->watch()->begin();
+
+  progress->phase("read bounds", 0);
+  const ChosenGrid chosen = read_grid(config, scene, saved);
+  const Grid& grid = report.grid = chosen.grid;
+  disk_need->expect_triangles(chosen.triangles, workspace->shares().triangles);
+  const GridPart part =
+      config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
+  meter.end_phase(&report.seconds.bounds, &report.phase_peaks.bounds);
+  // Opened before the work begins, so that an unwritable folder is reported at once.
+  const auto output = open_output(config.output, grid, report.rule, part);
+  std::unique_ptr<CellStore> store;
+  if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
+
+  progress->phase("split", 0);
+  const SplitConfig splitting = split_config(tools, chosen, part);
+  SplitScene split;
+  if (saved && saved->split) {
+    split = std::move(*saved->split);
+  } else if (config.ready != nullptr) {
+    split = {config.ready->counts, nullptr, config.ready->bins};
+  } else {
+    split = split_scene(tools, scene, grid, splitting, description, checkpoint);
   }
-  runs_.push_back(std::move(baked.run));
+  report.split = split.counts;
+  report.cell_level = splitting.cell_level;
+  meter.end_phase(&report.seconds.split, &report.phase_peaks.split);
+  // Hashed at once: the files must not change until then.
+  if (config.name_files) report.files = description->files();
+
+  meter.skip();
+  const MortonSet done = finished_ranges(part, saved);
+  RunCollector runs(grid, workspace, checkpoint, description, disk_need, store.get(), progress);
+  if (saved) {
+    for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
+  }
+  report.voxels_kept = runs.set().voxels;
+  Voxelizer voxelizer(
+      grid,
+      {config.descent, workspace->shares().table, config.checkpoint, workspace->scratch(), &done,
+       store.get(), [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
+      workspace->budget(), executor);
+  voxelize(tools, grid, splitting, &split, done, &voxelizer);
+  meter.end_phase(&report.seconds.voxelize, &report.phase_peaks.voxelize);
+
+  progress->phase("sort", 0);
+  for (BakedRun& baked : voxelizer.finish(runs.set().spilled)) runs.add_last(std::move(baked));
+  runs.take_from_store();
+  report_work(voxelizer.counts(), store.get(), &report);
+  store.reset();
+  RunSet set = runs.take_set();
+  report.voxels = set.voxels;
+  report.runs = set.runs.size();
+  meter.end_phase(&report.seconds.sort, &report.phase_peaks.sort);
+
+  progress->phase("merge", 0);
+  const std::vector<SubDagRoot> tops = merge_runs(tools, &set, part, output.get());
+  meter.end_phase(&report.seconds.merge, &report.phase_peaks.merge);
+
+  progress->phase("write", 0);
+  output->finish(tops, report.voxels, report.split.largest_snap);
+  checkpoint->discard();
+  meter.end_phase(&report.seconds.write, &report.phase_peaks.write);
+  progress->finish();
+  report_resources(tools, *output, &report);
+  return report;
 }
 
-std::vector<SubDagRoot> Bake::merge(BakeOutput* output) {
-  progress_->phase("merge", 0);
-  const MergeConfig config = share_for_merge(&budget_, spilled_ ? &scratch_ : nullptr,
-                                             executor_->workers(), 4 * scratch_.block_bytes());
-  auto tops = svdag::merge(runs_, std::move(roots_), *part_, config, output, executor_);
-  end_phase(&report_.seconds.merge, &report_.phase_peaks.merge);
-  return tops;
-}
-
-std::string Bake::kept() const {
-  return std::string("; what is done so far is kept for --resume") +
-         (report_.resumed ? ", --restart begins anew" : "");
-}
-
-// Whether the scratch is of no use any more, and build() begins afresh.
-bool Bake::is_discarded(const Error& error) const {
-  return config_.unfinished == Unfinished::kResumeSame &&
-         dynamic_cast<const SpoiledScratch*>(&error) != nullptr;
-}
-
-// As run(); an error also says that --resume can go on, if work was saved.
-BuildReport Bake::run_or_tell() {
+// As bake(); an error also reports whether --resume can continue.
+BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progress* progress) {
+  LapTimer total;
+  Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
+                      executor->workers());
+  SpillSpace vertices = workspace.vertices();
+  const Scene scene(config.scene, workspace.budget(), &vertices);
+  Description description(config, scene);
+  Checkpoint checkpoint(&workspace);
+  DiskNeed disk_need(workspace.scratch());
+  auto saved = find_unfinished(config, &workspace, &checkpoint, &description);
+  const std::string hint = std::string("; what is done so far is kept for --resume") +
+                           (saved ? ", --restart begins anew" : "");
   try {
-    return run();
+    BuildReport report = bake({config, executor, progress, &workspace, &disk_need}, scene,
+                              &description, &checkpoint, std::move(saved));
+    report.seconds.total = total.lap();
+    return report;
   } catch (Interrupted& interrupted) {
-    interrupted.resumable = saves_;
+    interrupted.resumable = checkpoint.has_saved_work();
+    throw;
+  } catch (const SpoiledScratch&) {  // there is nothing to resume
     throw;
   } catch (const Error& error) {
-    if (!saves_ || error.code() == ExitCode::kInternal || is_discarded(error)) throw;
-    throw Error(error.code(), error.what() + kept());
+    if (!checkpoint.has_saved_work() || error.code() == ExitCode::kInternal) throw;
+    throw error.with_hint(hint);
   } catch (const std::exception& error) {
-    if (!saves_ || !is_lack_of_memory(error)) throw;
-    throw Error(ExitCode::kMemory, kNoMemory + kept());
+    if (!checkpoint.has_saved_work() || !is_lack_of_memory(error)) throw;
+    throw Error(ExitCode::kMemory, kNoMemory + hint);
   }
-}
-
-BuildReport Bake::run() {
-  LapTimer total;
-  report_.rule = config_.descent.rule;
-  if (config_.part && !names_run(config_.output))
-    fail_usage(config_.output + ": a part of a grid is a run: choose an output that ends in .run");
-  find_unfinished();
-  report_.resumed = saved_.has_value();
-  if (config_.ready == nullptr) description_.watch()->begin();
-  choose_grid();
-  // The output is opened before the work begins: an unwritable folder is known at once.
-  const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
-  if (config_.open_store) store_ = config_.open_store(report_.grid, report_.rule, &budget_);
-  split();
-  // At once: they must stay as they are until then.
-  if (config_.name_files) report_.files = description_.files();
-  phase_.lap();
-  voxelize();
-  const std::vector<SubDagRoot> tops = merge(output.get());
-  phase_.lap();
-  progress_->phase("write", 0);
-  output->finish(tops, report_.voxels, report_.split.largest_snap);
-  saves_ = false;
-  folder_.keep(false);
-  checkpoint_.discard();
-  end_phase(&report_.seconds.write, &report_.phase_peaks.write);
-  progress_->finish();
-
-  report_.nodes = output->keys();
-  report_.file_bytes = output->file_bytes();
-  report_.content_hash = output->content_hash();
-  report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),
-                     scratch_.read_bytes()};
-  report_.threads = executor_->workers();
-  report_.seconds.total = total.lap();
-  report_.seconds.cpu = cpu_seconds();
-  report_.peak_counted = budget_.peak();
-  report_.peak_resident = peak_resident_bytes();
-  return std::move(report_);
 }
 
 }  // namespace
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
+  if (config.part && !names_run(config.output))
+    fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {
-    return Bake(config, executor, progress).run_or_tell();
+    return bake_resumably(config, executor, progress);
   } catch (const SpoiledScratch&) {
     if (config.unfinished != Unfinished::kResumeSame) throw;
   }
-  BuildConfig afresh = config;
-  afresh.unfinished = Unfinished::kRestart;
-  return Bake(afresh, executor, progress).run_or_tell();
+  BuildConfig fresh = config;
+  fresh.unfinished = Unfinished::kRestart;
+  return bake_resumably(fresh, executor, progress);
 }
 
 }  // namespace svdag

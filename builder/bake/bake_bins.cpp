@@ -34,7 +34,7 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
   if (const auto tree = load(file, bin)) return voxelizer_->bake(*tree, bin.range, progress_);
   // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
   if (done == MortonSet::Coverage::kNone &&
-      grid_.levels - bin.cube.level <= DenseCube::kLargestLog2)
+      grid_.levels - bin.cube.level <= DenseCube::kMaxSideLog2)
     return bake_dense(file, bin);
   bake_parts(file, bin);
 }

@@ -1,7 +1,6 @@
 #include "builder/bake/voxelize.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "builder/descend/self_test.h"
@@ -9,30 +8,19 @@
 namespace svdag {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr uint64_t kTasksPerWorker = 32;
-constexpr uint64_t kLightCell = 4096;      // triangles: not worth dividing
-constexpr double kLeastSeconds = 1;        // of work: less of it is saved if it fills a batch
-constexpr uint64_t kBytesPerPending = 48;  // a key not yet numbered, and its number
-
-// Few enough keys that those which wait to be numbered take an eighth of a table's share.
-size_t batch_of(uint64_t table_bytes) {
-  return size_t(
-      std::clamp<uint64_t>(table_bytes / 8 / kBytesPerPending, 1 << 10, NodeTable::kLargestBatch));
-}
+constexpr uint64_t kMinDividedCell = 4096;  // cells with fewer triangles are not divided
 
 }  // namespace
 
-class Voxelizer::Worker : public Spiller {
+class Voxelizer::Worker {
  public:
   Worker(const Grid& grid, const VoxelizeConfig& config, MemoryBudget* budget)
       : config_(config),
-        table_(grid.levels, budget, batch_of(config.table_bytes)),
-        descent_(grid, config.descent, &table_, config.done, this),
-        last_(Clock::now()) {}
+        builder_(grid.levels, builder_config(config, budget)),
+        descent_(grid, config.descent, &builder_, config.done) {}
 
-  void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent); }
+  void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent.overlap()); }
   void end() { cursor_.reset(); }
   void bake(const Cube& cell) {
     const TriangleList& list = cursor_->list(cell);
@@ -40,76 +28,57 @@ class Voxelizer::Worker : public Spiller {
     const CellKey key = config_.store->key(cell, list);
     if (!config_.store->take(key, cell)) bake_for_store(cell, list, key);
   }
-  void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(&table_)); }
-  void note_empty(uint64_t begin, uint64_t end) { descent_.note_empty({begin, end}); }
+  void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(builder_.table())); }
+  void note_empty(uint64_t begin, uint64_t end) { builder_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
 
-  bool late(const NodeTable& table) override {
-    return config_.scratch != nullptr && age() >= std::max(config_.seconds, kLeastSeconds) &&
-           (table.pending() != 0 || freeze_bytes(table) != 0);
-  }
-  bool due(const NodeTable& table) override {
-    if (config_.scratch == nullptr) return false;
-    const uint64_t bytes = freeze_bytes(table);
-    return bytes >= config_.table_bytes || (bytes != 0 && age() >= config_.seconds);
-  }
-  void spill(const Descent&) override {
-    config_.save(freeze_table(true));
-    last_ = Clock::now();
-  }
-
   BakedRun finish(bool spill) {
-    descent_.settle();
-    return freeze_table(spill);
+    builder_.settle();
+    return take_run(spill);
   }
 
  private:
-  double age() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
+  SubDagBuilderConfig builder_config(const VoxelizeConfig& config, MemoryBudget* budget) {
+    SubDagBuilderConfig own{.budget = budget, .table_bytes = config.table_bytes};
+    own.max_seconds = config.max_seconds;
+    if (config.scratch != nullptr) own.empty_table = [this] { config_.save(take_run(true)); };
+    return own;
+  }
 
-  // Whether nothing of the cell is done, or left to others: else its content is not all of it.
+  // Whether all of the cell is baked here: none of it is done, or left to others.
   bool is_new(const Cube& cell) const {
-    return config_.done == nullptr || config_.done->coverage(morton_range(cell, table_.levels())) ==
-                                          MortonSet::Coverage::kNone;
+    return config_.done == nullptr || config_.done->coverage(morton_range(
+                                          cell, builder_.levels())) == MortonSet::Coverage::kNone;
   }
 
-  // A cell in whose middle the table was emptied stands in two runs, and is of no use to others.
+  // A cell in whose middle the table was emptied is in two runs, and useless to others.
   void bake_for_store(const Cube& cell, const TriangleList& list, const CellKey& key) {
-    const size_t roots = descent_.roots().size(), spills = spills_;
-    const uint64_t voxels = descent_.voxels();
+    const size_t first = builder_.roots().size(), runs = runs_;
+    const uint64_t voxels = builder_.voxels();
     descent_.run(cell, list);
-    if (spills_ != spills) return;
-    const size_t added = descent_.roots().size() - roots;
+    if (runs_ != runs) return;
+    const size_t added = builder_.roots().size() - first;
     if (added == 0) return cells_.push_back({key, BakedCell::kNoRoot, 0});
-    if (added == 1 && descent_.roots().back().cube == cell)
-      cells_.push_back({key, roots, descent_.voxels() - voxels});
+    const SubDagRoot& last = builder_.roots().back();
+    if (added == 1 && last.level == cell.level && last.morton == morton(cell.coordinate))
+      cells_.push_back({key, first, builder_.voxels() - voxels});
   }
 
-  BakedRun freeze_table(bool spill) {
-    BakedRun baked;
-    baked.cells = std::exchange(cells_, {});
-    ++spills_;
-    std::vector<NodeNumber> numbers;
-    for (const Descent::Root& root : descent_.roots())
-      numbers.push_back({root.cube.level, root.node - 1});
+  BakedRun take_run(bool spill) {
+    ++runs_;
     std::optional<SpillTarget> target;
-    if (spill)
-      target = {config_.scratch->runs(), config_.scratch->new_streams(uint64_t(table_.levels()))};
-    baked.run = freeze(&table_, numbers, target ? &*target : nullptr);
-    for (size_t i = 0; i < numbers.size(); ++i)
-      baked.roots.push_back(
-          {morton(descent_.roots()[i].cube.coordinate), numbers[i].level, 0, numbers[i].number});
-    baked.voxels = descent_.voxels();
-    baked.finished = descent_.finished();
+    if (spill) target = new_target(config_.scratch, builder_.levels());
+    BakedRun baked = builder_.take_run(target ? &*target : nullptr);
+    baked.cells = std::exchange(cells_, {});
     return baked;
   }
 
   const VoxelizeConfig& config_;
-  NodeTable table_;
+  SubDagBuilder builder_;
   Descent descent_;
   std::optional<CellCursor> cursor_;
-  Clock::time_point last_;        // when the table was emptied
   std::vector<BakedCell> cells_;  // in the table
-  size_t spills_ = 0;
+  size_t runs_ = 0;               // taken from the table
 };
 
 Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,
@@ -125,11 +94,10 @@ Voxelizer::~Voxelizer() = default;
 
 void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* progress) {
   const uint64_t share = tree.triangles() / (kTasksPerWorker * workers_.size());
-  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kLightCell));
+  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kMinDividedCell));
   std::vector<MortonRange> ranges;
   for (const Cube& cell : cells) ranges.push_back(morton_range(cell, grid_.levels));
-  // Counted; beyond the limit it is nothing to end for: the tree was only made because its share
-  // of the budget holds it.
+  // Counted, but not refused: the tree exists because its share of the budget holds it.
   MemoryBudget::Reservation lists(budget_, 0);
   lists.try_resize(tree.prepared_bytes(workers_.size()));
   progress->phase("voxelize", cells.size());

@@ -1,13 +1,13 @@
-// Second phase: each cell's triangles become the cell's sub-DAG, on all workers.
+// Bakes cells: the triangles of each become its sub-DAG, on all workers.
 //
 // A worker keeps one node table for all its cells, so what cells share is found at once. A table
-// that has had its share of memory, or that shall be saved, is frozen to a run
-// (builder/reduce/run.h) and begins anew, wherever its worker stands. Which worker bakes which
-// cell, and when tables are emptied, does not reach the output: numbers become ranks when the
-// tables freeze.
+// that exceeds its share of memory, or that is due to be saved, is frozen to a run
+// (builder/reduce/sub_dag_builder.h). Which worker bakes which cell, and when tables are emptied,
+// does not affect the output: table numbers become ranks in content order.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,20 +22,20 @@
 namespace svdag {
 
 struct VoxelizeCounts {
-  uint64_t cells = 0;  // with at least one triangle near them
+  uint64_t cells = 0;  // cells with at least one triangle in their list
   DecisionCounts decisions;
   PlaneMemoCounts memo;
-  std::vector<uint64_t> divided;  // cubes per level, inside the cells
+  std::vector<uint64_t> divided;  // cubes divided per level, inside the cells
 };
 
 struct VoxelizeConfig {
   DescentConfig descent;
-  uint64_t table_bytes = UINT64_MAX;   // freeze_bytes() of a table from which on it is frozen
-  double seconds = 1e30;               // after which a table is frozen, however small
-  Scratch* scratch = nullptr;          // null: tables are never emptied
-  const MortonSet* done = nullptr;     // what is there already; null: nothing
-  CellStore* store = nullptr;          // of cells baked before; null: all are baked
-  std::function<void(BakedRun)> save;  // gets what was spilled, from any thread
+  uint64_t table_bytes = UINT64_MAX;  // freeze_bytes() from which on a table is frozen
+  double max_seconds = std::numeric_limits<double>::infinity();  // between two times it is frozen
+  Scratch* scratch = nullptr;          // null: tables are never frozen before finish()
+  const MortonSet* done = nullptr;     // what is baked already; null: nothing
+  CellStore* store = nullptr;          // of cells baked before; null: none
+  std::function<void(BakedRun)> save;  // called with each spilled run, from any thread
 };
 
 class Voxelizer {
@@ -43,13 +43,13 @@ class Voxelizer {
   Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget, Executor* executor);
   ~Voxelizer();
 
-  // Bakes all cells of a sealed tree, which holds all that stands in `range`.
+  // Bakes all cells of a sealed tree, which holds all triangles of `range`.
   void bake(const CellTree& tree, const MortonRange& range, Progress* progress);
-  // Bakes a cube that was voxelized otherwise; nothing else stands in `range`.
+  // Adds a cube that was voxelized to a bitmap; the rest of `range` is empty.
   void bake(const DenseCube& cube, const MortonRange& range);
-  // Nothing stands in `range`.
+  // Records that `range` is empty.
   void note_empty(const MortonRange& range);
-  // Freezes what is left in the tables, to the scratch if `spill`, else in memory. The last call.
+  // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.
   std::vector<BakedRun> finish(bool spill);
 
   VoxelizeCounts counts() const;

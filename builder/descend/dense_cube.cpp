@@ -10,7 +10,7 @@ namespace svdag {
 DenseCube::DenseCube(const Grid& grid, const Cube& cube, MemoryBudget* budget)
     : grid_(grid), cube_(cube), budget_(budget) {
   const int log2 = grid.levels - cube.level - 2;  // of the side in bricks
-  SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= kLargestLog2);
+  SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= kMaxSideLog2);
   const uint64_t bricks = uint64_t(1) << (3 * log2);
   reservation_ = budget->reserve(bricks * sizeof(Brick), "voxels of a dense cube");
   bricks_.assign(bricks, 0);

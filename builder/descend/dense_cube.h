@@ -1,8 +1,8 @@
-// A cube that holds more triangles than memory: their voxels are collected in a bitmap, batch by
-// batch, and the sub-DAG is reduced from that.
+// A cube with more triangles than fit in memory: their voxels are collected in a bitmap, batch by
+// batch, and the bitmap is reduced to the sub-DAG.
 //
-// Whatever stands in a small cube, its voxels are few: 2 MiB for 256^3. Rejected: dividing on until
-// the triangles fit (a billion of them in one voxel never do).
+// The bitmap is small (2 MiB for 256^3) whatever the number of triangles. Rejected: dividing the
+// cube until its triangles fit (a billion triangles in one voxel never do).
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace svdag {
 
 class DenseCube {
  public:
-  static constexpr int kLargestLog2 = 8;  // of the side in voxels
+  static constexpr int kMaxSideLog2 = 8;  // side in voxels
 
   DenseCube(const Grid& grid, const Cube& cube, MemoryBudget* budget);
 
   const Cube& cube() const { return cube_; }
-  // Sets the voxels of `triangles`, which the workers share out.
+  // Sets the voxels of `triangles`, which are distributed over the workers.
   void add(std::span<const LatticeTriangle> triangles, const DescentConfig& config,
            Executor* executor);
   // Adds the nodes to `table`; the root is pending.

@@ -12,143 +12,71 @@ namespace {
 constexpr size_t kLargestPatch = 8;                   // triangles
 constexpr int64_t kLargestPatchSide = 64;             // voxels
 constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio (Knuth)
-constexpr int kFlushLog2 = 6;  // cubes of 64^3 voxels look whether a flush is due
+constexpr int kPauseLog2 = 6;  // the builder may pause before each cube of 64^3 voxels
 
 }  // namespace
 
-Descent::Descent(const Grid& grid, const DescentConfig& config, NodeTable* table,
-                 const MortonSet* done, Spiller* spiller)
+Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
+                 const MortonSet* done)
     : grid_(grid),
       config_(config),
-      table_(table),
-      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table,
+      builder_(builder),
+      table_(builder->table()),
+      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table_,
             config.memo_bytes),
       done_(done != nullptr && !done->empty() ? done : nullptr),
-      spiller_(spiller),
-      scratch_(size_t(grid.levels)),
-      divided_(size_t(grid.levels)),
-      path_(size_t(grid.levels)) {}
+      lists_(size_t(grid.levels)),
+      divided_(size_t(grid.levels)) {}
 
 void Descent::run(const Cube& cube, const TriangleList& list) {
   check_interrupt();
-  admitted_.fill({});  // other triangles may stand at the same addresses now
+  admitted_.fill({});  // its addresses may belong to other triangles by now
   memo_.forget();
   cell_side_ = std::ldexp(1.0, grid_.levels - cube.level);
-  begin(cube);
-  end(cube, node(cube, list));
+  partly_done_ = done_ != nullptr &&
+                 done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
+  builder_->begin(cube);
+  update_memo(builder_->end(cube, node(cube, list)));
 }
 
 void Descent::adopt(const Cube& cube, const SubDag& dag) {
-  begin(cube);
-  end(cube, dag);
+  builder_->begin(cube);
+  update_memo(builder_->end(cube, dag));
 }
 
-void Descent::begin(const Cube& cube) {
-  first_level_ = cube.level;
-  const MortonRange range = morton_range(cube, grid_.levels);
-  finished_to_ = range.begin;
-  ask_done_ = done_ != nullptr && done_->coverage(range) != MortonSet::Coverage::kNone;
-}
-
-void Descent::end(const Cube& cube, const SubDag& dag) {
-  const uint64_t end = morton_range(cube, grid_.levels).end;
-  if (dag.root != 0) roots_.push_back({cube, dag.root});
-  voxels_ += dag.voxels;
-  if (is_flush_due()) {
-    flush(first_level_);
-    pause(first_level_, end);
-  }
-  append_range(&finished_, {finished_to_, end});
-}
-
-bool Descent::is_flush_due() const {
-  return table_->full() || (spiller_ != nullptr && spiller_->late(*table_));
-}
-
-// Between two children of cubes above `level`: their handles, the memo's and the roots' are all
-// that is held.
-void Descent::flush(int level) {
-  table_->flush();
-  for (int k = first_level_; k < level; ++k) {
-    for (uint32_t& child : path_[size_t(k)].children) child = table_->settled(k + 1, child);
-  }
-  memo_.settle();
-  for (; settled_roots_ < roots_.size(); ++settled_roots_) {
-    Root& root = roots_[settled_roots_];
-    root.node = table_->settled(root.cube.level, root.node);
-  }
-}
-
-// After a flush(level): all of the cell before Morton code `reached` is baked.
-void Descent::pause(int level, uint64_t reached) {
-  check_interrupt();
-  if (spiller_ == nullptr || !spiller_->due(*table_)) return;
-  append_range(&finished_, {finished_to_, reached});
-  finished_to_ = reached;
-  spill(level);
-}
-
-// Empties the table. The cubes above `level` that are being divided are left open: what is finished
-// of them are roots.
-void Descent::spill(int level) {
-  for (int k = first_level_; k < level; ++k) {
-    path_[size_t(k)].left_open = true;
-    make_roots(&path_[size_t(k)]);
-  }
-  spiller_->spill(*this);
-  memo_.drop_contents();
-  roots_.clear();
-  settled_roots_ = 0;
-  voxels_ = 0;
-  finished_.clear();
-}
-
-void Descent::make_roots(Step* step) {
-  for (unsigned c = 0; c < 8; ++c) {
-    if (step->children[c] != 0) roots_.push_back({step->cube.child(c), step->children[c]});
-  }
-  step->children.fill(0);
-  voxels_ += step->voxels;
-  step->voxels = 0;
+void Descent::update_memo(SubDagBuilder::Pause pause) {
+  if (pause == SubDagBuilder::Pause::kFlushed) memo_.settle();
+  if (pause == SubDagBuilder::Pause::kEmptied) memo_.drop_contents();
 }
 
 SubDag Descent::node(const Cube& cube, const TriangleList& list) {
   if (list.empty() || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
     return {};
-  bool leave_open = false;
-  if (ask_done_) {
+  bool as_roots = false;
+  if (partly_done_) {
     const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
     if (state == MortonSet::Coverage::kAll) return {};
-    leave_open = state == MortonSet::Coverage::kSome;
+    as_roots = state == MortonSet::Coverage::kSome;
   }
   if (cube.level == table_->brick_level()) return brick(cube, list);
-  if (config_.plane_memo && !leave_open && list.size() <= kLargestPatch) {
+  if (config_.plane_memo && !as_roots && list.size() <= kLargestPatch) {
     if (const auto known = find_in_memo(cube, list)) return *known;
   }
-  if (cube.level == grid_.levels - kFlushLog2) {
+  if (cube.level == grid_.levels - kPauseLog2) {
     check_interrupt();
-    if (is_flush_due()) {
-      flush(cube.level);
-      pause(cube.level, morton_range(cube, grid_.levels).begin);
-    }
+    update_memo(builder_->pause(cube.level, morton_range(cube, grid_.levels).begin));
   }
-  return divide(cube, list, leave_open);
+  return divide(cube, list, as_roots);
 }
 
-SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool leave_open) {
+SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots) {
   ++divided_[size_t(cube.level)];
-  std::array<TriangleList, 8>& lists = scratch_[size_t(cube.level)];
-  divide_list(list, cube, grid_.levels, config_, &lists);
-  Step& step = path_[size_t(cube.level)];
-  step = {cube, {}, 0, leave_open};
-  for (unsigned c = 0; c < 8; ++c) {
-    const SubDag child = node(cube.child(c), lists[c]);
-    step.children[c] = child.root;
-    step.voxels += child.voxels;
-  }
-  if (step.left_open) make_roots(&step);
-  if (step.voxels == 0) return {};
-  return {table_->add_node(cube.level, step.children), step.voxels};
+  std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
+  divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
+  builder_->open(cube, as_roots);
+  for (unsigned c = 0; c < 8; ++c)
+    builder_->add_child(cube.level, c, node(cube.child(c), lists[c]));
+  return builder_->close(cube.level);
 }
 
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list) {
@@ -184,8 +112,8 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   return dag;
 }
 
-// The slot is the triangle's own, not its address's: what is asked twice, and so what the memo
-// computes, is the same in every run.
+// The slot depends on the triangle, not on its address, so the lookups, and what the memo computes,
+// are the same in every run.
 const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& triangle) {
   const LatticeTriangle& t = triangle.triangle;
   const uint64_t sum = uint64_t(t.v[0][0]) + 3 * uint64_t(t.v[1][1]) + 5 * uint64_t(t.v[2][2]);

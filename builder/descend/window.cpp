@@ -18,7 +18,7 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink,
                          MemoryBudget* budget) {
   MemoryBudget unlimited;
-  NodeTable table(grid.levels, budget != nullptr ? budget : &unlimited);
+  SubDagBuilder builder(grid.levels, {.budget = budget != nullptr ? budget : &unlimited});
   std::vector<TriangleSetup> setups;
   setups.reserve(triangles.size());
   TriangleList list;
@@ -27,12 +27,11 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
     setups.push_back(make_setup(triangle));
     if (setups.back().box.meets(closed)) list.push_back({&setups.back(), setups.back().edges});
   }
-  Descent descent(grid, config, &table);
-  descent.run(window, list);
-  descent.settle();
-  if (descent.roots().empty()) return 0;
-  emit(table, window, descent.roots().front().node, sink);
-  return descent.voxels();
+  Descent(grid, config, &builder).run(window, list);
+  builder.settle();
+  if (builder.roots().empty()) return 0;
+  emit(*builder.table(), window, 1 + builder.roots().front().rank, sink);
+  return builder.voxels();
 }
 
 }  // namespace svdag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "builder/import/full_cubes.h"
@@ -27,59 +28,54 @@ struct CodeWord {
 };
 using VoxelSort = ExternalSort<uint64_t, CodeWord>;
 
-// Puts sorted voxels, as bricks, and the cubes between them into a reduction.
-class Reducer {
+// Reduces sorted voxels, as bricks, and the full cubes between them.
+class VoxelReduction {
  public:
-  Reducer(int levels, const FullCubes& cubes, BrickReduction* out)
-      : levels_(levels), cubes_(cubes), out_(out) {}
+  VoxelReduction(int levels, const FullCubes& cubes, SubDagBuilder* builder)
+      : levels_(levels), cubes_(cubes), bricks_(builder) {}
 
-  // Returns how many voxels there are, without repetitions.
-  uint64_t run(VoxelSort* sort) {
+  void run(VoxelSort* sort) {
     sort->finish([this](const auto& codes) {
       for (const uint64_t voxel : codes) add(voxel);
     });
-    put_cubes(UINT64_MAX);
-    put_brick();
-    out_->finish();
-    return voxels_;
+    add_cubes(UINT64_MAX);
+    add_brick();
+    bricks_.finish();
   }
 
  private:
   void add(uint64_t voxel) {
-    put_cubes(voxel);
+    add_cubes(voxel);
     if (voxel < covered_) return;
     if (voxel >> 6 != code_) {
-      put_brick();
+      add_brick();
       code_ = voxel >> 6;
     }
     brick_ |= Brick(1) << (voxel & 63);
   }
 
-  void put_brick() {
-    if (brick_ != 0) out_->add(code_, brick_);
-    voxels_ += uint64_t(std::popcount(brick_));
+  void add_brick() {
+    if (brick_ != 0) bricks_.add(code_, brick_);
     brick_ = 0;
   }
 
-  // Those that begin at `last` or before.
-  void put_cubes(uint64_t last) {
+  // Adds the full cubes that begin at or before voxel `last`.
+  void add_cubes(uint64_t last) {
     for (; next_ < cubes_.size() && cubes_[next_].begin <= last; ++next_) {
       const FullCubes::Range cube = cubes_[next_];
-      put_brick();
-      out_->add_full(cube.begin >> 3 * cube.log2_side, levels_ - cube.log2_side);
+      add_brick();
+      bricks_.add_full(cube.begin >> 3 * cube.log2_side, levels_ - cube.log2_side);
       covered_ = cube.end();
-      voxels_ += cube.end() - cube.begin;
     }
   }
 
   const int levels_;
   const FullCubes& cubes_;
-  BrickReduction* out_;
-  size_t next_ = 0;       // of the cubes
-  uint64_t covered_ = 0;  // voxels before this are those of cubes, or were added
-  uint64_t code_ = 0;     // of the brick that is being put together
+  BrickReduction bricks_;
+  size_t next_ = 0;       // index in cubes_
+  uint64_t covered_ = 0;  // end of the last full cube
+  uint64_t code_ = 0;     // of the brick being collected
   Brick brick_ = 0;
-  uint64_t voxels_ = 0;
 };
 
 class Import {
@@ -130,19 +126,34 @@ class Import {
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
     DagOutput output(config_.output, grid, Rule::kConservative);
-    BrickReduction bricks(grid.levels, {budget, scratch, workspace_.shares().brick_table});
-    const uint64_t voxels = Reducer(grid.levels, cubes, &bricks).run(&*sort);
+    RunSet set = reduce(grid.levels, cubes, &*sort);
     sort.reset();  // the merge needs the room
-    const MergeConfig merging = share_for_merge(budget, bricks.spilled() ? scratch : nullptr,
+    const MergeConfig merging = share_for_merge(budget, set.spilled ? scratch : nullptr,
                                                 executor_->workers(), 4 * scratch->block_bytes());
-    const auto roots = merge(bricks.runs(), std::move(bricks.roots()), GridPart::whole(grid.levels),
-                             merging, &output, executor_);
-    finish(&output, roots, voxels);
+    const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
+                             &output, executor_);
+    finish(&output, roots, set.voxels);
     return describe(grid, output);
   }
 
  private:
   File new_file() { return workspace_.folder()->create("sort" + std::to_string(files_++)); }
+
+  RunSet reduce(int levels, const FullCubes& cubes, VoxelSort* sort) {
+    RunSet set;
+    std::unique_ptr<SubDagBuilder> builder;
+    const auto take_run = [&](bool spill) {
+      const SpillTarget target = new_target(workspace_.scratch(), levels);
+      set.add(builder->take_run(spill ? &target : nullptr));
+    };
+    builder = std::make_unique<SubDagBuilder>(
+        levels, SubDagBuilderConfig{.budget = workspace_.budget(),
+                                    .table_bytes = workspace_.shares().brick_table,
+                                    .empty_table = [&] { take_run(true); }});
+    VoxelReduction(levels, cubes, builder.get()).run(sort);
+    take_run(set.spilled);
+    return set;
+  }
 
   ExternalSortRoom sort_room() {
     const uint64_t least = 2 * executor_->workers() * ExternalSortRoom::kLeast;

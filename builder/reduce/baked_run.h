@@ -35,4 +35,15 @@ struct BakedRun {
   std::vector<BakedCell> cells;       // filled only if there is a cell store
 };
 
+// The frozen runs of one bake or import, numbered for the merge.
+struct RunSet {
+  std::vector<Run> runs;
+  std::vector<SubDagRoot> roots;  // of all runs
+  uint64_t voxels = 0;
+  bool spilled = false;        // at least one run was spilled
+  uint64_t spilled_bytes = 0;  // total size of the spilled runs
+
+  void add(BakedRun baked);
+};
+
 }  // namespace svdag

@@ -24,11 +24,11 @@ uint32_t key_word(const Numbered<NodeKey>& record, size_t i) {
 using Marks = std::vector<std::vector<bool>>;  // [level][number]
 
 // What the roots reach, from the top down.
-Marks reached(const NodeTable& table, std::span<NodeNumber> roots) {
+Marks reached(const NodeTable& table, std::span<SubDagRoot> roots) {
   Marks marks;
   for (int level = 0; level <= table.brick_level(); ++level)
     marks.emplace_back(table.size(level), false);
-  for (const NodeNumber& root : roots) marks[size_t(root.level)][root.number] = true;
+  for (const SubDagRoot& root : roots) marks[size_t(root.level)][root.rank] = true;
   for (int level = 0; level < table.brick_level(); ++level) {
     std::vector<bool>& below = marks[size_t(level) + 1];
     for (uint32_t i = 0; i < table.size(level); ++i) {
@@ -98,7 +98,7 @@ class SortRoom {
 // Sorts the levels of one table, from the bricks up.
 class Freezer {
  public:
-  Freezer(NodeTable* table, std::span<NodeNumber> roots, const SpillTarget* target)
+  Freezer(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* target)
       : table_(table), roots_(roots), target_(target), marks_(reached(*table, roots)) {}
 
   Run run() {
@@ -131,13 +131,13 @@ class Freezer {
     if (target_ != nullptr)
       writer.emplace(target_->file, target_->first_stream + uint64_t(level), table_->budget());
     ranks_ = room->sort_into(out, own.size(), writer ? &*writer : nullptr);
-    for (NodeNumber& root : roots_) {
-      if (root.level == level) root.number = ranks_[root.number];
+    for (SubDagRoot& root : roots_) {
+      if (root.level == level) root.rank = ranks_[root.rank];
     }
   }
 
   NodeTable* table_;
-  std::span<NodeNumber> roots_;
+  std::span<SubDagRoot> roots_;
   const SpillTarget* target_;
   Marks marks_;
   HugeVector<uint32_t> ranks_;  // by number, of the level sorted last
@@ -145,7 +145,7 @@ class Freezer {
 
 }  // namespace
 
-Run freeze(NodeTable* table, std::span<NodeNumber> roots, const SpillTarget* target) {
+Run freeze(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* target) {
   table->close();
   return Freezer(table, roots, target).run();
 }

@@ -3,15 +3,17 @@
 // Invariant (closed and canonical): children are 1 + ranks in the run's own next level; each level
 // is strictly ascending by NodeKey (bricks as numbers). Runs of different workers, processes and
 // machines therefore agree on the order of the nodes they share, which is all that the merge needs.
-// A level stands in memory, in a scratch file if the run was spilled, or in a run file that was
-// made elsewhere (builder/run/run_file.h).
+// A level is held in memory, in a scratch file (if the run was spilled), or in a .run file
+// (builder/run/run_file.h).
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "builder/octree/sub_dag_root.h"
 #include "builder/reduce/node_table.h"
+#include "builder/workspace/scratch.h"
 #include "streaming/memory/huge_vector.h"
 #include "streaming/spill/spill_file.h"
 
@@ -32,24 +34,22 @@ struct Run {
   std::vector<RunLevel<NodeKey>> nodes;  // [level], 0 .. L-3
 };
 
-// A node of a table by level and number.
-struct NodeNumber {
-  int level;
-  uint32_t number;
-};
-
-// Where a run is spilled to: a stream number per level, from `first_stream` on.
+// Where a run is spilled: one stream per level, numbered from `first_stream`.
 struct SpillTarget {
   SpillFile* file;
   uint64_t first_stream;
 };
+inline SpillTarget new_target(Scratch* scratch, int levels) {
+  return {scratch->runs(), scratch->new_streams(uint64_t(levels))};
+}
 
-// Empties `table` and sorts what `roots` reach, level by level from the bricks up. The rest goes:
-// the plane memo (builder/descend/plane_memo.h) adds nodes to answers that it then takes back.
-// Turns the numbers of `roots` into ranks. Spills the run if there is a target.
-Run freeze(NodeTable* table, std::span<NodeNumber> roots, const SpillTarget* target = nullptr);
+// Empties `table` and sorts the nodes that `roots` reach, level by level from the bricks up. Others
+// are dropped: the plane memo (builder/descend/plane_memo.h) adds nodes for answers that it then
+// withdraws. Replaces the table number in each root's `rank` by the rank. Spills the run to
+// `target`, if given.
+Run freeze(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* target = nullptr);
 
-// Upper bound of the memory that `table` takes until it has been frozen and spilled.
+// Upper bound of the memory that `table` takes until it is frozen and spilled, in bytes.
 uint64_t freeze_bytes(const NodeTable& table);
 
 }  // namespace svdag

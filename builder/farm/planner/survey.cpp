@@ -50,12 +50,13 @@ Grid coarser_grid(const Grid& grid, int level) {
 }
 
 // The table, the descent into it, and what they have counted.
-class Survey::Baker : public Spiller {
+class Survey::Baker {
  public:
   Baker(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
-      : config_(config),
-        table_(grid.levels, budget),
-        descent_(grid, config.descent, &table_, nullptr, this) {}
+      : builder_(grid.levels, {.budget = budget,
+                               .table_bytes = config.table_bytes,
+                               .empty_table = [this] { empty_table(); }}),
+        descent_(grid, config.descent, &builder_) {}
 
   void run(const Cube& cell, const TriangleList& list) { descent_.run(cell, list); }
 
@@ -64,30 +65,29 @@ class Survey::Baker : public Spiller {
     return {std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
   }
 
-  bool due(const NodeTable& table) override { return freeze_bytes(table) >= config_.table_bytes; }
-  void spill(const Descent&) override {
-    bricks_ += table_.size(table_.brick_level());
-    for (int k = 0; k < table_.brick_level(); ++k) nodes_ += table_.size(k);
-    table_.close();
-    for (int k = table_.brick_level(); k >= 0; --k) table_.clear(k);
-  }
-
   uint64_t bricks() {
-    descent_.settle();
-    return bricks_ + table_.size(table_.brick_level());
+    builder_.settle();
+    return bricks_ + table().size(table().brick_level());
   }
   uint64_t nodes() {
-    descent_.settle();
+    builder_.settle();
     uint64_t nodes = nodes_;
-    for (int k = 0; k < table_.brick_level(); ++k) nodes += table_.size(k);
+    for (int k = 0; k < table().brick_level(); ++k) nodes += table().size(k);
     return nodes;
   }
 
  private:
-  const SurveyConfig& config_;
-  NodeTable table_;
+  NodeTable& table() { return *builder_.table(); }
+  void empty_table() {
+    bricks_ += table().size(table().brick_level());
+    for (int k = 0; k < table().brick_level(); ++k) nodes_ += table().size(k);
+    table().close();
+    for (int k = table().brick_level(); k >= 0; --k) table().clear(k);
+  }
+
+  SubDagBuilder builder_;
   Descent descent_;
-  uint64_t nodes_ = 0, bricks_ = 0;  // of tables that were emptied
+  uint64_t nodes_ = 0, bricks_ = 0;  // of the tables that were emptied
 };
 
 Survey::Survey(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
@@ -112,7 +112,7 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted
     if (tree.bytes(1) > config_.triangle_bytes) return false;
   }
   tree.seal();
-  CellCursor cursor(tree, config_.descent);
+  CellCursor cursor(tree, config_.descent.overlap());
   for (const Cube& cell : tree.occupied_cells()) {
     const uint64_t code = morton(cell.coordinate);
     if (wanted && !wanted(code)) continue;

@@ -131,8 +131,8 @@ TEST(PlaneMemo, ComputesTheSameWhereverItsTrianglesStandInMemory) {
       list.push_back({&kept.back()[0], kept.back()[0].edges});
     }
     MemoryBudget budget;
-    NodeTable table(kLevels, &budget);
-    Descent descent(test_grid(), {}, &table);
+    SubDagBuilder builder(kLevels, {.budget = &budget});
+    Descent descent(test_grid(), {}, &builder);
     descent.run({0, {0, 0, 0}}, list);
     EXPECT_GT(descent.memo().hits, 100u);
     computed.insert(descent.memo().computed);

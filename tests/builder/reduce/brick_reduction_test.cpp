@@ -53,7 +53,6 @@ TEST(BrickReduction, ACubeInOnePieceIsItsBricksWhereverTheTableWasSpilled) {
           for (uint64_t i = 0; i < in_cube; ++i) out->add(cube * in_cube + i, ~Brick(0));
         }
       }
-      return uint64_t(0);
     };
     size_t runs = 0, spilled_runs = 0;
     const auto bricks = [&](BrickReduction* out) { return fill(out, false); };

@@ -103,15 +103,15 @@ class Merge : public ::testing::TestWithParam<MergeWay> {
   // Freezes `table`, of which `roots` holds the cells as 1 + settled number.
   svdag::Run freeze_cells(NodeTable* table, uint32_t run, int level,
                           std::vector<SubDagRoot>* roots) {
-    std::vector<NodeNumber> numbers;
+    std::vector<SubDagRoot> own;
     for (const SubDagRoot& root : *roots) {
-      if (root.run == run) numbers.push_back({level, root.rank});
+      if (root.run == run) own.push_back({root.morton, level, run, root.rank});
     }
     const SpillTarget target{scratch_.runs(), scratch_.new_streams(20)};
-    svdag::Run frozen = freeze(table, numbers, GetParam().spilled ? &target : nullptr);
+    svdag::Run frozen = freeze(table, own, GetParam().spilled ? &target : nullptr);
     size_t next = 0;
     for (SubDagRoot& root : *roots) {
-      if (root.run == run) root.rank = numbers[next++].number;
+      if (root.run == run) root.rank = own[next++].rank;
     }
     return frozen;
   }

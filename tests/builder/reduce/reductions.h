@@ -1,8 +1,8 @@
 // Sets of bricks, and the DAG files that builder/reduce/brick_reduction.h makes of them.
 #pragma once
 
-#include <bit>
 #include <map>
+#include <memory>
 #include <random>
 
 #include "builder/merge/merge.h"
@@ -40,40 +40,44 @@ inline std::vector<std::pair<uint64_t, Brick>> in_morton_order(const BrickMap& b
   return {sorted.begin(), sorted.end()};
 }
 
-// A DAG file of what fill(reduction) adds, by way of a table that is spilled whenever it has
-// `table_bytes`; fill() returns the number of voxels.
+// The DAG file of what fill(reduction) adds; the table is spilled whenever it has `table_bytes`.
 template <class Fill>
 std::string reduce(int levels, uint64_t table_bytes, size_t* runs, const Fill& fill) {
   const TempFolder folder;
   MemoryBudget budget;
   ScratchDir scratch_dir(folder.file("scratch"));
   Scratch scratch(&scratch_dir, &budget);
-  BrickReduction reduction(levels, {&budget, &scratch, table_bytes});
-  const uint64_t voxels = fill(&reduction);
+  RunSet set;
+  std::unique_ptr<SubDagBuilder> builder;
+  const auto take_run = [&](bool spill) {
+    const SpillTarget target = new_target(&scratch, levels);
+    set.add(builder->take_run(spill ? &target : nullptr));
+  };
+  builder = std::make_unique<SubDagBuilder>(
+      levels,
+      SubDagBuilderConfig{
+          .budget = &budget, .table_bytes = table_bytes, .empty_table = [&] { take_run(true); }});
+  BrickReduction reduction(builder.get());
+  fill(&reduction);
   reduction.finish();
-  *runs = reduction.runs().size();
+  take_run(set.spilled);
+  *runs = set.runs.size();
   DagOutput output(folder.file("a.svdag"), unit_grid(levels), Rule::kConservative);
   MergeConfig config;
   config.budget = &budget;
-  config.scratch = reduction.spilled() ? &scratch : nullptr;
+  config.scratch = set.spilled ? &scratch : nullptr;
   config.map_bytes = uint64_t(1) << 20;
   config.sources = 4;
   SequentialExecutor executor;
-  output.finish(merge(reduction.runs(), reduction.roots(), GridPart::whole(levels), config, &output,
-                      &executor),
-                voxels, 0);
+  output.finish(merge(set.runs, set.roots, GridPart::whole(levels), config, &output, &executor),
+                set.voxels, 0);
   return folder.read("a.svdag");
 }
 
 inline std::string reduce_bricks(const BrickMap& bricks, int levels, uint64_t table_bytes,
                                  size_t* runs) {
   return reduce(levels, table_bytes, runs, [&](BrickReduction* reduction) {
-    uint64_t voxels = 0;
-    for (const auto& [code, brick] : in_morton_order(bricks)) {
-      reduction->add(code, brick);
-      voxels += uint64_t(std::popcount(brick));
-    }
-    return voxels;
+    for (const auto& [code, brick] : in_morton_order(bricks)) reduction->add(code, brick);
   });
 }
 

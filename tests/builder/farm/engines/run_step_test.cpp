@@ -109,13 +109,10 @@ TEST_F(Steps, ThatAnotherProcessDoesMayBeAskedForAgain) {
 
 // What a killed bake without a triangle leaves behind.
 void leave_unfinished(const std::string& folder, const std::string& description, const Grid& grid) {
-  ScratchDir scratch_folder(folder);
-  MemoryBudget budget;
-  Scratch scratch(&scratch_folder, &budget);
-  Checkpoint checkpoint(&scratch);
+  Workspace workspace(folder, 0, 1);
+  Checkpoint checkpoint(&workspace);
   checkpoint.begin(description, grid);
   checkpoint.save_split({});
-  scratch_folder.keep();
 }
 
 TEST_F(Steps, DiscardWhatAnotherPlanLeftInTheirScratch) {
@@ -140,13 +137,12 @@ std::string description_of(const Plan& plan, const PlanStep& shard) {
 
 // What a killed shard leaves behind that had saved its first brick.
 void leave_a_brick(const Plan& plan, const PlanStep& shard) {
-  ScratchDir folder(plan.path(shard.output) + ".scratch");
-  MemoryBudget budget;
-  Scratch scratch(&folder, &budget);
-  Checkpoint checkpoint(&scratch);
+  Workspace workspace(plan.path(shard.output) + ".scratch", 0, 1);
+  Scratch& scratch = *workspace.scratch();
+  Checkpoint checkpoint(&workspace);
   checkpoint.begin(description_of(plan, shard), plan.grid);
   const auto spill = [&](const std::string& bytes) {
-    SpillWriter writer(scratch.runs(), scratch.new_streams(), &budget);
+    SpillWriter writer(scratch.runs(), scratch.new_streams(), workspace.budget());
     writer.append(std::as_bytes(std::span(bytes)));
     return writer.finish();
   };
@@ -159,7 +155,6 @@ void leave_a_brick(const Plan& plan, const PlanStep& shard) {
   baked.roots = {{morton, bricks, 0, 0}};
   baked.finished = {{morton << 6, (morton + 1) << 6}};
   checkpoint.save_run(baked);
-  folder.keep();
 }
 
 // A journal of one record, four zeros.

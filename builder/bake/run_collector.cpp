@@ -1,0 +1,37 @@
+#include "builder/bake/run_collector.h"
+
+#include <optional>
+
+namespace svdag {
+
+void RunCollector::save(BakedRun baked) {
+  if (store_ != nullptr) store_->keep(baked, workspace_->scratch()->runs());
+  const std::lock_guard lock(mutex_);
+  if (!checkpoint_->begun()) {
+    if (const auto text = description_->text_if_unchanged()) checkpoint_->begin(*text, grid_);
+  }
+  if (checkpoint_->begun()) checkpoint_->save_run(baked);
+  set_.add(std::move(baked));
+  disk_need_->expect_runs(set_.spilled_bytes, progress_->share());
+}
+
+void RunCollector::add_last(BakedRun baked) {
+  if (set_.spilled) return save(std::move(baked));
+  if (store_ != nullptr) store_->keep(baked, nullptr);
+  set_.add(std::move(baked));
+}
+
+void RunCollector::take_from_store() {
+  if (store_ == nullptr) return;
+  uint64_t left = workspace_->shares().triangles;  // voxelization no longer needs them
+  const auto target = [&](uint64_t bytes) -> std::optional<SpillTarget> {
+    if (!set_.spilled && bytes <= left) {
+      left -= bytes;
+      return std::nullopt;
+    }
+    return new_target(workspace_->scratch(), grid_.levels);
+  };
+  store_->taken(target, [this](BakedRun baked) { add_last(std::move(baked)); });
+}
+
+}  // namespace svdag

@@ -1,0 +1,115 @@
+// Reduces disjoint cubes of the octree to sub-DAGs in one node table, and empties the table to a
+// run whenever it has used its share of memory or time.
+//
+// The descent, dense cubes and imports all feed it: they add bricks and nodes bottom-up, and it
+// owns what outlives a single cube: the table, the open path, the roots and the finished ranges.
+// The *open path* holds the cubes being divided, one per level, with the children found so far.
+//
+// Handles (builder/reduce/unique_set.h) are pending until a flush gives them numbers. A flush
+// happens only in end() and pause(), between two cubes: then the path, the roots and the plane memo
+// are all that hold handles. When the table is emptied, the children of open cubes become roots of
+// their own, and so will the children that follow; the open cubes become nodes of the top tree
+// (builder/merge/top_tree.h). So the result does not depend on when a table is emptied.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "builder/octree/morton.h"
+#include "builder/reduce/baked_run.h"
+#include "builder/reduce/node_table.h"
+
+namespace svdag {
+
+struct SubDagBuilderConfig {
+  MemoryBudget* budget = nullptr;     // required
+  uint64_t table_bytes = UINT64_MAX;  // freeze_bytes() from which on the table is emptied
+  double max_seconds = std::numeric_limits<double>::infinity();  // between two times it is emptied
+  // Empties the table, with take_run() or otherwise; null: the table is never emptied.
+  std::function<void()> empty_table = nullptr;
+};
+
+class SubDagBuilder {
+ public:
+  // What pause() did. After kFlushed, handles held elsewhere pass through NodeTable::settled();
+  // after kEmptied they are invalid.
+  enum class Pause { kNone, kFlushed, kEmptied };
+
+  // `levels`: L of the grid.
+  SubDagBuilder(int levels, SubDagBuilderConfig config);
+
+  int levels() const { return table_.levels(); }
+  NodeTable* table() { return &table_; }
+
+  // Begins a cube that no open cube holds. Such cubes are disjoint.
+  void begin(const Cube& cube);
+  // Ends it: `dag` is what remains to be a root, unless parts of it became roots before.
+  Pause end(const Cube& cube, const SubDag& dag);
+  // Records that `range` is finished and empty.
+  void note_empty(const MortonRange& range) { append_range(&finished_, range); }
+
+  // Adds `cube` to the open path. `as_roots`: its children become roots, since a part of the cube
+  // was finished in an earlier run.
+  void open(const Cube& cube, bool as_roots = false) {
+    path_[size_t(cube.level)] = {cube, {}, 0, as_roots};
+  }
+  // Sets child `c` of the open cube of `level`.
+  void add_child(int level, unsigned c, const SubDag& child) {
+    OpenCube& parent = path_[size_t(level)];
+    parent.children[c] = child.root;
+    parent.voxels += child.voxels;
+  }
+  // Closes the open cube of `level`, the last of the path, and returns its sub-DAG.
+  SubDag close(int level) {
+    OpenCube& cube = path_[size_t(level)];
+    if (cube.as_roots) make_roots(&cube);
+    if (cube.voxels == 0) return {};
+    return {table_.add_node(level, cube.children), cube.voxels};
+  }
+  // Flushes the table if it is full or late, and empties it if it exceeds its share. To be called
+  // between two cubes: `level` - 1 is the last level of the open path, and the begun cube is
+  // complete before Morton code `reached`. May throw Interrupted.
+  Pause pause(int level, uint64_t reached);
+
+  // Since the table was last emptied. The ranks of the roots are table numbers once settled.
+  const std::vector<SubDagRoot>& roots() const { return roots_; }
+  uint64_t voxels() const { return voxels_; }  // of the roots
+  // Flushes the table. No cube may be open.
+  void settle() { flush(0); }
+  // Freezes the table, spilled to `target` if given, and starts an empty one.
+  BakedRun take_run(const SpillTarget* target);
+
+ private:
+  struct OpenCube {
+    Cube cube;
+    NodeKey children;  // 1 + handle each; 0: empty
+    uint64_t voxels;   // of the children
+    bool as_roots;     // the children become roots
+  };
+
+  bool is_late() const;
+  double age() const { return std::chrono::duration<double>(Clock::now() - emptied_).count(); }
+  void flush(int level);
+  void reset();
+  void make_roots(OpenCube* cube);
+  void add_root(const Cube& cube, uint32_t node) {
+    roots_.push_back({morton(cube.coordinate), cube.level, 0, node - 1});
+  }
+
+  using Clock = std::chrono::steady_clock;
+
+  SubDagBuilderConfig config_;
+  NodeTable table_;
+  std::vector<OpenCube> path_;  // [level]
+  int first_level_ = 0;         // level of the cube that was begun
+  std::vector<SubDagRoot> roots_;
+  size_t settled_roots_ = 0;  // roots_ before this index hold table numbers
+  uint64_t voxels_ = 0;
+  std::vector<MortonRange> finished_;
+  uint64_t finished_end_ = 0;  // Morton code up to which the begun cube is in finished_
+  Clock::time_point emptied_ = Clock::now();
+};
+
+}  // namespace svdag
