@@ -109,7 +109,7 @@ class Documents(unittest.TestCase):
             self.assertEqual(missing, [], program)
 
     def test_links_lead_to_files(self):
-        for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+        for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]:
             for link in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
                 if not link.startswith("http"):
                     self.assertTrue((page.parent / link).exists(), f"{page.name}: {link}")
