@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails on an include against the arrow of the house, a file or function over its limit, two types of one name, a
-comment that names a file that is not there.
+"""Fails on an include against the arrow of the house, two types of one name, and a comment that names a file that does
+not exist. Reports the sizes of files and functions.
 
 ALLOWED lists, per folder, the folders whose headers its files may include; a folder may always
 include itself. LIBRARIES lists the files that alone may name a heavy library. Both are rules about
@@ -148,9 +148,6 @@ COMMENT = {".h": r"//[^\n]*", ".py": r'#[^\n]*|"""(?:.*?)"""', ".sh": r"#[^\n]*"
 COMMENT[".cpp"] = COMMENT[".cu"] = COMMENT[".h"]
 FILE_NAME = re.compile(r"(?<![\w./*{}$<>-])(?:[\w-]+/)+[\w-]+\.(?:h|cpp|cu|py|sh|md)\b(?![/\w])")
 
-MAX_FILE, MEDIAN_FILE = 350, 130
-MAX_FUNCTION, P99_FUNCTION = 70, 50
-
 
 def folder_of(path):
     parent = str(pathlib.PurePosixPath(path).parent)
@@ -162,7 +159,7 @@ def breaches(path, text):
     found = []
     folder = folder_of(path)
     if folder is None and not path.startswith("tests/"):
-        found.append(f"{path}: nobody has said what its folder may include")
+        found.append(f"{path}: its folder is not in ALLOWED")
     for line in text.splitlines():
         include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
         if not include:
@@ -240,10 +237,10 @@ def defined_twice(files):
 
 
 def lost(path, text):
-    """The names of files in the comments of a source, or in a page, that lead nowhere from the root."""
+    """The names of files in the comments of a source, or in a page, that exist neither from the root nor beside it."""
     comments = re.findall(COMMENT[pathlib.PurePosixPath(path).suffix], text, re.S)
     return [f"{path}: {name}" for comment in comments for name in FILE_NAME.findall(comment)
-            if not (ROOT / name).exists() and "NAME" not in name]
+            if not ((ROOT / name).exists() or ((ROOT / path).parent / name).exists() or "NAME" in name)]
 
 
 class Arrow(unittest.TestCase):
@@ -288,33 +285,32 @@ class Arrow(unittest.TestCase):
 
 
 class Sizes(unittest.TestCase):
-    def test_no_file_is_longer_than_its_limit(self):
-        sizes = {path: len(text.splitlines()) for path, text in sources()}
-        median = statistics.median(sizes.values())
-        print(f"{len(sizes)} files, median {median:.0f} lines, longest {max(sizes.values())}", file=sys.stderr)
-        self.assertEqual({p: n for p, n in sizes.items() if n > MAX_FILE}, {})
-        self.assertLessEqual(median, MEDIAN_FILE)
+    """Sizes are reported, not enforced: a clear 400-line file beats three fragments."""
 
-    def test_no_function_is_longer_than_its_limit(self):
+    def test_sizes_are_reported(self):
+        sizes = {path: len(text.splitlines()) for path, text in sources()}
+        longest = max(sizes, key=sizes.get)
+        print(f"{len(sizes)} files, median {statistics.median(sizes.values()):.0f} lines, "
+              f"longest {sizes[longest]} ({longest})", file=sys.stderr)
         sizes = {(path, line): n for path, text in sources() for line, n in functions(text)}
         self.assertGreater(len(sizes), 100)
-        p99 = statistics.quantiles(sizes.values(), n=100)[98]
-        print(f"{len(sizes)} functions, median {statistics.median(sizes.values()):.0f} lines, "
-              f"99th percentile {p99:.0f}, longest {max(sizes.values())}", file=sys.stderr)
-        self.assertEqual({at: n for at, n in sizes.items() if n > MAX_FUNCTION}, {})
-        self.assertLessEqual(p99, P99_FUNCTION)
+        (path, line), longest = max(sizes.items(), key=lambda item: item[1])
+        print(f"{len(sizes)} functions, median {statistics.median(sizes.values()):.0f} lines, 99th percentile "
+              f"{statistics.quantiles(sizes.values(), n=100)[98]:.0f}, longest {longest} ({path}:{line})",
+              file=sys.stderr)
 
     def test_a_long_function_is_seen(self):
-        body = "  step();\n" * (MAX_FUNCTION + 1)
+        body = "  step();\n" * 71
         text = f"namespace a {{\nvoid f(int x,\n       int y) {{\n  if (x) {{\n{body}  }}\n}}\n}}\n"
-        self.assertEqual([n for _, n in functions(text)], [MAX_FUNCTION + 6])
-        self.assertEqual([n for _, n in functions(f"TEST(A, B) {{\n{body}}}\n")], [MAX_FUNCTION + 3])
+        self.assertEqual([n for _, n in functions(text)], [76])
+        self.assertEqual([n for _, n in functions(f"TEST(A, B) {{\n{body}}}\n")], [73])
 
 
 class Comments(unittest.TestCase):
     def test_files_that_comments_and_pages_name_exist(self):
         scripts = [p for kind in ("*.py", "*.sh") for p in (ROOT / "tests").rglob(kind) if p.name != "arrow_test.py"]
-        pages = [ROOT / "README.md", ROOT / "CHANGELOG.md", *(ROOT / "docs").glob("*.md")]
+        pages = [ROOT / "README.md", ROOT / "CHANGELOG.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "builder").glob("*.md"),
+                 *(ROOT / "verify").rglob("*.md")]
         files = [*sources(), *((str(p.relative_to(ROOT)), p.read_text()) for p in scripts + pages)]
         self.assertEqual([name for path, text in files for name in lost(path, text)], [])
 

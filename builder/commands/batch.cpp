@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "builder/commands/command_files.h"
-#include "builder/commands/commands.h"
+#include "builder/commands/options.h"
 #include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "streaming/error.h"
@@ -27,15 +27,15 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// A command line can leave an option out, but not take back what holds for all bakes.
-void refuse_to_take_back(const std::string& key, const BuildCommandConfig& batch) {
-  if (std::find(batch.given.begin(), batch.given.end(), "--" + key) != batch.given.end())
+// A bake cannot switch off a flag that was given for all bakes.
+void refuse_to_take_back(const std::string& key, const BatchCommand& batch) {
+  if (batch.given.contains("--" + key))
     fail_usage("\"" + key + "\": false does not take back the --" + key +
                " beside --batch, which is for all bakes: leave one of them out");
 }
 
 // The command line of one object.
-std::vector<std::string> arguments_of(const Json& job, const BuildCommandConfig& batch) {
+std::vector<std::string> arguments_of(const Json& job, const BatchCommand& batch) {
   std::vector<std::string> scene, options;
   const auto add = [&](const std::string& key, const Json& one) {
     if (one.is_structured() || one.is_null())
@@ -63,23 +63,8 @@ std::vector<std::string> arguments_of(const Json& job, const BuildCommandConfig&
   return options;
 }
 
-// What the command line of the batch says of each bake; what it says of none is an Error.
-BuildCommandConfig defaults_of(const BuildCommandConfig& batch) {
-  const BuildConfig& build = batch.build;
-  if (!build.scene.paths.empty())
-    fail_usage("--batch: scenes stand in the list: leave " + build.scene.paths.front() + " out");
-  if (!build.output.empty()) fail_usage("--batch: outputs stand in the list: leave --output out");
-  if (batch.shard != 0) fail_usage("--batch: a list has no shards: leave --shard out");
-  if (build.part) fail_usage("--batch: parts stand in the list: leave --part out");
-  BuildCommandConfig defaults = batch;
-  defaults.batch.clear();
-  defaults.report.clear();
-  defaults.keep_going = defaults.dry_run = false;
-  return defaults;
-}
-
-std::string place(const BuildCommandConfig& batch, size_t job) {
-  return batch.batch + ": bake " + std::to_string(job + 1) + ": ";
+std::string place(const BatchCommand& batch, size_t job) {
+  return batch.list + ": bake " + std::to_string(job + 1) + ": ";
 }
 
 Json read_list(const std::string& path) {
@@ -101,14 +86,13 @@ Json read_list(const std::string& path) {
 
 }  // namespace
 
-std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) {
-  const BuildCommandConfig defaults = defaults_of(batch);
-  std::vector<BuildCommandConfig> jobs;
-  for (const Json& job : read_list(batch.batch)) {
+std::vector<BakeCommand> bakes_of(const BatchCommand& batch) {
+  std::vector<BakeCommand> jobs;
+  for (const Json& job : read_list(batch.list)) {
     const std::string where = place(batch, jobs.size());
     if (!job.is_object()) fail_usage(where + "is no object");
     try {
-      jobs.push_back(batch.parse(arguments_of(job, batch), defaults));
+      jobs.push_back(parse_bake(arguments_of(job, batch), batch.defaults));
     } catch (const Error& error) {
       fail_usage(where + error.what());
     }
@@ -119,15 +103,14 @@ std::vector<BuildCommandConfig> bakes_of_batch(const BuildCommandConfig& batch) 
 namespace {
 
 // No bake may write what the list, another bake or itself reads or writes, in whatever order.
-void refuse_overwriting(const BuildCommandConfig& batch,
-                        const std::vector<BuildCommandConfig>& jobs) {
+void refuse_overwriting(const BatchCommand& batch, const std::vector<BakeCommand>& jobs) {
   CommandFiles files;
-  files.read(batch.batch);
-  const auto replaces = [](const BuildCommandConfig& job) {
+  files.read(batch.list);
+  const auto replaces = [](const BakeCommand& job) {
     return name_exists(job.build.output) || name_exists(job.report);
   };
-  const bool buffers = replaces(batch) || std::any_of(jobs.begin(), jobs.end(), replaces);
-  for (const BuildCommandConfig& job : jobs) {
+  const bool buffers = name_exists(batch.report) || std::any_of(jobs.begin(), jobs.end(), replaces);
+  for (const BakeCommand& job : jobs) {
     files.read(job.build.scene.paths);
     if (!buffers) continue;
     try {
@@ -152,17 +135,17 @@ struct Outcome {
   std::string report;
 };
 
-Outcome run(const BuildCommandConfig& job, const BuildCommandConfig& batch) {
+Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
   Outcome outcome;
   try {
     if (batch.dry_run) {
-      run_dry(job);
+      predict({job.build, job.threads, job.output});
     } else {
-      bake_scene(job, &outcome.report);
+      outcome.report = bake_scene(job, true);
     }
   } catch (Interrupted& interrupted) {
     if (job.build.unfinished == Unfinished::kRestart)
-      interrupted.how = batch.build.unfinished == Unfinished::kRestart
+      interrupted.how = batch.defaults.build.unfinished == Unfinished::kRestart
                             ? kResumeForRestart
                             : "stopped; without \"restart\" in the list, the same command with "
                               "--resume continues";
@@ -188,19 +171,19 @@ void write_report(AtomicFile* report, size_t bakes, const Json& done) {
 
 }  // namespace
 
-int run_batch(const BuildCommandConfig& config) {
-  const std::vector<BuildCommandConfig> jobs = bakes_of_batch(config);
+int run(const BatchCommand& config) {
+  const std::vector<BakeCommand> jobs = bakes_of(config);
   refuse_overwriting(config, jobs);
   std::optional<AtomicFile> report;  // opened before there is work to lose
   if (!config.report.empty()) report.emplace(config.report);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
   size_t failed = 0;
-  for (const BuildCommandConfig& job : jobs) {
+  for (const BakeCommand& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
     Outcome outcome;
     try {
-      outcome = run(job, config);
+      outcome = bake(job, config);
     } catch (const Interrupted&) {
       if (report) write_report(&*report, jobs.size(), done);
       throw;
@@ -213,7 +196,7 @@ int run_batch(const BuildCommandConfig& config) {
     if (first == ExitCode::kOk) first = outcome.code;
   }
   if (report) write_report(&*report, jobs.size(), done);
-  if (!config.output.quiet)
+  if (!config.defaults.output.quiet)
     std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),
                 config.dry_run ? "predicted" : "baked", failed);
   return int(first);

@@ -60,7 +60,7 @@ double exact_share(const BuildReport& r) {
   return r.decisions.asked == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.asked);
 }
 
-std::string report_json(const BuildCommandConfig& config, const BuildReport& r) {
+std::string report_json(const BakeCommand& config, const BuildReport& r) {
   const auto& s = r.seconds;
   Json json = {{"svdag", SVDAG_VERSION},
                {"scene", config.build.scene.paths},
@@ -118,7 +118,7 @@ std::string report_json(const BuildCommandConfig& config, const BuildReport& r) 
   return json_text(json, 2) + "\n";
 }
 
-void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
+void print_summary(const BakeCommand& config, const BuildReport& r) {
   uint64_t nodes = 0;
   for (const uint64_t n : r.nodes) nodes += n;
   std::printf("%s: %s^3, %s triangles, %s voxels, %s nodes, %s (%.3g bits per voxel), %.1f s\n",
@@ -166,76 +166,74 @@ void print_summary(const BuildCommandConfig& config, const BuildReport& r) {
               format_bytes(r.peak_resident).c_str());
 }
 
+void refuse_overwriting(const BakeCommand& command) {
+  const std::vector<std::string> outputs = outputs_of(command);
+  CommandFiles files;
+  files.read(command.build.scene.paths);
+  // Buffers of a scene exist, so only an output that exists can overwrite one.
+  if (std::any_of(outputs.begin(), outputs.end(), name_exists))
+    files.read_buffers(command.build.scene, command.build.memory);
+  for (const std::string& output : outputs) files.write(output);
+  refuse_foreign_name(command.build.output);
+}
+
 }  // namespace
 
-std::vector<std::string> outputs_of(const BuildCommandConfig& config) {
-  if (config.build.output.empty()) fail_usage("--output: the output has no name");
-  std::vector<std::string> outputs = {config.build.output};
-  if (!config.report.empty()) outputs.push_back(config.report);
+std::vector<std::string> outputs_of(const BakeCommand& command) {
+  if (command.build.output.empty()) fail_usage("--output: the output has no name");
+  std::vector<std::string> outputs = {command.build.output};
+  if (!command.report.empty()) outputs.push_back(command.report);
   return outputs;
 }
 
-namespace {
-
-void refuse_overwriting(const BuildCommandConfig& config) {
-  const std::vector<std::string> outputs = outputs_of(config);
-  CommandFiles files;
-  files.read(config.build.scene.paths);
-  // A buffer that a scene needs is there: only outputs that are there can be one.
-  if (std::any_of(outputs.begin(), outputs.end(), name_exists))
-    files.read_buffers(config.build.scene, config.build.memory);
-  for (const std::string& output : outputs) files.write(output);
-  refuse_foreign_name(config.build.output);
-}
-
-}  // namespace
-
-void bake_scene(const BuildCommandConfig& config, std::string* json) {
-  AtomicFile::check(config.build.output);
-  discard_dry_run(config.build);
+std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
+  AtomicFile::check(command.build.output);
+  discard_dry_run(command.build);
   std::optional<AtomicFile> report_file;  // opened before there is work to lose
-  if (!config.report.empty()) report_file.emplace(config.report);
-  ParallelExecutor executor(threads_or_all(config.threads));
-  Progress progress(config.output.mode());
-  BuildConfig build_config = config.build;
-  build_config.name_files = json != nullptr || !config.report.empty();
-  if (!config.cache.folder.empty())
+  if (!command.report.empty()) report_file.emplace(command.report);
+  ParallelExecutor executor(threads_or_all(command.threads));
+  Progress progress(command.output.mode());
+  BuildConfig build_config = command.build;
+  build_config.name_files = in_a_batch || report_file;
+  if (!command.cache.folder.empty())
     build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
-      return std::make_unique<CellCache>(config.cache, grid, rule, budget);
+      return std::make_unique<CellCache>(command.cache, grid, rule, budget);
     };
   const BuildReport report = build(build_config, &executor, &progress);
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
-  if (json != nullptr) *json = report_json(config, report);
+  const std::string json = report_json(command, report);
   if (report_file) {
-    report_file->append(report_json(config, report));
+    report_file->append(json);
     report_file->commit();
   }
-  if (config.output.quiet) return;
-  print_summary(config, report);
-  // Of a list, most bakes are not those that were stopped.
-  if (json == nullptr && config.build.unfinished == Unfinished::kResume && !report.resumed)
+  if (command.output.quiet) return json;
+  print_summary(command, report);
+  // In a batch most bakes are not the one that was stopped.
+  if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)
     std::printf("  nothing to resume in %s: it was baked anew\n",
-                ScratchDir::path_for(config.build.output, config.build.scratch).c_str());
+                ScratchDir::path_for(command.build.output, command.build.scratch).c_str());
+  return json;
 }
 
-int run_build(const BuildCommandConfig& config) {
-  // Without a plan it is a batch, which refuses the shard.
-  if (config.shard != 0 && !config.build.scene.paths.empty()) return run_shard(config);
-  if (config.dry_run && !config.report.empty())
-    fail_usage("--dry-run bakes nothing to report: leave --report out");
-  if (config.keep_going && config.batch.empty()) fail_usage("--keep-going is for --batch");
-  if (!config.batch.empty()) return run_batch(config);
-  refuse_plans(config.build.scene.paths, "--shard");
-  refuse_overwriting(config);
-  if (config.dry_run) return run_dry(config);
+int run(const BakeCommand& command) {
+  refuse_plans(command.build.scene.paths, "--shard");
+  refuse_overwriting(command);
   try {
-    bake_scene(config);
+    bake_scene(command, false);
   } catch (Interrupted& interrupted) {
-    if (config.build.unfinished == Unfinished::kRestart) interrupted.how = kResumeForRestart;
+    if (command.build.unfinished == Unfinished::kRestart) interrupted.how = kResumeForRestart;
     throw;
   }
   return int(ExitCode::kOk);
+}
+
+int run(const DryRunCommand& command) {
+  refuse_plans(command.build.scene.paths, "--shard");
+  BakeCommand bake;
+  bake.build = command.build;
+  refuse_overwriting(bake);
+  return predict(command);
 }
 
 }  // namespace svdag

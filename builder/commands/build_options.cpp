@@ -1,6 +1,9 @@
 // svdag build, and each bake of its lists.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
@@ -41,16 +44,28 @@ double checked_seconds(double seconds) {
   return seconds;
 }
 
-void add_resume_options(CLI::App* app, BuildConfig* build) {
+// Everything that `svdag build` understands; command_of() decides which command it is.
+struct BuildOptions {
+  BakeCommand bake;
+  std::optional<double> checkpoint;  // seconds
+  std::optional<size_t> shard;
+  std::string batch;
+  bool keep_going = false;
+  bool dry_run = false;
+  std::set<std::string> given;  // "--rule"
+};
+
+void add_resume_options(CLI::App* app, BuildOptions* options) {
+  Unfinished* const unfinished = &options->bake.build.unfinished;
   CLI::Option* resume = app->add_flag_callback(
-      "--resume", [build] { build->unfinished = Unfinished::kResume; },
+      "--resume", [=] { *unfinished = Unfinished::kResume; },
       "Continue an unfinished bake of this output, if there is one (with the same --scratch)");
   app->add_flag_callback(
-         "--restart", [build] { build->unfinished = Unfinished::kRestart; },
+         "--restart", [=] { *unfinished = Unfinished::kRestart; },
          "Discard an unfinished bake of this output")
       ->excludes(resume);
   app->add_option_function<double>(
-         "--checkpoint", [build](double s) { build->checkpoint = checked_seconds(s); },
+         "--checkpoint", [=](double s) { options->checkpoint = checked_seconds(s); },
          "Save the work of every so many seconds for --resume (default: 30)")
       ->type_name("SECONDS");
 }
@@ -73,20 +88,20 @@ void add_cache_options(CLI::App* app, CellCacheConfig* config) {
   if (config->folder.empty()) size->needs(cache);  // else the list has one
 }
 
-// A step of a plan has to know which options it does not heed.
-void remember_options(CLI::App* app, const CLI::App* grid, std::vector<std::string>* given) {
-  app->parse_complete_callback([=] {
-    for (const CLI::App* options : std::initializer_list<const CLI::App*>{app, grid}) {
-      for (const CLI::Option* option : options->get_options()) {
-        if (option->count() > 0 && !option->get_lnames().empty())
-          given->push_back("--" + option->get_lnames().front());
-      }
+// The names of the options that were given.
+std::set<std::string> given_options(const CLI::App* app, const CLI::App* grid) {
+  std::set<std::string> given;
+  for (const CLI::App* options : {app, grid}) {
+    for (const CLI::Option* option : options->get_options()) {
+      if (option->count() > 0 && !option->get_lnames().empty())
+        given.insert("--" + option->get_lnames().front());
     }
-  });
+  }
+  return given;
 }
 
-void set_up_build(CLI::App* app, BuildCommandConfig* config) {
-  BuildConfig* build = &config->build;
+void add_options(CLI::App* app, BuildOptions* options) {
+  BuildConfig* build = &options->bake.build;
   CLI::Option* scene =
       takes_files(app->add_option("SCENE", build->scene.paths,
                                   "Scene files (several are one scene), or a plan"),
@@ -98,47 +113,48 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
                             ->required()
                             ->type_name("OUT");
   CLI::Option_group* grid = add_grid_options(app, build);
-  const auto ask_for_no_grid = [grid] { grid->require_option(0, 1); };
-  if (build->levels != 0 || build->voxel_size != 0) ask_for_no_grid();  // the list has one
+  const auto grid_is_optional = [grid] { grid->require_option(0, 1); };
+  if (build->levels != 0 || build->voxel_size != 0) grid_is_optional();  // a default has it
   takes_files(app->add_option_function<std::string>(
                   "--batch",
                   [=](const std::string& list) {  // each bake of the list has these
-                    config->batch = list;
+                    options->batch = list;
                     scene->required(false);
                     output->required(false);
-                    ask_for_no_grid();
+                    grid_is_optional();
                   },
                   "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
                   "options beside it hold for bakes that do not say otherwise; --report is of all"),
               {".json"})
       ->type_name("LIST.json");
-  app->add_flag("--keep-going", config->keep_going, "Go on with a batch when a bake fails");
+  app->add_flag("--keep-going", options->keep_going, "Go on with a batch when a bake fails");
   app->add_option_function<size_t>(
          "--shard",
-         [=](size_t shard) {  // the plan has a grid, and a place for the run
-           if (shard == 0) fail_usage("--shard: 0 is no shard: they are numbered from 1 on");
-           config->shard = shard;
+         [=](size_t shard) {  // the plan has a grid and an output
+           if (shard == 0) fail_usage("--shard 0: shards are numbered from 1");
+           options->shard = shard;
            output->required(false);
-           ask_for_no_grid();
+           grid_is_optional();
          },
          "Bake shard I of a plan, from 1 on; one that is there already is kept")
       ->type_name("I");
-  app->add_flag("--dry-run", config->dry_run, "Only tell what the bake would take");
+  app->add_flag("--dry-run", options->dry_run, "Only tell what the bake would take");
   app->add_option_function<std::string>(
          "--part", [build](const std::string& s) { build->part = parse_part(s); },
          "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
       ->type_name("I/N");
-  add_resource_options(app, &build->memory, &config->threads, &build->scratch);
-  add_resume_options(app, build);
-  add_cache_options(app, &config->cache);
-  takes_files(app->add_option("--report", config->report, "Write a report of the bake as JSON"),
-              {".json"})
+  add_resource_options(app, &build->memory, &options->bake.threads, &build->scratch);
+  add_resume_options(app, options);
+  add_cache_options(app, &options->bake.cache);
+  takes_files(
+      app->add_option("--report", options->bake.report, "Write a report of the bake as JSON"),
+      {".json"})
       ->type_name("FILE");
-  add_quiet(app, &config->output);
-  add_verbose(app, &config->output, "Print seconds per phase, memory, and what was skipped");
-  add_progress(app, &config->output);
+  add_quiet(app, &options->bake.output);
+  add_verbose(app, &options->bake.output, "Print seconds per phase, memory, and what was skipped");
+  add_progress(app, &options->bake.output);
   add_measurement_options(app, &build->descent);
-  remember_options(app, grid, &config->given);
+  app->parse_complete_callback([=] { options->given = given_options(app, grid); });
   add_examples(
       app,
       {"svdag build city.glb -o city.svdag -r 64K",
@@ -148,11 +164,67 @@ void set_up_build(CLI::App* app, BuildCommandConfig* config) {
       "svdag help grid, rules and memory tell more.");
 }
 
-BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
-                               const BuildCommandConfig& defaults) {
+// A shard takes all other options from the plan.
+void require_options_of_a_shard(const std::set<std::string>& given) {
+  static const std::set<std::string> kHonored = {
+      "--shard",   "--output",     "--memory", "--threads", "--scratch",  "--resume",
+      "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
+  for (const std::string& option : given) {
+    if (!kHonored.contains(option))
+      fail_usage(option + ": a shard is baked as its plan says: leave this option out");
+  }
+}
+
+ShardCommand shard_of(const BuildOptions& options) {
+  const BuildConfig& build = options.bake.build;
+  const std::vector<std::string>& paths = build.scene.paths;
+  if (paths.size() != 1)
+    fail_usage("--shard is for one plan, and " + std::to_string(paths.size()) +
+               " names are given: leave all but the plan's out");
+  require_options_of_a_shard(options.given);
+  ShardCommand command;
+  command.plan = paths.front();
+  command.shard = *options.shard;
+  command.step = {build.output, build.memory, build.scratch};
+  command.step.checkpoint = options.checkpoint.value_or(0);
+  command.step.restart = build.unfinished == Unfinished::kRestart;
+  command.threads = options.bake.threads;
+  command.output = options.bake.output;
+  return command;
+}
+
+BatchCommand batch_of(const BuildOptions& options) {
+  const BuildConfig& build = options.bake.build;
+  if (!build.scene.paths.empty())
+    fail_usage("--batch: scenes are in the list: leave " + build.scene.paths.front() + " out");
+  if (!build.output.empty()) fail_usage("--batch: outputs are in the list: leave --output out");
+  if (options.shard) fail_usage("--batch: a list has no shards: leave --shard out");
+  if (build.part) fail_usage("--batch: parts are in the list: leave --part out");
+  BatchCommand command{options.batch,      options.bake,    options.given,
+                       options.keep_going, options.dry_run, options.bake.report};
+  command.defaults.report.clear();
+  return command;
+}
+
+Command command_of(const BuildOptions& parsed) {
+  BuildOptions options = parsed;
+  if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
+  if (options.shard && !options.bake.build.scene.paths.empty()) return shard_of(options);
+  if (options.dry_run && !options.bake.report.empty())
+    fail_usage("--dry-run bakes nothing to report: leave --report out");
+  if (options.keep_going && options.batch.empty()) fail_usage("--keep-going is for --batch");
+  if (!options.batch.empty()) return batch_of(options);
+  if (!options.dry_run) return options.bake;
+  return DryRunCommand{options.bake.build, options.bake.threads, options.bake.output};
+}
+
+}  // namespace
+
+BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeCommand& defaults) {
   CLI::App app("", "svdag build");
-  BuildCommandConfig config = defaults;
-  set_up_build(&app, &config);
+  BuildOptions options;
+  options.bake = defaults;
+  add_options(&app, &options);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
@@ -160,20 +232,20 @@ BuildCommandConfig parse_build(const std::vector<std::string>& arguments,
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, arguments, error));
   }
-  if (!config.batch.empty()) fail_usage("a list of bakes cannot hold another list");
-  if (config.shard != 0) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
-  if (config.dry_run) fail_usage("dry-run is of the whole list: give it beside --batch");
-  if (config.keep_going) fail_usage("keep-going is of the whole list: give it beside --batch");
-  return config;
+  if (!options.batch.empty()) fail_usage("a list of bakes cannot hold another list");
+  if (options.shard) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
+  if (options.dry_run) fail_usage("dry-run is of the whole list: give it beside --batch");
+  if (options.keep_going) fail_usage("keep-going is of the whole list: give it beside --batch");
+  if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
+  return options.bake;
 }
 
-}  // namespace
-
-CLI::App* add_build(CLI::App* program, BuildCommandConfig* config) {
+void add_build(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("build", "Bake scene files as one .svdag");
-  set_up_build(app, config);
-  config->parse = parse_build;
-  return app;
+  auto options = std::make_shared<BuildOptions>();
+  add_options(app, options.get());
+  app->preparse_callback([=](size_t) { *options = {}; });
+  app->callback([=] { *command = command_of(*options); });
 }
 
 }  // namespace svdag

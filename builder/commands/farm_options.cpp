@@ -1,14 +1,40 @@
 // The commands of bakes in parts: svdag plan, run and submit, and the merge that joins the parts.
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
 #include "streaming/counts.h"
+#include "streaming/error.h"
 
 namespace svdag {
 
-CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
+namespace {
+
+struct MergeOptions {
+  MergeCommand merge;
+  std::string step;
+};
+
+Command command_of(const MergeOptions& options) {
+  const auto& [merge, threads, output] = options.merge;
+  if (options.step.empty()) return options.merge;
+  if (merge.runs.size() != 1)
+    fail_usage("--step is for one plan, and " + std::to_string(merge.runs.size()) +
+               " names are given: leave all but the plan's out");
+  return MergeStepCommand{merge.runs.front(),
+                          options.step,
+                          {merge.output, merge.memory, merge.scratch},
+                          threads,
+                          output};
+}
+
+}  // namespace
+
+void add_merge(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("merge", "Join the runs of parts of one bake");
+  auto options = std::make_shared<MergeOptions>();
+  MergeCommand* const config = &options->merge;
   takes_files(app->add_option("RUN", config->merge.runs, "Runs of parts of one bake, or a plan"),
               {".run"})
       ->required();
@@ -22,7 +48,7 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
   app->add_option_function<std::string>(
          "--step",
          [=](const std::string& step) {
-           config->step = step;
+           options->step = step;
            output->required(false);
          },
          "Do this merge of a plan; one that is done already is kept")
@@ -36,11 +62,13 @@ CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config) {
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
        "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
       "PLAN --step NAME needs nothing else. svdag help farm tells more.");
-  return app;
+  app->preparse_callback([=](size_t) { *options = {}; });
+  app->callback([=] { *command = command_of(*options); });
 }
 
-CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
+void add_plan(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("plan", "Cut a bake into jobs for a farm");
+  auto config = std::make_shared<PlanCommand>();
   PlanConfig* plan = &config->plan;
   takes_files(
       app->add_option("SCENE", plan->build.scene.paths, "Scene files; several are one scene"),
@@ -66,11 +94,13 @@ CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config) {
   add_examples(app,
                {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
                "-m bounds the planning and each step. svdag help farm tells more.");
-  return app;
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
 }
 
-CLI::App* add_run(CLI::App* program, RunCommandConfig* config) {
+void add_run(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("run", "Run a plan on this machine");
+  auto config = std::make_shared<RunCommand>();
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   from_to(app->add_option("-j,--jobs", config->processes,
                           "Steps at once (default: as many as there are processors)"),
@@ -82,11 +112,13 @@ CLI::App* add_run(CLI::App* program, RunCommandConfig* config) {
   add_quiet(app, &config->output);
   add_progress(app, &config->output);
   add_examples(app, {"svdag run city.plan -j 4"});
-  return app;
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
 }
 
-CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config) {
+void add_submit(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("submit", "Hand a plan to a farm");
+  auto config = std::make_shared<SubmitCommand>();
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   one_of(app->add_option("--engine", config->engine,
                          "slurm (submits jobs) or openjd (writes a template)"),
@@ -110,7 +142,8 @@ CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config) {
   add_quiet(app, &config->output);
   add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",
                      "svdag submit city.plan --engine openjd -o city.openjd.json"});
-  return app;
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
 }
 
 }  // namespace svdag

@@ -51,7 +51,8 @@ std::string list_of_topics() {
   return list;
 }
 
-int run_help(const Manual& program, const std::string& subject) {
+int run(const HelpCommand& help) {
+  const auto& [program, subject] = help;
   const size_t width = text_width(stdout);
   if (subject.empty()) return print(help_text(program, width));
   for (const Topic& topic : topics()) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/help/manual.h"
+#include "builder/commands/commands.h"
 
 namespace svdag {
 
@@ -24,9 +24,5 @@ std::vector<std::string> help_subjects(const Manual& program);
 
 // "Topics:" and a line for each.
 std::string list_of_topics();
-
-// Explains a command or a topic, or the program if there is none; an unknown one is an Error
-// (kUsage) that says which it may have been meant to be.
-int run_help(const Manual& program, const std::string& subject);
 
 }  // namespace svdag

@@ -53,7 +53,7 @@ void print_levels(const DagStats& stats) {
               format_count(stats.blocks).c_str(), format_count(stats.unique_blocks).c_str(), "");
 }
 
-void info_dag(const InfoCommandConfig& config) {
+void info_dag(const InfoCommand& config) {
   const DagFile file = DagFile::open(config.paths.front());
   const DagStats stats = compute_stats(file);
   if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
@@ -77,7 +77,7 @@ void info_dag(const InfoCommandConfig& config) {
 
 }  // namespace
 
-int run_info(const InfoCommandConfig& config) {
+int run(const InfoCommand& config) {
   const bool one = config.paths.size() == 1;
   const std::string& first = config.paths.front();
   const auto refuse = [&](bool given, const char* option, const char* what) {

@@ -1,5 +1,6 @@
 // svdag info.
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
@@ -7,8 +8,9 @@
 
 namespace svdag {
 
-CLI::App* add_info(CLI::App* program, InfoCommandConfig* config) {
+void add_info(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
+  auto config = std::make_shared<InfoCommand>();
   std::vector<std::string> endings = kSceneEndings;
   endings.insert(endings.begin(), {".svdag", ".run"});
   takes_files(app->add_option("FILE", config->paths,
@@ -23,7 +25,8 @@ CLI::App* add_info(CLI::App* program, InfoCommandConfig* config) {
   add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
   add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});
-  return app;
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
 }
 
 }  // namespace svdag

@@ -62,7 +62,7 @@ void print_text(const RunFile& run) {
 
 }  // namespace
 
-void info_run(const InfoCommandConfig& config) {
+void info_run(const InfoCommand& config) {
   MemoryBudget budget(memory_or_default(config.memory));
   const RunFile run = RunFile::open(config.paths.front(), &budget);
   check_run(run, MemoryShares(budget.limit()).check_bitmap, &budget);

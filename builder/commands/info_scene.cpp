@@ -28,7 +28,7 @@ Parts list_parts(const Scene& scene) {
   return parts;
 }
 
-void print_json(const InfoCommandConfig& config, const Box& box, const SceneCounts& counts,
+void print_json(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const Parts& parts) {
   Json json = {{"scene", config.paths},
                {"triangles", stats.triangles},
@@ -47,7 +47,7 @@ void print_json(const InfoCommandConfig& config, const Box& box, const SceneCoun
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
-void print_text(const InfoCommandConfig& config, const Box& box, const SceneCounts& counts,
+void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const Parts& parts) {
   const auto point = [](const Point& p) {
     return "(" + format_double(p.x) + ", " + format_double(p.y) + ", " + format_double(p.z) + ")";
@@ -76,7 +76,7 @@ void print_text(const InfoCommandConfig& config, const Box& box, const SceneCoun
 
 }  // namespace
 
-void info_scene(const InfoCommandConfig& config) {
+void info_scene(const InfoCommand& config) {
   MemoryBudget budget(memory_or_default(config.memory));
   const Scene scene({config.paths, config.names, config.skip_invalid, config.sandbox}, &budget);
   SceneCounts counts;

@@ -11,13 +11,14 @@
 namespace svdag {
 namespace {
 
-// Its choices are known when all other commands are there.
-CLI::App* add_help(CLI::App* program, std::string* subject) {
+// Added last: its choices are the other commands.
+void add_help(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("help", "Explain a command or a topic");
+  auto subject = std::make_shared<std::string>();
   suggests(app->add_option("SUBJECT", *subject, "A command, or one of the topics below"),
            help_subjects(manual_of(*program)));
   app->footer(list_of_topics());
-  return app;
+  app->callback([=] { *command = HelpCommand{manual_of(*program), *subject}; });
 }
 
 int run_command(int argc, char** argv) {
@@ -26,35 +27,23 @@ int run_command(int argc, char** argv) {
   CLI::App app("Bakes triangle scenes as sparse voxel DAGs.", "svdag");
   app.set_version_flag("-V,--version", "svdag " SVDAG_VERSION, "Print the version and exit");
   app.require_subcommand(1);
-  BuildCommandConfig build;
-  MergeCommandConfig merge;
-  PlanCommandConfig plan;
-  RunCommandConfig run;
-  SubmitCommandConfig submit;
-  InfoCommandConfig info;
-  std::string subject;
-  CLI::App* build_app = add_build(&app, &build);
-  CLI::App* merge_app = add_merge(&app, &merge);
-  CLI::App* plan_app = add_plan(&app, &plan);
-  CLI::App* run_app = add_run(&app, &run);
-  CLI::App* submit_app = add_submit(&app, &submit);
-  CLI::App* info_app = add_info(&app, &info);
+  Command command;
+  add_build(&app, &command);
+  add_merge(&app, &command);
+  add_plan(&app, &command);
+  add_run(&app, &command);
+  add_submit(&app, &command);
+  add_info(&app, &command);
   app.add_subcommand("export", "Write the voxels of a .svdag in another format");
   app.add_subcommand("import", "Make a .svdag of the voxels of another program");
-  add_help(&app, &subject);
+  add_help(&app, &command);
   add_examples(&app,
                {"svdag build city.glb -o city.svdag -r 64K", "svdag help build", "svdag help grid"},
                list_of_topics() +
                    "\n\nsvdag-verify proves what was baked, and makes pictures of it; "
                    "svdag-trace traces rays through it.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
-  return build_app->parsed()    ? run_build(build)
-         : merge_app->parsed()  ? run_merge(merge)
-         : plan_app->parsed()   ? run_plan(plan)
-         : run_app->parsed()    ? run_run(run)
-         : submit_app->parsed() ? run_submit(submit)
-         : info_app->parsed()   ? run_info(info)
-                                : run_help(manual_of(app), subject);
+  return std::visit([](const auto& parsed) { return run(parsed); }, command);
 }
 
 }  // namespace
@@ -62,7 +51,7 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   svdag::catch_interrupts();
-  // Two words to hold: more would take memory, before anybody could say that there is none.
+  // The closure holds two words: a larger one would allocate before a lack of memory is caught.
   return svdag::run_program({.name = "svdag",
                              .stopped = "stopped; nothing was saved to continue from",
                              .resumable = "stopped; the same command with --resume continues"},

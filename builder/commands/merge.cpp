@@ -21,7 +21,7 @@ void refuse_overwriting_inputs(const MergeRunsConfig& config) {
   refuse_foreign_name(config.output);
 }
 
-void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
+void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
   uint64_t nodes = 0;
   for (const uint64_t n : r.nodes) nodes += n;
   std::printf("%s: %s^3, %zu runs (%s), %s voxels, %s nodes, %s, content %s\n",
@@ -39,8 +39,7 @@ void print_summary(const MergeCommandConfig& config, const MergeRunsReport& r) {
 
 }  // namespace
 
-int run_merge(const MergeCommandConfig& config) {
-  if (!config.step.empty()) return run_merge_step(config);
+int run(const MergeCommand& config) {
   refuse_plans(config.merge.runs, "--step");
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   refuse_overwriting_inputs(config.merge);

@@ -1,6 +1,7 @@
-// The options of the commands of `svdag`: each command beside its kind, in one *_options.cpp.
+// The command lines of `svdag`: each add_*() adds a command to the program, with options that fill
+// its struct (builder/commands/commands.h), and sets *command when that command is parsed.
 //
-// Only those files and main.cpp see the library that reads command lines (6 s each to compile).
+// Only *_options.cpp and main.cpp include CLI11 (6 s each to compile).
 #pragma once
 
 #include "builder/commands/commands.h"
@@ -12,25 +13,28 @@ class Option_group;
 
 namespace svdag {
 
-// Each adds a command to the program, with options that fill its Config.
-CLI::App* add_build(CLI::App* program, BuildCommandConfig* config);
-CLI::App* add_merge(CLI::App* program, MergeCommandConfig* config);
-CLI::App* add_plan(CLI::App* program, PlanCommandConfig* config);
-CLI::App* add_run(CLI::App* program, RunCommandConfig* config);
-CLI::App* add_submit(CLI::App* program, SubmitCommandConfig* config);
-CLI::App* add_info(CLI::App* program, InfoCommandConfig* config);
+void add_build(CLI::App* program, Command* command);
+void add_merge(CLI::App* program, Command* command);
+void add_plan(CLI::App* program, Command* command);
+void add_run(CLI::App* program, Command* command);
+void add_submit(CLI::App* program, Command* command);
+void add_info(CLI::App* program, Command* command);
 
-// What several commands understand (shared_options.cpp).
+// Parses one bake of a list as `svdag build` parses its command line; options that are not given
+// keep their value in `defaults`. Errors: kUsage.
+BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeCommand& defaults);
+
+// Options of several commands (shared_options.cpp).
 void add_quiet(CLI::App* app, OutputConfig* output);
 void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text);
 void add_progress(CLI::App* app, OutputConfig* output);
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox);
-// Memory, threads and disk; the result is the same with any of them.
-// `own_scratch`: where it is by default, in words.
+// Memory, threads and disk. The result does not depend on them. `own_scratch`: the default folder,
+// for the help text.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch = "OUT.scratch",
                           const char* threads_text = "Threads (default: all processors)");
-// The grid of a bake; one of the options in the group returned is required.
+// The grid of a bake; one option of the returned group is required.
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build);
 
 }  // namespace svdag

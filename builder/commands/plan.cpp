@@ -25,7 +25,7 @@ Plan plan(PlanConfig config, const OutputConfig& output) {
 
 }  // namespace
 
-int run_plan(const PlanCommandConfig& config) {
+int run(const PlanCommand& config) {
   CommandFiles files;
   files.read(config.plan.build.scene.paths);
   for (const std::string& file : own_files(config.plan.folder)) files.write(file);
@@ -36,9 +36,8 @@ int run_plan(const PlanCommandConfig& config) {
   return int(ExitCode::kOk);
 }
 
-// svdag build --dry-run: a bake is one shard with the threads and the memory of the bake, merged at
-// once.
-int run_dry(const BuildCommandConfig& config) {
+// A bake is predicted as a plan of one shard with the threads and the memory of the bake.
+int predict(const DryRunCommand& config) {
   if (config.build.part)
     fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
   AtomicFile::check(config.build.output);

@@ -9,7 +9,7 @@
 
 namespace svdag {
 
-int run_run(const RunCommandConfig& config) {
+int run(const RunCommand& config) {
   const Plan plan = load_plan(config.plan, false);
   RunLocalConfig local;
   local.processes = threads_or_all(config.processes);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 
 #include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
@@ -39,8 +38,8 @@ void require_same_kind(const PlanStep& step, const std::string& output) {
                                      : " makes a .svdag: choose an output that is no .run"));
 }
 
-int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
-        const OutputConfig& output) {
+int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
+            const OutputConfig& output) {
   CommandFiles files;
   files.read(plan, &step);
   files.write(config.output.empty() ? plan.path(step.output) : config.output);
@@ -71,24 +70,11 @@ int run(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t
   return int(ExitCode::kOk);
 }
 
-void require_one_plan(const std::vector<std::string>& paths, const char* option) {
-  if (paths.size() != 1)
-    fail_usage(std::string(option) + " is for one plan, and " + std::to_string(paths.size()) +
-               " names are given: leave all but the plan's out");
-  if (!is_plan(paths.front()))
-    fail_usage(std::string(option) + " is for a plan, and " + paths.front() +
+Plan load(const std::string& path, const char* option, bool with_bins) {
+  if (!is_plan(path))
+    fail_usage(std::string(option) + " is for a plan, and " + path +
                " is none: svdag plan makes one");
-}
-
-// All else is in the plan. A shard resumes in any case.
-void require_options_of_a_step(const std::vector<std::string>& given) {
-  static const std::set<std::string> kHeeded = {
-      "--shard",   "--output",     "--memory", "--threads", "--scratch",  "--resume",
-      "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
-  for (const std::string& option : given) {
-    if (!kHeeded.contains(option))
-      fail_usage(option + ": a shard is baked as its plan says: leave this option out");
-  }
+  return load_plan(path, with_bins);
 }
 
 }  // namespace
@@ -102,28 +88,20 @@ void refuse_plans(const std::vector<std::string>& paths, const char* option) {
   }
 }
 
-int run_shard(const BuildCommandConfig& config) {
-  const BuildConfig& build = config.build;
-  require_one_plan(build.scene.paths, "--shard");
-  require_options_of_a_step(config.given);
-  const Plan plan = load_plan(build.scene.paths.front(), true);
-  if (config.shard > plan.shards())
-    fail_usage("--shard: the plan has shards 1 to " + std::to_string(plan.shards()));
-  const PlanStep& step = find_step(plan, shard_name(config.shard));
-  StepConfig shard{build.output, build.memory, build.scratch};
-  if (std::find(config.given.begin(), config.given.end(), "--checkpoint") != config.given.end())
-    shard.checkpoint = build.checkpoint;
-  shard.restart = build.unfinished == Unfinished::kRestart;
-  return run(plan, step, shard, config.threads, config.output);
+int run(const ShardCommand& command) {
+  const Plan plan = load(command.plan, "--shard", true);
+  if (command.shard > plan.shards())
+    fail_usage("--shard " + std::to_string(command.shard) + ": the plan has shards 1 to " +
+               std::to_string(plan.shards()));
+  const PlanStep& step = find_step(plan, shard_name(command.shard));
+  return do_step(plan, step, command.step, command.threads, command.output);
 }
 
-int run_merge_step(const MergeCommandConfig& config) {
-  require_one_plan(config.merge.runs, "--step");
-  const Plan plan = load_plan(config.merge.runs.front(), false);
-  const PlanStep& step = find_step(plan, config.step);
+int run(const MergeStepCommand& command) {
+  const Plan plan = load(command.plan, "--step", false);
+  const PlanStep& step = find_step(plan, command.step_name);
   if (step.is_shard()) fail_usage("--step: " + step.name + " is no merge: svdag build bakes it");
-  return run(plan, step, {config.merge.output, config.merge.memory, config.merge.scratch},
-             config.threads, config.output);
+  return do_step(plan, step, command.step, command.threads, command.output);
 }
 
 }  // namespace svdag

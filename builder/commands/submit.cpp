@@ -12,13 +12,13 @@ namespace svdag {
 
 namespace {
 
-// What only the other engine heeds. Options begin with a dash: another word is a second plan, which
-// would reach the engine in silence.
-void refuse_what_is_not_heeded(const SubmitCommandConfig& config) {
+// Rejects options that only the other engine honors. Engine options begin with a dash: any other
+// word is a second plan, which would be passed to the engine.
+void refuse_other_engines_options(const SubmitCommand& config) {
   if (!config.options.empty() && !config.options.front().starts_with('-'))
     fail_usage(config.options.front() +
                ": one plan is submitted at a time; options for the engine begin with a dash and "
-               "stand behind --");
+               "follow --");
   if (config.engine == "slurm" && !config.template_path.empty())
     fail_usage("--engine slurm submits jobs and writes no template: leave --output out");
   if (config.engine == "openjd" && (config.wait || !config.options.empty()))
@@ -29,9 +29,9 @@ void refuse_what_is_not_heeded(const SubmitCommandConfig& config) {
 
 }  // namespace
 
-int run_submit(const SubmitCommandConfig& config) {
+int run(const SubmitCommand& config) {
   const Plan plan = load_plan(config.plan, false);
-  refuse_what_is_not_heeded(config);
+  refuse_other_engines_options(config);
   if (config.engine == "slurm") {
     try {
       submit_slurm(

@@ -11,34 +11,23 @@ namespace {
 
 constexpr size_t kMostWords = 64;
 
-// What a command line fills.
-struct Filled {
-  BuildCommandConfig build;
-  MergeCommandConfig merge;
-  PlanCommandConfig plan;
-  RunCommandConfig run;
-  SubmitCommandConfig submit;
-  InfoCommandConfig info;
-};
-
 // All commands. To make them takes ten times as long as to understand a line, so they are made
 // once; the library forgets the line before with the next one, but not what that line made
 // unnecessary (--batch needs no grid): it is required again.
 class Program {
  public:
   Program() : app_("", "svdag") {
-    add_build(&app_, &filled_.build);
-    add_merge(&app_, &filled_.merge);
-    add_plan(&app_, &filled_.plan);
-    add_run(&app_, &filled_.run);
-    add_submit(&app_, &filled_.submit);
-    add_info(&app_, &filled_.info);
-    unfilled_ = filled_;
+    add_build(&app_, &command_);
+    add_merge(&app_, &command_);
+    add_plan(&app_, &command_);
+    add_run(&app_, &command_);
+    add_submit(&app_, &command_);
+    add_info(&app_, &command_);
     note_required(&app_);
   }
 
   void parse(std::vector<std::string> words) {
-    filled_ = unfilled_;
+    command_ = {};
     for (CLI::Option* option : required_) option->required();
     for (const auto& [group, options] : groups_) group->require_option(int(options));
     std::vector<char*> argv;
@@ -50,8 +39,10 @@ class Program {
       words.erase(words.begin());
       fail_usage(explain(app_, words, error));
     }
-    const bool many_threads = filled_.build.threads > 1024 || filled_.merge.threads > 1024;
-    if (many_threads || filled_.build.build.levels > kMaxLevels) std::abort();
+    const auto* bake = std::get_if<BakeCommand>(&command_);
+    const auto* merge = std::get_if<MergeCommand>(&command_);
+    if (bake != nullptr && (bake->threads > 1024 || bake->build.levels > kMaxLevels)) std::abort();
+    if (merge != nullptr && merge->threads > 1024) std::abort();
   }
 
  private:
@@ -67,7 +58,7 @@ class Program {
   CLI::App app_;
   std::vector<CLI::Option*> required_;
   std::vector<std::pair<CLI::App*, size_t>> groups_;  // with how many of their options are required
-  Filled filled_, unfilled_;
+  Command command_;
 };
 
 }  // namespace
