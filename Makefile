@@ -4,7 +4,8 @@
 #   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-trace,
 #           svdag-scene; man pages and completions below build/release/share
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
-#   test    build and run every test, then once more under ASan and UBSan
+#   test    build and run every test
+#   test-sanitized  build the unit tests with ASan and UBSan and run them
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
@@ -38,7 +39,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-farm stress fuzz-long bench bench-giants bench-sort \
+.PHONY: all deps build demo test test-sanitized test-farm stress fuzz-long bench bench-giants bench-sort \
   bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda \
   cuda-packages pictures clean
 all: build
@@ -72,6 +73,9 @@ demo: build
 
 test: deps
 	@$(PYTHON) tests/run_tests.py
+
+test-sanitized: deps
+	@$(PYTHON) tests/run_tests.py --sanitized
 
 test-farm: build
 	$(call install,$(FARM_PACKAGES))

@@ -18,8 +18,8 @@
 
 namespace svdag {
 
-// What to do with an unfinished bake of the same output: kResume refuses it if it is another bake
-// or damaged, kResumeSame discards it then.
+// What to do with an unfinished bake of the same output. If it is another bake or damaged, kResume
+// rejects it and kResumeSame discards it.
 enum class Unfinished { kRefuse, kResume, kResumeSame, kRestart };
 
 // A split that was made before, by a plan (builder/farm/plan/plan.h).
@@ -33,7 +33,7 @@ struct ReadySplit {
 
 struct BuildConfig {
   SceneConfig scene;
-  const ReadySplit* ready = nullptr;  // instead of the scene and of what its grid is chosen by
+  const ReadySplit* ready = nullptr;  // replaces the scene and the options of its grid
   std::string output;                 // a `.run` if it is named so, else a `.svdag`
   std::optional<CellRange> part;      // bake these cells only; the output is a `.run`
   int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
@@ -44,9 +44,9 @@ struct BuildConfig {
   int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
-  bool name_files = false;  // --report: the scene's files are read once more, for their hashes
+  bool name_files = false;  // --report: read the scene's files once more, for their hashes
   double checkpoint = 30;   // --checkpoint: seconds of work that a killed bake may lose
-  // --cache: opens the store of cells baked before; empty: there is none.
+  // --cache: opens the store of cells baked before; empty: no cache.
   std::function<std::unique_ptr<CellStore>(const Grid&, Rule, MemoryBudget*)> open_store;
 };
 
@@ -60,7 +60,7 @@ struct SceneFile {
 };
 
 struct BuildReport {
-  std::vector<SceneFile> files;  // if they were asked for
+  std::vector<SceneFile> files;  // if BuildConfig::name_files is set
   Grid grid;
   int cell_level = 0;
   Rule rule = Rule::kConservative;

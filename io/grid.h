@@ -6,9 +6,9 @@
 // Kind kBox (-r N): the grid divides the box of the scene, or of --bounds: voxel size =
 // extent/(N-1), origin half a voxel below the minimum, so that the outermost faces lie mid-voxel
 // and not on a voxel plane, where every wall would be two voxels thick. Kind kLattice (--voxel-size
-// S): voxel planes at (k + 1/2) * S, wherever the scene lies, so that tiles of one world agree. The
-// grid's corner is plane k0, a multiple of 1024 on each axis, so cells of up to 1024 voxels keep
-// their content when a scene grows.
+// S): voxel planes at (k + 1/2) * S, independent of the scene, so that tiles of one world agree.
+// The grid's corner is plane k0, a multiple of 1024 on each axis, so cells of up to 1024 voxels
+// keep their content when a scene grows.
 #pragma once
 
 #include <algorithm>
@@ -71,6 +71,19 @@ struct Grid {
   bool is_possible() const;
   bool operator==(const Grid&) const = default;
 };
+
+// Calls visit(name, field) for every stored field of a Grid: the field list of journals and plans.
+template <class AnyGrid, class Visit>
+void visit_fields(AnyGrid& grid, const Visit& visit) {
+  visit("kind", grid.kind);
+  visit("levels", grid.levels);
+  visit("voxel_size", grid.voxel_size);
+  visit("origin", grid.origin);
+  visit("k0", grid.k0);
+  visit("bounded", grid.bounded);
+  visit("selection_min", grid.selection.min);
+  visit("selection_max", grid.selection.max);
+}
 
 // The grid of kind kBox with 2^levels voxels that divides `box`. A box without extent, or whose
 // voxel size is not a normal number, is an Error (kUsage).

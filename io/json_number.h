@@ -9,8 +9,8 @@
 
 namespace svdag {
 
-// `json` as a T. Error (kBadInput) if it is no whole number, or one that T does not hold. `Json` is
-// one of nlohmann's, which only few files may name.
+// `json` as a T. Error (kBadInput) if it is not a whole number in the range of T. `Json` is one of
+// nlohmann's types, which only few files may name.
 template <class T, class Json>
 T whole_number(const Json& json) {
   if (json.is_number_unsigned()) {

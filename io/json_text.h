@@ -1,6 +1,6 @@
-// The text of a JSON value that this program made. Names of files and sentences about what is in
-// them may hold any bytes; those that are no UTF-8 become U+FFFD, for a report with a wrong letter
-// is worth more than none.
+// The text of a JSON value that this program made. File names and messages about their content may
+// hold any bytes; those that are not valid UTF-8 become U+FFFD, because a report with a wrong
+// letter is better than none.
 #pragma once
 
 #include <string>

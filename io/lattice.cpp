@@ -25,10 +25,9 @@ LatticePoint Lattice::snap(const Point& p, double* move) const {
     const double rounded = std::nearbyint(exact);
     // Also refuses NaN and infinity, which the comparison does not hold for.
     if (!(std::abs(rounded) < 0x1p62))
-      throw Error(
-          ExitCode::kBadInput,
-          "a vertex lies too far from the grid (more than 2^62 lattice steps): choose larger "
-          "voxels or larger bounds");
+      throw Error(ExitCode::kBadInput,
+                  "a vertex is too far from the grid (more than 2^62 lattice steps): choose larger "
+                  "voxels or larger bounds");
     if (move != nullptr) *move = std::max(*move, std::abs(exact - rounded));
     q[a] = int64_t(rounded);
     if (!box) q[a] -= (2 * grid_.k0[a] + 1) * (int64_t(1) << (fraction_ - 1));

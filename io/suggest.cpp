@@ -10,7 +10,7 @@ std::string meant(const std::string& guess, const std::string& otherwise) {
   return guess.empty() ? otherwise : "; did you mean " + guess + "?";
 }
 
-// An option's name without its value; "" for what is no option.
+// An option's name without its value; "" if the argument is not an option.
 std::string option_in(const std::string& argument) {
   const bool is_option =
       argument.size() > 1 && argument[0] == '-' &&
@@ -25,8 +25,8 @@ bool knows(const std::vector<std::string>& options, const std::string& option) {
          std::find(options.begin(), options.end(), option.substr(0, 2)) != options.end();
 }
 
-// The commands of each program. svdag-verify has a command trace, which needs a scene: who asks for
-// one without naming a program means the tracer.
+// The commands of each program. `trace` alone suggests the tracer, since the command of that name
+// in svdag-verify needs a scene.
 constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
     {"svdag", "build plan run submit merge info export import"},
     {"svdag-verify", "check mesh diff vdb render report"},
@@ -97,14 +97,14 @@ std::string explain_unknown(const std::string& program, std::span<const CommandW
   if (command == nullptr) {
     if (of_program) return "";
     const std::string there = elsewhere(name);
-    return "\"" + name + "\" is no command of " + program +
+    return "unknown command \"" + name + "\" of " + program +
            meant(there.empty() ? nearest(name, names) : there, "; see " + program + " --help");
   }
   for (const std::string& argument : arguments.subspan(of_program ? 0 : 1)) {
     if (argument == "--") break;
     const std::string option = option_in(argument);
     if (option.empty() || knows(command->options, option)) continue;
-    return option + " is no option of " + whole +
+    return "unknown option " + option + " of " + whole +
            meant(nearest(option, command->options), "; see " + whole + " --help");
   }
   return "";

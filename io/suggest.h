@@ -28,8 +28,8 @@ struct CommandWords {
   std::vector<std::string> options;  // with their dashes
 };
 
-// A sentence about the first argument that is no command, or no option of its command, and what it
-// may have been meant to be; "" if all are known. `arguments` without the program's name. A program
+// A message about the first argument that is neither a command nor an option of its command, with
+// the most similar one; "" if all are known. `arguments` without the program's name. A program
 // whose only entry is its own has no commands.
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments);

@@ -34,7 +34,7 @@ struct LatticeBox {
     }
     return true;
   }
-  // Whether all of `other` lies in it.
+  // Whether all of `other` is in it.
   bool holds(const LatticeBox& other) const noexcept {
     for (int a = 0; a < 3; ++a) {
       if (other.min[a] < min[a] || other.max[a] > max[a]) return false;

@@ -13,12 +13,11 @@
 
 namespace svdag {
 
-// Exit codes of all programs; a farm tells retryable (4, 5) from permanent (2, 3) failures by
-// them.
+// Exit codes of all programs. To a farm, 4 and 5 are retryable, 2 and 3 permanent failures.
 enum class ExitCode : int {
   kOk = 0,
   kDiffers = 1,    // the verifier found a difference
-  kUsage = 2,      // the command line asks for something impossible
+  kUsage = 2,      // the command line is wrong or requests something impossible
   kBadInput = 3,   // a scene or DAG file is missing, broken or unsupported
   kOutput = 4,     // disk full, I/O error, output not writable
   kMemory = 5,     // the memory budget does not suffice
@@ -57,7 +56,7 @@ constexpr const char* kNoMemory =
 // True if `error` says that the system has no memory, or no thread, to give.
 bool is_lack_of_memory(const std::exception& error);
 
-// Called by SVDAG_ASSERT: throws an Error with kInternal that asks for a bug report.
+// Called by SVDAG_ASSERT: throws an Error (kInternal) that requests a bug report.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
 
 }  // namespace svdag

@@ -1,7 +1,7 @@
 // A number of a range, each as likely as any other.
 //
 // rapidcheck's inRange grows its range with the number of the case, 0 to 100: the upper end comes
-// late, and what stands last in a list of thirty comes in no run.
+// late, and the last value of a list of thirty is never drawn.
 #pragma once
 
 #include <rapidcheck.h>

@@ -137,7 +137,7 @@ LIBRARIES = {
     r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
 }
 
-# What is no code: comments, strings, directives.
+# Text other than code: comments, strings, directives.
 NOT_CODE = re.compile(r'''//[^\n]*|/\*.*?\*/|R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'''
                       r'''(?<!\w)'(?:\\.|[^'\\\n])+'|^[ \t]*#(?:\\\n|[^\n])*''', re.S | re.M)
 NAMESPACE = re.compile(r"(?:.* )?namespace ?([\w:]*)")
@@ -228,7 +228,7 @@ def types(text):
 
 
 def defined_twice(files):
-    """{name: places} of types with more than one definition; without_X stands in for X, in builds without it."""
+    """{name: places} of types with more than one definition; without_X replaces X in builds without it."""
     places = {}
     for path, text in files:
         for line, name in types(text):

@@ -2,7 +2,7 @@
 """Instructions of small bakes under callgrind, against tests/instructions.json.
 
 Seconds vary from run to run, instructions hardly: a slow path that comes back shows here. More than
-RISE fails; less than FALL asks to renew the numbers with --update, so that the gain is kept. Vectors are
+RISE fails; less than FALL requests an --update of the numbers, so that the gain is kept. Vectors are
 fixed to what valgrind emulates; the numbers belong to the release build of the Debian that make test names.
 """
 import argparse
@@ -56,7 +56,7 @@ def main():
     parser.add_argument("--update", action="store_true", help="keep what the programs need now")
     options = parser.parse_args()
     if shutil.which("valgrind") is None:
-        print("There is no valgrind on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
+        print("valgrind is not on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
         return 0
     with tempfile.TemporaryDirectory(prefix="svdag-instructions-") as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = dict(zip(BAKES, pool.map(lambda name: count(options.programs, name, pathlib.Path(folder)), BAKES)))

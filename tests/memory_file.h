@@ -1,7 +1,7 @@
 // A File over bytes in memory, for tests: the readers take files, and a test should write none.
 //
 // Making such a file and opening it is ten times the work of reading a small one, so a thread keeps
-// those it has made and writes the next bytes into one that nobody has any more. A File of one's
+// those it has made and writes the next bytes into one that is no longer in use. A File of one's
 // own, opened by its path(), is therefore valid as long as the MemoryFile.
 #pragma once
 

@@ -18,7 +18,7 @@ inline std::span<std::byte> part_of(std::string* bytes, size_t begin, size_t siz
   return std::as_writable_bytes(std::span(*bytes)).subspan(begin, size);
 }
 
-// The ranges of the header, if they stand in one block.
+// The ranges of the header, if they are in one block.
 inline std::vector<StoredRange> stored_ranges(std::string* bytes, const RunHeader& h) {
   std::vector<StoredRange> ranges;
   if (h.levels < 3 || h.levels > 20 || h.ranges > bytes->size() / sizeof(StoredRange)) return {};

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""`make test`: builds, runs every test tier by tier, prints the seconds of each and one total.
+"""Builds, runs tests tier by tier, prints the seconds of each tier and one total.
+
+`make test` runs all of them on the release build; `make test-sanitized` (--sanitized) runs the unit tests under ASan
+and UBSan.
 
 Tests are ctest entries with the label of their tier. What they count is read from GoogleTest's own
 JSON and from the summary lines of the Python tests; a program that dies before it can count is one
@@ -39,7 +42,7 @@ def counts_of_gtest(path):
 
 
 def counts_of_text(text):
-    """From a summary line; one test if there is none (a program that only succeeds or fails)."""
+    """From a summary line; one test without such a line (a program that only succeeds or fails)."""
     found = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", text, re.M)
     if found:
         return Counts(*map(int, found[-1]))
@@ -99,7 +102,7 @@ def run(preset, label, environment):
     seconds = time.monotonic() - start
     cases = list(xml.parse(results / "ctest.xml").getroot().iter("testcase"))
     if not cases:
-        print(f"--- there is no test of {preset} labelled {label}")
+        print(f"--- no test of {preset} is labelled {label}")
     counts = Counts(failed=int(not cases))
     for case in cases:
         counts += counts_of_case(case, results)
@@ -121,18 +124,17 @@ def main():
         print(f"SVDAG_SCENES: {scenes} is not a folder: unset it, or give the folder of the shared scenes")
         print("0 passed, 1 failed, 0 skipped")
         return 1
-    say("build", build("release"))
+    sanitized = sys.argv[1:] == ["--sanitized"]
+    preset, tiers = ("asan-ubsan", [("sanitizers", "unit")]) if sanitized else ("release", TIERS)
+    if sanitized:
+        environment.pop("SVDAG_SCENES", None)  # real scenes under ASan are for `make stress`
+    say("build", build(preset))
     total = Counts()
-    for tier, label in TIERS:
-        counts, seconds = run("release", label, environment)
+    for tier, label in tiers:
+        counts, seconds = run(preset, label, environment)
         say(tier, seconds, counts)
         total += counts
-    say("build sanitized", build("asan-ubsan"))
-    environment.pop("SVDAG_SCENES", None)  # real scenes under ASan are for `make stress`
-    counts, seconds = run("asan-ubsan", "unit", environment)
-    say("sanitizers", seconds, counts)
-    total += Counts(counts.passed, counts.failed)
-    if scenes is None:
+    if scenes is None and not sanitized:
         print("SVDAG_SCENES is not set: tests of real scenes were skipped")
     print(total)
     return total.failed > 0

@@ -1,4 +1,4 @@
-// Whether this is a build with a sanitizer, whose runtime asks the system for more than a decoder
+// Whether this is a build with a sanitizer, whose runtime needs more system calls than a decoder
 // does, and ends a process that gets no memory.
 #pragma once
 

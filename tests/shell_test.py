@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails on a shell script that its shell cannot parse: most run in `make stress` alone, where a slip waits long.
 
-The scripts of tests/cli are run by the command line tier, and are no programs of their own.
+The scripts of tests/cli are run by the command line tier, not on their own.
 """
 import pathlib
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No program decides by, or writes, bytes that nobody has set: small work of every kind under valgrind's memcheck.
+"""No program uses or writes uninitialised bytes: small work of every kind under valgrind's memcheck.
 
 The address sanitizer does not see them; in files they would make equal plans differ. Not asked: CGAL's judge, which
 needs roundings that valgrind does not have, and the limited child that decodes OpenVDB, in which it finds no room.
@@ -65,7 +65,7 @@ def under_memcheck(command, folder):
 
 def main():
     if shutil.which("valgrind") is None:
-        print("There is no valgrind on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
+        print("valgrind is not on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
         return 0
     with tempfile.TemporaryDirectory(prefix="svdag-memcheck-") as folder, ThreadPoolExecutor() as pool:
         # The readers, over all that is kept for the fuzzers.

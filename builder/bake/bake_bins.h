@@ -1,8 +1,8 @@
-// Bakes spilled triangles, bin by bin, whatever a bin holds.
+// Bakes spilled triangles, bin by bin.
 //
-// A bin whose triangles fit in memory becomes a CellTree. One that does not is dealt into bins of
-// its parts, which are baked in turn and freed; and one that is but a small cube and still does not
-// fit (10^9 triangles in one voxel) is collected in a bitmap, batch by batch.
+// A bin whose triangles fit in memory becomes a CellTree. A larger one is divided into bins of
+// smaller cubes, which are baked in turn and freed. A small cube that still does not fit (10^9
+// triangles in one voxel) is collected in a bitmap, batch by batch.
 #pragma once
 
 #include "builder/bake/voxelize.h"
@@ -25,7 +25,7 @@ void for_each_bin(const std::vector<TriangleBin>& bins, Progress* progress, cons
 
 class BinBaker {
  public:
-  // All must outlive the baker. `split` tells the cells and the share of memory.
+  // All must outlive the baker. `split` holds the cell level and the share of memory.
   BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
            const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
            Progress* progress);

@@ -34,8 +34,8 @@ class Checkpoint {
   // Whether --resume would find saved work. From any thread.
   bool has_saved_work() const { return has_saved_work_; }
 
-  // Removes the journal, if there is one, for good: no power failure brings it back beside files
-  // that were removed or created since. The scratch folder is no longer kept.
+  // Removes the journal, if any, durably: no power failure restores it beside files that were
+  // removed or created since. The scratch folder is no longer kept.
   void discard();
 
  private:

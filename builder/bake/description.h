@@ -1,7 +1,7 @@
-// What decides the bytes of a bake, as text: one "name: value" per line.
+// Everything that determines the bytes of a bake, as text: one "name: value" per line.
 //
-// A bake may be resumed if and only if its description is the same. Threads, memory and cells are
-// no part of it.
+// A bake can be resumed if and only if its description is the same. Threads, memory and cells are
+// not part of it.
 #pragma once
 
 #include <optional>
@@ -13,28 +13,29 @@
 
 namespace svdag {
 
-// The files that a scene is made of. Reads all of them once, for their hashes.
+// The files of a scene. Reads all of them once, for their hashes.
 std::vector<SceneFile> scene_files(const Scene& scene);
 
-// `files`: of the scene; a bake that is `ready` needs none, for its plan has described them.
+// `files`: of the scene; not needed if config.ready is set, since the plan describes them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
-// Whether this program would give the same bytes for `description`, which may be without a part.
+// Whether `description`, with or without a part, is of the algorithm of this program, which then
+// gives the same bytes.
 bool is_of_this_algorithm(const std::string& description);
 
-// Both, of one bake. Hashes cost a reading of the whole scene: they are made when needed, and once,
-// and they are those of what the bake has read, or an Error.
+// The description and files of one bake. Hashes require reading the whole scene, so they are
+// computed on demand and once; Error if the scene has changed since the bake read it.
 class Description {
  public:
   Description(const BuildConfig& config, const Scene& scene)
       : config_(config), scene_(scene), watch_(scene) {}
 
-  // Of the scene; begin it before the scene is read.
+  // Call begin() on it before the scene is read.
   SceneWatch* watch() { return &watch_; }
 
   const std::vector<SceneFile>& files();
   std::string text();
-  // The text, or nothing from the moment on when the scene is no more what the bake has read.
+  // The text; nothing once the scene has changed since the bake read it.
   std::optional<std::string> text_if_unchanged();
 
  private:
@@ -45,7 +46,7 @@ class Description {
   bool changed_ = false;
 };
 
-// What differs first between two descriptions, for people; empty if nothing does.
+// The first difference between two descriptions, as text for users; empty if they are equal.
 std::string difference(const std::string& saved, const std::string& now);
 
 }  // namespace svdag

@@ -13,56 +13,45 @@ namespace {
 // lines.
 constexpr uint32_t kLayout = 3;
 
-// Field by field: no byte of a hostile file becomes a bool or an enumerator unseen.
-void put_grid(const Grid& grid, RecordWriter* out) {
-  out->put(uint32_t(grid.kind));
-  out->put(int32_t(grid.levels));
-  out->put(grid.voxel_size);
-  for (int a = 0; a < 3; ++a) out->put(grid.origin[a]);
-  out->put(grid.k0);
-  out->put(uint32_t(grid.bounded));
-  out->put(grid.selection);
-}
+// Writes a field in a form without padding or bool.
+struct PutField {
+  RecordWriter* out;
 
-Grid get_grid(RecordReader* in) {
-  Grid grid;
-  uint32_t kind = 0, bounded = 0;
-  in->get(&kind);
-  in->get(&grid.levels);
-  in->get(&grid.voxel_size);
-  for (int a = 0; a < 3; ++a) in->get(&grid.origin[a]);
-  in->get(&grid.k0);
-  in->get(&bounded);
-  in->get(&grid.selection);
-  grid.kind = Grid::Kind(kind);
-  grid.bounded = bounded == 1;
-  in->require(bounded <= 1 && grid.is_possible(), "impossible grid");
-  return grid;
-}
+  template <class T>
+  void operator()(const char*, const T& value) const {
+    out->put(value);
+  }
+  void operator()(const char*, Grid::Kind kind) const { out->put(uint32_t(kind)); }
+  void operator()(const char*, bool value) const { out->put(uint32_t(value)); }
+  void operator()(const char*, const Point& point) const {
+    for (int a = 0; a < 3; ++a) out->put(point[a]);
+  }
+};
 
-void put_counts(const SplitCounts& counts, RecordWriter* out) {
-  out->put(counts.scene.triangles);
-  out->put(counts.scene.quantisation);
-  out->put(counts.scene.invalid);
-  out->put(counts.scene.undeformed);
-  out->put(counts.clipped);
-  out->put(counts.outside);
-  out->put(counts.degenerate);
-  out->put(counts.largest_snap);
-}
+// Reads what PutField wrote: no byte of a hostile file becomes a bool or an enumerator unchecked.
+struct GetField {
+  RecordReader* in;
 
-SplitCounts get_counts(RecordReader* in) {
-  SplitCounts counts;
-  in->get(&counts.scene.triangles);
-  in->get(&counts.scene.quantisation);
-  in->get(&counts.scene.invalid);
-  in->get(&counts.scene.undeformed);
-  in->get(&counts.clipped);
-  in->get(&counts.outside);
-  in->get(&counts.degenerate);
-  in->get(&counts.largest_snap);
-  return counts;
-}
+  template <class T>
+  void operator()(const char*, T& value) const {
+    in->get(&value);
+  }
+  void operator()(const char*, Grid::Kind& kind) const {
+    kind = flag() ? Grid::Kind::kLattice : Grid::Kind::kBox;
+  }
+  void operator()(const char*, bool& value) const { value = flag(); }
+  void operator()(const char*, Point& point) const {
+    for (int a = 0; a < 3; ++a) in->get(&point[a]);
+  }
+
+ private:
+  bool flag() const {
+    uint32_t value = 0;
+    in->get(&value);
+    in->require(value <= 1, "impossible grid");
+    return value == 1;
+  }
+};
 
 void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
   uint32_t layout = 0;
@@ -71,7 +60,8 @@ void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
     throw Error(ExitCode::kUsage, "is of another version of svdag: discard it with --restart",
                 path);
   in->get(&saved->description);
-  saved->grid = get_grid(in);
+  visit_fields(saved->grid, GetField{in});
+  in->require(saved->grid.is_possible(), "impossible grid");
   in->get(&saved->block_bytes);
   in->require(Scratch::can_have_blocks_of(saved->block_bytes), "impossible size of blocks");
 }
@@ -80,7 +70,7 @@ void grow(uint32_t* blocks, const SpillStream& stream) {
   for (const uint32_t block : stream.blocks) *blocks = std::max(*blocks, block + 1);
 }
 
-// The ranges and roots of a run lie in the grid, and each root in a level that has such a rank.
+// The ranges and roots of a run are in the grid, and each root's rank exists in its level.
 void check_run(const BakedRun& baked, int levels, const RecordReader& in) {
   const uint64_t all = uint64_t(1) << 3 * levels;
   for (const MortonRange& range : baked.finished)
@@ -153,14 +143,14 @@ RecordWriter bake_record(const std::string& description, const Grid& grid, uint6
   RecordWriter record;
   record.put(kLayout);
   record.put(description);
-  put_grid(grid, &record);
+  visit_fields(grid, PutField{&record});
   record.put(block_bytes);
   return record;
 }
 
 RecordWriter split_record(const SplitScene& split) {
   RecordWriter record;
-  put_counts(split.counts, &record);
+  visit_count_fields(split.counts, PutField{&record});
   put_bins(split.bins, &record);
   return record;
 }
@@ -187,7 +177,7 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       get_bake(&in, path, &saved);
     } else if (kind == SavedKind::kSplit) {
       saved.split.emplace();
-      saved.split->counts = get_counts(&in);
+      visit_count_fields(saved.split->counts, GetField{&in});
       saved.split->bins = get_bins(&in, saved.grid.levels);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {

@@ -1,9 +1,8 @@
-// What a journal says of a bake: its records, written and read.
+// The records of a bake's journal, written and read.
 //
-// The scratch folder is private, but it lies on a disk and outlives its process: what is read is
-// held against the grid before anybody follows a rank or a block of it. It may outlive the program,
-// too: the first record begins with the number of this layout, so that no build takes the records
-// of another one for damaged, or for its own.
+// The scratch folder is private, but it outlives its process, so ranks and blocks are validated
+// against the grid before they are used. It may also outlive the program: the first record begins
+// with the number of this layout, so that records of another version are recognised as such.
 #pragma once
 
 #include <optional>
@@ -35,8 +34,8 @@ RecordWriter bake_record(const std::string& description, const Grid& grid, uint6
 RecordWriter split_record(const SplitScene& split);
 RecordWriter run_record(const BakedRun& baked);  // which was spilled
 
-// Records that make no sense are an Error (kOutput, as all that is wrong with a scratch folder)
-// that names `path`; those of another layout are one, too (kUsage: --restart is the way out).
+// Error that names `path`: kOutput, as for all problems of a scratch folder, if records are
+// invalid; kUsage, with the hint to use --restart, if they are of another layout.
 SavedBake read_saved(std::span<const JournalRecord> records, const std::string& path);
 
 }  // namespace svdag

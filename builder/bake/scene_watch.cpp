@@ -9,11 +9,11 @@ void SceneWatch::begin() {
   scene_.visit_files([this](const File& file) { files_.push_back({file.path(), state_of(file)}); });
 }
 
-// A file that is unchanged names the same others, so nothing but the state is looked at.
+// An unchanged file refers to the same other files, so comparing the states is enough.
 void SceneWatch::check() const {
   for (const Noted& file : files_) {
     if (state_of(File::open_read(file.path)) != file.state)
-      fail_input(file.path, "has changed while it was baked: bake it when nobody writes it");
+      fail_input(file.path, "changed during the bake: bake it when no program writes to it");
   }
 }
 

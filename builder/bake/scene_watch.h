@@ -1,11 +1,11 @@
-// Whether the files of a scene stay as they are while it is baked.
+// Detects changes of a scene's files during a bake.
 //
-// A bake reads them more than once: for the box, the triangles, the hash. Were one rewritten in
-// between, the triangles would be of two scenes, or the journal would name another content than
-// the triangles have, and a resumed bake would trust it. So what stat says of every file is noted
-// before the first reading, and compared after the last one that gives triangles and after the
-// hash, which follows at once where a report wants it. Rejected: copies and locks (nobody else
-// keeps to them), the hash before and after (a reading more).
+// A bake reads them more than once: for the box, the triangles, the hash. If one changed in
+// between, triangles of two scenes could be mixed, or the journal could name content that the
+// triangles do not have, and a resumed bake would trust it. So the state of every file is recorded
+// before the first read, and compared after the triangles were read and after the hash, which is
+// computed at once if a report needs it. Rejected: copies, locks (other programs ignore them),
+// hashing before and after (one more read).
 #pragma once
 
 #include <string>
@@ -20,9 +20,9 @@ class SceneWatch {
  public:
   explicit SceneWatch(const Scene& scene) : scene_(scene) {}
 
-  // Notes the files as they are now, those that they name included; once.
+  // Records the state of the files, including those that they refer to; once.
   void begin();
-  // An Error (kBadInput) that names a file which is not as it was.
+  // Error (kBadInput) that names the first changed file.
   void check() const;
 
  private:

@@ -27,7 +27,7 @@ std::string random_name() {
   return std::string(name) + kEnding;
 }
 
-// Somebody else's file in the folder, whatever it is called, is none.
+// Whether the name is that of a pack; other files in the folder are left alone.
 bool is_of_cache(const std::string& name) {
   return name.size() == 16 + std::strlen(kEnding) && name.ends_with(kEnding) &&
          name.find_first_not_of("0123456789abcdef") == 16;
@@ -39,8 +39,8 @@ size_t packs_to_keep_open() {
   return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
 }
 
-// Of an Error being handled that is no fault of the pack: it passes, and the bake goes on without
-// it, but for a defect of ours.
+// Ignores an Error that is not caused by the pack, so the bake continues without it; rethrows
+// internal errors.
 void let_pass(const Error& error) {
   if (error.code() == ExitCode::kInternal) throw;
 }
@@ -90,7 +90,7 @@ void CellCache::open_packs() {
   for (const Found& file : found) {
     try {
       Pack pack(config_.folder + "/" + file.name);
-      const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(Place);
+      const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(CellAddress);
       if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
         ++ignored_;
         continue;
@@ -105,7 +105,7 @@ void CellCache::open_packs() {
       let_pass(error);
     }
   }
-  counted_ = budget_->reserve(entries * sizeof(Place), "places in the cell cache");
+  counted_ = budget_->reserve(entries * sizeof(CellAddress), "places in the cell cache");
   places_.reserve(entries);
   make_index();
 }
@@ -116,10 +116,10 @@ void CellCache::make_index() {
     const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
     for (uint32_t e = 0; e < count; ++e) places_.push_back({p, e});
   }
-  std::sort(places_.begin(), places_.end(), [this](Place a, Place b) {
+  std::sort(places_.begin(), places_.end(), [this](CellAddress a, CellAddress b) {
     return std::tie(key_at(a).words, a.pack, a.entry) < std::tie(key_at(b).words, b.pack, b.entry);
   });
-  const auto same = [this](Place a, Place b) { return key_at(a) == key_at(b); };
+  const auto same = [this](CellAddress a, CellAddress b) { return key_at(a) == key_at(b); };
   places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
 }
 
@@ -156,7 +156,7 @@ bool CellCache::usable(Open* open) {
 bool CellCache::take(const CellKey& key, const Cube& cube) {
   const auto found = std::lower_bound(
       places_.begin(), places_.end(), key,
-      [this](Place place, const CellKey& k) { return key_at(place).words < k.words; });
+      [this](CellAddress place, const CellKey& k) { return key_at(place).words < k.words; });
   if (found == places_.end() || key_at(*found) != key) return false;
   const std::lock_guard lock(mutex_);
   Open& open = packs_[found->pack];

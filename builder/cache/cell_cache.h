@@ -49,7 +49,7 @@ class CellCache final : public CellStore {
 
  private:
   // ListedTriangle `entry` of packs_[pack].
-  struct Place {
+  struct CellAddress {
     uint32_t pack, entry;
   };
   struct Found {
@@ -65,7 +65,7 @@ class CellCache final : public CellStore {
   std::vector<Found> find_packs() const;
   void open_packs();
   void make_index();
-  const CellKey& key_at(Place place) const {
+  const CellKey& key_at(CellAddress place) const {
     return packs_[place.pack].pack.entries()[place.entry].key;
   }
   void trim() const;
@@ -80,7 +80,7 @@ class CellCache final : public CellStore {
   std::vector<Open> packs_;
   size_t open_ = 0;                    // of them
   MemoryBudget::Reservation counted_;  // places_
-  std::vector<Place> places_;          // of all keys, by key
+  std::vector<CellAddress> places_;    // of all keys, by key
   std::mutex mutex_;
   uint64_t hits_ = 0, ignored_ = 0;
   std::string complaint_;

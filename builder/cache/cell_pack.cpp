@@ -26,7 +26,7 @@ uint64_t checksum_of(const PackHeader& header) {
   return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(PackHeader, checksum)));
 }
 
-// Appends the keys of a level, wherever they are; returns how many there are.
+// Appends the keys of a level, in memory or spilled; returns their number.
 template <class Key>
 uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget* budget,
                       PackBlockWriter* out) {
@@ -97,7 +97,7 @@ Pack::Pack(std::string path) : path_(std::move(path)) {
           header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
   if (!sound || kPackBegin + payload_of(header_) + blocks_of(header_) * sizeof(uint64_t) != size)
-    throw DamagedPack(path_, "is no pack of a cell cache, or damaged");
+    throw DamagedPack(path_, "is not a pack of a cell cache, or is damaged");
 }
 
 uint64_t Pack::index_bytes() const {

@@ -16,8 +16,8 @@
 
 namespace svdag {
 
-// Writes the cells of `baked` that have keys, baked in a grid of `levels` levels, for packs that
-// are read later; nothing if there are none. `runs` holds the run if it was spilled.
+// Writes a pack of the cells of `baked` that have keys, baked in a grid of `levels` levels; writes
+// nothing without such cells. `runs` holds the run if it was spilled.
 void write_pack(const std::string& path, const BakedRun& baked, int levels, SpillFile* runs,
                 MemoryBudget* budget);
 
@@ -37,8 +37,8 @@ class Pack {
   // To be called once, before all below. A DamagedPack if they are not sound.
   void read_entries(MemoryBudget* budget);
   std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file, for good, and reads it once to the end: a DamagedPack if a byte of it is not as
-  // it was written, or its nodes are none that a run can have; an Error if it cannot be read.
+  // Opens the file and reads it once to the end. DamagedPack if a byte was changed, or if its nodes
+  // cannot be those of a run; Error if it cannot be read.
   void prove();
 
   struct Taken {

@@ -1,9 +1,9 @@
 // `svdag build --batch LIST.json`: many bakes, one after the other, and one report.
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
-// "scene": a path or several. Each object becomes a command line and is understood as that, all of
-// them before the first is baked. What the command line of the batch says holds for bakes that do
-// not say otherwise; what cannot hold for several bakes is refused.
+// "scene": one or more paths. Each object becomes a command line, and all are parsed before the
+// first bake. Options given with --batch are defaults for every bake in the list; options that
+// cannot apply to several bakes are rejected.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -39,7 +39,7 @@ std::vector<std::string> arguments_of(const Json& job, const BatchCommand& batch
   std::vector<std::string> scene, options;
   const auto add = [&](const std::string& key, const Json& one) {
     if (one.is_structured() || one.is_null())
-      fail_usage("\"" + key + "\" is no text, number or flag");
+      fail_usage("\"" + key + "\" must be a text, number or flag");
     if (key.size() == 1) fail_usage("\"" + key + "\": give the long name of the option");
     if (key == "scene") {
       scene.push_back(text_of(one));
@@ -77,11 +77,11 @@ Json read_list(const std::string& path) {
     Json list = Json::parse(text);
     if (list.is_array()) return list;
   } catch (const Json::parse_error& error) {
-    throw Error(ExitCode::kBadInput, "is no JSON from there on", path, error.byte);
+    throw Error(ExitCode::kBadInput, "is not valid JSON", path, error.byte);
   } catch (const Json::exception&) {
     fail_input(path, "has a number that is too large");
   }
-  fail_input(path, "is no list of bakes: a JSON array of objects");
+  fail_input(path, "is not a list of bakes: must be a JSON array of objects");
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ std::vector<BakeCommand> bakes_of(const BatchCommand& batch) {
   std::vector<BakeCommand> jobs;
   for (const Json& job : read_list(batch.list)) {
     const std::string where = place(batch, jobs.size());
-    if (!job.is_object()) fail_usage(where + "is no object");
+    if (!job.is_object()) fail_usage(where + "is not an object");
     try {
       jobs.push_back(parse_bake(arguments_of(job, batch), batch.defaults));
     } catch (const Error& error) {

@@ -127,7 +127,7 @@ void add_options(CLI::App* app, BuildOptions* options) {
                   "options beside it hold for bakes that do not say otherwise; --report is of all"),
               {".json"})
       ->type_name("LIST.json");
-  app->add_flag("--keep-going", options->keep_going, "Go on with a batch when a bake fails");
+  app->add_flag("--keep-going", options->keep_going, "Continue a batch after a bake fails");
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid and an output
@@ -155,13 +155,12 @@ void add_options(CLI::App* app, BuildOptions* options) {
   add_progress(app, &options->bake.output);
   add_measurement_options(app, &build->descent);
   app->parse_complete_callback([=] { options->given = given_options(app, grid); });
-  add_examples(
-      app,
-      {"svdag build city.glb -o city.svdag -r 64K",
-       "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
-       "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
-      "With --batch LIST.json there is no SCENE and no -o; PLAN --shard I needs nothing else. "
-      "svdag help grid, rules and memory tell more.");
+  add_examples(app,
+               {"svdag build city.glb -o city.svdag -r 64K",
+                "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
+                "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
+               "--batch LIST.json replaces SCENE and -o; PLAN --shard I needs nothing else. "
+               "See also: svdag help grid, rules, memory.");
 }
 
 // A shard takes all other options from the plan.
@@ -228,14 +227,14 @@ BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeComm
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
-    fail_usage("help is no part of a bake: svdag build --help has it");
+    fail_usage("a bake in a list cannot have the option help: see svdag build --help");
   } catch (const CLI::ParseError& error) {
     fail_usage(explain(app, arguments, error));
   }
   if (!options.batch.empty()) fail_usage("a list of bakes cannot hold another list");
   if (options.shard) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
-  if (options.dry_run) fail_usage("dry-run is of the whole list: give it beside --batch");
-  if (options.keep_going) fail_usage("keep-going is of the whole list: give it beside --batch");
+  if (options.dry_run) fail_usage("dry-run applies to the whole list: pass it with --batch");
+  if (options.keep_going) fail_usage("keep-going applies to the whole list: pass it with --batch");
   if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
   return options.bake;
 }

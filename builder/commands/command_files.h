@@ -1,8 +1,8 @@
-// The files of a command: what it reads is never overwritten, and no result by another one.
+// The files of a command: no output overwrites an input or another output.
 //
-// An input is known by all its names. A result is a file of its own that gets its name by a rename,
-// also where a link to another result was: only its place counts.
-// All inputs are told before the first output. Nothing is opened but by read_buffers().
+// An input is identified under all its names. An output is a new file that gets its name by a
+// rename, even where a link to another output was, so only its path counts. All inputs are added
+// before the first output. Only read_buffers() opens files.
 #pragma once
 
 #include <string>

@@ -51,7 +51,7 @@ void add_merge(CLI::App* program, Command* command) {
            options->step = step;
            output->required(false);
          },
-         "Do this merge of a plan; one that is done already is kept")
+         "Do this merge of a plan; a finished one is kept")
       ->type_name("NAME");
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_quiet(app, &config->output);
@@ -61,29 +61,29 @@ void add_merge(CLI::App* program, Command* command) {
       app,
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
        "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
-      "PLAN --step NAME needs nothing else. svdag help farm tells more.");
+      "PLAN --step NAME needs nothing else. See also: svdag help farm.");
   app->preparse_callback([=](size_t) { *options = {}; });
   app->callback([=] { *command = command_of(*options); });
 }
 
 void add_plan(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("plan", "Cut a bake into jobs for a farm");
+  CLI::App* app = program->add_subcommand("plan", "Divide a bake into jobs for a farm");
   auto config = std::make_shared<PlanCommand>();
   PlanConfig* plan = &config->plan;
   takes_files(
       app->add_option("SCENE", plan->build.scene.paths, "Scene files; several are one scene"),
       kSceneEndings)
       ->required();
-  takes_folder(app->add_option("-o,--output", plan->folder, "The folder of the plan, to be made"))
+  takes_folder(app->add_option("-o,--output", plan->folder, "The folder of the plan, to create"))
       ->required()
       ->type_name("PLAN");
-  from_to(app->add_option("--shards", plan->shards, "Into how many jobs the bake is cut"), 1,
+  from_to(app->add_option("--shards", plan->shards, "Number of jobs to divide the bake into"), 1,
           100000)
       ->required()
       ->type_name("N");
-  from_to(
-      app->add_option("--fan-in", plan->fan_in, "Runs that one merge reads, at most (default: 16)"),
-      2, 1000)
+  from_to(app->add_option("--fan-in", plan->fan_in,
+                          "Max number of runs that one merge reads (default: 16)"),
+          2, 1000)
       ->type_name("N");
   add_grid_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
@@ -93,7 +93,7 @@ void add_plan(CLI::App* program, Command* command) {
   add_progress(app, &config->output);
   add_examples(app,
                {"svdag plan city.glb -r 64K --shards 16 -o city.plan", "svdag run city.plan -j 4"},
-               "-m bounds the planning and each step. svdag help farm tells more.");
+               "-m limits the planning and each step. See also: svdag help farm.");
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }
@@ -117,7 +117,7 @@ void add_run(CLI::App* program, Command* command) {
 }
 
 void add_submit(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("submit", "Hand a plan to a farm");
+  CLI::App* app = program->add_subcommand("submit", "Submit a plan to a farm");
   auto config = std::make_shared<SubmitCommand>();
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   one_of(app->add_option("--engine", config->engine,
@@ -131,14 +131,14 @@ void add_submit(CLI::App* program, Command* command) {
               {"*"})
       ->type_name("FILE");
   takes_files(app->add_option("-o,--output", config->template_path,
-                              "Of openjd: the template (default: PLAN/openjd.json)"),
+                              "openjd: the template to write (default: PLAN/openjd.json)"),
               {".json"})
       ->type_name("FILE");
   takes_folder(
       app->add_option("--scratch", config->scratch,
-                      "Folder on the machines for what is spilled (a relative path begins here)"))
+                      "Folder on the machines for spilled data (a relative path begins here)"))
       ->type_name("DIR");
-  app->add_option("OPTION", config->options, "Behind --: options for the engine");
+  app->add_option("OPTION", config->options, "After --: options for the engine");
   add_quiet(app, &config->output);
   add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",
                      "svdag submit city.plan --engine openjd -o city.openjd.json"});

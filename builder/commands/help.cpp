@@ -17,14 +17,14 @@ int print(const std::string& text) {
   return 0;
 }
 
-// The programs that become_sibling() starts know their options themselves.
+// Commands that are programs of their own, which print their help themselves.
 bool is_sibling(const std::string& name) {
   return name == "export" || name == "import";
 }
 
-[[noreturn]] void ask_sibling(std::string name) {
-  std::string program = "svdag", question = "--help";
-  char* arguments[] = {program.data(), name.data(), question.data(), nullptr};
+[[noreturn]] void print_help_of_sibling(std::string name) {
+  std::string program = "svdag", option = "--help";
+  char* arguments[] = {program.data(), name.data(), option.data(), nullptr};
   become_sibling(("svdag-" + name).c_str(), arguments);
 }
 
@@ -58,14 +58,14 @@ int run(const HelpCommand& help) {
   for (const Topic& topic : topics()) {
     if (topic.name == subject) return print(filled(topic.text, width));
   }
-  if (is_sibling(subject)) ask_sibling(subject);
+  if (is_sibling(subject)) print_help_of_sibling(subject);
   for (const Manual& command : program.commands) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }
   const std::string there = elsewhere(subject);
   const std::string guess =
       there.empty() ? nearest(subject, help_subjects(program)) : there + " --help";
-  fail_usage("\"" + subject + "\" is no command and no topic of svdag" +
+  fail_usage("unknown command or topic \"" + subject + "\"" +
              (guess.empty() ? "; svdag help lists them" : "; did you mean " + guess + "?"));
 }
 

@@ -16,7 +16,7 @@ std::string hash_of(const RunFile& run) {
   return to_hex(run.header().content_hash);
 }
 
-// Of all voxels of the grid, how many lie in the part.
+// The fraction of the grid's voxels that are in the part.
 double share_of(const RunFile& run) {
   double share = 0;
   for (const Cube& top : run.part().tops()) share += 1 / double(uint64_t(1) << 3 * top.level);

@@ -23,8 +23,7 @@ int run(const RunCommand& config) {
     std::vector<std::string> again = {"svdag", "run", config.plan};
     if (config.processes != 0) again.insert(again.end(), {"-j", std::to_string(config.processes)});
     if (!config.scratch.empty()) again.push_back("--scratch=" + config.scratch);
-    std::fprintf(stderr, "svdag: stopped; this goes on with what is left: %s\n",
-                 shell_words(again).c_str());
+    std::fprintf(stderr, "svdag: stopped; to continue: %s\n", shell_words(again).c_str());
     return 128 + interrupted.signal;
   }
   if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());

@@ -14,7 +14,7 @@ Rule parse_rule(const std::string& name) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     if (name == rule_name(rule)) return rule;
   }
-  fail_usage("--rule: \"" + name + "\" is no rule: conservative or thin");
+  fail_usage("--rule: unknown rule \"" + name + "\": choose conservative or thin");
 }
 
 double checked_voxel_size(double size) {
@@ -35,7 +35,7 @@ void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text) {
 void add_progress(CLI::App* app, OutputConfig* output) {
   app->add_flag_callback(
       "--progress", [output] { output->progress = Progress::Mode::kOn; },
-      "Show progress even if stderr is no terminal");
+      "Show progress even if stderr is not a terminal");
   app->add_flag_callback(
       "--no-progress", [output] { output->progress = Progress::Mode::kOff; },
       "Never show progress");
@@ -52,7 +52,7 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
   app->add_flag("--sandbox", *sandbox,
-                "Decode Draco and OpenMesh data in a limited process: for scenes of strangers");
+                "Decode Draco and OpenMesh data in a limited process: for untrusted scenes");
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,

@@ -3,8 +3,8 @@
 
 namespace svdag {
 
-// Becomes the program `name` beside this one, with the same arguments from the sub-command's on
-// (argv[1] is its name). Returns only if there is no such program: an Error (kUsage) that says so.
+// Replaces this process by the program `name` in the same folder, with the arguments from argv[1],
+// the sub-command's name. Error (kUsage) if the program is not found.
 [[noreturn]] void become_sibling(const char* name, char** argv);
 
 }  // namespace svdag

@@ -72,8 +72,8 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
 
 Plan load(const std::string& path, const char* option, bool with_bins) {
   if (!is_plan(path))
-    fail_usage(std::string(option) + " is for a plan, and " + path +
-               " is none: svdag plan makes one");
+    fail_usage(std::string(option) + ": " + path +
+               " is not a plan folder (create one with svdag plan)");
   return load_plan(path, with_bins);
 }
 
@@ -100,7 +100,8 @@ int run(const ShardCommand& command) {
 int run(const MergeStepCommand& command) {
   const Plan plan = load(command.plan, "--step", false);
   const PlanStep& step = find_step(plan, command.step_name);
-  if (step.is_shard()) fail_usage("--step: " + step.name + " is no merge: svdag build bakes it");
+  if (step.is_shard())
+    fail_usage("--step: " + step.name + " is a shard: bake it with svdag build --shard");
   return do_step(plan, step, command.step, command.threads, command.output);
 }
 

@@ -36,7 +36,7 @@ int run(const SubmitCommand& config) {
     try {
       submit_slurm(
           plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
-    } catch (const Interrupted& interrupted) {  // it has told what goes on
+    } catch (const Interrupted& interrupted) {  // the submitted jobs have been listed
       return 128 + interrupted.signal;
     }
     return int(ExitCode::kOk);

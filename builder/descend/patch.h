@@ -1,11 +1,11 @@
-// Near-planar patches: several triangles that are one plane as far as a cube's voxels can tell.
+// Near-planar patches: several triangles whose voxels in a cube equal those of one plane.
 //
 // The diagonal of a quad, a tessellated wall, coordinate noise, a gently curved surface: no single
 // triangle covers the cube, yet their voxels are those of a plane. Notation: n_q the integer normal
 // of one of them, w its dominant axis, g(x) = n_q . x, Q the cube's closed square along w; `list`
 // holds all triangles that meet the closed cube. The memo's answer for the offsets [low, high]
 // (builder/descend/plane_memo.h) is the cube's content if
-//   P1  g of every triangle in the whole column of Q lies in [low, high];
+//   P1  g of every triangle in the whole column of Q is in [low, high];
 //   and one triangle covers Q, or
 //   P2  every edge that meets the closed cube has a mate in the list: a triangle with the same two
 //       snapped end points and its third vertex strictly on the other side, seen along w; and
@@ -15,12 +15,12 @@
 //
 // Why: a voxel that the plane misses is missed by P1. Over a corner of least (largest) g of a set
 // voxel, [low, high] spans at most 3 voxels upwards (downwards) from that corner, so the choice of
-// P3 keeps all of the surface there inside the cube. Between two such points its heights lie
+// P3 keeps all of the surface there inside the cube. Between two such points its heights are
 // between those at the ends, so inside as well; there the surface has no border (P2), so if it
-// covers the witness it goes on to every set voxel, and through it: at one corner it is above the
-// voxel's floor, at the other below its ceiling.
-// Where a condition fails the caller descends; all triangles must have w as their dominant axis,
-// which leaves vertical ones, segments and points to the descent.
+// covers the witness it extends to every set voxel, and through it: at one corner it is above the
+// voxel's floor, at the other below its ceiling. Where a condition fails the caller descends; all
+// triangles must have w as their dominant axis, which leaves vertical ones, segments and points to
+// the descent.
 #pragma once
 
 #include <optional>

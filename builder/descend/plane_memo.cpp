@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
 constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
-constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that may be asked for
+constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that is looked up
 constexpr double kAdmitted = 16;    // bricks per content, in `repeats`, from which a plane repays
 constexpr int64_t kSpan = 3;        // buckets on either side in which an entry is found, too
 constexpr int kLargestTable = 19;   // log2 of its entries
@@ -38,7 +38,7 @@ uint32_t pack(uint32_t x, uint32_t y, uint32_t z) noexcept {
 }  // namespace
 
 PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
-  asked += other.asked;
+  queries += other.queries;
   answered += other.answered;
   hits += other.hits;
   computed += other.computed;
@@ -85,8 +85,8 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   return Known{*plane, n.number - 1, first_level(*plane), stored_from};
 }
 
-// Offsets of exact planes fit 63 bits up to here. Of the others most ranges straddle some value in
-// large cubes, unless the values lie in few clusters.
+// The level from which on a plane is looked up. Offsets of exact planes fit 63 bits up to it. Of
+// other planes most ranges straddle a value in large cubes, unless the values form few clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
   const int exact = std::max(0, levels_ - (kLargestExact - fraction_bits(levels_)));
   if (plane.exact) return exact;
@@ -135,11 +135,11 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
   return &normals_.back();
 }
 
-// How many contents a cube of the level has that matter, and the length of their intervals.
+// The number of relevant contents of a cube of the level, and the length of their intervals.
 //
 // The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
-// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums lie in s + 1
-// clusters: between them are the few long intervals that almost every cube falls into; likewise
+// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1
+// clusters: between them are the few long intervals that contain almost every cube; likewise
 // (s + 1)^2 clusters where only a is small.
 PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
   double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
@@ -195,7 +195,7 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
 
 std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
                                       const OffsetRange& range, Witness* witness) {
-  ++counts_.asked;
+  ++counts_.queries;
   stored_from_ = known.stored_from;
   Answer answer;
   if (!node(known.number, cube.level, range, &answer)) return std::nullopt;
@@ -223,7 +223,7 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
     }
   }
   if (!compute(number, level, range, out)) return false;
-  // Into every bucket that the interval meets, near the one that was asked for.
+  // Into every bucket that the interval meets, near the requested one.
   const int64_t first = std::max(out->low >> log2, bucket - kSpan);
   const int64_t last = std::min(out->high >> log2, bucket + kSpan);
   for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);

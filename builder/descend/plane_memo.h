@@ -1,8 +1,8 @@
-// Plane memo: what a plane leaves in a cube is computed once per content, not once per cube.
+// Plane memo: the voxels of a plane in a cube are computed once per content, not once per cube.
 //
 // Where one triangle covers a cube, the cube's voxels depend on the plane alone: on its normal n_q
 // and on the offset o of the plane from the cube's corner (builder/overlap/lattice_plane.h). They
-// stay the same while o lies between neighbouring lattice values, so every node computed carries
+// stay the same while o is between neighbouring lattice values, so every node computed carries
 // the closed integer interval [low, high] of offsets with the same content:
 //   a voxel with n_q . x in [l, h] on its closed cube is set iff l <= o <= h, so a hit leaves
 //   [l, h], a miss (-inf, l-1] or [h+1, inf);
@@ -10,10 +10,10 @@
 //   dominant centre segment, which any other crossing implies;
 //   a node leaves the intersection of its children's intervals, each shifted by n_q . corner.
 // A query is a range of offsets that holds g = n_q . x over the triangle in the cube's column; an
-// entry serves iff its interval holds the range. A range that straddles a lattice value is served
-// by nobody: the caller descends. Why a range is exact although g varies: the triangle is a graph
-// over the column; if it missed a voxel with l <= g <= h throughout, it would pass above (or below)
-// the voxel's corner of largest (smallest) n_q . x, where g is beyond h (l).
+// entry answers it iff its interval holds the range. No entry answers a range that straddles a
+// lattice value: the caller descends. Why a range is exact although g varies: the triangle is a
+// graph over the column; if it missed a voxel with l <= g <= h throughout, it would pass above (or
+// below) the voxel's corner of largest (smallest) n_q . x, where g is beyond h (l).
 //
 // Repaying: a plane of A square voxels meets about A/s^2 cubes of side s but has at most 2(s+1)^3
 // contents there (an axis-aligned one 2s+1). So entries are kept only for sizes that repeat, and a
@@ -39,8 +39,8 @@
 namespace svdag {
 
 struct PlaneMemoCounts {
-  uint64_t asked = 0;     // cubes that one triangle covers, put to the memo
-  uint64_t answered = 0;  // of these: without descending
+  uint64_t queries = 0;   // cubes looked up
+  uint64_t answered = 0;  // of these, answered without descending
   uint64_t hits = 0;      // nodes found, inner ones of an answer included
   uint64_t computed = 0;  // nodes computed
 
@@ -59,29 +59,29 @@ class PlaneMemo {
   PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table,
             uint64_t bytes = UINT64_MAX);
 
-  // What the memo knows about a triangle's plane.
+  // A triangle's plane in the memo.
   struct Known {
     LatticePlane plane;
     uint32_t number;  // of the plane
-    int asked_from;   // levels from this one on may be asked for
+    int min_level;    // levels from this one on may be looked up
     int stored_from;  // levels from this one on repeat
   };
-  // Admits the triangle, of which a cube of `side` voxels may be met; none if its plane does not
-  // repay (yet) or has no integers. Valid until forget().
+  // Admits the plane of a triangle that may cover cubes of up to `side` voxels; none if the plane
+  // does not repay (yet) or has no integer normal. Valid until forget().
   std::optional<Known> admit(const TriangleSetup& t, double side);
   // Forgets all planes if they have become too many for the budget.
   void forget();
 
-  // The sub-DAG of a cube (asked_from <= level <= brick level) that the triangle covers; none if
-  // the memo can't tell.
+  // The sub-DAG of a cube (min_level <= level <= brick level) that the triangle covers; none if the
+  // memo cannot answer.
   std::optional<SubDag> find(const Known& known, const Cube& cube);
   // The same for any triangles whose offsets are in `range`, provided that they have no border in
   // the cube (builder/descend/patch.h). *witness, if the cube is not empty, is a voxel that is set.
   std::optional<SubDag> find(const Known& known, const Cube& cube, const OffsetRange& range,
                              Witness* witness);
-  // To be called after each flush of the table.
+  // Call after each flush of the table.
   void settle();
-  // To be called when the table was emptied: what is known of the planes stays.
+  // Call after the table was emptied. The planes are kept.
   void drop_contents();
 
   const PlaneMemoCounts& counts() const { return counts_; }

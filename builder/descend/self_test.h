@@ -1,10 +1,10 @@
-// A question with a known answer, put to the voxelizer before it is believed.
+// A self-test of the voxelizer with a known result, run before every bake.
 //
 // Some triangles of every kind (small, large, beyond the grid, wider than 2^41 steps, with corners
-// and edges on the planes and centres of voxels) are voxelized by the very kernels that the bake
-// will use, and the voxels compared with a hash of the right ones: 10^5 decisions, a millisecond or
-// two. It tells a processor, a compiler or a translator of instructions that computes something
-// else, before a file is written; what is right is for the tests to say.
+// and edges on the planes and centres of voxels) are voxelized by the kernels that the bake will
+// use, and the voxels are compared with a stored hash: 10^5 decisions, a millisecond or two. It
+// detects a processor, compiler or emulator that computes other results, before a file is written.
+// The tests prove that the stored hash is right.
 // Rejected: the plain kernels as judge (the same wrong arithmetic would agree with itself).
 #pragma once
 

@@ -1,7 +1,7 @@
-// The voxelizer asked directly: a window (a cube of the octree) and triangles in, bricks out.
+// Direct access to the voxelizer: a window (a cube of the octree) and triangles in, bricks out.
 //
-// Dense cubes (builder/descend/dense_cube.h) are baked by it, and tests judge it rather than a
-// predicate: every kernel, filter and memo of the descent stands under the same suites.
+// Bakes dense cubes (builder/descend/dense_cube.h). Tests judge it rather than a single predicate,
+// so the same suites cover every kernel, filter and memo of the descent.
 #pragma once
 
 #include <functional>

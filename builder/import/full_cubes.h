@@ -27,7 +27,7 @@ class FullCubes {
   explicit FullCubes(MemoryBudget* budget) : budget_(budget) {}
 
   void add(const FullCube& cube);
-  // No more are added; what lies within another is left out.
+  // Ends adding; drops cubes that are within another one.
   void sort();
   // Afterwards: the cubes in Morton order.
   size_t size() const { return records_.size(); }

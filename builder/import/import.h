@@ -38,9 +38,8 @@ struct ImportReport {
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 
 ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
-// Voxels outside of a grid of config.levels are an Error (kUsage). `count`: how many voxels will
-// come, if that is known; more than the disk has room to sort are an Error (kOutput) before the
-// first one is asked for.
+// Voxels outside of a grid of config.levels are an Error (kUsage). `count`: number of voxels, if
+// known; more than the disk can sort are an Error (kOutput) before the first one is read.
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
                            Executor* executor, uint64_t count = 0);
 

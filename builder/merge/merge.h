@@ -32,7 +32,7 @@ namespace svdag {
 
 struct MergeConfig {
   MemoryBudget* budget = nullptr;      // required
-  Scratch* scratch = nullptr;          // null: all runs are in memory, and all maps shall be
+  Scratch* scratch = nullptr;          // null: all runs and maps are in memory
   uint64_t map_bytes = 0;              // maps of two levels that need more are spilled
   uint64_t window_bytes = UINT64_MAX;  // of a spilled map, loaded at a time by each worker
   size_t sources = 2;                  // that may be open at once, if they are spilled; at least 2
@@ -43,8 +43,8 @@ struct MergeConfig {
 MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t workers,
                             uint64_t source_bytes);
 
-// Writes all levels to `output`, which the caller finishes with the roots that this returns: those
-// of the tops of `part`. Uses the runs up. The cells must be disjoint and lie in the part.
+// Writes all levels to `output`, which the caller finishes with the returned roots: those of the
+// tops of `part`. Consumes the runs. The roots must be disjoint and in the part.
 std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,
                               const GridPart& part, const MergeConfig& config, BakeOutput* output,
                               Executor* executor);

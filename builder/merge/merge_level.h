@@ -20,7 +20,7 @@ namespace svdag {
 // Where the keys of a source stand.
 template <class Key>
 struct LevelInput {
-  std::span<const Key> keys;  // in memory, if there are no blocks
+  std::span<const Key> keys;  // in memory, unless `blocks` is set
   std::function<std::unique_ptr<BlockSource>()> blocks;
   uint64_t bytes = 0;            // of the blocks
   const RankMap* map = nullptr;  // rewrites the children of what is read from them

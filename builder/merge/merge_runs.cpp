@@ -42,8 +42,8 @@ Run run_of(const RunFile& file) {
   return run;
 }
 
-// What was proven of a run is so no more where another program writes to it: that is the reason
-// to tell, whatever a merge trips over.
+// Runs `merge`. If a run file changed since it was checked, that is reported as the cause of any
+// error.
 std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
                                      const std::function<std::vector<SubDagRoot>()>& merge) {
   const auto require_unchanged = [&] {
@@ -110,8 +110,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   report.grid = files.front().grid();
   if (!names_run(config.output)) {
     require_whole(part, report.grid, config.output);
-    part =
-        GridPart::whole(report.grid.levels);  // what is not there holds nothing that was asked for
+    part = GridPart::whole(report.grid.levels);  // the rest is outside of the selection
   }
 
   if (config.discard_unfinished) {

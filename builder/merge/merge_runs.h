@@ -18,7 +18,7 @@ struct MergeRunsConfig {
   std::string output;   // a `.run` if it is named so, else a `.svdag`
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
-  bool discard_unfinished = false;  // an unfinished bake of the output is in nobody's way
+  bool discard_unfinished = false;  // discard an unfinished bake of the output
 };
 
 struct MergeRunsReport {

@@ -41,7 +41,7 @@ class RankMaps {
       writers_[source].append(std::as_bytes(std::span(&index, 1)));
     }
   }
-  // No more is pushed.
+  // Ends pushing.
   void finish();
   // Adds the map of one more source: what `member` of *into maps to, mapped by `group` of out_of.
   // All are spilled; that of `member` is freed.

@@ -1,11 +1,10 @@
-// A part of the grid: whole bricks, as ranges of Morton codes. What one run holds, of which others
-// hold the rest.
+// A part of the grid: whole bricks, as ranges of Morton codes. One run holds one part.
 //
-// The *tops* of a part are its maximal cubes: cubes of the octree that lie in it whole and whose
-// parents do not. The same voxels have the same tops, however the ranges were put together, so a
-// sub-DAG per top that is not empty is a canonical form of what stands in the part.
-// Rejected: the cells as roots (their level is a choice of whoever bakes), and one root for all (it
-// would hold nodes of which others know the rest).
+// The *tops* of a part are its maximal cubes: cubes of the octree that are completely in the part
+// and whose parents are not. Equal parts have equal tops, however their ranges were composed, so a
+// sub-DAG per non-empty top is a canonical form of the part's voxels.
+// Rejected: the cells as roots (their level is a choice of the bake), and one root for all (it
+// would contain nodes whose other children are in other parts).
 #pragma once
 
 #include <cstdint>
@@ -27,8 +26,8 @@ class GridPart {
   static GridPart whole(int levels) { return GridPart({{0, uint64_t(1) << 3 * levels}}, levels); }
   // Cells of level levels - 2 at most; those finer, or outside the grid, are an Error (kUsage).
   static GridPart of_cells(const CellRange& cells, int levels);
-  // GridPart `number` (1 .. count) of `count` parts of as many cells, up to one; Error (kUsage) if
-  // there is no such part.
+  // Part `number` (1 .. count) of `count` parts of equally many cells, up to one. Error (kUsage) if
+  // `number` is out of range.
   static CellRange share(uint64_t number, uint64_t count);
 
   // `ranges` in any order, of whole bricks in a grid of `levels` levels.

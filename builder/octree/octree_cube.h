@@ -36,7 +36,7 @@ struct Cube {
   bool operator==(const Cube&) const = default;
 };
 
-// The cube of `level` <= cube.level in which `cube` lies.
+// The cube of `level` <= cube.level that contains `cube`.
 inline Cube ancestor(const Cube& cube, int level) noexcept {
   const int up = cube.level - level;
   return {level, {cube.coordinate.x >> up, cube.coordinate.y >> up, cube.coordinate.z >> up}};

@@ -43,7 +43,7 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, 
     reached |= unsigned(value > error) << q;
     unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  counts->asked += 16;
+  counts->evaluated += 16;
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);
@@ -62,7 +62,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
   const double s[3] = {n[0] * side, n[1] * side, n[2] * side};
   const double high = (std::max(s[0], 0.0) + std::max(s[1], 0.0)) + std::max(s[2], 0.0);
   const double low = (std::min(s[0], 0.0) + std::min(s[1], 0.0)) + std::min(s[2], 0.0);
-  counts->asked += uint64_t(std::popcount(voxels));
+  counts->evaluated += uint64_t(std::popcount(voxels));
   for (Brick left = voxels; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
     const auto& p = kBrickTables.coordinate[bit];

@@ -3,8 +3,8 @@
 // After the "three axis-parallel centre segments" target of Laine, "A Topological Approach to
 // Voxelization" (2013), which is 6-separating. Notation: S = 2^F; voxel k has centre c = (k + 1/2)
 // S and, per axis w, the segment from c - S/2 w to c + S/2 w. All targets are shifted by d = (e,
-// e^2, e^3), e infinitesimal, so nothing ever lies exactly on anything. Voxel k is set iff for some
-// w the shifted segment crosses the triangle:
+// e^2, e^3), e infinitesimal, so no target is ever exactly on a plane or edge. Voxel k is set iff
+// for some w the shifted segment crosses the triangle:
 //   inside   the shifted centre, projected along w, is inside the projected triangle: all edge
 //            functions are positive there; an exact 0 is decided by the coefficient of the
 //            dominant axis (x before y before z), which is what the shift adds first;
@@ -39,7 +39,7 @@ struct PlaneSide {
     const double value =
         at_corner + ((t.normal[0] * double(offset.x) + t.normal[1] * double(offset.y)) +
                      t.normal[2] * double(offset.z));
-    ++counts->asked;
+    ++counts->evaluated;
     if (value > error) return true;
     if (value < -error) return false;
     ++counts->exact;
@@ -70,7 +70,7 @@ Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& cor
     inside |= unsigned(value > error) << q;
     unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  counts->asked += 16;
+  counts->evaluated += 16;
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);

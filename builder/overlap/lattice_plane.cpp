@@ -12,8 +12,8 @@ namespace {
 constexpr int64_t kLargest = int64_t(1) << 28;
 
 // A denominator q <= 2^28 for which ratio * q (|ratio| <= 1) seems whole, by continued fractions;
-// kLargest + 1 if there is none. A fraction with a denominator of up to 2^25, rounded to double, is
-// found; whether it is exact, integers decide.
+// kLargest + 1 if none is found. A fraction with a denominator of up to 2^25, rounded to double, is
+// found; integers decide whether it is exact.
 int64_t denominator(double ratio) noexcept {
   double rest = std::abs(ratio);
   int64_t before = 1, q = 0;

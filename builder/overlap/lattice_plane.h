@@ -4,8 +4,8 @@
 // positive; g(x) = n_q . x for lattice points x. If the true normal is a multiple of integers that
 // small, n_q is the primitive one (gcd 1) and g is constant on the triangle. Otherwise n_q is the
 // true normal rounded so that its dominant component is +-2^28: nearly parallel triangles share it,
-// and g varies on the triangle, by less than 2^-22 voxel across one voxel. A memo that asks with
-// the range of g over a cube stays exact either way (builder/descend/plane_memo.h).
+// and g varies on the triangle, by less than 2^-22 voxel across one voxel. A memo queried with the
+// range of g over a cube is exact in both cases (builder/descend/plane_memo.h).
 #pragma once
 
 #include <cstdint>

@@ -33,14 +33,14 @@ inline uint8_t children_in_box(const LatticeBox& box, int64_t x, int64_t y, int6
 ChildOverlap overlap_children(const ListedTriangle& entry, const LatticePoint& corner,
                               int64_t side) noexcept;
 
-// How often the sign of a separating function at a voxel was asked for, and how often double could
-// not tell it.
+// Number of signs of separating functions evaluated at voxels, and of those that double precision
+// could not decide.
 struct DecisionCounts {
-  uint64_t asked = 0;
+  uint64_t evaluated = 0;
   uint64_t exact = 0;
 
   DecisionCounts& operator+=(const DecisionCounts& other) {
-    asked += other.asked;
+    evaluated += other.evaluated;
     exact += other.exact;
     return *this;
   }

@@ -1,10 +1,10 @@
-// The unique bricks and nodes that one worker has met, level by level.
+// The unique bricks and nodes of one worker, level by level.
 //
 // Handles (builder/reduce/unique_set.h) are pending until the table is flushed: bricks first, then
 // each level upwards, whose keys get their children's numbers before they are numbered themselves.
-// Whoever holds handles passes them through settled() after a flush. A table persists across the
+// After a flush the holders of handles convert them with settled(). A table persists across the
 // worker's cells; when it is frozen (builder/reduce/run.h) the numbers become ranks in content
-// order, so nothing of the arrival order reaches the output.
+// order, so the arrival order does not affect the output.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class NodeTable {
  public:
   static constexpr size_t kLargestBatch = size_t(1) << 18;
 
-  // `batch`: how many keys may wait to be numbered.
+  // `batch`: number of pending keys at which full() becomes true.
   NodeTable(int levels, MemoryBudget* budget, size_t batch = kLargestBatch)
       : levels_(levels),
         budget_(budget),
@@ -52,19 +52,19 @@ class NodeTable {
     return 1 + nodes_[size_t(level)].add(children);
   }
 
-  // Whether enough is pending for a flush to repay.
+  // Whether enough keys are pending for a flush to repay.
   bool full() const { return pending_ >= batch_; }
   size_t pending() const { return pending_; }
   void flush();
-  // What became of 1 + handle at the last flush.
+  // 1 + the number that the last flush gave to 1 + handle.
   uint32_t settled(int level, uint32_t root) const {
     return root > kPending ? 1 + numbers_[size_t(level)][root - 1 - kPending] : root;
   }
 
-  // Flushes; from now on keys can only be read, until every level was cleared.
+  // Flushes; afterwards keys can only be read, until every level was cleared.
   void close();
 
-  // Everything is settled below.
+  // By number; valid after a flush.
   size_t size(int level) const {
     return level == brick_level() ? bricks_.size() : nodes_[size_t(level)].size();
   }

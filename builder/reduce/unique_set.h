@@ -2,10 +2,10 @@
 //
 // A blocking look-up per key costs several cache misses, so keys are only collected at first: add()
 // gives a key a *pending* handle, and resolve() later numbers all pending keys at once, with
-// prefetches running ahead of the comparisons. Real node streams in depth-first order repeat at
-// once, so a small direct-mapped cache of pending keys stands in
-// front. The table is open addressing over a number and 32 bits of the hash per slot; whole keys
-// are compared, never hashes. Memory grows with the content and is counted. Rejected:
+// prefetches running ahead of the comparisons. Node streams in depth-first order repeat soon, so a
+// small direct-mapped cache of pending keys precedes the table. The table uses open addressing over
+// a number and 32 bits of the hash per slot; whole keys are compared, never hashes. Memory grows
+// with the content and is counted. Rejected:
 // std::unordered_map (a node per key, pointer chasing), a table of keys (moved whenever it grows).
 //
 // Notation: a handle is a number, or kPending + the position among the keys not yet resolved.

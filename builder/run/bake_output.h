@@ -20,7 +20,7 @@ class BakeOutput {
   virtual void begin_level(int level) = 0;
   virtual uint32_t add_brick(Brick brick) = 0;
   virtual uint32_t add_node(const NodeKey& children) = 0;
-  // Gives the file its name. `roots` stand at the tops of the part that are not empty.
+  // Completes the file and gives it its name. `roots`: one per non-empty top of the part.
   virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) = 0;
 
   // Of the finished file.

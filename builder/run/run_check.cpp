@@ -39,7 +39,7 @@ class Payload {
   Hasher128 hasher_;
 };
 
-// Where byte `position` of the payload stands in the file.
+// File offset of byte `position` of the payload.
 uint64_t offset_of(uint64_t position) {
   return sizeof(RunHeader) + position / kRunPayload * kRunBlockBytes + kSpillHeader +
          position % kRunPayload;

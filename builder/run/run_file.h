@@ -39,7 +39,7 @@ class RunFile {
   uint64_t keys(int level) const { return header_.keys[level]; }
   // The keys of `level` as bytes; the run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
-  // Error if it was written since it was opened: what check_run() proved may be there no more.
+  // Error if the file was changed since it was opened: it may differ from what check_run() proved.
   void require_unchanged() const { svdag::require_unchanged(file_, before_); }
 
  private:

@@ -5,7 +5,7 @@
 //   the sub-DAG of a cube is one (it is minimal), and which cubes have roots follows from the part
 //   (its tops, builder/octree/grid_part.h), not from how it was baked;
 //   every node is reached from a root, since a merge of closed runs adds none that is not;
-//   nodes are numbered by their rank in content order, roots and ranges stand in Morton order;
+//   nodes are numbered by their rank in content order, roots and ranges are in Morton order;
 //   the largest snap move is that of all triangles that meet the closed part, and a maximum over
 //   parts is that of the whole (GridPart::meets);
 //   blocks are filled without gaps, and nothing is written of who wrote, when, or with what.

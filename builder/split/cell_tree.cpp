@@ -82,7 +82,7 @@ uint64_t CellTree::prepared_bytes(size_t workers) const {
 }
 
 uint64_t CellTree::bytes(size_t workers) const {
-  // One of an inner node may stand in the list of a cube on every level down to bricks, and in
+  // A triangle of an inner node may be in the list of a cube on every level down to bricks, and in
   // those of 7 of its children: as many as a plane meets.
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
@@ -105,17 +105,17 @@ void CellTree::prepare(Node* node, int level) {
   }
 }
 
-std::vector<Cube> CellTree::occupied_cells(uint64_t most) const {
+std::vector<Cube> CellTree::occupied_cells(uint64_t max_triangles) const {
   std::vector<Cube> cells;
-  collect(root_.get(), root_cube_, {}, most, &cells);
+  collect(root_.get(), root_cube_, {}, max_triangles, &cells);
   return cells;
 }
 
-void CellTree::collect(const Node* node, const Cube& cube, TriangleList list, uint64_t most,
-                       std::vector<Cube>* cells) const {
+void CellTree::collect(const Node* node, const Cube& cube, TriangleList list,
+                       uint64_t max_triangles, std::vector<Cube>* cells) const {
   if (cube.level == cell_level_) {
     const uint64_t own = node != nullptr ? node->triangles.size() : 0;
-    if (own > most && cube.level + 2 < grid_.levels) {
+    if (own > max_triangles && cube.level + 2 < grid_.levels) {
       for (unsigned c = 0; c < 8; ++c) cells->push_back(cube.child(c));
     } else if (own != 0 || !list.empty()) {
       cells->push_back(cube);
@@ -130,7 +130,7 @@ void CellTree::collect(const Node* node, const Cube& cube, TriangleList list, ui
   for (unsigned c = 0; c < 8; ++c) {
     const Node* child = node != nullptr ? node->children[c].get() : nullptr;
     if (child != nullptr || !lists[c].empty())
-      collect(child, cube.child(c), std::move(lists[c]), most, cells);
+      collect(child, cube.child(c), std::move(lists[c]), max_triangles, cells);
   }
 }
 
@@ -144,7 +144,7 @@ CellCursor::CellCursor(const CellTree& tree, const OverlapConfig& config)
 
 void CellCursor::enter(const Cube& cube, const CellTree::Node* node,
                        const TriangleList& inherited) {
-  Step& step = path_[size_t(cube.level)];
+  PathCube& step = path_[size_t(cube.level)];
   step.cube = cube;
   step.node = node;
   step.list = inherited;
@@ -163,11 +163,11 @@ const TriangleList& CellCursor::list(const Cube& cube) {
   return list_;
 }
 
-const CellCursor::Step& CellCursor::path_to(const Cube& cell) {
+const CellCursor::PathCube& CellCursor::path_to(const Cube& cell) {
   int level = tree_.root().level;  // the deepest step that is on the way to `cell`
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
-    Step& step = path_[size_t(level)];
+    PathCube& step = path_[size_t(level)];
     if (!step.divided)
       divide_list(step.list, step.cube, tree_.grid().levels, config_, &step.children);
     step.divided = true;
@@ -179,7 +179,7 @@ const CellCursor::Step& CellCursor::path_to(const Cube& cell) {
   return path_[size_t(cell.level)];
 }
 
-void CellCursor::prepare(const Step& cell) {
+void CellCursor::prepare(const PathCube& cell) {
   list_ = cell.list;
   setups_.clear();
   if (cell.node == nullptr) return;

@@ -1,10 +1,10 @@
-// The top of the octree, filled by the split: which triangles concern which cells.
+// The top of the octree with the triangles of each cell, filled by the split.
 //
 // A cell is a cube of level `cell_level`, the unit of work. A triangle whose box is larger than
-// half of an inner cube stays at that cube instead of being copied into thousands of cells below;
-// the others go down to each child that their box meets. Lists at inner nodes are divided on the
-// way to a cell (CellCursor). Rejected: a flat list per cell (a floor of two triangles would stand
-// in every cell it crosses).
+// half of an inner cube is stored at that cube instead of being copied into thousands of cells
+// below; other triangles go down to each child that their box meets. Lists at inner nodes are
+// divided on the way to a cell (CellCursor). Rejected: a flat list per cell (a floor of two
+// triangles would be in every cell it crosses).
 #pragma once
 
 #include <array>
@@ -35,13 +35,13 @@ class CellTree {
   const Cube& root() const { return root_cube_; }
   uint64_t triangles() const { return triangles_.size(); }
   const LatticeTriangle& triangle(uint64_t i) const { return triangles_[i]; }
-  // Memory that the tree and `workers` workers take, each in the heaviest cell.
+  // Max memory of the tree and `workers` workers, each in the heaviest cell.
   uint64_t bytes(size_t workers) const;
-  // What of it they do take while cells are baked: the triangles of the heaviest cell, prepared.
+  // The workers' share of it while cells are baked: the prepared triangles of the heaviest cell.
   uint64_t prepared_bytes(size_t workers) const;
-  // The cells that triangles may touch, in Morton order; a cell in which more than `most` triangles
-  // begin is replaced by its children, so that one worker does not keep the others waiting.
-  std::vector<Cube> occupied_cells(uint64_t most = UINT64_MAX) const;
+  // The cells that triangles may touch, in Morton order; a cell that stores more than
+  // `max_triangles` is replaced by its children, so that one worker does not delay the others.
+  std::vector<Cube> occupied_cells(uint64_t max_triangles = UINT64_MAX) const;
 
  private:
   friend class CellCursor;
@@ -60,13 +60,13 @@ class CellTree {
   SegmentedArray<LatticeTriangle> triangles_;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
-  uint64_t heaviest_ = 0;                 // triangles that begin in one cell, at most
-  uint64_t inner_ = 0;                    // triangles that stand at inner nodes
-  std::vector<uint64_t> heaviest_inner_;  // [level]: at one inner node of it, at most
+  uint64_t heaviest_ = 0;                 // max number of triangles stored at one cell
+  uint64_t inner_ = 0;                    // number of triangles stored at inner nodes
+  std::vector<uint64_t> heaviest_inner_;  // [level]: max number at one inner node
 };
 
-// Gives a worker the lists of cells, one after the other. Cells in Morton order share most of their
-// path, so the divided lists along the path are kept from one cell to the next.
+// Returns the triangle lists of cells, one after the other. Cells in Morton order share most of
+// their path, so the divided lists along the path are kept from one cell to the next.
 class CellCursor {
  public:
   CellCursor(const CellTree& tree, const OverlapConfig& config);
@@ -75,23 +75,23 @@ class CellCursor {
   const TriangleList& list(const Cube& cube);
 
  private:
-  struct Step {
+  struct PathCube {
     Cube cube;
-    const CellTree::Node* node;  // null: nothing of its own here and below
-    TriangleList list;           // what concerns the cube from inner nodes
+    const CellTree::Node* node;  // null: no triangles stored here or below
+    TriangleList list;           // of the cube, from inner nodes
     bool divided = false;        // `children` holds the divided list
     std::array<TriangleList, 8> children;
   };
 
   void enter(const Cube& cube, const CellTree::Node* node, const TriangleList& inherited);
-  const Step& path_to(const Cube& cell);
-  void prepare(const Step& cell);
+  const PathCube& path_to(const Cube& cell);
+  void prepare(const PathCube& cell);
 
   const CellTree& tree_;
   OverlapConfig config_;
-  std::vector<Step> path_;             // [k] is at level k
+  std::vector<PathCube> path_;         // [k] is at level k
   int depth_;                          // path_[root level .. depth_] are valid
-  std::vector<TriangleSetup> setups_;  // of the triangles that stand in the cell itself
+  std::vector<TriangleSetup> setups_;  // of the triangles stored at the cell itself
   TriangleList list_;
   std::array<TriangleList, 8> parts_;  // of list_, on the way to a cube in the cell
 };

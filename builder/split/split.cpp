@@ -9,14 +9,15 @@
 namespace svdag {
 namespace {
 
-enum class Place { kInside, kClipped, kOutside };
+enum class BoxPlacement { kInside, kClipped, kOutside };
 
-// Where the triangle's box lies in relation to the closed box of the voxels that may be set;
-// outside, too, if it misses the closed part.
-Place place_of(const LatticeTriangle& t, const Grid& grid, const GridPart* part) {
+// Position of the triangle's box relative to the closed box of the voxels that may be set; outside,
+// too, if it misses the closed part.
+BoxPlacement placement_of(const LatticeTriangle& t, const Grid& grid, const GridPart* part) {
   const LatticeBox selection = grid.closed(grid.selection), box = box_of(t);
-  if (!box.meets(selection) || (part != nullptr && !part->meets(box))) return Place::kOutside;
-  return selection.holds(box) ? Place::kInside : Place::kClipped;
+  if (!box.meets(selection) || (part != nullptr && !part->meets(box)))
+    return BoxPlacement::kOutside;
+  return selection.holds(box) ? BoxPlacement::kInside : BoxPlacement::kClipped;
 }
 
 bool zero_area(const LatticeTriangle& t) {
@@ -31,7 +32,7 @@ bool zero_area(const LatticeTriangle& t) {
 // Where triangles go: to the tree, or, once that was too much, to bins.
 class Store {
  public:
-  // `counts` tells of the triangles that were dropped on the way here.
+  // `counts`: the triangles dropped before they reach the store.
   Store(const Grid& grid, const SplitConfig& config, const SplitCounts& counts,
         MemoryBudget* budget)
       : grid_(grid),
@@ -90,10 +91,10 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       LatticeTriangle snapped;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
-      const Place place = place_of(snapped, grid, config.part);
-      counts.outside += place == Place::kOutside;
-      counts.clipped += place == Place::kClipped;
-      if (place == Place::kOutside) continue;
+      const BoxPlacement place = placement_of(snapped, grid, config.part);
+      counts.outside += place == BoxPlacement::kOutside;
+      counts.clipped += place == BoxPlacement::kClipped;
+      if (place == BoxPlacement::kOutside) continue;
       counts.degenerate += zero_area(snapped);
       largest_move = std::max(largest_move, move);
       store.add(snapped);

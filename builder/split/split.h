@@ -1,7 +1,7 @@
-// First phase: the scene, streamed once, snapped to the lattice and sorted into cells.
+// The split: streams the scene once, snaps it to the lattice and sorts its triangles into cells.
 //
-// As long as the triangles fit in their share of memory they stand in one CellTree. When they no
-// longer do, all that came and all that comes goes to bins (builder/split/triangle_bins.h).
+// As long as the triangles fit in their share of memory they are held in one CellTree. When they no
+// longer do, they all go to bins (builder/split/triangle_bins.h).
 #pragma once
 
 #include <functional>
@@ -20,10 +20,10 @@ struct SplitConfig {
   int cell_level = 0;
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
-  Scratch* scratch = nullptr;            // null: they never are
+  Scratch* scratch = nullptr;            // null: triangles are never spilled
   const GridPart* part = nullptr;        // triangles that miss it are dropped; null: the whole grid
-  // Called once, when the first `read` triangles, dropped ones among them, have become so many
-  // bytes in bins, and more will.
+  // Called once, when the first `read` triangles (dropped ones included) take `bytes` in bins, and
+  // more will follow.
   std::function<void(uint64_t read, uint64_t bytes)> on_spill = {};
 };
 
@@ -34,6 +34,19 @@ struct SplitCounts {
   uint64_t degenerate = 0;  // of the others: zero area after the snap
   double largest_snap = 0;  // in voxels, over the triangles that were kept
 };
+
+// Calls visit(name, field) for every stored field: the field list of journals and plans.
+template <class AnyCounts, class Visit>
+void visit_count_fields(AnyCounts& counts, const Visit& visit) {
+  visit("triangles", counts.scene.triangles);
+  visit("quantisation", counts.scene.quantisation);
+  visit("invalid", counts.scene.invalid);
+  visit("undeformed", counts.scene.undeformed);
+  visit("clipped", counts.clipped);
+  visit("outside", counts.outside);
+  visit("degenerate", counts.degenerate);
+  visit("largest_snap_voxels", counts.largest_snap);
+}
 
 struct SplitScene {
   SplitCounts counts;

@@ -120,10 +120,10 @@ Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
 
 namespace {
 
-// The snap refuses 2^62 steps and more before it moves a vertex by (2*k0 + 1) * 2^(F-1). A lattice
-// grid lies less than 2^38 voxels from zero (io/grid.cpp), and its corner at most a voxel and a
-// step of 1024 further: |2*k0 + 1| < 2^39 + 2^11, so with F <= 23 the way is less than 2^61 + 2^33.
-// All vertices go the same way, so from one to another it stays less than 2^63.
+// The snap rejects 2^62 steps and more before it moves a vertex by (2*k0 + 1) * 2^(F-1). A lattice
+// grid is less than 2^38 voxels from zero (io/grid.cpp), and its corner at most a voxel and a step
+// of 1024 further: |2*k0 + 1| < 2^39 + 2^11, so with F <= 23 the shift is less than 2^61 + 2^33.
+// All vertices are shifted equally, so their distances stay less than 2^63.
 constexpr int64_t kFarthest = (int64_t(1) << 62) + (int64_t(1) << 61) + (int64_t(1) << 33);
 
 // Whether the snap can have made it: what follows counts on it that no difference overflows.

@@ -37,7 +37,7 @@ class TriangleBins {
 
   // A triangle whose box meets the closed parent.
   void add(const LatticeTriangle& triangle);
-  // What the triangles so far take in bins: a large one stands in each that it meets.
+  // Size of the triangles so far in bins: a large one is stored in each bin that it meets.
   uint64_t bytes() const { return bytes_; }
   // The bins that triangles met, in Morton order.
   std::vector<TriangleBin> finish();
@@ -62,8 +62,8 @@ class TriangleBins {
   uint64_t bytes_ = 0;
 };
 
-// Reads the triangles of a bin, in the order they were added. Bytes that are no triangles on the
-// lattice are as a damaged block: plans travel.
+// Reads the triangles of a bin in the order in which they were added. Bytes that are not lattice
+// triangles are treated as a damaged block, since plans are copied between machines.
 class BinReader {
  public:
   BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget);

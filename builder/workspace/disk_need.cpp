@@ -10,7 +10,7 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kBytesPerTriangle = 48;  // in bins, small ones, those on borders twice
-constexpr double kEarliest = 0.2;           // share of the work that tells about the rest
+constexpr double kMinShare = 0.2;           // of the work, to extrapolate to the rest
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
 }
 
 void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
-  count = std::max(count, read);  // 0: nobody has counted them
+  count = std::max(count, read);  // 0: not counted
   // At least what there is: rounding may lose a byte of it.
   triangles_ = std::max(bytes, uint64_t(double(bytes) * double(count) / double(read)));
   check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
@@ -44,7 +44,7 @@ void DiskNeed::expect_records(uint64_t bytes, uint64_t in_memory, const char* pu
 }
 
 void DiskNeed::expect_runs(uint64_t bytes, double share) {
-  if (share < kEarliest) return;
+  if (share < kMinShare) return;
   runs_ = uint64_t(double(bytes) / share);
   if (runs_ > bytes) check((runs_ - bytes) / 2, runs_ - bytes, "nodes");
 }

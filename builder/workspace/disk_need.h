@@ -1,10 +1,10 @@
-// How much scratch a bake or an import will take, told before hours of work instead of after them.
+// Estimates the scratch space of a bake or import, so that a full disk is reported up front.
 //
-// What triangles take at the least is known as soon as they were counted, and better once the first
-// stand in bins, a large one in many. How much a scene repeats itself nobody knows before it is
-// baked, so what runs will take is reckoned from those there are and the share of the cells that is
-// done, once that is a fifth. Cells differ, so only a disk that cannot hold half of what was
-// reckoned is an Error (kOutput).
+// A lower bound for triangles is known once they are counted, and a better estimate once the first
+// ones are in bins (a large triangle is in many). How often a scene repeats itself is unknown
+// before it is baked, so the size of runs is extrapolated from the existing ones and the share of
+// work done, once that is a fifth. Cells differ, so only a disk that cannot hold half of the
+// estimate is an Error (kOutput).
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,22 @@ class DiskNeed {
  public:
   explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
 
-  // `count` triangles will be spilled, if they take more than `triangle_bytes` in memory. What the
-  // split needs beside them depends on where they lie, so they may be all the same. 0: nobody
-  // knows, as how many meet a part.
+  // `count` triangles will be spilled if they take more than `triangle_bytes` in memory (or less:
+  // the split's own memory depends on their positions). 0: unknown, as for a part of the grid.
   void expect_triangles(uint64_t count, uint64_t triangle_bytes);
-  // The first `read` of `count` triangles took `bytes` where they were spilled. Others may be
-  // smaller.
+  // The first `read` of `count` triangles took `bytes` when spilled; others may be smaller.
   void expect_spilled(uint64_t count, uint64_t read, uint64_t bytes);
-  // `bytes` of records will be sorted, all of which are spilled if they take more than `in_memory`.
-  // Their number is known, so a disk that cannot hold them all is an Error.
+  // `bytes` of records will be sorted, and all are spilled if they exceed `in_memory`. The number
+  // is exact, so a disk that cannot hold them all is an Error.
   void expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose);
   // Runs of `bytes` were spilled for `share` of the work.
   void expect_runs(uint64_t bytes, double share);
 
-  // In bytes; 0: nothing was spilled.
+  // Total estimate in bytes; 0: nothing is spilled.
   uint64_t estimate() const { return triangles_ + records_ + runs_; }
 
  private:
-  // `certain` of the `more` bytes must fit.
+  // Error unless `certain` bytes fit on the disk; `more` is the estimate to report.
   void check(uint64_t certain, uint64_t more, const char* purpose) const;
 
   Scratch* scratch_;

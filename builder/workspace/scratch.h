@@ -1,8 +1,8 @@
-// What a bake spills to, made when it is first needed.
+// The spill files of a bake, created on first use.
 //
-// Three files with different lives: `triangles` and `runs` hold what a resumed bake builds upon and
-// keep it until the output is there; what is in `passing` is used up soon, and its blocks are used
-// again. Streams are numbered through all of them.
+// Three files with different lifetimes: `triangles` and `runs` hold what a resumed bake needs,
+// until the output is complete; the content of `passing` is temporary, and its blocks are reused.
+// Stream numbers are unique across all three.
 #pragma once
 
 #include <atomic>
@@ -27,22 +27,22 @@ class Scratch {
   ScratchDir* folder() const { return folder_; }
   MemoryBudget* budget() const { return budget_; }
   size_t block_bytes() const { return block_bytes_; }
-  // Whether the blocks of a scratch, of any budget, or of a plan can have this size.
+  // Whether this is a valid block size of a scratch or a plan.
   static bool can_have_blocks_of(uint64_t bytes);
 
-  // A file that a journal may speak of has its name on disk from the beginning.
+  // The names of files that a journal may refer to are synced when the files are created.
   SpillFile* triangles() { return file(&triangles_, "triangles"); }
   SpillFile* runs() { return file(&runs_, "runs"); }
   SpillFile* passing() { return file(&passing_, "passing"); }
-  // `count` numbers of streams that nobody has had.
+  // The first of `count` new stream numbers.
   uint64_t new_streams(uint64_t count = 1) { return next_stream_.fetch_add(count); }
 
-  // Continues the files of an earlier process: block size, blocks in use, and numbers not used yet.
-  // SpoiledScratch if one is missing or too short.
+  // Opens the files of an earlier process, with its block size and blocks in use; new streams are
+  // numbered from `next_stream`. SpoiledScratch if a file is missing or too short.
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
-  // Of the folder so far: the largest size of its files, and bytes written and read.
+  // Sums over the files so far, in bytes: their largest sizes, written, read.
   uint64_t peak_bytes() const { return sum(&SpillFile::peak_bytes); }
   uint64_t written_bytes() const { return sum(&SpillFile::written_bytes); }
   uint64_t read_bytes() const { return sum(&SpillFile::read_bytes); }

@@ -1,7 +1,7 @@
 // The voxels of a box of one level of a DAG, as blocks and larger full cubes.
 //
-// Depth first, in Morton order; empty space is never visited, and neither is the inside of a cube
-// that is wholly set. Time follows the blocks that are handed out, not the volume.
+// Depth first, in Morton order; neither empty space nor the inside of a full cube is visited. Time
+// is proportional to the blocks that are emitted, not to the volume.
 //
 // Notation: K = the level whose nodes are the voxels, b = K - 3 the level whose nodes are the
 // blocks. Whether a node is full, and how many voxels it holds, is found once per DAG node and
@@ -26,7 +26,7 @@ class CubeWalk {
   // Of the voxels of level `levels`, 3 .. L. `dag` must outlive this.
   CubeWalk(const DagView& dag, uint32_t levels);
 
-  // Hands on what is set in `box`, until the sink returns false; returns false then.
+  // Passes the set voxels of `box` to the sink until it returns false; returns false then.
   bool visit(const VoxelBox& box, const VoxelCubeSink& sink);
   // What visit() would touch, inside full cubes too; stops counting beyond `most` blocks.
   CubeCounts count_cubes(const VoxelBox& box, uint64_t most);

@@ -1,5 +1,5 @@
-// A `.svdag` opened for reading: header and structure are proven sound with pread before the file
-// is mapped, so nobody who walks the view needs another check.
+// A `.svdag` opened for reading. Header and structure are validated with pread before the file is
+// mapped, so code that walks the view needs no checks.
 #pragma once
 
 #include <string>

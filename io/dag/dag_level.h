@@ -1,8 +1,8 @@
 // A level of a DAG as a grid of its own.
 //
-// A voxel of level K is a cube of 2^(L-K) voxels a side; it is set iff a voxel in it is, and that
-// is what the nodes of level K say. So every coarser grid stands in the file already: its bricks
-// are read off the nodes of level K-2 and their children. Nothing is built, nothing is stored.
+// A voxel of level K is a cube of 2^(L-K) voxels a side; it is set iff a voxel in it is, that is,
+// iff level K has a node there. So the file contains every coarser grid: its bricks are derived
+// from the nodes of level K-2 and their children. Nothing is built or stored.
 #pragma once
 
 #include "io/dag/dag_view.h"

@@ -1,7 +1,7 @@
 // What a DAG contains: the figures of the paper's tables.
 //
-// Notation: the SVO is the tree before reduction; the number of its nodes that one DAG node stands
-// for is the number of paths from the root to it, computed top-down, one level at a time.
+// Notation: the SVO is the tree before reduction; one DAG node represents as many SVO nodes as
+// there are paths from the root to it, counted top-down, one level at a time.
 #pragma once
 
 #include <cstdint>

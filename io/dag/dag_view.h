@@ -1,6 +1,6 @@
-// Looking at a `.svdag` in memory without decoding it; no dependency, for host and CUDA.
+// A view of a `.svdag` in memory, without decoding it; no dependency, for host and CUDA.
 //
-// Notation: level 0 is the root, a node of level k covers 2^(L-k) voxels a side; bricks stand at
+// Notation: level 0 is the root, a node of level k covers 2^(L-k) voxels a side; bricks are at
 // level L-2. An inner node is a word whose low 8 bits are the child mask, followed by one word per
 // present child, ascending: the index of the child's first word in the section of the next level,
 // or of the brick. Pointers lead strictly to the next level.

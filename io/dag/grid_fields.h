@@ -1,5 +1,5 @@
-// The fields by which the headers of `.svdag` and `.run` say what grid they are of. Both begin with
-// them, at the same offsets and under the same names, but for the corner (docs/format.md and
+// The grid fields in the headers of `.svdag` and `.run` files. Both headers begin with them, at the
+// same offsets and under the same names, except for the corner (docs/format.md and
 // docs/run-format.md).
 #pragma once
 
@@ -25,7 +25,7 @@ void put_grid(const Grid& grid, Rule rule, H* header) {
   }
 }
 
-// `corner`: what the header says of it.
+// `corner`: the corner field of the header.
 template <class H>
 Grid get_grid(const H& header, const double (&corner)[3]) {
   Grid grid;
@@ -42,7 +42,7 @@ Grid get_grid(const H& header, const double (&corner)[3]) {
   return grid;
 }
 
-// require(condition, sentence, offset) is asked for each field.
+// Checks each field with require(condition, message, offset).
 template <class H, class Require>
 void check_grid(const H& h, const Require& require) {
   require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels),

@@ -7,7 +7,7 @@
 
 namespace svdag {
 
-// The line that stands in a file with this header, which is sound.
+// The metadata line of a file with this header, which must be valid.
 std::string metadata_of(const Header& header);
 
 }  // namespace svdag

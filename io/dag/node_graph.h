@@ -1,9 +1,9 @@
-// A voxel DAG as some program left it: what an import reduces.
+// A voxel DAG of another program: the input of an import.
 //
-// Nodes of one level are known by 32-bit ids that mean something to the reader of the file alone.
-// Nothing is promised of them: nodes may repeat, may be empty, may be shared by several levels.
-// They are asked for level by level, ids ascending, so a reader goes through its file in passes and
-// never maps it. Levels, children and bricks are numbered as in io/dag/dag_view.h.
+// Nodes of a level are identified by 32-bit ids whose meaning only the reader of the file knows.
+// Nodes may repeat, may be empty, and may be shared by several levels. They are read level by
+// level, ids ascending, so a reader passes through its file sequentially and never maps it. Levels,
+// children and bricks are numbered as in io/dag/dag_view.h.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // The header of a SymVox `.svdag`: files without a magic number that share our ending.
 //
-// They are told apart from ours by our magic, and from anything else by their fields, which fit to
-// each other and to the size of the file.
+// They lack our magic number, and differ from all other files by their fields, which must be
+// consistent with each other and with the file's size.
 #pragma once
 
 #include <cstdint>

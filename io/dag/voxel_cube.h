@@ -33,7 +33,7 @@ struct Block {
       set(x + bx, y + by, z + bz);
     }
   }
-  // Clears what lies outside `box`; the block's corner is `origin`.
+  // Clears the voxels outside `box`; the block's corner is `origin`.
   void cut(const LatticePoint& origin, const VoxelBox& box) {
     LatticePoint low, high;
     for (int a = 0; a < 3; ++a) {

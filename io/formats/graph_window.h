@@ -1,7 +1,7 @@
-// Looking at nodes of a foreign file by offset, through one small window, never larger than it.
+// Access to the nodes of a foreign file by offset, through one small window.
 //
-// An import asks for the nodes of a level in ascending order (io/dag/node_graph.h), so the window
-// moves forward; what lies elsewhere is read as well, only slower.
+// An import reads the nodes of a level in ascending order (io/dag/node_graph.h), so the window
+// moves forward; other orders work too, only slower.
 #pragma once
 
 #include <algorithm>

@@ -33,7 +33,7 @@ class MemoryBuffer final : public std::streambuf {
   }
 };
 
-// Whatever it cannot deliver is a std::ios_base::failure, so that no reader goes on with nothing.
+// Reading beyond the end throws std::ios_base::failure, so that no reader continues without data.
 class MemoryStream final : public std::istream {
  public:
   explicit MemoryStream(std::span<const std::byte> bytes) : std::istream(nullptr), buffer_(bytes) {

@@ -11,8 +11,8 @@
 namespace svdag {
 namespace {
 
-// Sorts as OpenVDB's tree stands: nodes of 4096^3 by x, y, z, in each the nodes of 128^3, in each
-// the leaves. The cubes in an aligned larger cube are neighbours in this order.
+// Sort key in the order of OpenVDB's tree: nodes of 4096^3 by x, y, z, in each the nodes of 128^3,
+// in each the leaves. The cubes in an aligned larger cube are consecutive in this order.
 using TreeKey = std::pair<uint64_t, uint32_t>;
 
 TreeKey key_of(const LatticePoint& p) {
@@ -57,7 +57,7 @@ bool printable(const std::string& name) {
 }  // namespace
 
 void SentCubes::fail_head() const {
-  fail_input(path_, "has a decoder that sent what is no grid");
+  fail_input(path_, "its decoder sent an invalid grid");
 }
 
 void SentCubes::take(std::span<const std::byte> block) {
@@ -100,7 +100,7 @@ void SentCubes::add(const CubeRecord& record) {
     sound = origin[a] % side == 0 && origin[a] + side - 1 <= std::numeric_limits<int32_t>::max();
   const bool leaf = side == kBlockSide && !(block_of(record) == Block::full());
   if (!sound || (leaf && block_of(record).empty()))
-    fail_input(path_, "is broken: a block of it lies where there can be none");
+    fail_input(path_, "is damaged: a block is at an impossible position");
   const VoxelBox box{origin, origin + side};
   const bool first = tiles_.empty() && leaves_.empty();
   for (int a = 0; a < 3; ++a) {
@@ -126,7 +126,7 @@ void SentCubes::finish() {
   check_overlap();
 }
 
-// In this order a cube that lies in another comes right behind it, or behind one that does.
+// In this order a cube within another one follows it directly, or follows another such cube.
 void SentCubes::check_overlap() const {
   bool overlap = false;
   for (size_t i = 1; i < tiles_.size(); ++i)

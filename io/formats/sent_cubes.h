@@ -1,14 +1,14 @@
 // A grid of cubes as a limited child sends it (streaming/process/limited_child.h), and as it is
 // kept.
 //
-// The first block is a CubeHead and the grid's name; all later ones are CubeRecords. They are read
-// as those of a hostile program: types, names, transforms, sides and places that no grid has are
-// an Error (kBadInput), and so are two cubes that hold the same voxel, and more cubes than a file
-// of that size can hold.
+// The first block is a CubeHead and the grid's name; all later ones are CubeRecords. They are
+// treated as input from a hostile program: impossible types, names, transforms, sides and positions
+// are an Error (kBadInput), and so are two cubes that hold the same voxel, and more cubes than a
+// file of that size can hold.
 //
-// A full cube takes 16 bytes, so that a node of a tree that is all tiles (32,768 of them, by 8 KB
-// of masks in the file) is no bomb; a leaf takes 80. Both are kept in the order of OpenVDB's tree,
-// in which they come, so that a voxel is found without an index.
+// A full cube takes 16 bytes, so that a tree node full of tiles (32,768 of them, from 8 KB of masks
+// in the file) cannot exhaust memory; a leaf takes 80. Both are kept in the order of OpenVDB's
+// tree, in which they arrive, so that a voxel is found without an index.
 #pragma once
 
 #include <span>
@@ -42,7 +42,7 @@ class SentCubes final : public VdbGrid {
 
   // The next block, of which records are not cut.
   void take(std::span<const std::byte> block);
-  // All has come; what is below can be asked from now on.
+  // Everything has arrived; the queries below are valid from now on.
   void finish();
 
   std::string name() const override { return name_; }

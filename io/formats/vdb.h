@@ -83,8 +83,7 @@ class VdbGrid {
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
 
-// What a user is told who gives a range for a grid that was read and holds no values: Error
-// (kUsage).
+// Error (kUsage) if a range was given for a grid that holds no values.
 void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
 
 // Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and

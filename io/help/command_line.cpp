@@ -48,7 +48,7 @@ std::vector<std::string> hinted(const CLI::Option& option, const std::string& ki
     const CLI::Validator* validator = nullptr;
     try {
       validator = validators.get_validator(i);
-    } catch (const CLI::OptionNotFound&) {  // the only sign that there are no more
+    } catch (const CLI::OptionNotFound&) {  // the only sign of the end of the list
       return words;
     }
     const std::string& name = validator->get_name();
@@ -117,8 +117,8 @@ Manual describe(const CLI::App& app, const std::string& command) {
   return manual;
 }
 
-// The manual of the command whose --help is asked for.
-Manual asked_manual(const CLI::App& program) {
+// The manual of the command whose --help is requested.
+Manual requested_manual(const CLI::App& program) {
   const std::vector<const CLI::App*> parsed = program.get_subcommands(
       [](const CLI::App* each) { return each->parsed() && !each->get_name().empty(); });
   return parsed.empty()
@@ -158,7 +158,7 @@ std::vector<char*> asked_first(const CLI::App& program, std::vector<char*> words
 // "biuld" of "biuld --help", which CLI11 would answer with the help of the program.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
-         asked_manual(program).command == program.get_name();
+         requested_manual(program).command == program.get_name();
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     return std::nullopt;
   } catch (const CLI::CallForHelp& call) {
     if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, given, call));
-    std::fputs(help_text(asked_manual(*program), text_width(stdout)).c_str(), stdout);
+    std::fputs(help_text(requested_manual(*program), text_width(stdout)).c_str(), stdout);
     return 0;
   } catch (const CLI::Success& success) {  // --version
     return program->exit(success);

@@ -1,5 +1,5 @@
-// A command line read by CLI11, as every program with that library reads it: --help from the
-// manual of its options, errors as one sentence, with what a typo was meant to be.
+// The command line of every program, parsed by CLI11: --help from the manual of its options, errors
+// as one sentence, with the option that a typo resembles.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ class Option;
 
 namespace svdag {
 
-// What the options of a program say, its commands included.
+// The manual of a program: its options and commands.
 Manual manual_of(const CLI::App& program);
 
-// Reads a command line; the exit code if there is nothing else to do (--help, --version). What
-// cannot be meant is an Error (kUsage).
+// Parses a command line; returns the exit code if nothing else is to be done (--help, --version).
+// Error: kUsage.
 std::optional<int> read_command_line(CLI::App* program, int argc, char** argv);
 
-// What the manual tells about the values of an option, beside what CLI11 knows. Each returns it.
+// Hints for the manual about an option's values that CLI11 does not know. Each returns the option.
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices);  // and no other
 CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
@@ -35,7 +35,7 @@ CLI::Option* from_to(CLI::Option* option, size_t least, size_t most);  // whole 
 void add_memory_budget(CLI::App* command, uint64_t* bytes,
                        const std::string& text = "Memory budget in bytes");
 
-// The notes of a command: what there is to say, examples, a command each, and the exit codes.
+// The notes of a command: `before`, examples (one command each), and the exit codes.
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before = "");
 

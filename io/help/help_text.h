@@ -5,9 +5,9 @@
 
 namespace svdag {
 
-// At most `width` columns, but for words and lines of output that are longer. A command line of an
-// example that is longer goes on in the next line, as a shell reads it. Where there is room the
-// texts of options stand in a column beside their names, else below them.
+// At most `width` columns, except for longer words and lines of output. A longer command line of an
+// example continues in the next line, as a shell reads it. If the width allows, the texts of
+// options are in a column beside their names, else below them.
 std::string help_text(const Manual& manual, size_t width);
 
 // A topic, or the notes of a manual, in the same way.

@@ -49,7 +49,7 @@ std::string explain_lost_value(const CLI::App& program, std::span<const std::str
     const std::string& value = words[++i];
     if (value.empty()) return word.name + ": the value is empty" + where;
     if (option_of(command, value) != nullptr)
-      return word.name + ": there is no value between it and " + value + where;
+      return word.name + ": its value is missing before " + value + where;
   }
   return "";
 }

@@ -16,8 +16,8 @@ class App;
 
 namespace svdag {
 
-// A sentence about the first value that cannot be meant; "" if all may be. `words` without the
-// program's name; what is no option of the command is not judged.
+// A message about the first value that cannot be intended; "" if all may be. `words` without the
+// program's name; words that are not options of the command are not checked.
 std::string explain_lost_value(const CLI::App& program, std::span<const std::string> words);
 
 }  // namespace svdag

@@ -42,7 +42,7 @@ std::string row(const char* kind, const ManualOption& option) {
 }
 
 ManualOption option_of(const Fields& row) {
-  if (row.size() != 9) fail_usage("the table of a manual has a row that is no option");
+  if (row.size() != 9) fail_usage("the table of a manual has a row that is not an option");
   ManualOption option;
   option.names = parts(row[1], ' ');
   option.value = row[2];

@@ -31,7 +31,7 @@ bool surely_finite(std::span<const Triangle> triangles) {
   return std::isfinite((sum.x + sum.y) + sum.z);
 }
 
-// Stands between a reader and the user's sink: no triangle with NaN or infinity passes.
+// A filter between a reader and the user's sink that rejects triangles with NaN or infinity.
 class FiniteFilter {
  public:
   FiniteFilter(const std::string& path, bool skip, const TriangleSink& sink, SceneCounts* counts)
@@ -192,9 +192,9 @@ SceneFormat detect_format(const File& file) {
   if (start.starts_with("OFF")) return SceneFormat::kOff;
   if (start.starts_with("solid")) return SceneFormat::kStl;
   if (extension == "svdag")
-    fail_input(file.path(), "is a .svdag, no scene: svdag info tells what is in it");
+    fail_input(file.path(), "is a .svdag, not a scene: svdag info shows what it contains");
   fail_input(file.path(),
-             "is no scene file that svdag knows: it reads PLY, STL, OBJ, OFF, glTF, GLB, "
+             "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, "
              "Draco and OpenMesh files, OBJ and binary STL by the ending of their names");
 }
 

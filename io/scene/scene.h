@@ -51,7 +51,7 @@ class Scene {
   const SpillSpace* spill_;
 };
 
-// Tells the format by content, and by extension where content cannot tell (.obj, .stl, .off).
+// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off).
 // An unknown file is an Error (kBadInput) that lists what can be read.
 SceneFormat detect_format(const File& file);
 const char* format_name(SceneFormat format);

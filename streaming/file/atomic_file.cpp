@@ -20,7 +20,7 @@ const std::string& checked(const std::string& target) {
 // A rename replaces whatever has the name: as root, also /dev/null.
 void AtomicFile::check(const std::string& target) {
   if (target == "-")
-    throw Error(ExitCode::kUsage, "-: an output is a file, which is there whole or not at all");
+    throw Error(ExitCode::kUsage, "-: standard output is not supported: name an output file");
   std::error_code error;
   const fs::file_type type = fs::status(target, error).type();
   if (error == std::errc::filename_too_long)
@@ -28,11 +28,11 @@ void AtomicFile::check(const std::string& target) {
   if (type == fs::file_type::directory)
     throw Error(ExitCode::kOutput, "is a folder: name a file in it", target);
   const bool free = type == fs::file_type::not_found || type == fs::file_type::regular ||
-                    type == fs::file_type::none;  // not known: whoever opens it says why
+                    type == fs::file_type::none;  // unknown: opening it will report why
   const bool descriptor = fs::read_symlink(target, error).native().starts_with("/proc/");
   if (!free || descriptor)
     throw Error(ExitCode::kOutput,
-                "is no regular file, and only such a one is replaced: choose another name", target);
+                "is not a regular file and cannot be replaced: choose another name", target);
 }
 
 AtomicFile::AtomicFile(const std::string& target)
@@ -50,7 +50,7 @@ void AtomicFile::append(std::span<const std::byte> bytes) {
 void AtomicFile::commit() {
   file_.sync();
   require_mapped_files();
-  check(target_);  // somebody may have made one meanwhile
+  check(target_);  // it may have been created meanwhile
   file_.link_as(target_);
   file_.close();
   sync_folder(folder_of(target_));

@@ -1,4 +1,4 @@
-// An output file that is there whole or not at all.
+// An output file that appears complete or not at all.
 //
 // Bytes go to an anonymous file in the target's folder; commit() does fsync, rename, close and
 // fsync of the folder, in this order, so that after a crash at any moment the name holds the old

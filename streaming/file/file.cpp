@@ -50,8 +50,8 @@ std::string random_suffix() {
   return text;
 }
 
-// What may be well again a moment later, or with more of something, whatever was asked of a file:
-// it is no fault of what is in it.
+// Errors of the system, not of the file's content: they may be gone a moment later, or with more
+// memory or space.
 ExitCode code_of(int error, ExitCode otherwise) {
   switch (error) {
     case EIO:
@@ -89,7 +89,7 @@ bool leave_direct(int fd) {
   return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
 }
 
-// The call that tells the mask sets it, for all threads: only before there are others.
+// umask() can only be read by setting it, for all threads: called before other threads exist.
 mode_t mask_at_start() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
@@ -97,7 +97,7 @@ mode_t mask_at_start() {
 }
 const mode_t kMaskAtStart = mask_at_start();
 
-// The mask of now, in the second line of what the kernel tells of us (since Linux 4.7).
+// The current umask, from the second line of /proc/self/status (since Linux 4.7).
 mode_t current_mask() {
   constexpr const char* kName = "\nUmask:";
   const int fd = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
@@ -111,8 +111,8 @@ mode_t current_mask() {
                          : kMaskAtStart;
 }
 
-// Opens the file up as the mask allows. Where there are no permissions, or the file is taken for
-// another user's, it stays as it is: that is no reason to lose it.
+// Applies the umask to the file's permissions. Failure is ignored: some file systems have no
+// permissions, or map the file to another user.
 void apply_mask(int fd, const std::string& path) {
   if (::fchmod(fd, 0666 & ~current_mask()) == 0) return;
   if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
@@ -150,8 +150,7 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   }
   if (::access(folder.c_str(), F_OK) != 0)
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  // From the moment on when there is a file nothing is asked of the memory until it is known here:
-  // it would stay.
+  // Allocated before the file exists: an allocation that failed afterwards would leave the file.
   std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
   File file(-1, shown, ExitCode::kOutput);
   fd = retry_interrupted([&] {

@@ -49,7 +49,7 @@ class File {
   // multiples of 4096. False where the file system has no such transfers; one that is refused later
   // goes through the page cache after all, and so do those after it.
   bool use_direct();
-  // Locks the file until it is closed, or the process dies; false if somebody else holds the lock.
+  // Locks the file until it is closed or the process ends; returns false if it is locked already.
   bool try_lock();
 
   void sync();

@@ -60,8 +60,8 @@ Folder Folder::open_private(std::string path) {
     if (folder.made_) ::rmdir(folder.path_.c_str());
     throw;
   }
-  // A folder that was there may be open to others. Where there are no permissions this fails, and
-  // there is nothing to guard.
+  // An existing folder may be open to others. On file systems without permissions this fails, and
+  // there is nothing to protect.
   if ((status.st_mode & 0777) != 0700) (void)!::fchmod(folder.fd_, 0700);
   return folder;
 }
@@ -70,7 +70,7 @@ Folder Folder::open_shared(std::string path) {
   Folder folder = open_or_make(std::move(path));
   if (!folder.made_ && (folder.status().st_mode & S_IWOTH) != 0)
     throw Error(ExitCode::kUsage,
-                "everybody may write in this folder, and what lies there would be believed: choose "
+                "this folder is world-writable, and its files would be trusted: choose "
                 "one of your own, or of your group",
                 folder.path_);
   return folder;
@@ -83,7 +83,7 @@ Folder::~Folder() {
   if (fd_ >= 0) ::close(fd_);
 }
 
-// A file server or a mount may take us for somebody else; then it does so with files, too.
+// A file server or a mount may map this user to another one; then it maps files, too.
 bool Folder::gives_files_to(uid_t owner) const {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);

@@ -1,8 +1,7 @@
 // A folder and the files in it: the other half of the seam of file.h.
 //
-// Everything goes through one descriptor of the folder, so that nobody who may rename or link in
-// the folder above can lead us elsewhere once it is open. All failures are Errors (kOutput) unless
-// said otherwise.
+// All access uses one descriptor of the folder, so a rename or link in the parent folder cannot
+// redirect it once it is open. All failures are Errors (kOutput) unless stated otherwise.
 #pragma once
 
 #include <sys/stat.h>
@@ -18,11 +17,11 @@ class Folder {
  public:
   static constexpr const char* kProbe = ".svdag-probe-";
 
-  // Opens the folder, which is made if there is none, for this user alone (0700). A link, another
-  // user's folder and what is no folder are refused.
+  // Opens the folder, created if necessary, for this user alone (0700). Rejects links, folders of
+  // other users and everything that is not a folder.
   static Folder open_private(std::string path);
-  // Opens a folder that others may use, too, as it is, whoever it belongs to; if there is none it
-  // is made (0700). One in which everybody may write is an Error (kUsage); a link is refused.
+  // Opens a folder of any owner that others may use, too; creates it (0700) if necessary. A
+  // world-writable folder is an Error (kUsage); a link is rejected.
   static Folder open_shared(std::string path);
 
   Folder(Folder&& other) noexcept;
@@ -56,7 +55,7 @@ class Folder {
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
   static Folder open_or_make(std::string path);
   struct stat status() const;
-  // Whether files that are made in it belong to `owner`: asked of one, named kProbe and a number.
+  // Whether files created in it belong to `owner`: tested with one, named kProbe and a number.
   bool gives_files_to(uid_t owner) const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;

@@ -1,15 +1,15 @@
-// Whether somebody holds the lock of a file (File::try_lock), asked without taking it.
+// Tests whether a file is locked (File::try_lock), without locking it.
 //
-// Asked by a shared lock, which keeps out nobody else who asks, and an owner only for the moment
-// of the question. NFS makes byte-range locks of flock: there a lock that excludes needs a file
-// that is open for writing, a shared one needs what we have, one that is open for reading.
+// The test takes a shared lock for a moment: it excludes no other test, and an owner only for that
+// moment. NFS implements flock with byte-range locks, where an exclusive lock needs a file open for
+// writing and a shared one a file open for reading, which is what we have.
 #pragma once
 
 #include <string>
 
 namespace svdag {
 
-// False as well if there is no such file, or no locks where it is.
+// Returns false also if the file does not exist or its file system has no locks.
 bool is_locked(const std::string& path);
 
 }  // namespace svdag

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// Device and inode; empty if there is no such file.
+// Device and inode; empty if the file does not exist.
 std::string number_of(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) return {};

@@ -1,11 +1,9 @@
-// What tells, without reading it, that a file is not what it was.
+// Identity and modification time of a file, to detect a change without reading the content.
 //
-// A write changes the size or the time of the last write, a rename that puts another file in its
-// place the inode. The time of the last access is no part of it, for whoever reads sets it; nor is
-// that of the last change of the inode, for a hard link, chmod or a backup sets it and changes
-// nothing that is read. So a write whose time is set back afterwards, as if to hide it, is not
-// seen; and two writes within one tick of the kernel's clock (4 ms) that leave the size as it was
-// look like one.
+// A write changes the size or the modification time; a rename that replaces the file changes the
+// inode. The access time is left out because reading sets it, the inode change time because links,
+// chmod and backups set it. Not detected: a write whose modification time is set back afterwards,
+// and a second write of the same size within one tick of the kernel's clock (4 ms).
 #pragma once
 
 #include <array>
@@ -22,8 +20,8 @@ struct FileState {
   bool operator==(const FileState&) const = default;
 };
 
-// Of an open file; a client of a file server asks it anew whenever a file is opened (the
-// close-to-open rule of NFS).
+// State of an open file. NFS clients fetch it whenever a file is opened (close-to-open
+// consistency).
 FileState state_of(const File& file);
 
 // Throws Error (kBadInput) if `file` was cut short or written since it was `before`.

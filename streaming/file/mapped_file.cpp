@@ -24,7 +24,7 @@ struct MappedFile::Mapping {
            std::less<>()(address, static_cast<const char*>(data) + size);
   }
 
-  // A server that cannot tell now has told all that was read.
+  // If a file server cannot be reached now, all that was read from it is valid.
   bool changed() const noexcept {
     try {
       return state_of(file) != state;
@@ -37,19 +37,19 @@ struct MappedFile::Mapping {
   FileState state;
   void* data;
   size_t size;
-  // What the handler says; it may not allocate.
+  // Messages of the handler, which may not allocate.
   std::string lost;
   std::unique_ptr<const std::string> written;
 };
 
 namespace {
 
-// What a handler may look at: no lock, no memory of its own. More files than these at a time are
-// mapped, too, and end without a sentence.
+// Mappings that the signal handler can read without locking or allocating. Further files can be
+// mapped, but a lost page of theirs ends the program without a message.
 std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
 static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
-std::atomic_flag told;
-std::atomic<const std::string*> changed_before{nullptr};  // what is told of one, never freed
+std::atomic_flag reported;
+std::atomic<const std::string*> changed_before{nullptr};  // message about one file, never freed
 const char* teller = "";
 struct sigaction before_bus, before_segv;
 
@@ -58,7 +58,7 @@ void say(const char* text) {
 }
 
 [[noreturn]] void end_with(const std::string& sentence) {
-  while (told.test_and_set()) ::pause();  // another thread, which ends the process, has said it
+  while (reported.test_and_set()) ::pause();  // another thread has reported and ends the process
   say(teller);
   say(": ");
   say(sentence.c_str());
@@ -67,14 +67,14 @@ void say(const char* text) {
 }
 
 extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
-  const bool sent = info->si_code <= 0;  // by somebody: there was no access
+  const bool sent = info->si_code <= 0;  // by a process: there was no memory access
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
     if (sent || mapping == nullptr) continue;
     if (number == SIGBUS && mapping->holds(info->si_addr)) end_with(mapping->lost);
     if (number == SIGSEGV && mapping->changed()) end_with(*mapping->written);
   }
-  // The access is tried again, and goes there.
+  // The access is repeated and reaches the former handler.
   ::sigaction(number, number == SIGBUS ? &before_bus : &before_segv, nullptr);
   if (sent) ::raise(number);
 }

@@ -6,7 +6,7 @@
 namespace svdag {
 namespace {
 
-// Of the group `path` below `root` and of those above it. "max" is no number and no limit.
+// The lowest limit of group `path` below `root` and of the groups above it. "max" is no limit.
 uint64_t least_limit(const std::string& root, std::string path, const std::string& file) {
   uint64_t least = UINT64_MAX;
   for (;;) {

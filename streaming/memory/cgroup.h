@@ -1,8 +1,8 @@
-// The memory that the control group we run in may take.
+// The memory limit of the control group of this process.
 //
 // A process is in one group of each hierarchy (/proc/self/cgroup), and every group above it limits
-// it, too. Where a container shows its own group as the root of what is mounted, the path that the
-// kernel tells leads nowhere, but its root does.
+// it, too. In a container whose own group is the mounted root, the path in /proc/self/cgroup does
+// not exist, but the root does.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace svdag {
 
-// The least limit in bytes from the group up to the root, of version 2 (memory.max) or 1
-// (memory.limit_in_bytes); UINT64_MAX if there is none. `groups`: what the kernel says of this
-// process; `mounted`: where the hierarchies are.
+// The lowest limit in bytes from the group up to the root, of version 2 (memory.max) or 1
+// (memory.limit_in_bytes); UINT64_MAX without a limit. `groups`: file that lists the groups of this
+// process; `mounted`: where the hierarchies are mounted.
 uint64_t cgroup_memory_limit(const std::string& groups = "/proc/self/cgroup",
                              const std::string& mounted = "/sys/fs/cgroup");
 

@@ -25,7 +25,7 @@ struct HugeAllocator {
   void deallocate(T* p, size_t n) { unmap_huge_pages(p, n * sizeof(T)); }
 
   template <class U>
-  void construct(U*) {}  // T{} is not asked for: the loop that fills the vector writes it
+  void construct(U*) {}  // not T{}: the loop that fills the vector writes it
   template <class U, class... Args>
   void construct(U* p, Args&&... args) {
     std::construct_at(p, std::forward<Args>(args)...);

@@ -1,8 +1,8 @@
-// A set of positions that tells how many of it stand before one: from places to numbers.
+// A set of positions with rank queries (Jacobson 1989): from positions to indices.
 //
-// Notation: rank(i) = the number of positions below i in the set (Jacobson 1989). A count beside
-// each 64 bits answers it with one popcount. Memory is taken in chunks of 2^16 positions where
-// something is set, 1.5 bits per position: sets of a few ranges in a wide space are cheap.
+// Notation: rank(i) = number of positions below i in the set, computed from a count beside each 64
+// bits and one popcount. Memory is allocated in chunks of 2^16 positions where a position is set,
+// 1.5 bits per position: a few ranges in a wide space are cheap.
 // Rejected: a table of u32 per position (20 times the size), a hash table (no order).
 #pragma once
 
@@ -37,7 +37,7 @@ class RankBitmap {
     return chunk < chunks_.size() && chunks_[chunk] &&
            (chunks_[chunk]->bits[i % kChunk / 64] >> (i % 64) & 1);
   }
-  // Nothing is set after this; before it nothing else may be asked.
+  // No position is set after this; queries are valid only after it.
   void seal() {
     count_ = 0;
     for (const auto& chunk : chunks_) {

@@ -1,9 +1,9 @@
-// An array that grows without ever moving what it holds.
+// An array that grows without moving its elements.
 //
-// Segments double in size, so element i lies in segment floor(log2(i / first + 1)): two
-// instructions away. Large segments stand on huge pages (streaming/memory/huge_pages.h), which are
-// committed when they are touched, so a small array stays small. Rejected: std::vector (growing
-// copies everything and holds it twice), one huge reservation (refused under strict overcommit).
+// Segments double in size, so element i is in segment floor(log2(i / first + 1)): two instructions.
+// Large segments use huge pages (streaming/memory/huge_pages.h), which are committed when they are
+// first touched, so a small array stays small. Rejected: std::vector (growing copies all elements
+// and holds them twice), one huge reservation (refused under strict overcommit).
 #pragma once
 
 #include <bit>

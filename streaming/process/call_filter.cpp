@@ -28,7 +28,7 @@ constexpr long kAllowed[] = {
     SYS_futex,          SYS_sched_yield, SYS_rt_sigaction,  SYS_rt_sigreturn,
     SYS_rt_sigprocmask, SYS_close,       SYS_clock_gettime, SYS_lseek,
     SYS_fstat,          SYS_exit,        SYS_exit_group};
-// What abort() asks for: refused, so that it ends as the crash that it is.
+// Calls of abort(): refused, so that it ends as a crash.
 constexpr long kRefused[] = {SYS_getpid, SYS_gettid, SYS_tgkill};
 
 using Program = std::vector<sock_filter>;

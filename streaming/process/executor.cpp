@@ -38,7 +38,7 @@ void ParallelExecutor::for_each(size_t count, const Task& task) {
     std::vector<std::jthread> threads;
     try {
       for (size_t w = 1; w < std::min(threads_, count); ++w) threads.emplace_back(work, w);
-    } catch (...) {  // no more threads, or no memory for them: those that run stop soon
+    } catch (...) {  // no more threads, or no memory for them: the running ones stop soon
       next = count;
       throw;
     }

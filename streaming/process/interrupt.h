@@ -1,8 +1,8 @@
-// Ctrl-C and its kin: SIGINT, SIGTERM and SIGHUP ask the program to stop.
+// Interruption by SIGINT (Ctrl-C), SIGTERM and SIGHUP.
 //
-// The handler only sets a flag; long work asks for it at least every tenth of a second and unwinds
-// with an exception, so that files are closed and locks given back. A second signal ends the
-// process at once.
+// The handler only sets a flag; long work checks it at least every tenth of a second and unwinds
+// with an exception, so that files are closed and locks released. A second signal ends the process
+// at once.
 #pragma once
 
 namespace svdag {

@@ -58,7 +58,7 @@ void write_error(int pipe, ExitCode code, const char* sentence) {
   write_frame(pipe, Frame::kError, uint32_t(code), std::as_bytes(std::span(sentence, size)));
 }
 
-// `soft`: where a signal says so; at `most` there is no more.
+// Beyond `soft` a signal is sent; `most` is the hard limit.
 void limit(int resource, uint64_t soft, uint64_t most) {
   const rlimit value = {soft, most};
   if (::setrlimit(__rlimit_resource(resource), &value) != 0) ::_exit(1);
@@ -211,7 +211,7 @@ void run_limited(const ChildLimits& limits, const std::string& path,
     if (frame.kind == Frame::kEnd && frame.bytes == 0) return;
     const bool sound = (frame.kind == Frame::kBlock && frame.bytes <= kChildBlock) ||
                        (frame.kind == Frame::kError && frame.bytes <= kLongestSentence);
-    if (!sound) stopped("it sent what is no result");
+    if (!sound) stopped("it sent an invalid result");
     bytes.resize(size_t(frame.bytes));
     if (!child.read(bytes, limits.seconds)) stopped(child.fate(limits));
     if (frame.kind == Frame::kBlock) {

@@ -1,21 +1,21 @@
 // Work that reads untrusted bytes with code that is not ours, in a process that can only compute.
 //
-// run_limited() forks. The child gives up what it could do harm with, in this order: other files
-// (every descriptor but one pipe is closed, no new one can be had), memory and time beyond its
-// limits (setrlimit), privileges (no_new_privs), and every system call but a dozen that a decoder
-// of bytes in memory needs (a seccomp filter: read, write, memory, locks, time, exit). It sends
-// what it makes through the pipe, in blocks, and ends. Whatever becomes of it, a crash, a limit, a
-// call that is forbidden, is one Error for who asked.
+// run_limited() forks. The child gives up its rights in this order: other files (all descriptors
+// but one pipe are closed, and none can be opened), memory and time beyond its limits (setrlimit),
+// privileges (no_new_privs), and all system calls but the dozen that a decoder of bytes in memory
+// needs (a seccomp filter: read, write, memory, locks, time, exit). It sends its result through the
+// pipe, in blocks, and exits. A crash, an exceeded limit or a forbidden call is one Error for the
+// caller.
 //
-// Who asked reads the blocks as those of a hostile program: their sizes are checked here, their
-// content by the one who knows what it should be.
+// The caller treats the blocks as input from a hostile program: their sizes are checked here, their
+// content by the caller.
 //
-// Other threads of the parent are no harm: after fork() the child has one thread, glibc keeps its
-// allocator usable there, and `work` uses nothing else that they may have locked (it must make its
-// own MemoryBudget). Rejected: a program of its own that is executed (a reader in a library cannot
-// know where it is installed, nor a test), one long-lived child (the next file would meet what the
-// last has left), shared memory for the result (a hostile child could change it after it was
-// checked), ptrace (slow), seccomp's strict mode (no memory can be had in it).
+// Other threads of the parent do no harm: after fork() the child has one thread, glibc keeps its
+// allocator usable, and `work` uses nothing else that they may have locked (it must create its own
+// MemoryBudget). Rejected: a separate executable (neither a reader in a library nor a test knows
+// where it is installed), one long-lived child (a file could affect the next one), shared memory
+// for the result (a hostile child could change it after the check), ptrace (slow), seccomp's strict
+// mode (memory cannot be allocated).
 #pragma once
 
 #include <cstddef>
@@ -38,9 +38,9 @@ using BlockSink = std::function<void(std::span<const std::byte>)>;
 // points and triangles.
 constexpr size_t kChildBlock = size_t(72) * 8192;
 
-// Runs work(out) in a limited child and hands its output to `use`. An Error of `work` is thrown
-// here, too; a child that does not finish is an Error (kBadInput) "`path`: the decoder was stopped:
-// it ...". Error (kUsage) where a filter is asked for and the system has none.
+// Runs work(out) in a limited child and passes its output to `use`. Rethrows an Error of `work`; a
+// child that does not finish is an Error (kBadInput) "`path`: the decoder was stopped: it ...".
+// Error (kUsage) if a filter is requested and the system has none.
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use);
 

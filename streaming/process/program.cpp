@@ -19,9 +19,9 @@ int tell(const ProgramWords& words, const char* sentence, int code) {
   return code;
 }
 
-// What a program says of a file that is written while it is read may be anything, an internal error
-// too: then the write is told.
-int tell_error(const ProgramWords& words, const std::exception& error) {
+// A file that is written while it is read may cause any error, even an internal one: then the
+// write is reported.
+int print_error(const ProgramWords& words, const std::exception& error) {
   const auto* known = dynamic_cast<const Error*>(&error);
   const std::string* changed = changed_mapped_file();
   if (changed != nullptr && (known == nullptr || known->code() != ExitCode::kBadInput))
@@ -62,7 +62,7 @@ int run_program(const ProgramWords& words, const std::function<int()>& work) {
     const char* resumable = interrupted.how != nullptr ? interrupted.how : words.resumable;
     return tell(words, interrupted.resumable ? resumable : words.stopped, 128 + interrupted.signal);
   } catch (const std::exception& error) {
-    return tell_error(words, error);
+    return print_error(words, error);
   }
 }
 

@@ -29,7 +29,7 @@ void Progress::advance(uint64_t steps) {
                           std::chrono::steady_clock::now() - start_)
                           .count();
   int64_t due = next_draw_.load(std::memory_order_relaxed);
-  // Whoever moves the deadline draws, one thread at a time: a terminal may hold it up for longer.
+  // The thread that moves the deadline draws, one at a time: a terminal may block for longer.
   if (now < due || !next_draw_.compare_exchange_strong(due, now + 100)) return;
   if (drawing_.test_and_set(std::memory_order_acquire)) return;
   draw(done);

@@ -1,9 +1,9 @@
-// A progress line on stderr: only on a terminal, erased at the end. It names a phase as it begins,
-// and counts its steps at most ten times a second.
+// A progress line on stderr: only on a terminal, erased at the end. It names a phase when it
+// begins, and counts its steps at most ten times a second.
 //
-// The line is drawn over itself with a carriage return and spaces, so it needs no escape sequence,
-// and is cut where the terminal ends: a line that wraps cannot be drawn over. A dumb terminal shows
-// none unless asked to.
+// The line is redrawn with a carriage return and spaces, without escape sequences, and truncated to
+// the terminal's width, because a wrapped line cannot be redrawn. A dumb terminal shows it only on
+// request.
 #pragma once
 
 #include <atomic>
@@ -58,7 +58,7 @@ class Progress {
   void show(std::string line);
 
   bool enabled_;
-  size_t drawn_ = 0;  // columns of the line that stands there
+  size_t drawn_ = 0;  // columns of the line on the terminal
   std::string name_;
   uint64_t total_ = 0;
   double begin_ = 0, size_ = 1;  // of the Interval

@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-// 0 where there is no terminal, or one that does not know.
+// 0 without a terminal, or if its width is unknown.
 size_t columns_of(std::FILE* stream) {
   struct winsize size = {};
   return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;

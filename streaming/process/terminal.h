@@ -6,8 +6,8 @@
 
 namespace svdag {
 
-// Columns for text: COLUMNS if it is set, or those of the terminal, or 80 where there is none; at
-// least 40, and at most 100, beyond which lines are hard to read.
+// Columns for text: COLUMNS if set, else the terminal's, else 80; at least 40, and at most 100,
+// beyond which lines are hard to read.
 size_t text_width(std::FILE* stream);
 
 // Columns of a line that is drawn again and again: those of the terminal; 80 if it does not tell.

@@ -85,8 +85,9 @@ class ExternalSort {
 
   size_t workers() const { return room_.executor->workers(); }
 
-  // Many workers have smaller blocks: the two of each take a quarter of the room at the most, and
-  // a merge has room for three streams at the least. A power of two: direct transfers need 4096s.
+  // With many workers blocks are smaller: two per worker take at most a quarter of the memory, and
+  // a merge can read at least three streams. A power of two, since direct I/O needs multiples of
+  // 4096.
   static size_t size_of_blocks(const ExternalSortRoom& room) {
     const uint64_t most = room.bytes / (8 * room.executor->workers());
     return std::bit_floor(

@@ -36,7 +36,7 @@ class ParallelSplit {
   ParallelSplit(const RadixSort<Record, Word>& order, Executor* executor)
       : order_(order), executor_(executor) {}
 
-  // Buckets of at most `most` records, or of equal ones, in order. Records may lie in either array.
+  // Buckets of at most `most` records, or of equal ones, in order. Records may be in either array.
   std::vector<Bucket> split(Bucket whole, size_t most) {
     most_ = std::max<size_t>(most, 1);
     buckets_.clear();

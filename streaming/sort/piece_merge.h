@@ -3,12 +3,12 @@
 // The index of a stream holds the first record of each of its blocks. All blocks of all streams,
 // ordered by their first records (the *schedule*), are in the order in which a merge needs them
 // (the "prediction sequence" of Hutchinson, Sanders and Vitter). So they are read in this order,
-// each once, ahead of their use. A *piece* is what lies between the first records of two blocks of
-// the schedule, `step` blocks apart: `step` new blocks and the rest of at most one block per
-// stream. Pieces are cut in order, merged by whoever is free, and given out in order again.
-// Equal records are ordered by stream and place, so that a cut is exact however many there are.
-// Rejected: one range of keys per worker (the second range could only be given out when the first
-// is done), a reader per stream (twice the memory, and reads in no good order).
+// each once, ahead of their use. A *piece* holds the records between the first records of two
+// blocks of the schedule that are `step` blocks apart: `step` new blocks and the rest of at most
+// one block per stream. Pieces are cut in order, merged by any free worker, and delivered in order.
+// Equal records are ordered by stream and block, so a cut is exact however many there are.
+// Rejected: one range of keys per worker (the second range could only be delivered when the first
+// is done), a reader per stream (twice the memory, and reads out of order).
 #pragma once
 
 #include <algorithm>
@@ -93,7 +93,7 @@ class PieceMerge {
   // take(records) gets all of them in ascending order: one call at a time, by any worker.
   template <class Take>
   void run(const Take& take) {
-    ask(step_);
+    request(step_);
     std::vector<HugeVector<Record>> rooms(executor_->workers());
     std::vector<MemoryBudget::Reservation> reserved;
     for (HugeVector<Record>& room : rooms) {
@@ -133,8 +133,8 @@ class PieceMerge {
     return streams_[place.stream].firsts[place.block];
   }
 
-  // Asks for the next `count` blocks of the schedule.
-  void ask(size_t count) {
+  // Requests the next `count` blocks of the schedule.
+  void request(size_t count) {
     for (; count > 0 && asked_ < schedule_.size(); --count) {
       const Place place = schedule_[asked_++];
       coming_.push_back(fetch(place));
@@ -163,8 +163,8 @@ class PieceMerge {
             }};
   }
 
-  // The next piece; none once another worker has failed here: it left the blocks half taken, and
-  // its error is the one to be told.
+  // The next piece; none after another worker has failed here: the blocks are in an invalid state,
+  // and its error is the one to report.
   std::optional<Piece> cut() {
     const std::lock_guard lock(cut_mutex_);
     if (cut_failed_) return std::nullopt;
@@ -187,7 +187,7 @@ class PieceMerge {
       piece.blocks.push_back(
           {schedule_[cut_], std::move(fetch), {records, bytes.size() / sizeof(Record)}});
     }
-    ask(step_);
+    request(step_);
     if (until < schedule_.size()) {
       for (Block& block : piece.blocks) {
         const size_t n = before(block, schedule_[until]);
@@ -240,7 +240,7 @@ class PieceMerge {
     });
   }
 
-  // The stream of the block with records that stands before block b.
+  // The stream of the last non-empty block before block b.
   static uint32_t last_stream_of(const Piece& piece, size_t b) {
     while (b-- > 0) {
       if (!piece.blocks[b].left.empty()) return piece.blocks[b].place.stream;

@@ -1,5 +1,4 @@
-// Lets tasks that run at once do a part of their work one after the other, in the order of their
-// numbers.
+// Orders one part of the work of concurrent tasks by the numbers of the tasks.
 #pragma once
 
 #include <condition_variable>
@@ -28,7 +27,7 @@ class Turns {
     ++next_;
     changed_.notify_all();
   }
-  // Nobody waits any longer: a task has failed before its turn.
+  // A task has failed before its turn: releases all waiting tasks.
   void fail() {
     const std::lock_guard lock(mutex_);
     failed_ = true;

@@ -1,4 +1,4 @@
-// Bytes that come block by block, wherever they stand.
+// A stream of bytes, read block by block.
 #pragma once
 
 #include <cstddef>

@@ -15,8 +15,8 @@ constexpr uint64_t kLongest = uint64_t(1) << 30;
 
 using Tag = std::array<uint32_t, 2>;  // kind, length
 
-// The checksum is over tag and payload. It stands between the two, so the tag is put in its place
-// for the while, where it touches the payload.
+// The checksum covers tag and payload, but is stored between them: the tag is copied to its place
+// meanwhile, next to the payload.
 uint64_t checksum_of(std::span<std::byte> record, const Tag& tag) {
   std::memcpy(record.data() + 8, tag.data(), 8);
   return checksum64(record.subspan(8));

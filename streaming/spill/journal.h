@@ -1,11 +1,10 @@
-// An append-only list of records that survives the process: what of a bake is done.
+// An append-only list of records that survives the process (after ninja's deps log).
 //
 // A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
-// append() returns after the record is on disk; whoever appends has synced what it speaks of. Once
-// it has thrown, it throws the same again: a record behind one that is not whole is never read, and
-// after a failed fsync nobody knows what is on the disk. Reading stops at the first record that is
-// not whole, and the file is cut there: a killed process loses at most the record it was writing
-// (after ninja's deps log).
+// append() returns after the record is on disk; the caller has synced the data it refers to. After
+// append() has thrown, it throws again: a record after an incomplete one is never read, and after a
+// failed fsync the content of the disk is unknown. Reading stops at the first incomplete record and
+// truncates the file there: a killed process loses at most the record it was writing.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
-// Values to bytes and back, for records that only this machine reads again.
+// Converts values to bytes and back, for records that only this machine reads again.
 //
-// Trivially copyable values as they stand in memory, vectors and strings with their length in
-// front. A record is checksummed where it is stored, so one that makes no sense all the same was
-// written by somebody else: an Error that names its file, before anything is allocated for it.
+// Trivially copyable values are stored as in memory, vectors and strings after their length.
+// Records are checksummed where they are stored, so an invalid one was forged or has another
+// layout: an Error that names its file, thrown before memory is allocated for it.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace svdag {
 
-// What stands in memory without padding, whose bytes nobody has set: equal values, equal records.
+// A type without padding, whose bytes would be undefined: equal values give equal records.
 template <class T>
 concept Recordable = std::is_trivially_copyable_v<T> &&
     (std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);

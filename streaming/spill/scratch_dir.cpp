@@ -27,8 +27,8 @@ std::string shortened(const std::string& name, size_t most) {
   return name.substr(0, most);
 }
 
-// The lock is the first file that an owner makes and the last that it removes, but for what asks
-// whose files are there.
+// The lock is the first file that an owner creates and the last that it removes, except for the
+// probe of file ownership.
 bool holds_others_only(const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), kOwner) != names.end()) return false;
   return !std::all_of(names.begin(), names.end(),
@@ -57,14 +57,14 @@ bool ScratchDir::in_use(const std::string& path) {
 ScratchDir::ScratchDir(const std::string& path) : folder_(own(path, &owner_)) {}
 
 // A lock counts only if the locked file still has its name: between open and lock the former owner
-// may have removed file and folder, and somebody else made new ones. An owner that was killed may
-// take a moment to die.
+// may have removed file and folder, and another process created new ones. A killed owner may take a
+// moment to exit.
 Folder ScratchDir::own(const std::string& path, File* owner) {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   for (;;) {
     Folder folder = Folder::open_private(path);
     if (!folder.made() && holds_others_only(folder.names()))
-      throw Error(ExitCode::kOutput, "holds other files and is no scratch folder: move it away",
+      throw Error(ExitCode::kOutput, "holds other files and is not a scratch folder: move it away",
                   path);
     try {
       File file = folder.open_or_create(kOwner);
@@ -104,8 +104,9 @@ bool ScratchDir::remove_files(const Folder& folder, const std::set<std::string>&
   return gone;
 }
 
-// The lock goes last, on the disk as well: as long as `owner` has its name nobody else can come in,
-// files without it are taken for somebody else's, and afterwards only an empty folder is removed.
+// The lock is removed last, on disk as well: as long as `owner` has its name no other process takes
+// the folder over, files without it count as foreign, and afterwards only an empty folder is
+// removed.
 void ScratchDir::remove_lock(const Folder& folder) noexcept {
   attempt([&] { folder.remove(kOwner); });
   attempt([&] { folder.remove_itself(); });
@@ -113,7 +114,7 @@ void ScratchDir::remove_lock(const Folder& folder) noexcept {
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  // What was made here is known, and asks for no memory; else at least what is known goes.
+  // The names of files created here are known, without an allocation; otherwise they are listed.
   const bool listed = folder_.made() || attempt([&] { made_ = names(); });
   made_.erase(kOwner);
   // Beside a file that could not be removed the lock stays, so that it can be seen whose it is.

@@ -32,14 +32,14 @@ class SpillBlock {
 
 constexpr size_t kSpillHeader = 64;
 
-// What a block says of itself. Its position in the file is no part of that.
+// The identity of a block: its stream and index. Its position in the file is not part of it.
 struct SpillLabel {
   uint64_t stream = 0;
   uint64_t index = 0;   // of the block in its stream
   uint32_t length = 0;  // payload bytes
 };
 
-// Writes the header for the payload that stands behind it, and zeros up to the end of the block.
+// Writes the header for the payload that follows it, and zeros up to the end of the block.
 // Returns the checksum.
 uint64_t seal_block(std::span<std::byte> block, const SpillLabel& label);
 // True if the block is whole and the one that `label` describes. Its checksum becomes zero.

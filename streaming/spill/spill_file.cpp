@@ -32,8 +32,8 @@ class SpillFile::Impl {
     return place;
   }
 
-  // In such an order that they are used again from the first to the last. For destructors: where
-  // there is no memory for the list, the blocks are not used again.
+  // In an order in which they are reused from first to last. For destructors: without memory for
+  // the list, the blocks are not reused.
   void free(const std::vector<uint32_t>& blocks) noexcept {
     const std::lock_guard lock(mutex_);
     try {
@@ -141,7 +141,7 @@ class SpillWriter::Impl {
   uint64_t bytes() const { return stream_.bytes; }
 
  private:
-  // Goes on with a spare block while this one is being written.
+  // Continues with a spare block while this one is being written.
   void write_full() {
     if (SpillTransfer* const spare = file_->queue.take_spare(budget_)) {
       std::swap(spare->block, own_.block);
@@ -153,7 +153,7 @@ class SpillWriter::Impl {
     file_->queue.check();
   }
 
-  // Whatever fails here, the transfer is not left waiting for a write that nobody asked for.
+  // If this fails, the transfer must not wait for a write that was never queued.
   void write(SpillTransfer* transfer) {
     try {
       stream_.blocks.push_back(file_->allocate());
@@ -205,7 +205,7 @@ class SpillReader::Impl {
     if (stream_.blocks.size() != stream_.bytes / payload + (stream_.bytes % payload != 0))
       file_->fail_damaged();
     SVDAG_ASSERT(first <= stream_.blocks.size());
-    ask();
+    request();
   }
 
   ~Impl() { file_->queue.wait(&ahead_); }
@@ -217,16 +217,16 @@ class SpillReader::Impl {
     if (ahead_.failure) std::rethrow_exception(ahead_.failure);
     std::swap(current_, ahead_.block);
     const uint64_t index = index_++;
-    ask();
-    // Checked here and not by the thread: so it is in the cache of whoever uses it.
+    request();
+    // Verified by the reader and not by the I/O thread, so that the block is in the reader's cache.
     return file_->open(current_, stream_, index);
   }
 
   [[noreturn]] void fail_damaged() const { file_->fail_damaged(); }
 
  private:
-  // Asks for the next block, if there is one.
-  void ask() {
+  // Requests the next block, if any.
+  void request() {
     if (index_ == stream_.blocks.size()) return;
     if (!ahead_.block) ahead_.block = SpillBlock(budget_, file_->block_bytes);
     ahead_.place = stream_.blocks[index_];
@@ -236,7 +236,7 @@ class SpillReader::Impl {
   SpillFile::Impl* file_;
   MemoryBudget* budget_;
   const SpillStream stream_;
-  size_t index_;        // of the block that is asked for
+  size_t index_;        // of the requested block
   SpillBlock current_;  // what next() gave out
   SpillTransfer ahead_;
 };

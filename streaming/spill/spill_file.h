@@ -40,7 +40,7 @@ class SpillFile {
 
   // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
   // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block;
-  // with kBadInput the file is no scratch.
+  // kBadInput for files other than scratch.
   SpillFile(File file, size_t block_bytes, uint32_t first_free = 0,
             ExitCode damaged = ExitCode::kOutput);
   ~SpillFile();
@@ -108,8 +108,8 @@ class SpillReader : public BlockSource {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads one block of a stream, whichever is wanted next: asked for when this is made, there after
-// wait(). The memory is lent and can be had back.
+// Reads one block of a stream, in any order: requested by the constructor, available after wait().
+// take_block() returns the memory.
 class SpillFetch {
  public:
   SpillFetch(SpillFile* file, const SpillStream& stream, size_t index, SpillBlock block);
@@ -118,7 +118,7 @@ class SpillFetch {
 
   // The payload. Aligned to 64 bytes. To be called once.
   std::span<std::byte> wait();
-  // The memory, when the payload is not needed any more.
+  // The memory, when the payload is no longer needed.
   SpillBlock take_block();
 
  private:

@@ -9,7 +9,7 @@ namespace svdag {
 
 SpillQueue::SpillQueue(File file, size_t block_bytes)
     : file_(std::move(file)), block_bytes_(block_bytes) {
-  file_.use_direct();  // where there is none, the page cache does as well
+  file_.use_direct();  // without direct I/O the page cache is used
 }
 
 SpillQueue::~SpillQueue() {
@@ -119,7 +119,7 @@ void SpillQueue::enter_writer() {
 void SpillQueue::leave_writer() {
   std::unique_lock lock(mutex_);
   --writers_;
-  // Asked again after each wait: others may leave meanwhile, and whoever stays needs a spare.
+  // Checked after each wait: other writers may leave meanwhile, and those that stay need a spare.
   while (spares_.size() > std::min(kSpares, writers_)) {
     const auto idle = std::ranges::find_if(spares_, [](const auto& spare) { return spare->done; });
     if (idle != spares_.end()) {

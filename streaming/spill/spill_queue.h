@@ -1,6 +1,5 @@
-// The thread of a spill file: does its reads and writes one after the other, in the order in which
-// they were asked for. So a block is never read before it was written, and never written before its
-// last reader has it.
+// The I/O thread of a spill file: executes reads and writes in the order of the requests. So a
+// block is never read before it was written, and never overwritten before its last reader has it.
 #pragma once
 
 #include <atomic>
@@ -17,7 +16,7 @@
 
 namespace svdag {
 
-// One read or write. Whoever asked for it leaves it alone until it is done.
+// One read or write. The requester must not touch it until it is done.
 struct SpillTransfer {
   SpillBlock block;
   uint32_t place = 0;  // in the file, in blocks
@@ -36,19 +35,19 @@ class SpillQueue {
   const std::string& path() const { return file_.path(); }
   // If it throws (no memory, no thread), nothing was queued and the transfer counts as done.
   void submit(SpillTransfer* transfer);
-  // Marks a transfer done that was never queued, so that nobody waits for it.
+  // Marks a transfer done that was never queued, so that no thread waits for it.
   void take_back(SpillTransfer* transfer) noexcept;
   void wait(SpillTransfer* transfer);
   // Throws what the first write that failed threw. Cheap if none has.
   void check() const;
-  // Waits for everything that was asked for, and brings it to disk.
+  // Waits for all requests, and syncs the file to disk.
   void sync();
 
   // The same, then File::link_as().
   void link_as(const std::string& path);
 
-  // Spares are blocks to go on with while one's own is being written: at most kSpares, and at most
-  // as many as there are writers.
+  // A writer continues with a spare block while its own is being written: at most kSpares, and at
+  // most one per writer.
   void enter_writer();
   void leave_writer();
   // A spare that is idle, waiting for it if need be; null if the budget has room for none.

@@ -1,6 +1,6 @@
-// What lies in a scratch folder can never be gone on with: it is damaged, or another version of
-// svdag left it. Whoever may discard it begins anew; a disk that is full or fails is another Error,
-// for there the work is worth waiting for.
+// The content of a scratch folder cannot be resumed: it is damaged, or of another version of svdag.
+// A caller that may discard it starts anew. A full or failing disk is another Error, because its
+// work can be resumed later.
 #pragma once
 
 #include "streaming/error.h"

@@ -21,7 +21,7 @@ namespace {
 constexpr int kRounds = 5;
 constexpr int kBakeRounds = 2;
 
-// What the command line asks for, for profiles: `accuracy_bench [PART-OF-CASE [METHOD [ROUNDS]]]`.
+// The options of the command line, for profiles: `accuracy_bench [PART-OF-CASE [METHOD [ROUNDS]]]`.
 struct Wanted {
   std::string case_part;
   std::string method;

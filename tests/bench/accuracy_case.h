@@ -2,7 +2,7 @@
 //
 // Every method gets the same cells and, per cell, the same candidates: the triangles whose box
 // meets the cell grown by what a float coordinate of this scene may be off, so that a method that
-// moves a triangle by many voxels still sees it. What is right is asked of the judge (verify/),
+// moves a triangle by many voxels still sees it. The judge (verify/) decides what is right,
 // once, on the snapped triangles.
 #pragma once
 

@@ -25,7 +25,7 @@ def save(figure, name):
 
 
 def error_plot(cases, name, columns):
-    """One panel per case: errors per million voxels across, time per pair upward; 0 stands apart at the left."""
+    """One panel per case: errors per million voxels across, time per pair upward; 0 is separate at the left."""
     count = len(cases) + (1 if len(cases) % columns else 0)
     rows = -(-count // columns)
     figure, panels = pyplot.subplots(rows, columns, figsize=(9.6, 2.5 * rows + 0.5), sharex=True, squeeze=False)

@@ -24,7 +24,7 @@ def label(log2):
 
 
 class Bakes:
-    """Bakes with the programs of one folder; resolutions are `coarser` doublings lower than asked for."""
+    """Bakes with the programs of one folder; resolutions are `coarser` doublings lower than requested."""
 
     def __init__(self, programs, folder, coarser=0):
         self.programs, self.folder, self.coarser = programs, folder, coarser

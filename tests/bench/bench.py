@@ -131,7 +131,7 @@ def main():
     parser.add_argument("scenes", nargs="*", help="only these of " + ", ".join(SCENES))
     options = parser.parse_args()
     if options.coarser and not options.csv_only or not set(options.scenes) <= set(SCENES):
-        parser.error("--coarser needs --csv-only" if options.coarser else "there are no such scenes")
+        parser.error("--coarser needs --csv-only" if options.coarser else "unknown scenes")
     bakes = Bakes(options.programs.resolve(), OUT, options.coarser)
     if options.giants:
         content, failed = bench_figures.giants(bakes)

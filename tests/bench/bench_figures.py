@@ -1,6 +1,6 @@
 """The figures of merit of `make bench`: what was aimed at, and what this machine does.
 
-A figure is a function of the bakes and the options they are made with, so that the same row is asked
+A figure is a function of the bakes and the options they are made with, so that the same row is used
 for again with other vectors.
 """
 import subprocess

@@ -59,7 +59,7 @@ def row(name, full, again):
 
 
 def bake_with_cache(options, scene, name, fresh, output, folder):
-    """The report of a bake that may find cells. It gives the bytes of the bake without a cache, or there is no table."""
+    """The report of a bake that may find cells. Fails unless its bytes equal those of the bake without a cache."""
     report = bake(options, scene, output, "--cache", folder)
     if fresh.read_bytes() != output.read_bytes():
         sys.exit(f"{name}: other bytes with the cache")

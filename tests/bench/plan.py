@@ -3,7 +3,7 @@
 
 Each row bakes a scene in one piece and by a plan of 16 shards. The constants of builder/farm/planner/predict.cpp are fitted to
 generated scenes and to nothing else: --calibrate measures those and prints the constants. The shared scenes judge them.
-The tables go between the markers of docs/farm.md; rows that are not asked for again are kept in build/bench/plan.json.
+The tables go between the markers of docs/farm.md; rows that are not repeated are kept in build/bench/plan.json.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ SHARDS = 16
 SHARED_FILES = ["crytek_sponza.glb", "lyon_city_epsg3946.glb", "samurai_monastery.obj", "stanford_dragon.ply",
                 "stk_black_forest.glb", "openfoam_motorbike.obj", "openfoam_buildings.stl"]
 SHARED_ROWS = [(name, log2) for name in SHARED_FILES for log2 in (12, 14)]
-WORST, MEDIAN = 3, 0.3  # asked for
+WORST, MEDIAN = 3, 0.3  # the targets
 
 
 class Bench:

@@ -10,7 +10,7 @@
 
 namespace svdag::bench {
 
-// Of one workload: `any` asks whether something is hit before the end, else the closest hit.
+// Of one workload: `any` tests whether anything is hit before the end, else finds the closest hit.
 struct RayBatch {
   std::string name;
   bool any = false;

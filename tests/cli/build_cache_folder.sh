@@ -1,4 +1,4 @@
-# A folder that is there stays as open as it is; one in which everybody may write is no cache.
+# An existing folder keeps its permissions; a world-writable one is rejected.
 svdag-scene city -n 3K -q -o city.ply
 mkdir group everybody
 chmod 2775 group

@@ -1,2 +1,2 @@
-echo "hello, this is no mesh" > notes.txt
+echo "hello, this is not a mesh" > notes.txt
 svdag build notes.txt -r 64 -o r.svdag

@@ -1,3 +1,3 @@
-# Vectors that the processor lacks, or that nobody knows, are named with those there are.
+# Unknown or unsupported vectors are rejected with a list of the supported ones.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag --vectors MMX

@@ -1,4 +1,4 @@
-# What was exported comes back as the same DAG, told by what is in the file.
+# An export is imported as the same DAG; content identifies the format.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 256 -o a.svdag -q
 svdag export a.svdag --format hashdag -o a.basic_dag.dag.bin -q

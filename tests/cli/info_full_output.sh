@@ -6,8 +6,8 @@ svdag build h.ply -r 64 -o h.svdag -q
 for words in "svdag info r.ply" "svdag --version" "svdag-verify --version" "svdag-verify --help" "svdag-scene --version" \
     "svdag-trace --version" "svdag help grid" "svdag --manual-table" "svdag-export --version" "svdag-import --help" \
     "svdag-verify diff r.svdag h.svdag --by-index --show 100000 --json"; do
-  $words > /dev/full 2> told && echo "not refused: $words" || echo "exit $?"
-  cat told
+  $words > /dev/full 2> message && echo "not refused: $words" || echo "exit $?"
+  cat message
 done
-svdag --version >&- 2> told || echo "exit $?"
-cat told
+svdag --version >&- 2> message || echo "exit $?"
+cat message

@@ -1,4 +1,4 @@
-# A SymVox .svdag has no magic number; ours has one: they are told apart.
+# A SymVox .svdag has no magic number; ours has one: they are distinguished.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 256 -o r.svdag -q
 svdag export r.svdag --format symvox -o other.svdag -q

@@ -1,4 +1,4 @@
-# A plan where a scene or a run should be, and words that a plan's commands would not heed: each is a sentence.
+# A plan instead of a scene or a run, and words that a plan's commands would ignore: each is rejected with a message.
 refused() { "$@" 2>&1 || echo "exit $?"; }
 svdag-scene speck -n 100 -q -o s.ply
 svdag plan s.ply -r 64 --shards 2 -o p -q

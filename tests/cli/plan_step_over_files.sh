@@ -1,4 +1,4 @@
-# A step writes where it is told to, but over no file of the plan, of another step, or of the scene.
+# A step writes to the requested output, but never over a file of the plan, of another step, or of the scene.
 svdag-scene sheet -q -o s.ply
 svdag plan s.ply -r 64 --shards 2 -o p -q
 svdag build p --shard 1 -q

@@ -2,11 +2,11 @@
 """Golden command-line tests, as data (the idea of zstd's cli-tests).
 
 A test is a shell script NAME.sh beside this file. It runs under `sh -e` in an empty folder with the
-built programs on PATH; only what lies beside it says what must come of it:
+built programs on PATH; the files beside it hold the expected results:
 
-    NAME.exit                        the exit code, 0 if there is none
-    NAME.stdout, NAME.stderr         the exact output; nothing is expected if there is no file
-    NAME.stdout.glob, .stderr.glob   line by line a shell pattern; a line "..." stands for any lines
+    NAME.exit                        the exit code; 0 without such a file
+    NAME.stdout, NAME.stderr         the exact output; nothing is expected without such a file
+    NAME.stdout.glob, .stderr.glob   line by line a shell pattern; a line "..." matches any lines
 
 --update writes exit codes and exact outputs as they are now (it never touches a .glob file).
 """
@@ -89,7 +89,7 @@ def main():
     programs = options.programs.resolve()
     scripts = [s for s in sorted(HERE.glob("*.sh")) if not options.names or s.stem in options.names]
     if not scripts:
-        sys.exit("there are no tests of these names")
+        sys.exit("no tests have these names")
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         runs = list(pool.map(lambda script: run_script(script, programs), scripts))
     failed = 0

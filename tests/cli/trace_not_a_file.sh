@@ -1,4 +1,4 @@
-# A folder or a pipe is no DAG; nobody waits for what it might say. A file of another kind is not damaged.
+# A folder or a pipe is rejected without reading it. A file of another kind is not reported as damaged.
 mkdir folder
 mkfifo pipe
 svdag-scene rectangle -q -o r.ply

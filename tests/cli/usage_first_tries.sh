@@ -1,4 +1,4 @@
-# What people try first, and are told.
+# First attempts of new users, and the messages.
 svdag-scene city -n 1K -q -o c.ply
 refused() {
   code=0

@@ -1,4 +1,4 @@
-# Half an angle is not negative, whatever the number; 0 and the default are none of each other.
+# A cone's half angle is not negative; 0 is a value of its own, not the default.
 svdag-scene speck -n 8 -q -o a.ply
 svdag build a.ply -r 16 -o a.svdag -q
 for cone in -1 -2 45 nan; do

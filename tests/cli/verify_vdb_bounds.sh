@@ -1,4 +1,4 @@
-# The part's grid ends at 51.2. Within --bounds all of the other grid counts, also what lies beyond the file's grid.
+# The part's grid ends at 51.2. Within --bounds all voxels of the other grid count, also those beyond the file's grid.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -s 0.05 -o whole.svdag -q
 svdag build a.ply -s 0.05 --bounds=10,2,10,20,9,20 -o part.svdag -q

@@ -1,4 +1,4 @@
-# What was exported is found again wherever it lies and however large it is, to the last voxel.
+# An export is compared voxel by voxel at any position and size.
 judge() {
   svdag build scene.obj -r "$1" -o a.svdag -q
   svdag export a.svdag -o a.vdb -q

@@ -1,6 +1,6 @@
 """A Slurm of four nodes on this machine, as root, without systemd and cgroups.
 
-Everything it writes lies in one folder. Daemons run in the foreground as our children; what they
+Everything it writes is in one folder. Daemons run in the foreground as our children; what they
 start is known by the SLURM_CONF in its environment, so stop() ends exactly what start() began.
 """
 import os
@@ -49,7 +49,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
 
 def free_ports(count):
-    """The first of `count` ports in a row that nobody listens at."""
+    """The first of `count` consecutive free ports."""
     for first in range(16817, 60000, count):
         try:
             for port in range(first, first + count):
@@ -70,7 +70,7 @@ def signal_all(processes, number):
 
 
 def has_stopped(process):
-    """Whether a process that was told to stop has, rather than ended before."""
+    """Whether a process stopped because of the signal, rather than ended before."""
     deadline = time.monotonic() + 5
     while time.monotonic() < deadline:
         try:

@@ -73,7 +73,7 @@ def main():
         for name, found, code in pool.map(lambda fault: run_one(kitchen, fault), planned):
             report.judge(name, found)
             codes.append(code)
-    print(f"{requests} requests; {len(planned)} faults: {codes.count(5)} told, {codes.count(0)} done without")
+    print(f"{requests} requests; {len(planned)} faults: {codes.count(5)} reported, {codes.count(0)} succeeded")
     report.finish()
 
 

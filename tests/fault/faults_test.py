@@ -55,7 +55,7 @@ def codes_of_call(fault, path, folder):
     if fault.kind == "close" and (bakes.is_input(path) or path in [str(folder), str(folder / bakes.SHARED_SCRATCH)]):
         return {0}  # what was only read loses nothing when it is closed
     if fault.kind == "unlink" or (fault.kind == "close" and is_scratch(path, folder)):
-        return {0, 4}  # nobody needs the file any more
+        return {0, 4}  # the file is no longer needed
     # A disk that does not answer may do so later, whatever is on it: farms try 4 again, and never 3.
     return {3} if bakes.is_input(path) and fault.action != str(errno.EIO) else {4}
 

@@ -8,7 +8,7 @@ import tempfile
 
 import bakes
 
-SPOILED = dict(os.environ, LD_PRELOAD=str(bakes.BUILD / "tests/libsvdag_float_modes.so"))
+MODIFIED = dict(os.environ, LD_PRELOAD=str(bakes.BUILD / "tests/libsvdag_float_modes.so"))
 SCENES = {"denormals": 2e-306, "ordinary": 7.3}  # their size; a voxel of the first is a normal number, just so
 
 
@@ -36,8 +36,8 @@ def main():
             write_scene(folder / f"{scene}.obj", size)
             data, texts = answer(folder, os.environ, "plain.svdag", f"{scene}.obj")
             report.judge(f"{scene}: as it is", [text for text in texts if "exit 0" not in text])
-            spoiled, said = answer(folder, SPOILED, "spoiled.svdag", f"{scene}.obj")
-            report.judge(f"{scene}: other modes", ["other bytes"] * (spoiled != data) +
+            modified, said = answer(folder, MODIFIED, "modified.svdag", f"{scene}.obj")
+            report.judge(f"{scene}: other modes", ["other bytes"] * (modified != data) +
                          [f"{b!r} instead of {a!r}" for a, b in zip(texts, said) if a != b])
     report.finish()
 

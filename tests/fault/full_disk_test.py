@@ -21,7 +21,7 @@ UNSHARED = "SVDAG_TEST_UNSHARED"
 
 
 class Case(NamedTuple):
-    """What stands on the small disk, which is the folder `disk` beside the scene."""
+    """The files on the small disk, which is the folder `disk` beside the scene."""
     name: str
     bake: bakes.Bake
     output: str

@@ -15,7 +15,7 @@ SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a
              "was changed while it was read",                                # zeros, or other bytes, were read
              "ends too early"]                                               # nothing was read
 BAD_INPUT = 3
-TRIES = 20  # a program that has ended before it was stopped is asked again
+TRIES = 20  # a program that ended before it was stopped is run again
 # Programs that walk the file for a while, and what they would leave.
 COMMANDS = {
     "check": (["svdag-verify", "check", "lost.svdag"], []),
@@ -65,7 +65,7 @@ def stop_when(holds, process, path):
 
 
 def run_and_spoil(spoil, folder, words, outputs):
-    """The exit code and standard error of a program whose file is spoiled; None if it was faster."""
+    """The exit code and standard error of a program whose file was changed; None if it was faster."""
     lost = folder / "lost.svdag"
     lost.write_bytes((folder / "kept.svdag").read_bytes())
     process = subprocess.Popen([bakes.BUILD / words[0], *words[1:]], cwd=folder, stdout=subprocess.DEVNULL,
@@ -84,8 +84,8 @@ def failures(ended, left):
     if ended is None:
         return [f"never caught in {TRIES} tries"]
     code, text = ended
-    told = code == BAD_INPUT and len(text.splitlines()) == 1 and any(s in text for s in SENTENCES)
-    return [f"ended with {ended}"] * (not told) + [f"left {sorted(left)}"] * bool(left)
+    reported = code == BAD_INPUT and len(text.splitlines()) == 1 and any(s in text for s in SENTENCES)
+    return [f"ended with {ended}"] * (not reported) + [f"left {sorted(left)}"] * bool(left)
 
 
 def main():

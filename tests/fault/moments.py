@@ -37,7 +37,7 @@ def hit(command, cwd, moment, signals):
 
 
 class Moments:
-    """Random moments of a bake that takes `seconds`; the seed is told, so that a failure can be repeated."""
+    """Random moments of a bake that takes `seconds`; the seed is printed, so that a failure can be reproduced."""
 
     def __init__(self, seconds, seed=None):
         self.seed = random.randrange(10**6) if seed is None else seed
@@ -47,6 +47,6 @@ class Moments:
         return self.random.uniform(0, self.seconds)
 
     def learn(self, ending):
-        """A bake that was faster than the signal tells how long a bake takes now."""
+        """A bake that was faster than the signal updates the expected duration."""
         if ending.code == 0:
             self.seconds = min(self.seconds, ending.seconds)

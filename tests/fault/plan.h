@@ -9,7 +9,7 @@
 //   SVDAG_FAULT_STAYS   1: so do all later calls of the kind
 //   SVDAG_FAULT_NO_TMPFILE   1: the file system has no O_TMPFILE (not counted as a call)
 //   SVDAG_FAULT_FOLDER_SYNC  an errno: what every fsync of a folder says (not counted)
-//   SVDAG_FAULT_RENAME_TWICE 1: every rename is done, and says ENOENT: an NFS server was asked
+//   SVDAG_FAULT_RENAME_TWICE 1: every rename is done, and returns ENOENT: an NFS server retried it
 //   twice
 //   SVDAG_FAULT_RANGE_LOCKS  1: as NFS clients make record locks of flock, one that excludes needs
 //   a descriptor that may write, a shared one a descriptor that may read
@@ -48,7 +48,7 @@ enum Kind {
   kMkdir,
   kLock,
   kMode,
-  kAlloc,  // requests for memory (memory.cpp), wherever
+  kAlloc,  // requests for memory (memory.cpp)
   kKinds
 };
 constexpr const char* kNames[kKinds] = {"open",   "read", "write",  "fsync",    "close",
@@ -93,7 +93,7 @@ inline Plan& plan() {
   return the;
 }
 
-// Raw system calls, so that the mark is no call of its own.
+// Raw system calls, so that the mark is not counted as a call.
 inline void mark(const std::string& line) {
   const long fd =
       syscall(SYS_openat, AT_FDCWD, plan().mark.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);

@@ -69,14 +69,14 @@ def live(command, folder, phase=None, delay=0.0):
     return Life(program.returncode, usage.ru_utime + usage.ru_stime, begun, time.monotonic() - start)
 
 
-def told(folder):
+def report_of(folder):
     return json.loads((folder / "report.json").read_text())
 
 
 def undisturbed(kitchen):
     """(a whole bake, its decisions)"""
     folder = kitchen.table()
-    life, decisions = live(kitchen.bake.command(*REPORT), folder), told(folder)["decisions"]
+    life, decisions = live(kitchen.bake.command(*REPORT), folder), report_of(folder)["decisions"]
     shutil.rmtree(folder)
     return life, decisions
 
@@ -110,8 +110,8 @@ def repeated(report, kitchen, phase, plain, decisions):
     beside, _ = undisturbed(kitchen)
     found = [] if resumed.code == 0 else [f"exit {resumed.code}"]
     found += [] if kitchen.state(folder) == "new" else [f"the output is {kitchen.state(folder)}"]
-    found += [] if found else decided_again(told(folder), decisions)
-    kept = 0 if found else told(folder)["voxels_kept"] / told(folder)["voxels"]
+    found += [] if found else decided_again(report_of(folder), decisions)
+    kept = 0 if found else report_of(folder)["voxels_kept"] / report_of(folder)["voxels"]
     found += [f"only {kept:.0%} were kept"] * (phase in AFTER_VOXELIZE and kept < 1)
     report.judge(f"killed in {phase} after {killed.seconds:.3f} s", found + bakes.scratch_left(folder))
     shutil.rmtree(folder)

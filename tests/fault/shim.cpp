@@ -67,7 +67,7 @@ bool is_unsyncable(int fd) {
          S_ISDIR(status.st_mode);
 }
 
-// What fcntl asks of the descriptor of a record lock.
+// The access mode that fcntl requires for a record lock.
 bool may_lock_range(int fd, int operation) {
   const int access = fcntl(fd, F_GETFL) & O_ACCMODE;
   return !((operation & LOCK_EX) != 0 && access == O_RDONLY) &&

@@ -18,7 +18,7 @@ class Fault(NamedTuple):
     stays: bool = False
     no_tmpfile: bool = False  # the file system has no O_TMPFILE
     folder_sync: int = 0  # the number of an errno: what every fsync of a folder says
-    rename_twice: bool = False  # every rename is done, and then says that there is no such file
+    rename_twice: bool = False  # every rename is done, and then returns ENOENT
     range_locks: bool = False  # flock needs what a record lock needs: to exclude, a file open for writing
 
 

@@ -1,11 +1,11 @@
 // Lets a fuzzer see what its children have reached (streaming/process/limited_child.h): the
-// counters of coverage lie in memory that it shares with them, instead of in pages that fork()
+// counters of coverage are in memory that it shares with them, instead of in pages that fork()
 // copies.
 //
 // The compiler gathers the counters in sections of their own, and the linker says where these begin
 // and end. The directives below add nothing but the alignment of a page, so that sharing begins
 // with the first counter (this must be the first object that is linked); behind the last one, its
-// page goes on with constants. No counters of this file itself: its names would clash with those
+// page continues with constants. No counters of this file itself: its names would clash with those
 // that they bring. Rejected: __libfuzzer_extra_counters (a child would have to copy its counters
 // before it ends, and one that crashes does not).
 #include <sys/mman.h>

@@ -76,7 +76,7 @@ def run(binary, target, seconds, profile):
 
 def lines(binary, profile, files):
     """{file: (lines reached, lines, names of functions that were never entered)}; lines are those of functions entered,
-    since what writes a format stands in the file that reads it."""
+    since the writer of a format is in the same file as its reader."""
     merged = profile.with_suffix(".profdata")
     llvm = lambda tool: shutil.which(tool) or shutil.which(f"{tool}-14") or sys.exit(f"{tool} is missing: install llvm")
     subprocess.run([llvm("llvm-profdata"), "merge", "-sparse", profile, "-o", merged], check=True)

@@ -15,7 +15,7 @@
 
 namespace svdag {
 
-constexpr size_t kMostVisited = 1 << 20;  // a small file may stand for a lot
+constexpr size_t kMaxVisited = 1 << 20;  // a small file may represent many nodes
 
 inline void expect_bad_input(const Error& error) {
   if (error.code() != ExitCode::kBadInput || std::string(error.what()).empty()) std::abort();
@@ -59,7 +59,7 @@ inline int fuzz_voxels(GridPlacement (*reader)(const File&, const VoxelSink&), c
       for (const Voxel& voxel : voxels) bits |= voxel[0] | voxel[1] | voxel[2];
       if (voxels.empty() || bits >> kMaxLevels != 0) std::abort();
       visited += voxels.size();
-      if (visited > kMostVisited) throw Enough();
+      if (visited > kMaxVisited) throw Enough();
     });
     if (place.resolution > uint64_t(1) << kMaxLevels) std::abort();
   } catch (const Error& error) {

@@ -1,7 +1,7 @@
 """make fuzz-long: 10^8 executions of every fuzzer, in pieces that a night can be made of.
 
 A piece is five minutes of one fuzzer on one core; its executions are added to build/fuzz/long/NAME.json
-when it has ended well, so the run can be stopped at any time and goes on with the next call, from the
+when it has ended well, so the run can be stopped at any time and continues with the next call, from the
 corpus it had. What was counted belongs to the bytes of one program: another build begins at nothing.
 
 A corpus grows towards long inputs, which take time and seldom reach more. So three pieces of four take inputs that
@@ -48,7 +48,7 @@ class Fuzzer:
                 self.kept = kept
 
     def inputs(self):
-        """What the next piece is told of its inputs: nothing, so up to the longest seed's length, or shorter."""
+        """Options of the next piece for the length of its inputs: none (up to the longest seed's), or shorter."""
         self.pieces += 1
         if self.pieces % 4 == 1:
             return []

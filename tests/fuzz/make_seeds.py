@@ -150,7 +150,7 @@ def vdbs(folder):
         pyopenvdb.write(str(folder / "a.vdb"), grids=grids)
         data = (folder / "a.vdb").read_bytes()
         yield name + ".vdb", data + bytes(len(data) % 2)
-        if name in ("two", "instance"):  # an odd number of bytes asks for grid "b"
+        if name in ("two", "instance"):  # an odd number of bytes selects grid "b"
             yield name + "_named.vdb", data + bytes(1 - len(data) % 2)
         if name == "bool":               # as a stream writes it
             yield name + "_streamed.vdb", data[:20] + b"\0" + data[21:]

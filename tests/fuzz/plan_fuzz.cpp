@@ -1,6 +1,6 @@
 // Arbitrary bytes as a plan: plan.json, index and receipts, one after the other with a line
 // "---" between them; with their hashes repaired. An Error, or a plan whose steps, bins and
-// receipts can be asked for.
+// receipts can be looked up.
 #include "builder/farm/plan/leaf_bins.h"
 #include "builder/farm/plan/plan.h"
 #include "builder/farm/plan/receipt.h"

@@ -1,5 +1,5 @@
 // Arbitrary bytes as the report of a bake: a page in which no text of the report is markup, or an
-// Error. HASH in them stands for the content hash of the file that the report is of.
+// Error. HASH in them is replaced by the content hash of the report's file.
 #include <cstdlib>
 
 #include "io/dag/dag_stats.h"

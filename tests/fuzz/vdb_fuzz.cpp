@@ -16,7 +16,7 @@ void visit(const VdbGrid& grid) {
     const Block& block = cube.block;
     const bool set = cube.side > kBlockSide || block.get(0, 0, 0);
     if (grid.get(cube.origin) != set) std::abort();
-    return ++visited < kMostVisited;
+    return ++visited < kMaxVisited;
   });
 }
 

@@ -1,4 +1,4 @@
-// Arbitrary bytes as one word of a command line: a letter says what the rest of it shall be. It is
+// Arbitrary bytes as one word of a command line: a letter selects the parser of the rest. It is
 // understood, and then means the same when it is written down and read again, or an Error (usage).
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 """Every count, size and offset of every file that we read, set to 0, 1, 2^31, 2^32-1, 2^63 and 2^64-1.
 
 Checksums are repaired, so that the field itself is judged. The program answers within 10 s with one of its exit
-codes and one sentence, never with a signal, and takes no more memory than 16 times the file and 64 MiB beyond what
+codes and one message, never with a signal, and takes at most 16 times the file and 64 MiB beyond what
 the undamaged file takes. FORMATS is the table: for each format a small valid file, the fields in it, and the
 command that reads it. SVDAG_LONG=1 takes every word of the binary files as a field.
 """
@@ -261,7 +261,7 @@ def foreign():
 
 
 def number_at(data, match):
-    """The number keeps its width, since the length of a header stands before it."""
+    """The number keeps its width, since the length of a header precedes it."""
     width = match.end() - match.start()
     return lambda value: data[:match.start()] + str(value).encode()[:width].ljust(width, b"0") + data[match.end():]
 

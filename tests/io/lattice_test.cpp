@@ -86,7 +86,7 @@ TEST(Snap, OfALatticePutsPlanesAtHalfOddMultiplesOfTheVoxelSize) {
   grid.k0 = LatticePoint(0, 1024, -1024);
   const int64_t voxel = int64_t(1) << grid.fraction();
   const Lattice lattice(grid);
-  // Plane k lies at (k + 1/2) S: at k0 the lattice coordinate is 0.
+  // Plane k is at (k + 1/2) S: at k0 the lattice coordinate is 0.
   EXPECT_EQ(lattice.snap({0.5 * 0.25, 1024.5 * 0.25, -1023.5 * 0.25}), LatticePoint(0));
   EXPECT_EQ(lattice.snap({1.5 * 0.25, 1025.5 * 0.25, -1022.5 * 0.25}), LatticePoint(voxel));
   EXPECT_EQ(lattice.snap({0.25, 1025 * 0.25, -1023 * 0.25}), LatticePoint(voxel / 2));

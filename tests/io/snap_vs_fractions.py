@@ -28,7 +28,7 @@ def snap(lattice, levels, size, origin, k0, p):
 
 
 def exactly(lattice, levels, size, origin, k0, p):
-    """Where the position lies on the lattice, without any rounding."""
+    """The position on the lattice, without any rounding."""
     scale = 2**fraction_bits(levels)
     if lattice:
         return (Fraction(p) / Fraction(size) - k0 - Fraction(1, 2)) * scale

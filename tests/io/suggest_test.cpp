@@ -25,16 +25,16 @@ TEST(Suggest, CountsLeftOutAddedChangedAndSwappedLetters) {
 }
 
 TEST(Suggest, NamesTheCommandThatWasMeant) {
-  EXPECT_EQ(explain({"biuld", "x.ply"}), "\"biuld\" is no command of svdag; did you mean build?");
-  EXPECT_EQ(explain({"frobnicate"}), "\"frobnicate\" is no command of svdag; see svdag --help");
+  EXPECT_EQ(explain({"biuld", "x.ply"}), "unknown command \"biuld\" of svdag; did you mean build?");
+  EXPECT_EQ(explain({"frobnicate"}), "unknown command \"frobnicate\" of svdag; see svdag --help");
 }
 
-// Before any guess: "trace" is no misspelt "plan".
+// Before any guess: "trace" is not a misspelt "plan".
 TEST(Suggest, NamesTheProgramThatHasTheCommand) {
   EXPECT_EQ(explain({"check", "x.svdag"}),
-            "\"check\" is no command of svdag; did you mean svdag-verify check?");
+            "unknown command \"check\" of svdag; did you mean svdag-verify check?");
   EXPECT_EQ(explain({"verify", "check", "x.svdag"}),
-            "\"verify\" is no command of svdag; did you mean svdag-verify?");
+            "unknown command \"verify\" of svdag; did you mean svdag-verify?");
   EXPECT_EQ(elsewhere("render"), "svdag-verify render");
   EXPECT_EQ(elsewhere("trace"), "svdag-trace");
   EXPECT_EQ(elsewhere("svdag-trace"), "svdag-trace");
@@ -46,13 +46,13 @@ TEST(Suggest, NamesTheProgramThatHasTheCommand) {
 
 TEST(Suggest, NamesTheOptionThatWasMeant) {
   EXPECT_EQ(explain({"build", "x.ply", "--resolutoin=64"}),
-            "--resolutoin is no option of svdag build; did you mean --resolution?");
+            "unknown option --resolutoin of svdag build; did you mean --resolution?");
   EXPECT_EQ(explain({"info", "--quickly"}),
-            "--quickly is no option of svdag info; see svdag info --help");
+            "unknown option --quickly of svdag info; see svdag info --help");
 }
 
 TEST(Suggest, KnowsTheOptionsOfTheProgramItself) {
-  EXPECT_EQ(explain({"--vesrion"}), "--vesrion is no option of svdag; did you mean --version?");
+  EXPECT_EQ(explain({"--vesrion"}), "unknown option --vesrion of svdag; did you mean --version?");
   EXPECT_EQ(explain({"--version"}), "");
 }
 
@@ -60,7 +60,7 @@ TEST(Suggest, AsksNoCommandOfAProgramThatHasNone) {
   const std::vector<CommandWords> alone = {{"", {"--output", "--level"}}};
   const std::vector<std::string> line = {"a.svdag", "--levle", "3"};
   EXPECT_EQ(explain_unknown("svdag export", alone, line),
-            "--levle is no option of svdag export; did you mean --level?");
+            "unknown option --levle of svdag export; did you mean --level?");
 }
 
 TEST(Suggest, SaysNothingOfWhatIsKnownOrNoOption) {

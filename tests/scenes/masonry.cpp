@@ -88,14 +88,14 @@ void Masonry::arch(const Frame& f, const Arch& arch) {
   };
   add([=](double u, double v) { return ring(u / 2, arch.radius, (2 * v - 1) * c); }, arc,
       arch.thickness, 16);
-  // The moulding: the front and the outer side of a ring that stands out of the wall.
+  // The moulding: the front and the outer side of a ring that projects from the wall.
   const double outer = arch.radius + 0.16, front = c + 0.05;
   add([=](double u, double v) { return ring(u / 2, outer + (arch.radius - outer) * v, front); },
       arc, 0.16, 16);
   add([=](double u, double v) { return ring(u / 2, outer, c + (front - c) * v); }, arc, 0.05, 16);
   add([=](double u, double v) { return ring(u / 2, arch.radius, front + (c - front) * v); }, arc,
       0.05, 16);
-  // The undersides beside the opening, where the wall stands on the columns.
+  // The undersides beside the opening, where the wall rests on the columns.
   for (const double a : {0.0, half + arch.radius})
     sheet(f, {a, arch.spring, -c}, {half - arch.radius, 0, 0}, {0, 0, arch.thickness});
 }

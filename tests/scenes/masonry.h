@@ -41,7 +41,7 @@ class Masonry {
 
   // The box a0..a1, y0..y1, c0..c1.
   void block(const Frame& f, const Point& low, const Point& high);
-  // Its upper side and the four walls only: what stands on a floor.
+  // Only its upper side and the four walls, for boxes on a floor.
   void tile(const Frame& f, const Point& low, const Point& high);
   // A flat patch with corners p, p + u, p + v, p + u + v in the frame.
   void sheet(const Frame& f, const Point& p, const Point& u, const Point& v);

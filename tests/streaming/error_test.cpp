@@ -29,7 +29,7 @@ TEST(Error, ControlCharactersOfTwoBytesReachNoTerminalEither) {
   EXPECT_EQ(what("a\xc2\x9b"
                  "31mb\xc2\x80\xc2\x9f"),
             "a?31mb??");
-  // U+00A0, U+00C2 and U+00DB with bytes that look alike, and a byte that stands alone at the end.
+  // U+00A0, U+00C2 and U+00DB with similar bytes, and a single byte at the end.
   EXPECT_EQ(what("\xc2\xa0\xc3\x82\xc3\x9b\xc2"), "\xc2\xa0\xc3\x82\xc3\x9b\xc2");
 }
 

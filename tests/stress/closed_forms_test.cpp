@@ -1,4 +1,4 @@
-// Closed forms: how many voxels simple bodies set, whatever their size and wherever they lie.
+// Closed forms: numbers of voxels of simple bodies, for any size and position.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -21,7 +21,7 @@ uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
 }
 
 // Calls check(spot, random, at) for many places `at`, voxel corners from which 160 voxels on every
-// side lie in the grid: near zero, anywhere, and in the far corner.
+// side are in the grid: near zero, anywhere, and in the far corner.
 template <class Check>
 void everywhere(const Check& check) {
   StressRandom random(11);

@@ -32,7 +32,7 @@ Tally& Tally::operator+=(const Tally& other) {
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside) {
   Grid grid = spot.grid;
-  // The parity of the region's corner stands for a coin, so small triangles are asked both ways.
+  // The parity of the region's corner serves as a coin, so small triangles are tested in both ways.
   const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0;
   if (!whole) {
     grid.bounded = true;

@@ -1,4 +1,4 @@
-// The same question put to the voxelizer and to the judges, and the answers compared bit by bit.
+// Compares the voxelizer with the judges on the same input, bit by bit.
 //
 // A decision is one voxel of a compared region that touches the surface or has a voxel that does
 // among its 26 neighbours in the region (by the conservative judge, for either rule): the voxels

@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-// Planes of `grid` moved so that `corner` (world) lies within 1024 voxels above its corner.
+// Planes of `grid` moved so that `corner` (world) is within 1024 voxels above its corner.
 Grid lattice_grid(int levels, double size, const Point& corner) {
   Grid grid = unit_grid(levels);
   grid.kind = Grid::Kind::kLattice;
@@ -86,7 +86,7 @@ Family scaled(const char* name, double unit) {
           }};
 }
 
-// Zero lies in the middle of the grid. (k0 is the plane of voxel -N/2, for N = 1K not a multiple of
+// Zero is in the middle of the grid. (k0 is the plane of voxel -N/2, for N = 1K not a multiple of
 // 1024: the snap does not ask for one.)
 Grid around_zero(int levels, double size) {
   Grid grid = lattice_grid(levels, size, Point(0));

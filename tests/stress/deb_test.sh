@@ -12,7 +12,7 @@ skip() { echo "deb_test: skipped, $1"; exit 77; }
 [ "$(id -u)" = 0 ] || skip "needs root for chroot"
 command -v debootstrap >/dev/null || skip "needs debootstrap"
 command -v apt-get >/dev/null || skip "needs apt, whose mirror it takes"
-# The programs name their outputs through /proc: it is mounted where nobody else sees it.
+# The programs name their outputs through /proc: it is mounted in a private namespace.
 if [ -z "${SVDAG_OWN_MOUNTS:-}" ]; then
   unshare --mount true 2>/dev/null || skip "needs the right to mount"
   SVDAG_OWN_MOUNTS=1 exec unshare --mount --propagation private sh tests/stress/deb_test.sh "$programs" "$packages"

@@ -2,7 +2,7 @@
 //
 // A family about shapes draws on the lattice; a family about coordinates draws doubles in the world
 // and snaps them (io/lattice.h), so that the snap is in the path. Either way the lattice triangles
-// are the normative geometry that voxelizer and judge are asked about.
+// are the normative geometry for voxelizer and judge.
 #pragma once
 
 #include <functional>

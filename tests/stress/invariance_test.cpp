@@ -1,7 +1,7 @@
 // Exact invariances of the voxels of a soup, on soups of every family.
 //
 // What moves the ties of rule thin (permuting or mirroring axes: its targets are shifted along x
-// before y before z) is asked of the conservative rule only; all else holds for both.
+// before y before z) is tested for the conservative rule only; all else for both.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

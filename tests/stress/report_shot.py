@@ -2,7 +2,7 @@
 """The page of `svdag-verify report`, looked at in a real browser: Chromium without a window.
 
 At the width of a desk and of a phone, light and dark: no message on the console, no request to anywhere, nothing
-wider than the window, every picture decoded, and the colours are those that were asked for. Pages with each of
+wider than the window, every picture decoded, and the colours are the requested ones. Pages with each of
 these faults must be found out, too. The screenshots stay in SHOTS, for people.
 
 Usage: report_shot.py PROGRAMS SHOTS
@@ -24,7 +24,7 @@ WIDTHS = {"desk": 1280, "phone": 390}
 SCHEMES = {"dark": 0, "light": 1}  # as Blink numbers them
 LUMINANCE = {"dark": range(0, 96), "light": range(160, 256)}
 
-# The page stands unchanged in a frame of the wanted width (a window of Chromium has 500 pixels at least), and
+# The page is loaded unchanged in a frame of the requested width (a window of Chromium has 500 pixels at least), and
 # what the frame's owner sees of it is left in the document.
 FRAME = """<!doctype html><body style="margin:0"><iframe style="border:0;width:%dpx;height:4200px" srcdoc="%s"></iframe>
 <script>addEventListener('load', () => {
@@ -118,6 +118,6 @@ class ReportShot(unittest.TestCase):
 
 if __name__ == "__main__":
     if CHROMIUM is None:
-        print("report_shot: skipped, there is no chromium")
+        print("report_shot: skipped, chromium is not installed")
         sys.exit(77)
     unittest.main()

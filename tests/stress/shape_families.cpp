@@ -1,4 +1,4 @@
-// Shapes: what triangles look like, wherever they lie.
+// Shapes of triangles, at any position.
 #include <cmath>
 
 #include "io/float_rounding.h"

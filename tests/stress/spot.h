@@ -1,11 +1,11 @@
-// Where the stress suite asks: a cube of the octree at which the descent starts, and a small region
-// of voxels in it that is compared.
+// A test position of the stress suite: a cube of the octree at which the descent starts, and a
+// small region of voxels in it that is compared.
 //
 // "At every cell depth": the descent starts at each level 0 .. L-2. A cube of a million voxels has
-// too many voxels to compare, so a deep descent is asked for the voxels of the region only, by
+// too many voxels to compare, so a deep descent computes the voxels of the region only, by
 // the grid's own selection (--bounds): the list of triangles is divided at every level from the
 // start down, exactly as in a whole bake, and only the subtrees beside the path are left out.
-// Where the triangles are small, the whole cube is asked and the region compared.
+// If the triangles are small, the whole cube is computed and the region compared.
 #pragma once
 
 #include "builder/descend/window.h"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # make stress: what takes too long for every change. Stages can be named (make stress STAGES="tsan packages"),
-# so that one can be asked again, or all in pieces.
+# so that one can be repeated, or all run in pieces.
 set -eu
 cd "$(dirname "$0")/../.."
 all="tsan families properties one_hash completion faults report_shot packages fuzzers"
@@ -70,7 +70,7 @@ fuzzers() {  # FUZZ_SECONDS each
 for stage in ${*:-$all}; do
   case " $all " in
     *" $stage "*) ;;
-    *) echo "stress: there is no stage \"$stage\" (there are: $all)" >&2; exit 2 ;;
+    *) echo "stress: unknown stage \"$stage\" (stages: $all)" >&2; exit 2 ;;
   esac
 done
 for stage in ${*:-$all}; do

@@ -23,7 +23,7 @@ class VoxelRegion {
   void set(const LatticePoint& voxel) {
     row(voxel.x, voxel.y) |= uint64_t(1) << (voxel.z - box_.min.z);
   }
-  // Sets the voxels of a brick (at `coordinate`, in bricks) that lie in the box; returns how many
+  // Sets the voxels of a brick (at `coordinate`, in bricks) that are in the box; returns how many
   // of its voxels do not.
   uint64_t set_brick(const LatticePoint& coordinate, Brick brick);
 

@@ -15,7 +15,7 @@ namespace svdag {
 
 using BigInt = boost::multiprecision::cpp_int;
 
-// slope . p + constant. Int is BigInt unless a test of small numbers asks for a faster one.
+// slope . p + constant. Int is BigInt unless a test of small numbers uses a faster one.
 template <class Int>
 struct SymbolicForm {
   std::array<Int, 3> slope{};
@@ -47,7 +47,7 @@ SymbolicForm<Int> plane_of(const LatticeTriangle& t) {
   return plane;
 }
 
-// Edge i of the triangle projected along w: the side of the edge on which a point lies.
+// Edge i of the triangle projected along w: the side of the edge on which a point is.
 inline SymbolicForm<BigInt> edge_of(const LatticeTriangle& t, int i, int w) {
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   const LatticePoint &a = t.v[i], &b = t.v[(i + 1) % 3];

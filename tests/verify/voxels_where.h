@@ -1,4 +1,4 @@
-// The voxels of a window that a definition sets, asked for one by one.
+// The voxels of a window that a definition sets, tested one by one.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace svdag {
 using VoxelSet = std::set<std::tuple<int64_t, int64_t, int64_t>>;
 
 // Those of which `sets(voxel)` is true; a voxel of 2^shift lattice steps a side that the triangle's
-// box cannot reach, by a generous margin, is not asked for.
+// box cannot reach, by a generous margin, are not tested.
 template <class Predicate>
 VoxelSet voxels_where(const LatticeTriangle& t, int shift, const VoxelBox& window,
                       const Predicate& sets) {

@@ -18,7 +18,7 @@ struct CommonConfig {
   uint64_t threads = 0;  // 0: all processors
 };
 
-// Prints seconds and peak memory on stderr when it dies, if asked to.
+// Prints seconds and peak memory on stderr when destroyed, if enabled.
 class Stopwatch {
  public:
   explicit Stopwatch(const CommonConfig& config) : enabled_(config.verbose && !config.quiet) {}

@@ -100,7 +100,7 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
                 format_count(s.vdb_errors).c_str());
   std::printf("%s\n", !j.ok()        ? "not ok: file and scene differ"
                       : j.both_empty ? kNothingToJudge
-                                     : "ok: every voxel tested lies between the bounds");
+                                     : "ok: every voxel tested is between the bounds");
 }
 
 void print_json(const DagFile& file, const Judgement& j, bool sampled) {

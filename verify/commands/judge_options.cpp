@@ -60,7 +60,7 @@ void add_diff(CLI::App* app, int* result) {
       command->add_option("--show", config->show, "How many differing voxels to list (default 10)"))
       ->type_name("N");
   command->add_flag("--by-index", config->by_index,
-                    "Compare voxel by voxel although the grids lie in different places");
+                    "Compare voxel by voxel although the grids have different positions");
   takes_files(
       command->add_option("--write-diff", config->write_diff,
                           "Write the differing voxels as a PLY of points: red only A, blue only B"),
@@ -91,7 +91,7 @@ void add_vdb(CLI::App* app, int* result) {
           "Compare only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
   command->add_flag("--sandbox", config->sandbox,
-                    "Decode in a process that can only compute, for files of strangers");
+                    "Decode in a process that can only compute, for untrusted files");
   takes_whole_number(command->add_option("--show", config->show,
                                          "Differing voxels to list of each kind (default 10)"))
       ->type_name("N");

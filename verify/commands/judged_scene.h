@@ -1,5 +1,4 @@
-// How a judgement of a file by its scene begins, and the lines that it prints in the same words
-// whoever judges.
+// Common parts of judging a file by its scene: reading it, and the lines that all judges print.
 #pragma once
 
 #include <array>
@@ -43,7 +42,7 @@ std::array<int64_t, 6> selection_of(const DagFile& file);
 
 // The verdict where there was nothing to judge.
 constexpr const char* kNothingToJudge =
-    "ok: the file has no voxel, and there is no triangle where it could have one";
+    "ok: the file has no voxel, and no triangle meets its selection";
 
 // Draws, or rays: as many as a person can want, and nothing that is computed from them overflows.
 // More is an Error (kUsage), and so is 0.

@@ -81,8 +81,7 @@ void print_draws(const SampleComparison& sample) {
   print("", area, "points by area", kInside, "the area is");
   print("", edge, "points by longest edge", kInside, "that length is");
   print("", triangle, "places beside triangles", kInside, nullptr);
-  std::printf(
-      "bounds     each at 95 %% confidence; of the number of missing bricks there is none\n");
+  std::printf("bounds     each at 95 %% confidence; the number of missing bricks is not bounded\n");
 }
 
 const char* verdict(const Judgement& j) {
@@ -105,7 +104,7 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   std::printf("%s\n", verdict(j));
 }
 
-// Where nothing was drawn, and of the draws beside triangles, there is no bound.
+// Without draws, and for draws beside triangles, there is no bound.
 nlohmann::json draws_json(const SampleComparison& sample) {
   const auto one = [](const DrawnBricks& d, const char* bounded) {
     nlohmann::json json = {{"draws", d.draws}, {"wrong", d.wrong}};

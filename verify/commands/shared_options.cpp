@@ -29,7 +29,7 @@ void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
   if (with_json) command->add_flag("--json", config->json, "Print the result as one JSON object");
   command->add_flag_callback(
       "--progress", [config] { config->progress = Progress::Mode::kOn; },
-      "Show progress even if stderr is no terminal");
+      "Show progress even if stderr is not a terminal");
   command->add_flag_callback(
       "--no-progress", [config] { config->progress = Progress::Mode::kOff; },
       "Never show progress");

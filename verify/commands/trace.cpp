@@ -186,7 +186,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
       " %s points, %s voxels)\n",
       r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
   if (t.ok()) {
-    std::printf("%s\n", r.tested() ? "ok: voxels and triangles agree wherever they were judged"
+    std::printf("%s\n", r.tested() ? "ok: voxels and triangles agree in all that was judged"
                                    : kNothingToJudge);
   } else {
     std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",

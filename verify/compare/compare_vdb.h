@@ -42,7 +42,7 @@ class VdbComparer {
   void split(const VoxelCube& cube, const Found& found);
   void compare_block(VoxelCube cube, const Found& found);
   Block ours(const LatticePoint& origin) const;
-  // Hands on the voxels of ours that theirs lacks, until the sink returns false.
+  // Passes our voxels that theirs lacks to the sink, until it returns false.
   void extras(const std::function<bool(const LatticePoint& ours)>& sink);
   // Of ours, where it is compared.
   VoxelBox window() const;

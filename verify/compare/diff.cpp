@@ -89,7 +89,7 @@ DagDiff::Counts DagDiff::count(uint32_t level, Pair pair) {
   }
   if (const Counts* known = memos_[level].find(pair)) return *known;
   if (level == 4) check_interrupt();
-  // What the parts need is far away and scattered: all is asked for before the first is waited for.
+  // The children's data is scattered in memory: all are prefetched before the first is used.
   std::array<Pair, 8> children;
   for (unsigned c = 0; c < 8; ++c) {
     children[c] = child(level, pair, c);

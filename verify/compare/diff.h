@@ -1,9 +1,9 @@
 // The symmetric difference of two DAGs, without unpacking either.
 //
 // Two voxel sets are compared by descending both DAGs at once. A pair of nodes (a, b) of one level
-// always has the same difference wherever it stands, so it is computed once and remembered: time
-// follows the number of different pairs, which for DAGs of one scene is about the number of nodes,
-// not of voxels. A node that stands alone is a pair with nothing.
+// always has the same difference, so it is computed once and cached: time is proportional to the
+// number of different pairs, which for DAGs of one scene is about the number of nodes, not of
+// voxels. A node without counterpart forms a pair with nothing.
 //
 // DAGs of different resolution are compared at the coarser one: there a voxel of the finer DAG is
 // set if any voxel in it is.
@@ -43,7 +43,7 @@ class DagDiff {
 
  private:
   struct Pair {
-    uint32_t a, b;  // kNoChild: nothing stands there
+    uint32_t a, b;  // kNoChild: empty
   };
   struct Counts {
     uint64_t only_a = 0, only_b = 0, both = 0;

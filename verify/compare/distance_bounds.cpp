@@ -118,7 +118,7 @@ class Window {
     });
   }
 
-  // Decides the suspects: each triangle asks those in its own box, one voxel wider.
+  // Decides the suspects: each triangle checks those in its own box, one voxel wider.
   void settle(const std::vector<LatticeTriangle>& triangles) {
     check_interrupt();
     std::sort(suspects_.begin(), suspects_.end());

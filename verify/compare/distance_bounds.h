@@ -1,18 +1,19 @@
-// Our voxels between two bounds that distances give: the judgement by OpenVDB.
+// Judges our voxels by OpenVDB: its distances give a lower and an upper bound for the set.
 //
 // Let d be the distance of a voxel's centre from the scene, in voxels.
 //   rule conservative:  { d <= 1/2 }  in  ours  in  { d <= sqrt(3)/2 }
-//     A point of the scene within 1/2 of the centre lies in the ball inside the closed cube; a
-//     point in the cube lies in the ball around it.
+//     A point of the scene within 1/2 of the centre is in the ball inside the closed cube; a point
+//     in the cube is in the ball around it.
 //   rule thin:  ours  in  { d <= 1/2 }
 //     A triangle that crosses one of the three centre segments has a point on it, and they reach
 //     1/2 from the centre; the symbolic shift changes nothing, because triangle and segment are
 //     closed and the shift is arbitrarily small. No distance makes a voxel set: a tip may end next
 //     to the centre.
 //
-// OpenVDB says d, as a float. A voxel within the error of a bound, and each one that OpenVDB would
-// call wrong, is decided again in integers (centre_distance.h): the first is no false alarm and no
-// hidden one, the second is either a violation, proven, or an error of OpenVDB's, counted as such.
+// OpenVDB computes d as a float. A voxel within the error of a bound, and each one that OpenVDB's
+// distance contradicts, is decided again in integers (centre_distance.h): so borderline voxels give
+// neither false alarms nor hidden errors, and a contradiction is either a proven violation or an
+// error of OpenVDB's, counted as such.
 //
 // Of a file with --bounds, the set voxels outside of its selection are extra, whatever the
 // distance.

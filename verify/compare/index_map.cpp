@@ -105,7 +105,7 @@ GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& pat
   const Point first = position(box.min);
   const LatticePoint turned = fit.map(box.min);
   for (int a = 0; a < 3; ++a) {
-    if (!(std::abs(first[a]) < 0x1p40)) refuse(path, theirs, "it lies too far away");
+    if (!(std::abs(first[a]) < 0x1p40)) refuse(path, theirs, "it is too far away");
     fit.map.shift[a] = int64_t(std::nearbyint(first[a])) - turned[a];
   }
   Point worst(0);

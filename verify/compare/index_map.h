@@ -1,4 +1,4 @@
-// How the voxels of a foreign grid lie on ours.
+// The map from the voxels of a foreign grid to ours.
 //
 // Their voxel i has its centre at origin + sum of i_a * axes_a, ours voxel u at centre + u * size,
 // the centre being that of our voxel 0. The grids fit if every centre of theirs is a centre of
@@ -6,10 +6,10 @@
 // far the true map is from that one is an affine function, largest at a corner of the box of their
 // voxels, so eight points prove it for all.
 //
-// Far from zero a voxel is a few steps of a double, or less than one. Positions are therefore taken
-// from our first centre on, not from zero: what we exported ourselves is there to the last bit, so
-// it fits wherever it lies. What others computed may be off by a few roundings of the coordinates,
-// but by no more than 1/8 of a voxel: else nobody knows which voxel is meant.
+// Far from zero a voxel is a few steps of a double, or less than one. Positions are therefore
+// relative to our first centre, not to zero: our own exports match to the last bit, so they fit at
+// any position. Grids of other programs may be off by a few roundings of the coordinates, but by at
+// most 1/8 of a voxel: otherwise the corresponding voxel is ambiguous.
 // Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1
 // voxel at 1M).
 #pragma once

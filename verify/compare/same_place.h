@@ -1,18 +1,19 @@
-// Whether two grids lie so that their voxels may be compared by number.
+// Whether two grids are positioned so that their voxels can be compared by index.
 //
 // Grids of one resolution must have the same corner and the same voxel size. Grids of different
-// resolution may lie in three ways, which all have the same places for what should be the same: a
-// level of the other (planes agree), two divisions of one box (-r: the centres of the outermost
-// voxels agree, io/grid.h), two lattices (--voxel-size: the planes of k0 = 0 agree, so each corner
-// is half a voxel of its own beyond); of the last two both grids must be, and imports are boxes.
-// Both ends of every axis are looked at, which judges corner and voxel size at once.
+// resolution may correspond in three ways: one is a level of the other (planes agree), both divide
+// one box (-r: the centres of the outermost voxels agree, io/grid.h), or both are lattices
+// (--voxel-size: the planes of k0 = 0 agree, so each corner is half a voxel of its own beyond). The
+// last two require both grids to be of that kind; imports are boxes. Both ends of every axis are
+// compared, which checks corner and voxel size at once.
 //
-// What may differ is rounding: 1e-6 of the smaller voxel, and a few units in the last place of the
-// doubles, but never more than 1/8 of a voxel. Files of other programs may have kept float32
-// (SymVox; arrays of NumPy), and an import of one shows it: the side of its grid is exactly a
-// float32. Then one step of a float32 is allowed, too, but never more than 1/8 of a voxel, what it
-// is across 1M voxels: a grid so far from zero that float32 cannot place it is in no known place.
-// Rejected: float32 for all (moved bakes pass), the word of the format (a .svdag does not keep it).
+// The tolerance covers rounding: 1e-6 of the smaller voxel, and a few units in the last place of
+// the doubles, but never more than 1/8 of a voxel. Other programs may store float32 (SymVox, NumPy
+// arrays), which shows in an import: the side of its grid is exactly a float32. Then one step of a
+// float32 is allowed, too, but never more than 1/8 of a voxel, which it reaches across 1M voxels: a
+// grid too far from zero for float32 has no known position.
+// Rejected: float32 for all (moved bakes would pass), the name of the format (a .svdag does not
+// store it).
 #pragma once
 
 #include "io/grid.h"

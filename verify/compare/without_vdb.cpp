@@ -1,4 +1,4 @@
-// Stands in for judge_vdb.cpp where svdag is built without OpenVDB.
+// Replaces judge_vdb.cpp in builds without OpenVDB.
 #ifndef SVDAG_HAS_OPENVDB
 
 #include "streaming/error.h"

@@ -1,15 +1,15 @@
-// Is a sound file also *the* DAG of its voxels: canonical, minimal, and told truly by its header?
+// Proves that a valid file is *the* DAG of its voxels: canonical, minimal, and described correctly
+// by its header.
 //
-// DagFile::open proves that the bytes are the ones written and that no pointer leads astray. This
-// proves the rest, in one pass per level from the bricks up, again without trust in a pointer:
+// DagFile::open proves that the bytes are unchanged and that all pointers are valid. This proves
+// the rest, in one pass per level from the bricks up, again without trusting a pointer:
 //   * no brick and no node is empty;
 //   * bricks ascend as numbers; nodes ascend by their eight children, child 0 first, 0 for none and
 //     1 + index else. Strictly ascending means that no two are equal, so the DAG is reduced;
-//   * every node but the root is some node's child, and the root stands alone. Reduced and fully
-//     used is minimal;
-//   * the voxels summed over the DAG are the voxels of the header, and none lies outside the
-//     selection;
-//   * the metadata says the same as the header, every key once, in the format's own words.
+//   * every node but the root is a node's child, and the root's level has one node. A reduced DAG
+//     without unused nodes is minimal;
+//   * the voxels summed over the DAG equal those of the header, and none is outside the selection;
+//   * the metadata matches the header, with every key once, in the format's exact words.
 #pragma once
 
 #include <cstdint>

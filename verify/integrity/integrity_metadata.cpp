@@ -77,7 +77,7 @@ std::vector<std::string> metadata_defects(const Header& header, std::string_view
   const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
     repeated.see(event, parsed);
     deep = deep || depth > kDeepest + 1;
-    return !deep;  // what is no longer kept cannot exhaust the stack of who prints it
+    return !deep;  // dropped, so that printing it cannot exhaust the stack
   };
   const json found = json::parse(metadata, see, /*allow_exceptions=*/false);
   if (deep) return {"the metadata is nested too deep"};

@@ -103,7 +103,7 @@ class ColumnClip {
     }
   }
 
-  // Coordinate `to` of the point of edge e whose coordinate `at` is x, which lies on the edge.
+  // Coordinate `to` of the point on edge e whose coordinate `at` is x.
   static Rounded cross(const Edge& e, int at, int64_t x, int to) {
     Int dividend = Int(e.b[to] - e.a[to]) * (x - e.a[at]);
     Int divisor = e.b[at] - e.a[at];
@@ -215,7 +215,7 @@ class ColumnClip {
     }
   }
 
-  // Hands on the cells of slab k and leaves its row empty.
+  // Passes the cells of slab k to the sink and empties its row.
   void emit(int64_t k, const Clipper::Sink& sink) {
     for (int64_t m = row_->first; m <= row_->last; ++m) {
       const Clipper::Span& span = row_->columns[size_t(m - first_[1])];

@@ -7,7 +7,7 @@
 // Notation: w is the column axis, u and v the other two. A column is a closed square of side S in
 // (u, v). The triangle clipped by a column's four half-spaces is a convex polygon, and the w of its
 // points a closed interval [a, b]; the cells ceil(a/S)-1 .. floor(b/S) of the column are occupied,
-// which are both neighbours where an end lies on a cell plane. A linear function on a convex
+// including both neighbours where an end is on a cell plane. A linear function on a convex
 // polygon is extreme at a corner of it, and the corners are
 //   (1) vertices of the triangle inside the closed square,
 //   (2) crossings of an edge with a line u = k*S or v = m*S, inside the closed square,
@@ -17,7 +17,7 @@
 //
 // All three are rationals of the original integers (nothing is clipped twice, nothing grows).
 // With |q| < 2^41: differences < 2^42; n_w = twice the projected area <= 2^84; (2) divides 84 bits
-// by 42; (3) divides n_u*(U-u0) + n_v*(V-v0), two terms < 2^126 because (U, V) lies inside the
+// by 42; (3) divides n_u*(U-u0) + n_v*(V-v0), two terms < 2^126 because (U, V) is inside the
 // triangle's box, so the sum < 2^127 fits Int128. Other triangles (differences < 2^63, checked
 // by the snap) take the same code on 256 bits: 63 + 126 + 1 = 190 bits are needed.
 //

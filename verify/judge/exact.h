@@ -1,7 +1,7 @@
-// Exact quotients of integers: all the arithmetic that the judge's clipping needs.
+// Exact quotients of integers: all the arithmetic of the judge's clipping.
 //
-// A point where a triangle is cut is a rational number. The judge never compares two of them: a
-// minimum is only asked for the voxel at or below it, and ceil and floor are monotone, so
+// A point where a triangle is cut is a rational number. The judge never compares two of them: of a
+// minimum only the voxel at or below it is needed, and ceil and floor are monotone, so
 // ceil(min of all) = min of all ceils. One division per point, no tolerance, no common denominator.
 #pragma once
 

@@ -49,7 +49,7 @@ JudgeChoice::Kind parse_judge(const std::string& name) {
   for (const auto kind : {JudgeChoice::Kind::kInteger, JudgeChoice::Kind::kCgal}) {
     if (name == name_of(kind)) return kind;
   }
-  fail_usage("there is no judge " + name + ": it must be integer or cgal");
+  fail_usage("unknown judge \"" + name + "\": choose integer or cgal");
 }
 
 const char* name_of(JudgeChoice::Kind kind) {

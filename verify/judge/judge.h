@@ -1,12 +1,12 @@
-// Who decides which voxels a triangle sets: two judges behind one interface.
+// Two judges behind one interface that decide which voxels a triangle sets.
 //
 //   integer   clips the triangle by columns of cells, or walks its lines of centres, in integers
-//             (occupancy.h, thin.h)
-//   cgal      asks CGAL's exact kernel about one cell after the other (judge_cgal.h)
+//             (clip_judge.h, thin.h)
+//   cgal      tests one cell after the other with CGAL's exact kernel (judge_cgal.h)
 //
-// They share no arithmetic and no idea, so that an error in one is seen by the other, but for the
-// box of cells that either asks about (touched_cells.h). Both judge both rules (docs/accuracy.md).
-// A judge keeps scratch memory: one per thread.
+// They share neither arithmetic nor method, except for the box of cells that they test
+// (touched_cells.h), so one detects an error of the other. Both judge both rules
+// (docs/accuracy.md). A judge keeps scratch memory: one per thread.
 #pragma once
 
 #include <memory>

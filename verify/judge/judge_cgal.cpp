@@ -58,15 +58,15 @@ class CgalJudge final : public Judge {
   void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
               const Sink& sink) override {
     if (rule_ == Rule::kConservative) return cells(triangle, fraction, window, sink);
-    // A segment that crosses the triangle lies in its closed voxel but for d: when e tends to 0 the
-    // crossing stays in the limit, so the triangle meets the closed voxel.
+    // A segment that crosses the triangle is in its closed voxel except for d: as e tends to 0 the
+    // crossing remains in the limit, so the triangle meets the closed voxel.
     cells(triangle, fraction, window, [&](const CellRun& voxel) {
       if (crosses_a_centre_segment(voxel.first, fraction)) sink(voxel);
     });
   }
 
  private:
-  // The same triangle is asked about again and again: CGAL keeps its exact numbers once computed.
+  // The same triangle is tested many times: CGAL caches its exact numbers.
   void take(const LatticeTriangle& triangle) {
     if (shape_of_ == triangle && taken_) return;
     shape_of_ = triangle;

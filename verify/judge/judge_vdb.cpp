@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-// The mesh as OpenVDB asks for it: in doubles, in index space already.
+// The mesh in the form that OpenVDB requires: in doubles, in index space.
 struct Adapter {
   std::span<const Triangle> triangles;
 
@@ -26,7 +26,7 @@ void vdb_distances(std::span<const Triangle> triangles, size_t threads, const Di
   openvdb::initialize();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-  // A band of one voxel holds all that is asked for, and nothing has to be propagated into it.
+  // A band of one voxel holds all requested distances, and no propagation is needed.
   const openvdb::FloatGrid::Ptr grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
       Adapter{triangles}, *transform, 1.0F, 1.0F, openvdb::tools::UNSIGNED_DISTANCE_FIELD);
   std::array<float, 512> distances;

@@ -1,12 +1,11 @@
-// OpenVDB's own mesh-to-volume conversion, asked for the distances of voxel centres.
+// The distances of voxel centres from triangles by OpenVDB's own mesh-to-volume conversion.
 //
 // tools::meshToVolume floods outward from every triangle as long as the squared distance of a
 // voxel's centre is at most 3/4, so each voxel that a triangle may touch gets the distance to its
-// nearest triangle, and so do their neighbours. It computes in double (the adapter hands it
-// doubles; the usual one hands floats) and keeps the square as a float, whose root it takes in
-// float: a distance d comes out within 2^-23 d. The point it measures to lies on the triangle, so a
-// distance is never too small; on needles, where its barycentric coordinates cancel, it may be too
-// large.
+// nearest triangle, and so do their neighbours. It computes in double (our adapter passes doubles;
+// the usual one passes floats) and keeps the square as a float, whose root it takes in float: a
+// distance d is accurate to 2^-23 d. The point it measures to is on the triangle, so a distance is
+// never too small; on needles, where its barycentric coordinates cancel, it may be too large.
 #pragma once
 
 #include <functional>
@@ -20,8 +19,8 @@ namespace svdag {
 constexpr float kFar = 3.4e38F;
 using DistanceSink = std::function<void(const LatticePoint& origin, std::span<const float, 512>)>;
 
-// `triangles` in voxels, voxel centres on the integers. Hands on every block with a near voxel;
-// their origins are multiples of 8. In a build without OpenVDB this is an Error (kUsage).
+// `triangles` in voxels, voxel centres on the integers. Passes every block with a near voxel to the
+// sink; their origins are multiples of 8. In a build without OpenVDB this is an Error (kUsage).
 void vdb_distances(std::span<const Triangle> triangles, size_t threads, const DistanceSink& sink);
 
 }  // namespace svdag

@@ -1,10 +1,10 @@
-// Which cells of side S = 2^shift lattice steps a closed box touches: all of an axis for which the
-// closed interval [k, k+1] * S meets [low, high].
+// The cells of side S = 2^shift lattice steps that a closed box touches: on each axis those for
+// which the closed interval [k, k+1] * S meets [low, high].
 //
-// An end on a cell plane touches both neighbours. What a triangle sets lies in the touched cells of
-// its box, so every judge asks about no others. Builder and judge share no formula, so this one is
-// the judge's own; it is held against the definition, cell by cell, in
-// tests/verify/judge/touched_cells_test.cpp.
+// An end on a cell plane touches both neighbours. All voxels that a triangle sets are in the
+// touched cells of its box, so judges test no others. Builder and judge share no formula, so this
+// one is the judge's own; tests/verify/judge/touched_cells_test.cpp compares it with the
+// definition, cell by cell.
 #pragma once
 
 #include "io/grid.h"
@@ -21,7 +21,7 @@ inline int64_t last_touched(int64_t high, int shift) {
   return high >> shift;
 }
 
-// The touched cells inside `window` (in cells); empty if there are none.
+// The touched cells inside `window` (in cells); may be empty.
 inline VoxelBox touched_cells(const LatticeBox& box, int shift, const VoxelBox& window) {
   VoxelBox cells;
   for (int a = 0; a < 3; ++a) {

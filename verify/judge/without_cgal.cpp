@@ -1,4 +1,4 @@
-// Stands in for judge_cgal.cpp where svdag is built without CGAL.
+// Replaces judge_cgal.cpp in builds without CGAL.
 #ifndef SVDAG_HAS_CGAL
 
 #include "streaming/error.h"

@@ -246,7 +246,7 @@ class Page {
 
   void skipped() {
     const Json& memo = bake_.at("plane_memo");
-    const auto asked = whole_number<uint64_t>(memo.at("asked")),
+    const auto queries = whole_number<uint64_t>(memo.at("asked")),
                answered = whole_number<uint64_t>(memo.at("answered"));
     const auto work = divided_per_level();
     const uint64_t grid_cells = uint64_t(1) << (3 * cell_level()), cells = count("cells");
@@ -259,8 +259,8 @@ class Page {
     std::vector<PlotBar> bars = {
         {"cells without a triangle", empty, percent(empty)},
         {"octree nodes never divided", octree == 0 ? 0 : spared, percent(octree == 0 ? 0 : spared)},
-        {"cubes on one plane, not descended", share_of(answered, asked),
-         percent(share_of(answered, asked))}};
+        {"cubes on one plane, not descended", share_of(answered, queries),
+         percent(share_of(answered, queries))}};
     if (count("cache_hits") > 0)
       bars.push_back({"cells from the cache", share_of(count("cache_hits"), cells),
                       percent(share_of(count("cache_hits"), cells))});
@@ -268,7 +268,7 @@ class Page {
     out_ += "<p class=\"dim\">Of " + format_count(grid_cells) + " cells, " + format_count(cells) +
             " were visited. Inside of them the octree has " + format_count(octree) +
             " nodes above the bricks, and the bake divided " + format_count(divided) + " cubes. " +
-            format_count(asked) + " cubes were put to the plane memo, which answered " +
+            format_count(queries) + " cubes were looked up in the plane memo, which answered " +
             format_count(answered) + " and computed " +
             format_count(whole_number<uint64_t>(memo.at("computed"))) + " nodes for that.</p>\n";
   }
@@ -287,7 +287,7 @@ std::string report_html(const std::string& bake, const std::string& path, const 
                         const std::vector<ReportPicture>& pictures) {
   const Json json = Json::parse(bake, nullptr, false);
   if (!json.is_object() || !json.contains("content_hash"))
-    fail_input(path, "is no report of svdag build");
+    fail_input(path, "is not a report of svdag build");
   Page page(json, file, stats, integrity);
   if (json["content_hash"] != page.hash())
     fail_usage(path + ": is the report of another bake than " + file.path() +
@@ -295,7 +295,7 @@ std::string report_html(const std::string& bake, const std::string& path, const 
   try {
     return page.make(pictures);
   } catch (const Json::exception&) {
-    fail_input(path, "is no report of svdag build, or of another version");
+    fail_input(path, "is not a report of svdag build, or of another version");
   } catch (const Error& error) {
     fail_input(path, error.what());
   }

@@ -31,7 +31,7 @@ std::string begin(const std::string& title) {
          formatted("%.0f", kHeight) + "\" role=\"img\" aria-label=\"" + escaped(title) + "\">\n";
 }
 
-// Level k of `levels` stands at the middle of its share of the width.
+// Position of level k of `levels`: the middle of its share of the width.
 double across(size_t k, size_t levels) {
   return kLeft + (kWidth - kLeft - kRight) * (double(k) + 0.5) / double(levels);
 }

@@ -1,4 +1,4 @@
-// Text of the report's page: what stands in HTML must not become HTML.
+// Text of the report's page, escaped for HTML.
 #pragma once
 
 #include <cstddef>

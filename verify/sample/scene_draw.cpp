@@ -14,7 +14,7 @@ struct Segment {
   Point from, to;
 };
 
-// The part of the segment in the closed box; `false` if there is none.
+// Clips the segment to the closed box; returns false if nothing remains.
 bool cut_segment(const Point& low, const Point& high, Segment* segment) {
   double begin = 0, end = 1;
   const Point from = segment->from, along = segment->to - segment->from;
@@ -121,7 +121,7 @@ class Part {
   std::array<Point, 3> corners_;
   Polygon cut_;        // empty if the whole triangle is inside, or nothing of it
   bool there_ = true;  // is some of it inside?
-  Segment edge_{};     // the part of the longest edge; a point if there is none
+  Segment edge_{};     // the part of the longest edge; a point if it has no length
   double area_ = 0;
 };
 

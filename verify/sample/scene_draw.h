@@ -1,4 +1,4 @@
-// Drawing bricks from a scene, each by a measure of which one can say what was bounded.
+// Draws random bricks from a scene, by measures for which error bounds can be stated.
 //
 //   area          points uniform over the area of the triangles
 //   longest edge  points uniform along the longest edges of the triangles: a needle has length
@@ -6,10 +6,10 @@
 //   triangle      a triangle, all equally likely, and a point of it, moved by up to a voxel on
 //                 each axis: tiny triangles, points, and the bricks beside a surface
 //
-// All measures are of the part of the snapped scene that lies in the grid (with --bounds: in the
-// selection), so no draw misses it. The first two draws are independent and uniform: k of n points
-// in wrong bricks bound the share of that area, or length, which lies in wrong bricks. The third is
-// a search and bounds nothing.
+// All measures are of the part of the snapped scene in the grid (with --bounds: in the selection),
+// so no draw misses it. The first two draws are independent and uniform: k of n points in wrong
+// bricks bound the share of that area, or length, that is in wrong bricks. The third is a search
+// and bounds nothing.
 // Rejected: one measure for all. By area no needle is ever drawn, by length a carpet of small
 // triangles hides a plane, by number a tessellated screw hides the walls.
 #pragma once

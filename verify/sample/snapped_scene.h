@@ -19,7 +19,7 @@ struct SnapCounts {
 
 using SnappedSink = std::function<void(std::span<const LatticeTriangle>)>;
 
-// Hands on, in batches, every triangle of `scene` whose box meets the closed grid.
+// Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches.
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink);
 
 // What a comparison of the file's grid with the scene's bounds says.

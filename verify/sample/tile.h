@@ -1,6 +1,6 @@
 // A tile: the unit in which the judge compares, 64^3 voxels (or the whole of a smaller grid).
 //
-// Its 16^3 bricks stand in Morton order in 32 KiB, which fits the first-level cache; a DAG fills
+// Its 16^3 bricks are in Morton order in 32 KiB, which fits the first-level cache; a DAG fills
 // them in one descent. Larger tiles would save set-up but make every clear and compare a trip to
 // memory.
 #pragma once

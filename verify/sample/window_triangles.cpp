@@ -5,7 +5,7 @@
 namespace svdag {
 namespace {
 
-// What of `polygon` lies on the side of x_axis = at to which `sign` points.
+// The part of `polygon` on the side of x_axis = at to which `sign` points.
 Polygon cut(const Polygon& polygon, int axis, double sign, double at) {
   Polygon kept;
   for (size_t i = 0; i < polygon.size(); ++i) {

@@ -3,9 +3,9 @@
 // Coordinates become voxels of the window, voxel centres on the integers. A triangle that reaches
 // far out of the window is cut by the six planes some voxels around it (Sutherland and Hodgman
 // 1974), or a wall of a 64K^3 grid would cost its judge billions of voxels. Cutting moves points by
-// rounding only: a point of the result lies within 2^-48 X of the triangle, and the other way round
-// inside the window, X being the largest coordinate of the triangle. What the cut adds, its own
-// border, is kCutMargin voxels away from the window, further than anything that is asked there.
+// rounding only: a point of the result is within 2^-48 X of the triangle, and vice versa inside the
+// window, X being the largest coordinate of the triangle. The border that the cut adds is
+// kCutMargin voxels away from the window, farther than any query.
 #pragma once
 
 #include <vector>

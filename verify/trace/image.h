@@ -22,7 +22,7 @@ struct Image {
   void set_raw(int x, int y, const Vec3& value);
 };
 
-// The bytes of a PNG; an Error (kOutput) that names `path` if there is no room for them.
+// The bytes of a PNG; an Error (kOutput) that names `path` if memory does not suffice.
 std::vector<std::byte> encode_png(const Image& image, const std::string& path);
 // Replaces `path` atomically. A failure is an Error (kOutput).
 void write_png(const Image& image, const std::string& path);

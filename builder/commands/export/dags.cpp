@@ -41,7 +41,8 @@ uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
 
 uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   if (!config.output.ends_with(".octree"))
-    fail_usage(config.output + ": the name must end in .octree; two more files stand beside it");
+    fail_usage(config.output +
+               ": the name must end in .octree; two more files are written beside it");
   const LevelDag dag = level_dag(*selection, config, "the .octree", budget);
   write_octree(dag, config.output);
   return dag.voxels();

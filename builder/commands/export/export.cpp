@@ -51,12 +51,12 @@ const Row& choose(const ExportConfig& config) {
   }
   if (config.format.empty())
     fail_usage(config.output + ": its ending names no format: choose one with --format: " + names);
-  fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
+  fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
 }
 
-int checked_level(const DagFile& file, std::optional<int> asked) {
+int checked_level(const DagFile& file, std::optional<int> options) {
   const int finest = int(file.header().levels);
-  const int level = asked.value_or(finest);
+  const int level = options.value_or(finest);
   if (level < kMinLevels || level > finest)
     fail_usage("--level: " + file.path() + " has levels " + std::to_string(kMinLevels) + " to " +
                std::to_string(finest) + " to export");
@@ -95,13 +95,13 @@ std::vector<ExportFormat> export_formats() {
   return formats;
 }
 
-int run(const ExportConfig& asked) {
-  const Row& row = choose(asked);
-  refuse_options_of_others(row, asked);
-  const DagFile file = DagFile::open(asked.file);
-  Selection selection(file, asked);
-  ExportConfig config = asked;
-  if (row.path != nullptr) config.output = row.path(asked.output, selection.grid.levels);
+int run(const ExportConfig& options) {
+  const Row& row = choose(options);
+  refuse_options_of_others(row, options);
+  const DagFile file = DagFile::open(options.file);
+  Selection selection(file, options);
+  ExportConfig config = options;
+  if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
   refuse_own_input(row, config);
   AtomicFile::check(config.output);
   MemoryBudget budget(memory_or_default(config.memory));

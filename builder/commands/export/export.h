@@ -1,8 +1,8 @@
-// svdag export FILE -o X: the voxels of a DAG in the formats of others.
+// svdag export FILE -o X: writes the voxels of a DAG in another format.
 //
 // A whole file at one of its levels, or a window of it. Runs as a program of its own, svdag-export,
-// which `svdag export` starts: the libraries of foreign formats cost memory (OpenVDB 38 MB) and
-// time that a bake shall not pay.
+// which `svdag export` starts: a bake does not load the libraries of other formats, which cost
+// memory (OpenVDB 38 MB) and time.
 #pragma once
 
 #include <optional>

@@ -47,7 +47,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
                {"svdag export city.svdag -o city.vdb --level 10",
                 "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
                 "svdag export city.svdag --format hashdag -o city"},
-               "svdag help formats tells more.");
+               "See also: svdag help formats.");
 }
 
 int run_command(int argc, char** argv) {

@@ -14,7 +14,7 @@ struct Selection {
   Selection(const DagFile& dag_file, const ExportConfig& config);
 
   const DagFile& file;
-  Grid grid;      // of the level; its selection is what was asked for
+  Grid grid;      // of the level; its selection is the requested box
   CubeWalk walk;  // of the level
 };
 

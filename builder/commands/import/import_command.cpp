@@ -83,15 +83,15 @@ const Row& choose(const ImportCommandConfig& config, const File& file) {
     names += (names.empty() ? "" : ", ") + std::string(row.name);
   }
   if (!config.format.empty())
-    fail_usage("--format: there is no format " + config.format + ": it must be one of " + names);
+    fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
   for (const std::string& ending : kSceneEndings) {
     if (has_ending(config.file, ending))
       fail_input(config.file, "is a scene: svdag build bakes it");
   }
-  fail_input(config.file, "is no file that svdag import knows: name its --format: " + names);
+  fail_input(config.file, "unknown file format: name it with --format: " + names);
 }
 
-// Options of OpenVDB's grids are wrong, not void, where there are none.
+// Options of OpenVDB grids are rejected for other formats, not ignored.
 void require_no_vdb_options(const ImportCommandConfig& config, const Row& row) {
   const char* option = !config.grid.empty() ? "--grid" : config.iso ? "--iso" : nullptr;
   if (option != nullptr)

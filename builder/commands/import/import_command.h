@@ -1,7 +1,7 @@
-// svdag import X -o OUT.svdag: what other programs made, as a minimal canonical DAG.
+// svdag import X -o OUT.svdag: converts voxels of other programs to a minimal canonical DAG.
 //
-// Runs as a program of its own, svdag-import, which `svdag import` starts: the libraries of foreign
-// formats cost memory that a bake shall not pay. A format is recognised by what is in the file.
+// Runs as a program of its own, svdag-import, which `svdag import` starts: a bake does not load the
+// libraries of other formats. A format is recognised by the content of the file.
 #pragma once
 
 #include <optional>

@@ -39,7 +39,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "vdb: the values of a float grid that are set, for example --iso=-inf,0")
       ->type_name("LOW,HIGH");
   app->add_flag("--sandbox", config->sandbox,
-                "vdb: decode in a process that can only compute, for files of strangers");
+                "vdb: decode in a process that can only compute, for untrusted files");
   add_memory_budget(app, &import->memory);
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
           kMostThreads)
@@ -52,7 +52,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
                {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",
                 "svdag import points.npz -o points.svdag -r 1K",
                 "svdag import levelset.vdb --iso=-inf,0 -o solid.svdag"},
-               "svdag help formats tells more.");
+               "See also: svdag help formats.");
 }
 
 int run_command(int argc, char** argv) {

@@ -17,9 +17,9 @@ class VdbVoxels {
   // same on all axes, are an Error (kBadInput) that names `path`.
   VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path);
 
-  // Voxels that are handed on one by one.
+  // Number of voxels that are passed one by one.
   uint64_t count() const { return count_; }
-  // Hands on every voxel once, those of tiles and full leaves as cubes.
+  // Passes every voxel once, those of tiles and full leaves as cubes.
   GridPlacement read(const VoxelSink& voxels, const FullCubeSink& cubes) const;
 
  private:

@@ -22,7 +22,7 @@ double seconds(Clock::duration duration) {
 LiveTable::LiveTable(const Plan& plan, bool live, bool quiet)
     : plan_(plan), live_(live && !quiet), quiet_(quiet), begin_(Clock::now()), next_(begin_) {}
 
-void LiveTable::tell(size_t step, const StepRow& row) {
+void LiveTable::print(size_t step, const StepRow& row) {
   if (quiet_) return;
   const PlanStep& s = plan_.steps[step];
   if (row.state == StepState::kDone) {

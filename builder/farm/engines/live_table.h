@@ -1,5 +1,5 @@
-// What a running plan shows: on a terminal a table of the steps that run and a line of sums, drawn
-// over and over; otherwise a line for each step that ends.
+// Progress of a running plan: on a terminal a table of the running steps and a line of sums,
+// redrawn in place; otherwise a line for each step that ends.
 #pragma once
 
 #include <sys/types.h>
@@ -17,10 +17,10 @@ enum class StepState { kWaiting, kRunning, kDone, kFailed };
 struct StepRow {
   StepState state = StepState::kWaiting;
   int attempts = 0;
-  bool others = false;  // somebody else's process does it, which is waited for
-  std::chrono::steady_clock::time_point next_look;  // whether it still does
+  bool others = false;                              // another process does it, and is waited for
+  std::chrono::steady_clock::time_point next_look;  // when to check that it still does
   int code = 0;                                     // of the last attempt
-  bool already = false;                             // was done before it was asked for
+  bool already = false;                             // was done before this run
   pid_t process = 0;
   std::chrono::steady_clock::time_point begin;
   double seconds = 0;
@@ -29,11 +29,11 @@ struct StepRow {
 
 class LiveTable {
  public:
-  // `live`: draws on stderr. `quiet`: says nothing at all.
+  // `live`: draws on stderr. `quiet`: prints nothing.
   LiveTable(const Plan& plan, bool live, bool quiet);
 
-  // A step has ended.
-  void tell(size_t step, const StepRow& row);
+  // Prints a step that has ended.
+  void print(size_t step, const StepRow& row);
   // At most ten times a second.
   void draw(const std::vector<StepRow>& rows);
   void clear();

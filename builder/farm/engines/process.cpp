@@ -79,7 +79,7 @@ int wait_for(pid_t process) {
   for (;;) {
     int status = 0;
     if (::waitpid(process, &status, 0) == process) return code_of(status);
-    if (errno != EINTR) return int(ExitCode::kInternal);  // nobody knows how it ended
+    if (errno != EINTR) return int(ExitCode::kInternal);  // its exit status is unknown
   }
 }
 
@@ -98,7 +98,7 @@ bool has_ended(pid_t process, int* code) {
   int status = 0;
   const pid_t ended = ::waitpid(process, &status, WNOHANG);
   if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
-  *code = ended == process ? code_of(status) : int(ExitCode::kInternal);  // nobody knows how
+  *code = ended == process ? code_of(status) : int(ExitCode::kInternal);  // status unknown
   return true;
 }
 

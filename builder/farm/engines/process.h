@@ -16,7 +16,7 @@ pid_t start_process(const std::vector<std::string>& command, const std::string& 
 // True once the process has ended; *code is then its exit code, or 128 + n if signal n ended it.
 bool has_ended(pid_t process, int* code);
 
-// Asks all of them to stop (SIGTERM), and waits until they have.
+// Stops all of them (SIGTERM), and waits until they have exited.
 void stop_processes(const std::vector<pid_t>& processes);
 
 struct Answer {
@@ -33,7 +33,7 @@ std::string own_program();
 // What starts this very program: its file, or, where another took its name, the image that runs.
 std::string own_image();
 
-// `path` from wherever a host works. Links are those of the host: they stay, and so does "..".
+// `path` as an absolute path. Links are resolved on the host, so they are kept, and so is "..".
 std::string from_anywhere(const std::string& path);
 
 // What hosts start for `asked`: a name without a folder is looked up on their PATH; empty: this

@@ -30,14 +30,14 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// 0 if there is no log yet.
+// 0 if the log does not exist yet.
 uint64_t size_of(const std::string& log) {
   std::error_code none;
   const auto size = std::filesystem::file_size(log, none);
   return none ? 0 : size;
 }
 
-// The last line behind byte `begin` of a log; earlier attempts said what stands before.
+// The last line after byte `begin` of a log; the text before it is of earlier attempts.
 std::string last_words(const std::string& log, uint64_t begin) {
   const File file = File::open_read(log);
   const uint64_t size = file.size();
@@ -127,8 +127,8 @@ class Runner {
                        [&](size_t input) { return rows_[input].state == StepState::kDone; });
   }
 
-  // False if somebody else's process does the step: none of ours then stands in line for it, in
-  // the place of one that could do another step.
+  // Returns false if another process does the step: no process of ours then waits for it instead of
+  // doing another step.
   bool start_or_wait(size_t i) {
     StepConfig step;
     step.scratch = config_.scratch;
@@ -143,7 +143,7 @@ class Runner {
     row.next_look = Clock::now() + kLookAtOthers;
     if (row.others) return;  // said before
     row.others = true;
-    table_.tell(i, row);
+    table_.print(i, row);
   }
 
   void start(size_t i) {
@@ -161,7 +161,7 @@ class Runner {
     ++row.attempts;
   }
 
-  // Of the step's receipt; the least of all times if there is none.
+  // Of the step's receipt; the earliest time without a receipt.
   Time last_write(size_t i) const {
     std::error_code none;
     return std::filesystem::last_write_time(receipt_path(plan_, plan_.steps[i]), none);
@@ -184,7 +184,7 @@ class Runner {
     } else {
       row.state = StepState::kFailed;
     }
-    table_.tell(i, row);
+    table_.print(i, row);
   }
 
   void fail_if_any_failed() const {

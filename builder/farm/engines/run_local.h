@@ -1,9 +1,9 @@
-// Runs a plan on this machine: each step a process, as many at once as asked.
+// Runs a plan on this machine: one process per step, `processes` at once.
 //
-// Processes and not threads: a step that dies takes nothing with it, and its memory is bounded by
-// itself. A step that failed in a way that may pass (disk, memory, a signal) is tried once more; a
-// step that failed for good fails those that need it, and the others go on. A step that a process
-// of somebody else does (of an earlier run, that was killed) is waited for, while the others go on.
+// Processes instead of threads isolate a crash and bound the memory of each step. A step that
+// failed for a temporary reason (disk, memory, a signal) is retried once; a step that failed
+// permanently fails those that need it, and the others continue. A step that another process is
+// doing (of an earlier run that was killed) is waited for, while others continue.
 #pragma once
 
 #include "builder/farm/plan/plan.h"

@@ -24,8 +24,8 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
   build.descent.rule = plan.rule;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
-  // What is left unfinished in the plan's folder is the plan's; beside another name it may be
-  // anybody's.
+  // An unfinished bake in the plan's folder belongs to the plan; beside another output it may
+  // belong to any bake.
   const Unfinished unfinished =
       config.output.empty() ? Unfinished::kResumeSame : Unfinished::kResume;
   build.unfinished = config.restart ? Unfinished::kRestart : unfinished;

@@ -1,10 +1,10 @@
-// Does one step of a plan: bakes a shard, or merges what other steps made.
+// Does one step of a plan: bakes a shard, or merges the outputs of other steps.
 //
-// A step may be asked for any number of times, anywhere, also twice at once: a valid output is
-// kept, any other replaced, and outputs appear whole. What a killed shard had saved is taken up
-// again where its scratch is still to be found; scratch of another plan, or that is damaged, is
-// discarded, and the shard begins afresh. A step that another process does at the moment, in the
-// same scratch folder, is an Error of a code of its own: nothing has failed.
+// A step may run any number of times, on any machine, also twice at once: a valid output is kept,
+// any other replaced, and outputs appear complete. A killed shard is resumed if its scratch folder
+// still exists; scratch of another plan, or damaged scratch, is discarded, and the shard starts
+// anew. If another process is doing the step in the same scratch folder, that is an Error with its
+// own code, since nothing has failed.
 #pragma once
 
 #include "builder/farm/plan/receipt.h"
@@ -14,8 +14,8 @@
 
 namespace svdag {
 
-// Another process does the step (EX_TEMPFAIL of sysexits.h): no code of a failure, so that whoever
-// counts the attempts at a step does not count this one.
+// Another process does the step (EX_TEMPFAIL of sysexits.h): not a failure, so that an engine that
+// counts attempts does not count this one.
 constexpr ExitCode kDoneElsewhere{75};
 
 struct StepConfig {
@@ -23,12 +23,12 @@ struct StepConfig {
   uint64_t memory = 0;    // 0: as planned
   std::string scratch;    // the folder for scratch folders; empty: the output's
   double checkpoint = 0;  // of a shard: as in BuildConfig; 0: as there
-  bool restart = false;   // what a killed shard had saved is discarded
+  bool restart = false;   // discard the saved work of a killed shard
 };
 
 struct StepReport {
   std::string output;
-  bool kept = false;  // it was there
+  bool kept = false;  // it was done already
   Receipt receipt;
 };
 

@@ -93,10 +93,10 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 
 }  // namespace
 
-std::string openjd_template(const Plan& plan, const OpenJdConfig& asked) {
-  OpenJdConfig config = asked;  // as hosts see it, who work in folders of their own
-  config.program = program_on_hosts(asked.program);
-  if (!asked.scratch.empty()) config.scratch = from_anywhere(asked.scratch);
+std::string openjd_template(const Plan& plan, const OpenJdConfig& options) {
+  OpenJdConfig config = options;  // as hosts see it, who work in folders of their own
+  config.program = program_on_hosts(options.program);
+  if (!options.scratch.empty()) config.scratch = from_anywhere(options.scratch);
   for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
     require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};

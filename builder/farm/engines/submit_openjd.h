@@ -1,9 +1,8 @@
-// A plan as an Open Job Description template (specification 2023-09), for render farms that speak
-// it.
+// A plan as an Open Job Description template (specification 2023-09), for render farms.
 //
-// One step of the template for all shards, whose tasks are their numbers; one per level of the
-// merge tree, whose tasks are the merges. Memory and threads are asked for by host requirements;
-// retrying is the farm's business (docs/farm.md lists the exit codes).
+// The template has one step for all shards, whose tasks are their numbers, and one per level of the
+// merge tree, whose tasks are the merges. Host requirements request memory and threads. The farm
+// retries failed tasks (docs/farm.md lists the exit codes).
 #pragma once
 
 #include <string>
@@ -19,7 +18,7 @@ struct OpenJdConfig {
   std::string path;     // of the template: its default for the plan is relative to its folder
 };
 
-// The template as JSON text. Paths that are no UTF-8 are an Error (kUsage).
+// The template as JSON text. Paths that are not valid UTF-8 are an Error (kUsage).
 std::string openjd_template(const Plan& plan, const OpenJdConfig& config);
 
 }  // namespace svdag

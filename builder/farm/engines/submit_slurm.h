@@ -27,8 +27,8 @@ struct SlurmConfig {
 };
 
 // With `wait`, returns when the plan is done; Error (kOutput) if jobs ended and it is not. Error
-// (kUsage) if there is no sbatch, (kOutput) if it refuses. Both that and Interrupted leave alone
-// what was submitted, and tell about it on stderr.
+// (kUsage) if sbatch is not found, (kOutput) if it fails. Then, and when interrupted, submitted
+// jobs are left alone and listed on stderr.
 void submit_slurm(const Plan& plan, const SlurmConfig& config);
 
 }  // namespace svdag

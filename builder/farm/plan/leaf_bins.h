@@ -1,10 +1,10 @@
 // The triangles of a plan: bins so fine that a shard reads little beyond its own.
 //
-// The split's triangles are dealt into bins (builder/split/triangle_bins.h), heavy bins dealt
-// again, until a bin is light, or a cell, or its triangles so large that dealing them would only
-// copy them. What is left stands in Morton order in one file, each bin's blocks one behind the
-// other, so a shard reads a few long ranges. Rejected: a file per shard (triangles on borders and
-// of large walls would stand in many, and shards could not be cut anew).
+// The split's triangles are distributed to bins (builder/split/triangle_bins.h), and heavy bins are
+// divided again, until a bin is light, or a cell, or its triangles are so large that dividing would
+// only copy them. The bins are stored in Morton order in one file, the blocks of each
+// consecutively, so a shard reads a few long ranges. Rejected: a file per shard (triangles on
+// borders and of large walls would be in many, and the shards could not be changed).
 #pragma once
 
 #include <vector>

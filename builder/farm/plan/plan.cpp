@@ -23,66 +23,48 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kPlanJson = "plan.json";
 constexpr int kFormat = 4;  // changes when a key, or what the index holds, does
 
-template <class Vector>
-Json three(const Vector& v) {
-  return {v.x, v.y, v.z};
-}
-LatticePoint get_point(const Json& json) {
-  LatticePoint v;
-  for (int a = 0; a < 3; ++a) v[a] = whole_number<int64_t>(json.at(size_t(a)));
-  return v;
+[[noreturn]] void fail_plan(const Plan& plan, const std::string& sentence) {
+  fail_input(plan.path(kPlanJson), sentence);
 }
 
 uint64_t count_of(const Json& json, const char* key) {
   return whole_number<uint64_t>(json.at(key));
 }
 
-Json grid_json(const Grid& grid) {
-  return {{"kind", grid.kind == Grid::Kind::kBox ? "box" : "lattice"},
-          {"levels", grid.levels},
-          {"voxel_size", grid.voxel_size},
-          {"origin", three(grid.origin)},
-          {"k0", three(grid.k0)},
-          {"bounded", grid.bounded},
-          {"selection_min", three(grid.selection.min)},
-          {"selection_max", three(grid.selection.max)}};
-}
+struct PutJson {
+  Json* out;
 
-Grid get_grid(const Json& json) {
-  Grid grid;
-  grid.kind = json.at("kind") == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
-  grid.levels = whole_number<int>(json.at("levels"));
-  grid.voxel_size = json.at("voxel_size");
-  for (int a = 0; a < 3; ++a) grid.origin[a] = json.at("origin").at(size_t(a));
-  grid.k0 = get_point(json.at("k0"));
-  grid.bounded = json.at("bounded");
-  grid.selection = {get_point(json.at("selection_min")), get_point(json.at("selection_max"))};
-  return grid;
-}
+  template <class T>
+  void operator()(const char* name, const T& value) const {
+    (*out)[name] = value;
+  }
+  void operator()(const char* name, Grid::Kind kind) const {
+    (*out)[name] = kind == Grid::Kind::kBox ? "box" : "lattice";
+  }
+  void operator()(const char* name, const Point& v) const { (*out)[name] = {v.x, v.y, v.z}; }
+  void operator()(const char* name, const LatticePoint& v) const { (*out)[name] = {v.x, v.y, v.z}; }
+};
 
-Json counts_json(const SplitCounts& counts) {
-  return {{"triangles", counts.scene.triangles},
-          {"invalid", counts.scene.invalid},
-          {"undeformed", counts.scene.undeformed},
-          {"quantisation", counts.scene.quantisation},
-          {"outside", counts.outside},
-          {"clipped", counts.clipped},
-          {"degenerate", counts.degenerate},
-          {"largest_snap_voxels", counts.largest_snap}};
-}
+struct GetJson {
+  const Json& in;
+  const Plan& plan;
 
-SplitCounts get_counts(const Json& json) {
-  SplitCounts counts;
-  counts.scene.triangles = count_of(json, "triangles");
-  counts.scene.invalid = count_of(json, "invalid");
-  counts.scene.undeformed = count_of(json, "undeformed");
-  counts.scene.quantisation = json.at("quantisation");
-  counts.outside = count_of(json, "outside");
-  counts.clipped = count_of(json, "clipped");
-  counts.degenerate = count_of(json, "degenerate");
-  counts.largest_snap = json.at("largest_snap_voxels");
-  return counts;
-}
+  void operator()(const char* name, double& value) const { value = in.at(name); }
+  void operator()(const char* name, bool& value) const { value = in.at(name); }
+  void operator()(const char* name, int& value) const { value = whole_number<int>(in.at(name)); }
+  void operator()(const char* name, uint64_t& value) const { value = count_of(in, name); }
+  void operator()(const char* name, Grid::Kind& kind) const {
+    const std::string text = in.at(name);
+    if (text != "box" && text != "lattice") fail_plan(plan, "unknown kind of grid: " + text);
+    kind = text == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
+  }
+  void operator()(const char* name, Point& v) const {
+    for (int a = 0; a < 3; ++a) v[a] = in.at(name).at(size_t(a));
+  }
+  void operator()(const char* name, LatticePoint& v) const {
+    for (int a = 0; a < 3; ++a) v[a] = whole_number<int64_t>(in.at(name).at(size_t(a)));
+  }
+};
 
 double rounded(double seconds) {
   return std::round(1000 * seconds) / 1000;
@@ -117,7 +99,7 @@ Json step_json(const Plan& plan, const PlanStep& step) {
   return json;
 }
 
-// Steps write into the folder of their plan, whoever has written that.
+// Steps write only into the folder of their plan, even if the plan was forged.
 bool stays_inside(const std::string& path) {
   const std::string parts = "/" + path + "/";
   return !path.empty() && path[0] != '/' && parts.find("/../") == std::string::npos &&
@@ -129,10 +111,10 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   step.name = json.at("name");
   step.output = json.at("output");
   if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
-    throw Error(ExitCode::kBadInput, "a step leads out of the plan's folder: " + step.output);
+    fail_plan(plan, "a step leads out of the plan's folder: " + step.output);
   step.threads = count_of(json, "threads");
   if (step.threads < 1 || step.threads > kMostThreads)
-    throw Error(ExitCode::kBadInput, "step " + step.name + " has an impossible number of threads");
+    fail_plan(plan, "step " + step.name + " has an impossible number of threads");
   step.predicted = get_prediction(json.at("predicted"));
   if (json.contains("cells")) {
     const Json& cells = json.at("cells");
@@ -142,36 +124,41 @@ PlanStep get_step(const Json& json, const Plan& plan) {
     const int level = step.cells.level;
     if (level < 0 || level > plan.grid.levels - 2 || step.cells.begin > step.cells.end ||
         step.cells.end > uint64_t(1) << 3 * level)
-      throw Error(ExitCode::kBadInput, "the cells of step " + step.name + " are not in the grid");
+      fail_plan(plan, "the cells of step " + step.name + " are not in the grid");
     if (!is_shard_name(step.name))
-      throw Error(ExitCode::kBadInput, "the shard " + step.name + " has no name of one");
+      fail_plan(plan, "the shard " + step.name + " has no name of one");
     return step;
   }
-  for (const Json& name : json.at("inputs"))
-    step.inputs.push_back(size_t(&find_step(plan, name.get<std::string>()) - plan.steps.data()));
-  if (step.inputs.empty())
-    throw Error(ExitCode::kBadInput, "the merge " + step.name + " has no inputs");
+  for (const Json& name : json.at("inputs")) {
+    const auto input = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                    [&](const PlanStep& other) { return other.name == name; });
+    if (input == plan.steps.end())
+      fail_plan(plan, "step " + step.name +
+                          " needs a step that does not precede it: " + name.get<std::string>());
+    step.inputs.push_back(size_t(input - plan.steps.begin()));
+  }
+  if (step.inputs.empty()) fail_plan(plan, "the merge " + step.name + " has no inputs");
   return step;
 }
 
 void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   const Json json = Json::parse(text);
   if (json.at("format") != kFormat)
-    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
+    fail_plan(*plan, "is of another version of svdag: make the plan again");
   for (const Json& input : json.at("inputs"))
     plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
   plan->description = json.at("description");
   if (!is_of_this_algorithm(plan->description))
-    throw Error(ExitCode::kBadInput, "is of another version of svdag: make the plan again");
-  plan->grid = get_grid(json.at("grid"));
-  if (!plan->grid.is_possible()) throw Error(ExitCode::kBadInput, "has an impossible grid");
+    fail_plan(*plan, "is of another version of svdag: make the plan again");
+  visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
+  if (!plan->grid.is_possible()) fail_plan(*plan, "has an impossible grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
-  plan->counts = get_counts(json.at("scene"));
+  visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
   plan->cells = count_of(json.at("one_bake"), "cells");
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
-  if (plan->steps.empty()) throw Error(ExitCode::kBadInput, "has no steps");
+  if (plan->steps.empty()) fail_plan(*plan, "has no steps");
 }
 
 std::string without_slashes(std::string path) {
@@ -202,7 +189,9 @@ void require_utf8(const std::string& path) {
   try {
     (void)Json(path).dump();
   } catch (const Json::type_error&) {
-    fail_usage(path + ": its name is no UTF-8, which a plan cannot write down: rename it");
+    fail_usage(
+        path +
+        ": the file name is not valid UTF-8 and cannot be stored in a plan: rename the file");
   }
 }
 
@@ -215,9 +204,9 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
   for (const PlanInput& input : plan.inputs)
     json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"hash", input.hash}});
   json["description"] = plan.description;
-  json["grid"] = grid_json(plan.grid);
+  visit_fields(plan.grid, PutJson{&json["grid"]});
   json["rule"] = rule_name(plan.rule);
-  json["scene"] = counts_json(plan.counts);
+  visit_count_fields(plan.counts, PutJson{&json["scene"]});
   json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
   json["bins"] = plan.bins.size();
   json["index_hash"] = index_hash;
@@ -240,7 +229,7 @@ Plan load_plan(const std::string& folder, bool with_bins) {
   plan.folder = absolute_path(without_slashes(folder));
   const std::string path = plan.path(kPlanJson);
   if (!is_plan(folder))
-    fail_input(folder, "is no plan: there is no plan.json in it (svdag plan makes one)");
+    fail_input(folder, "not a plan folder: plan.json is missing (create one with svdag plan)");
   const std::string text = read_all(path);
   std::string index_hash;
   try {
@@ -248,7 +237,8 @@ Plan load_plan(const std::string& folder, bool with_bins) {
   } catch (const Json::exception& error) {
     fail_input(path, std::string("is damaged: ") + error.what());
   } catch (const Error& error) {
-    fail_input(path, error.what());
+    if (!error.path().empty()) throw;
+    fail_input(path, error.what());  // of a number (io/json_number.h)
   }
   Hasher128 hasher;
   hasher.update(std::as_bytes(std::span(text)));

@@ -58,7 +58,7 @@ struct Plan {
   SplitCounts counts;
   double one_bake_cpu = 0;      // seconds, predicted
   size_t cells = 0;             // that are not empty
-  std::vector<PlanStep> steps;  // inputs before whoever reads them; shards first, in order
+  std::vector<PlanStep> steps;  // each after its inputs; shards first, in order
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
@@ -69,8 +69,7 @@ struct Plan {
   std::vector<std::string> command(const PlanStep& step) const;
 };
 
-// What is written into JSON and must lead to a file again: bytes that are no UTF-8, which JSON
-// cannot hold, are an Error (kUsage).
+// Error (kUsage) if `path` is not valid UTF-8, and so cannot be stored in JSON.
 void require_utf8(const std::string& path);
 // Whether `path` is the folder of a plan.
 bool is_plan(const std::string& path);

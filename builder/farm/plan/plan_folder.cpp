@@ -20,7 +20,7 @@ bool is_planned(const std::string& folder, const std::string& name, const std::s
   static const std::set<std::string> kAtFirst = {"plan.scratch", "runs", "logs"};
   static const std::set<std::string> kLater = {"index", kPlanTriangles, "openjd.json"};
   if (name.starts_with('.') || kAtFirst.contains(name)) return true;  // hidden: never overwritten
-  // runs/ is there before the files: without it they are somebody else's.
+  // runs/ is created before the files: without it they do not belong to a plan.
   if (!fs::is_directory(folder + "/runs")) return false;
   return kLater.contains(name) || name == output || name == output + ".scratch";
 }
@@ -47,13 +47,14 @@ std::vector<std::string> files_of(const Plan& plan) {
 }
 
 void refuse_strange_files(const std::string& folder, const std::string& output) {
-  // No folder, or one that cannot be listed: whoever writes there will say so.
+  // A folder that does not exist or cannot be listed: writing to it will report that.
   std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
        entry.increment(none)) {
     const std::string name = entry->path().filename().string();
     if (!is_planned(folder, name, output))
-      fail_usage(folder + " holds " + name + ", which is no part of a plan: choose another folder");
+      fail_usage(folder + " holds " + name +
+                 ", which does not belong to a plan: choose another folder");
   }
 }
 

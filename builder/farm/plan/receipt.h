@@ -1,11 +1,10 @@
-// What says that a step of a plan was done: its receipt, PLAN/runs/STEP.json.
+// The receipt of a finished step of a plan: PLAN/runs/STEP.json.
 //
-// A receipt names the plan by its hash and the output by the hash of its content, which the output
-// itself bears in its header. It is written after the output, each at once or not at all, so
-// whoever finds a receipt and a file of that content has what the step makes, wherever the file
-// came from; a run of another plan, of an older one in the same folder, or of another step has
-// another hash. Rejected: the plan's hash in the run (equal parts of equal scenes would have
-// unequal runs).
+// A receipt identifies the plan by its hash and the output by the hash of its content, which is
+// also in the output's header. Output and receipt are written in this order, each atomically, so a
+// receipt and a file of that content prove the step done, whatever the file's origin; a run of
+// another plan, of an older one in the same folder, or of another step has another hash. Rejected:
+// the plan's hash in the run (equal parts of equal scenes would have unequal runs).
 #pragma once
 
 #include <optional>
@@ -31,7 +30,7 @@ enum class OutputState {
 
 std::string receipt_path(const Plan& plan, const PlanStep& step);
 void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receipt);
-// None if there is none, or it is of another plan or cannot be read.
+// None if the receipt does not exist, is of another plan, or cannot be read.
 std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step);
 
 // Looks at the file `path` as the output of `step`: at its header alone, or at every byte.

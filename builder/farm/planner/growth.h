@@ -1,4 +1,4 @@
-// How counts grow from a coarse survey of a scene to its grid's own level, as a sample tells.
+// Growth of counts from a coarse survey to the grid's own level, estimated from a sample.
 #pragma once
 
 #include <cstddef>

@@ -247,7 +247,7 @@ void discard_dry_run(const BuildConfig& build) {
   try {
     ScratchDir folder(path);
     if (folder.has(kJournalName)) folder.keep();  // of a bake whose output has such a name
-  } catch (const Error&) {                        // somebody else's; it is in nobody's way
+  } catch (const Error&) {                        // of another process or user: it may stay
   }
 }
 
@@ -263,7 +263,7 @@ Plan make_plan(const PlanConfig& config, Progress* progress) {
     made = make_folder(own.folder);
   }
   try {
-    // The last step gives it its name: nobody shall bake for one that cannot be given.
+    // The last step writes the output: an impossible name is reported before any work.
     if (!own.folder.empty()) AtomicFile::check(own.folder + "/" + own.output);
     return Planner(own, progress).run();
   } catch (...) {

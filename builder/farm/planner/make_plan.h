@@ -1,4 +1,4 @@
-// Makes a plan: reads the scene, tells what its bake will take, and cuts it into steps.
+// Makes a plan: reads the scene, predicts its bake, and divides it into steps.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLevelsCoarser = 4;
 constexpr int kCoarsestPilot = 10;  // below, bricks are too few to tell
-constexpr int kFinestPilot = 14;    // beyond, the sample alone tells
+constexpr int kFinestPilot = 14;    // finer levels are estimated from the sample alone
 constexpr int kCellLevel = 6;       // as builder/bake/bake.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
@@ -130,7 +130,8 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   const Sample same =
       survey_sample(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level), coarse,
                     drawn, budget);
-  // Drawn in proportion to cost: the mean of the ratios is that of what lies between.
+  // Cells are drawn in proportion to cost, so the mean of their ratios is that of all cells
+  // between.
   std::vector<Growth::Drawn> growths;
   for (const auto& [cell, work] : fine.cells)
     growths.push_back({cell, ratio(cpu_of(work), cpu_of(coarse.cells.at(cell))), drawn.at(cell)});

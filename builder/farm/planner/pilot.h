@@ -1,21 +1,21 @@
-// What a scene costs, cell by cell, before it is baked.
+// The pilot: estimates the cost of a bake, cell by cell, before it runs.
 //
-// The whole scene is surveyed a few levels coarser, which takes a few per cent of the bake: this
-// tells how work is spread. Then a few cells, drawn with probability in proportion to their coarse
-// cost, are surveyed as finely as they will be baked: this tells how much it grows. Growth cannot
-// be extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its
-// triangles are smaller than voxels, and more than 3 times when they are not. Nor is it the same
-// all over a scene (floors are answered by the plane memo, curtains are not): a cell grows as the
-// drawn cells nearest to it do, along the Morton curve.
+// The whole scene is surveyed a few levels coarser, which takes a few per cent of the bake and
+// shows how work is distributed. Then a few cells, drawn with probability proportional to their
+// coarse cost, are surveyed at the grid's own level, which shows how work grows. Growth cannot be
+// extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its triangles
+// are smaller than voxels, and more than 3 times when they are not. It also varies within a scene
+// (the plane memo answers floors, but not curtains): a cell grows as the drawn cells nearest to it
+// along the Morton curve.
 //
-// Work adds up, unique nodes do not: a larger part of a scene repeats itself more, and finer voxels
-// otherwise than coarse ones. So the sample is looked at in two sizes, all of it and a quarter, at
+// Work is additive, unique nodes are not: a larger part of a scene repeats itself more, at a rate
+// that depends on the level. So the sample is evaluated in two sizes, all of it and a quarter, at
 // both levels. Of n cells u(n) ~ n^b nodes are unique (Heaps' law), with an exponent for each
-// level; then what is unique finely, as a function of what is unique coarsely, is a power law, too.
-// The two sizes give it, and the coarse survey of the whole scene, or of a shard, is put in. No
-// constant is in it. Rejected: the ratio of the sample, for all (planes repeat their bricks: three
-// times too many), and its power by an exponent that was fitted (half right for nodes or bricks,
-// never for both).
+// level; so the number of unique fine nodes is a power law of the number of unique coarse ones. The
+// two sizes determine it, and it is applied to the coarse survey of the whole scene, or of a shard.
+// No constant is fitted. Rejected: the ratio of the sample for all cells (planes repeat their
+// bricks: three times too many), and a power with a fitted exponent (half right for nodes or
+// bricks, never for both).
 #pragma once
 
 #include "builder/farm/planner/balance.h"

@@ -8,7 +8,7 @@ namespace svdag {
 // The sums; with `steps`, also what each step will take and its command.
 void print_plan(const Plan& plan, bool steps);
 
-// A plan of one shard, as the bake to `output` that it stands for.
+// Prints a plan of one shard as the bake to `output` that it predicts.
 void print_bake(const Plan& plan, const std::string& output);
 
 }  // namespace svdag

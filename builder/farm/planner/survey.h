@@ -28,7 +28,7 @@ struct Work {
 
 struct SurveyConfig {
   int level = 0;       // of detail: voxels of octree level `level` of the grid
-  int cell_level = 0;  // of the cells that are told apart; at most level - 2
+  int cell_level = 0;  // of the cells that are counted separately; at most level - 2
   DescentConfig descent;
   uint64_t table_bytes = UINT64_MAX;     // of the unique nodes; beyond, some are counted again
   uint64_t triangle_bytes = UINT64_MAX;  // of a bin; one with more is left out

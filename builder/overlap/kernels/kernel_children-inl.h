@@ -67,8 +67,8 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
     unsigned touched = children_in_box(t.box, x, y, z);
     for (size_t i = 0; i < 8; i += kEight)
       hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
-    // A small triangle whose box lies in one child, or in two, touches these (but for the other
-    // way round at an edge of the parent, which costs time and no voxel).
+    // A small triangle whose box is in one or two children touches these (a false touch at an edge
+    // of the parent costs time, but no voxel).
     const bool few = __builtin_popcount(touched) <= 2;
     if (!few || t.extent >= half) {
       const float error = error_of(t, 4 * half, c);

@@ -29,8 +29,8 @@ HWY_INLINE Brick voxels_in_box(const TriangleSetup& t, const Corner& c, int frac
          slabs(2, t.box.min.z, t.box.max.z, c.q[2], fraction);
 }
 
-// What the kernels know of the brick that they are asked about.
-struct Place {
+// The brick that a kernel evaluates.
+struct BrickPosition {
   const LatticePoint& corner;
   int fraction;
   double side;  // of a voxel
@@ -38,8 +38,8 @@ struct Place {
   DecisionCounts* counts;
 };
 
-HWY_INLINE Place make_place(const LatticePoint& corner, int fraction,
-                            DecisionCounts* counts) noexcept {
+HWY_INLINE BrickPosition make_place(const LatticePoint& corner, int fraction,
+                                    DecisionCounts* counts) noexcept {
   const double side = double(int64_t(1) << fraction);
   return {corner, fraction, side, make_corner(corner, side), counts};
 }
@@ -47,8 +47,8 @@ HWY_INLINE Place make_place(const LatticePoint& corner, int fraction,
 // The columns 4i + j along W whose value of every undecided edge function, at their centre, is at
 // least -reach; where float cannot tell, decide(k, column) does.
 template <int W, class Decide>
-HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const Place& p, float reach,
-                                     float error, const Decide& decide) noexcept {
+HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const BrickPosition& p,
+                                     float reach, float error, const Decide& decide) noexcept {
   const Sixteen d;
   const TriangleSetup& t = *entry.triangle;
   const auto sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
@@ -80,7 +80,8 @@ struct PlaneValues {
   float quarter[4];
 };
 
-HWY_INLINE void plane_values(const TriangleSetup& t, const Place& p, PlaneValues* out) noexcept {
+HWY_INLINE void plane_values(const TriangleSetup& t, const BrickPosition& p,
+                             PlaneValues* out) noexcept {
   const Sixteen d;
   const float n[3] = {float(t.normal[0]), float(t.normal[1]), float(t.normal[2])};
   for (size_t i = 0; i < 16; i += kSixteen) {
@@ -107,7 +108,7 @@ HWY_INLINE void for_voxels(const PlaneValues& values, const Take& take) noexcept
   }
 }
 
-HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float error,
+HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPosition& p, float error,
                                  Brick voxels) noexcept {
   const Sixteen d;
   PlaneValues values;
@@ -118,7 +119,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float e
     on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
     near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
   });
-  p.counts->asked += unsigned(__builtin_popcountll(voxels));
+  p.counts->evaluated += unsigned(__builtin_popcountll(voxels));
   for (Brick left = voxels & near & ~on; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
     ++p.counts->exact;
@@ -128,7 +129,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const Place& p, float e
 }
 
 template <int W>
-HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const Place& p,
+HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const BrickPosition& p,
                                  float error) noexcept {
   if ((entry.edges >> (3 * W) & 7) == 0) return ~Brick(0);
   const unsigned columns = columns_at_edges<W>(entry, p, 0.5f, error, [&](int k, unsigned column) {
@@ -137,13 +138,13 @@ HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const Place& p,
   return expand_columns(W, columns);
 }
 
-HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const Place& p,
+HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPosition& p,
                                 Brick wanted) noexcept {
   const TriangleSetup& t = *entry.triangle;
   Brick voxels = wanted;
   if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
   const float error = error_of(t, 8 * p.side, p.c);
-  p.counts->asked += 16 * unsigned(__builtin_popcount(entry.edges));
+  p.counts->evaluated += 16 * unsigned(__builtin_popcount(entry.edges));
   voxels &= reached_columns<0>(entry, p, error);
   voxels &= reached_columns<1>(entry, p, error);
   voxels &= reached_columns<2>(entry, p, error);
@@ -152,7 +153,7 @@ HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const Place& p,
 
 Brick conservative(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                    int fraction, Brick wanted, DecisionCounts* counts) noexcept {
-  const Place p = make_place(corner, fraction, counts);
+  const BrickPosition p = make_place(corner, fraction, counts);
   Brick voxels = 0;
   for (; count != 0 && voxels != wanted; --count, ++entries)
     voxels |= touched_voxels(*entries, p, wanted & ~voxels);

@@ -75,7 +75,7 @@ const Kernels& kernels_by_name(const std::string& name) {
     names += kernels.name + std::string(", ");
   }
   if (strcasecmp(plain_kernels().name, name.c_str()) == 0) return plain_kernels();
-  fail_usage("\"" + name + "\" are no vectors of this processor: choose one of " + names +
+  fail_usage("--vectors: this processor has no \"" + name + "\": choose one of " + names +
              plain_kernels().name);
 }
 

@@ -28,7 +28,7 @@ uint64_t LevelDag::nodes(uint32_t level) const {
   return empty() ? (level == 0 ? 1 : 0) : header_.sections[level].nodes;
 }
 
-// The number of cubes that a node stands for is the number of paths from the root to it.
+// A node represents as many cubes as there are paths from the root to it.
 uint64_t LevelDag::voxels() const {
   if (!cut()) return header_.voxels;
   if (empty()) return 0;

@@ -73,7 +73,7 @@ class LevelDag {
   uint64_t voxels() const;
   // The words of an inner level at which a node begins.
   RankBitmap node_starts(uint32_t level) const;
-  // How many 2^3 blocks with voxels stand in the bricks before each: [number], the total behind.
+  // [brick]: number of non-empty 2^3 blocks in the bricks before it; the last entry is the total.
   BlockNumbers blocks_before() const;
 
  private:

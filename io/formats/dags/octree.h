@@ -15,7 +15,7 @@
 
 namespace svdag {
 
-// The three files that `path`, which ends in .octree, stands for.
+// The three files of `path`, which ends in .octree.
 std::vector<std::string> octree_files(const std::string& path);
 
 // Writes them.

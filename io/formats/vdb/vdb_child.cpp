@@ -1,6 +1,5 @@
-// Files of strangers are read by OpenVDB in a process of its own, since a damaged count makes it
-// allocate what the count says, and it checks few of them; under --sandbox, in one that can only
-// compute.
+// OpenVDB reads files in a process of its own, because it checks few counts and allocates what a
+// damaged count requests; with --sandbox, in a process that can only compute.
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -20,7 +19,7 @@ namespace {
 // A scattered voxel costs OpenVDB a node of 271 KB, one of 34 KB and a leaf, and the file their
 // masks, of 9 KB, which are never compressed: 34 bytes of memory for one in the file. Nothing takes
 // more of what is in a file (values of a leaf that compress to nothing: 16), so twice as much is
-// enough for every file; a count that asks for more is wrong.
+// enough for every file; a count that requires more is wrong.
 constexpr uint64_t kMemoryPerByte = 64;
 // For OpenVDB's lists of types, a node's values while they are unpacked, blocks to send.
 constexpr uint64_t kMemoryAtLeast = uint64_t(48) << 20;

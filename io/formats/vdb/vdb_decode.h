@@ -8,9 +8,9 @@
 
 namespace svdag {
 
-// Sends the grid that read_vdb() was asked for, out of the bytes of the file `path`, as
-// sent_cubes.h says. Opens no file and starts no thread. Must run in a process that ends behind
-// it: what OpenVDB made is never freed, since its trees free themselves with threads.
+// Sends the grid requested from read_vdb() out of the bytes of the file `path`, as described in
+// io/formats/sent_cubes.h. Opens no file and starts no thread. Must run in a process that exits
+// afterwards: OpenVDB's data is never freed, since its trees free themselves with threads.
 void decode_vdb(const std::string& path, std::span<const std::byte> bytes, const std::string& name,
                 const std::optional<ValueRange>& range, const BlockSink& send);
 

@@ -14,8 +14,8 @@ namespace {
 using openvdb::GridBase;
 using openvdb::io::GridDescriptor;
 
-// A .vdb in memory, of which only the grid that is asked for is read: OpenVDB's File, without the
-// file. Files that a stream wrote tell no places, so all their grids are read one after the other.
+// A .vdb in memory, of which only the requested grid is read: OpenVDB's File without the file.
+// Files written by a stream store no offsets, so all their grids are read one after the other.
 class Archive final : public openvdb::io::Archive {
  public:
   explicit Archive(std::istream* in) : in_(in) { setInputHasGridOffsets(true); }
@@ -44,7 +44,7 @@ class Archive final : public openvdb::io::Archive {
     return all;
   }
 
-  // By its unique name, else the first of that name; null if there is none.
+  // By its unique name, else the first of that name; null if not found.
   GridBase::Ptr grid(const std::string& name) {
     Entry* entry = find(name);
     if (entry == nullptr) return nullptr;
@@ -168,7 +168,7 @@ void send_grid(const std::string& path, const GridType& grid, IsSet is_set, cons
   const CubeHead head = head_of(path, IsSet::kType, grid);
   if (is_set(grid.background(), false))
     fail_usage("--iso: the background of grid " + grid.getName() +
-               " lies in that range, so infinitely many voxels would be set");
+               " is in that range, so infinitely many voxels would be set");
   send_head(head, grid.getName(), send);
   CubeSender out(send);
   auto value = grid.tree().cbeginValueAll();  // tiles only: leaves are taken whole

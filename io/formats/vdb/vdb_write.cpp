@@ -54,8 +54,8 @@ openvdb::math::Transform::Ptr transform_of(const IndexToWorld& centres) {
   return openvdb::math::Transform::createLinearTransform(matrix);
 }
 
-// A grid that OpenVDB can write. It copies each, for metadata of its own, and of the copy's
-// transform it would make a matrix, too; but nobody asks the copy where it lies.
+// A grid that OpenVDB can write. OpenVDB copies each grid, to add metadata, and would also convert
+// the copy's transform to a matrix, which is not needed.
 template <class GridType>
 class WritableGrid final : public GridType {
  public:

@@ -1,4 +1,4 @@
-// Stands in for vdb_*.cpp where svdag is built without OpenVDB.
+// Replaces vdb_*.cpp in builds without OpenVDB.
 #ifndef SVDAG_HAS_OPENVDB
 
 #include "io/formats/vdb.h"

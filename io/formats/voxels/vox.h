@@ -4,7 +4,7 @@
 // SIZE (3 x u32) and XYZI (u32 n, n x {x, y, z, colour} bytes) per model, then the scene graph:
 // nTRN (place), nGRP (group), nSHP (model). The place of a model is that of voxel size/2 of it.
 // A window becomes tiles of 256^3, those without voxels left out; axes are as they are (z is up
-// there), every voxel has colour 1, white. Nothing says where the scene stands in the world.
+// there), every voxel has colour 1, white. The world position of the scene is not stored.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ constexpr uint64_t kMostVoxVoxels = uint64_t(1) << 29;  // chunks have 32-bit si
 // More tiles or voxels are an Error (kUsage).
 void write_vox(const VoxelWindow& window, const std::string& path);
 
-// Without rotations. What lies below 0 moves the whole set up to it. What is no such file is an
-// Error (kBadInput).
+// Without rotations. If coordinates are negative, all voxels are shifted so that the minimum is 0.
+// Any other file is an Error (kBadInput).
 GridPlacement read_vox(const File& file, const VoxelSink& sink);
 
 }  // namespace svdag

@@ -100,7 +100,7 @@ class VoxReader {
       count_visits(0, 0);
       place_node(0, {}, 0);
     }
-    Offset low{};  // what lies below 0
+    Offset low{};  // minimum, if below 0
     for (const auto& [model, corner] : placed_) {
       for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], corner[a]);
     }
@@ -246,7 +246,7 @@ class VoxReader {
       for (size_t a = 0; a < 3; ++a) {
         const int64_t x = at[a] + record[a];
         if (record[a] >= model.size[a] || x >= int64_t(1) << kMaxLevels)
-          fail_input(file_.path(), "a voxel lies outside of its model or of 1M^3",
+          fail_input(file_.path(), "a voxel is outside of its model or of 1M^3",
                      stream.offset() - 4);
         voxel[a] = uint32_t(x);
       }

@@ -181,7 +181,7 @@ Directory find_directory(const File& file) {
   fail_input(file.path(), "is not a zip file (it has no directory)");
 }
 
-// The sizes and the offset of an entry, which may stand in its extra field.
+// The sizes and the offset of an entry, which may be in its extra field.
 void read_extra64(const Piece& directory, uint64_t at, uint64_t bytes,
                   std::array<uint64_t*, 3> fields) {
   for (const uint64_t end = at + bytes; at + 4 <= end;) {

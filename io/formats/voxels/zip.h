@@ -46,7 +46,7 @@ struct ZipEntry {
   uint32_t crc;  // as the directory says
 };
 
-// The entries of an archive. What is no zip file, or has compressed entries, is an Error
+// The entries of an archive. Anything but a zip file without compressed entries is an Error
 // (kBadInput).
 std::vector<ZipEntry> read_zip(const File& file);
 

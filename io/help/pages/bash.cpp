@@ -3,7 +3,7 @@
 namespace svdag {
 namespace {
 
-// What may stand in the place of a value, as the script below understands it.
+// The kind of an option's value, for the script below.
 std::string kind_of(const ManualOption& option) {
   if (!option.choices.empty()) return "words " + words(option.choices);
   if (takes_any_file(option)) return "files ";
@@ -39,7 +39,7 @@ std::string options_of(const Manual& command) {
   return "    " + quoted(name_in_program(command)) + ") options=" + quoted(out) + " ;;\n";
 }
 
-// @ stands for the name of the program's function.
+// @ is replaced by the name of the program's function.
 constexpr const char* kEngine = R"sh(
 # Offers what fits the word so far: choices, or files and folders by their endings.
 @_offer() {

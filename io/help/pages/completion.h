@@ -25,7 +25,7 @@ bool takes_any_file(const ManualOption& option);
 // "build" of "svdag build"; "" for the program itself.
 std::string name_in_program(const Manual& command);
 
-// '...' for a shell: what stands in it is not expanded.
+// '...' for a shell, which does not expand its content.
 std::string quoted(const std::string& text);
 
 std::string words(const std::vector<std::string>& all);

@@ -10,7 +10,7 @@ std::string fish_quoted(const std::string& text) {
   return out + "'";
 }
 
-// What may stand in the place of a value; @ is the name of the program's functions.
+// The completions of a value; @ is the name of the program's functions.
 std::string offer(const ManualOption& option) {
   if (!option.choices.empty()) return " -x -a " + fish_quoted(words(option.choices));
   if (takes_folders(option)) return " -x -a '(__fish_complete_directories (@_value))'";
@@ -41,7 +41,7 @@ function @_is
     set -q words[2]; and contains -- $words[2] $argv
 end
 
-# What there is of the value: the word, or what stands behind the = of its option.
+# The value so far: the word, or the part after the = of its option.
 function @_value
     string replace -r -- '^--[^=]*=' '' (commandline -ct)
 end

@@ -34,17 +34,17 @@ struct Sources {
   std::vector<std::string> topics;
 };
 
-// svdag-export tells of the command `svdag export`, which the program only names.
-void add(Manual told, std::vector<Manual>* programs) {
+// The manual of `svdag export` comes from svdag-export; svdag itself only names the command.
+void add(Manual manual, std::vector<Manual>* programs) {
   for (Manual& program : *programs) {
     for (Manual& command : program.commands) {
-      if (command.command != told.command) continue;
-      told.text = command.text;
-      command = std::move(told);
+      if (command.command != manual.command) continue;
+      manual.text = command.text;
+      command = std::move(manual);
       return;
     }
   }
-  programs->push_back(std::move(told));
+  programs->push_back(std::move(manual));
 }
 
 Sources read(int argc, char** argv) {

@@ -6,7 +6,7 @@
 
 namespace svdag {
 
-// What stands on every page.
+// The content of every page.
 struct PageConfig {
   std::string version;                // "svdag 0.1.0"
   std::vector<std::string> see_also;  // "svdag(1)"

@@ -206,7 +206,7 @@ class GltfReader {
   void check_count(uint64_t mode, uint64_t corners) const {
     if (mode != kTriangles || corners % 3 == 0) return;
     fail_input(document_.file->path(), "has a triangle list of " + std::to_string(corners) +
-                                           " corners, which is no multiple of three");
+                                           " corners, not a multiple of three");
   }
 
   GltfDocument document_;

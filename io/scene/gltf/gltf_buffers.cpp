@@ -109,7 +109,7 @@ std::vector<File> GltfBuffers::files() const {
     if (uri.empty() || is_data_uri(uri)) continue;
     try {
       files.push_back(open_beside(path, uri));
-    } catch (const Error&) {  // whoever needs it will say so
+    } catch (const Error&) {  // reported when the buffer is needed
     }
   }
   return files;

@@ -49,7 +49,7 @@ enum class ComponentType : uint32_t {
   kFloat = 5126
 };
 
-// Elements at begin, begin + stride, ... of `blob`, or zeros where there is none.
+// Elements at begin, begin + stride, ... of `blob`, or zeros without a blob.
 struct ElementArray {
   const Blob* blob = nullptr;
   uint64_t begin = 0;
@@ -74,8 +74,8 @@ struct Accessor {
 
 class GltfBuffers {
  public:
-  // Elements that no byte of the file stands for (no buffer view: zeros) may be at most so many;
-  // else 125 bytes of JSON could ask for 18 EB.
+  // Max number of elements that the file does not store (no buffer view: zeros); otherwise 125
+  // bytes of JSON could request 18 EB.
   static constexpr uint64_t kMaxImplicit = uint64_t(1) << 20;
 
   GltfBuffers(const GltfDocument& document, MemoryBudget* budget)

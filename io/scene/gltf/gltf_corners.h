@@ -1,4 +1,4 @@
-// The corners of a glTF primitive, from wherever its points and indices are, and its triangles.
+// The corners and triangles of a glTF primitive; its points and indices may be shared or spilled.
 #pragma once
 
 #include <array>

@@ -61,7 +61,7 @@ struct GltfDocument {
   JsonObject element(const char* key, uint64_t index) const;
 };
 
-// `file` must outlive the document. A file that is no glTF 2.x, is cut off, nests deeper than
+// `file` must outlive the document. A file that is not glTF 2.x, is truncated, nests deeper than
 // 256 levels, or requires an extension that would change the geometry is an Error (kBadInput).
 GltfDocument load_gltf(const File& file, MemoryBudget* budget);
 

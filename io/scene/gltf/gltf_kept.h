@@ -34,7 +34,7 @@ class KeptPrimitives {
     const auto found = met_.find(&primitive);
     return found == met_.end() || found->second.indices.empty() ? nullptr : &found->second;
   }
-  // Told at every meeting: keeps the primitive now, or returns null.
+  // Called at every reference to a primitive: keeps it now, or returns null.
   const KeptPrimitive* meet(const nlohmann::json& primitive, const Accessor& positions,
                             const Accessor& indices);
 

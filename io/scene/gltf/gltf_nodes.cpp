@@ -16,7 +16,7 @@ constexpr double kNoise = 1e-5;  // in the last row of a matrix: of float invers
 void check_rotation(const Trs& trs, const std::string& path) {
   double n = 0;
   for (const double q : trs.rotation) n += q * q;
-  if (!(std::isnormal(n))) fail_input(path, "has a node whose rotation is no quaternion");
+  if (!(std::isnormal(n))) fail_input(path, "has a node whose rotation is not a quaternion");
 }
 
 Affine local_transform(const JsonObject& node) {
@@ -53,7 +53,7 @@ class Walk {
     for (const auto& root : scene.array("nodes")) start(scene.index(root, "nodes"));
   }
 
-  // No scene: every node that is nobody's child. A cycle has no such node and is never reached.
+  // Without a scene: every node without a parent. A cycle has no such node and is never reached.
   void all_roots() {
     std::vector<bool> is_child(reached_.size());
     for (uint64_t i = 0; i < reached_.size(); ++i) {
@@ -78,7 +78,7 @@ class Walk {
   void node(uint64_t index, const Affine& parent, bool chosen, int depth) {
     const JsonObject object = document_.element("nodes", index);
     if (reached_[size_t(index)]) fail(index, "is reached twice: the hierarchy must be a tree");
-    if (depth > kMaxDepth) fail(index, "lies too deep in the hierarchy");
+    if (depth > kMaxDepth) fail(index, "is too deep in the hierarchy");
     reached_[size_t(index)] = true;
     const std::string& name = object.text("name");
     const bool included = options_.names->includes(name);  // asked in any case (mesh_reader.h)

@@ -16,8 +16,8 @@ using NodeVisitor =
     std::function<void(const JsonObject& node, const std::string& name, const Affine& world)>;
 
 // Calls `visit` for every wanted node that has a mesh, depth first, a node before its children.
-// The roots are those of the default scene (`scene`, else the first; all roots where there is no
-// scene). A node that is reached twice (cycles too) or lies deeper than 1000 levels is an Error.
+// The roots are those of the default scene (`scene`, else the first; all roots without a scene). A
+// node that is reached twice (cycles too) or is deeper than 1000 levels is an Error.
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 

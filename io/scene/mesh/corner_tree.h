@@ -59,7 +59,7 @@ class CornerTree {
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;  // those of a leaf stand together, what is left of it in front
-  std::vector<uint32_t> place_;  // [corner]: where it stands in order_
+  std::vector<uint32_t> place_;  // [corner]: its index in order_
 };
 
 template <class MayHold, class Is>

@@ -1,10 +1,10 @@
-// How a face loop gets the positions of its corners, wherever they are.
+// Access of a face loop to the positions of its corners, in memory or spilled.
 //
 // A face loop is written once, for any `Corners`: corners[i] is the position of vertex i < size(),
-// and add() takes the next vertex where vertices stand between faces. Positions in memory are such
-// corners themselves. Others need two runs of the loop over the same bytes (vertex_windows.h), so
-// which corners it asks for, in which order, and which of them make triangles, must not depend on
-// positions.
+// and add() appends the next vertex where vertices are interleaved with faces. Positions in memory
+// are Corners themselves. Spilled ones need two runs of the loop over the same bytes
+// (vertex_windows.h), so the corners it requests, their order, and the triangles it makes must not
+// depend on positions.
 #pragma once
 
 #include <type_traits>
@@ -38,7 +38,7 @@ class SpilledCorners {
   uint64_t size_;
 };
 
-// The first run: notes what is asked for.
+// The first run: records the requested corners.
 class CornerRecorder : public SpilledCorners {
  public:
   using SpilledCorners::SpilledCorners;
@@ -48,7 +48,7 @@ class CornerRecorder : public SpilledCorners {
   }
 };
 
-// The second run: gives what was asked for, from the beginning. One at a time.
+// The second run: returns the recorded corners from the beginning. One at a time.
 class CornerReplayer : public SpilledCorners {
  public:
   CornerReplayer(Positions* positions, uint64_t size) : SpilledCorners(positions, size) {
@@ -80,8 +80,8 @@ void add_triangle(Corners& corners, uint64_t a, uint64_t b, uint64_t c, BatchWri
   }
 }
 
-// A run whose triangles nobody sees. False for a broken file, which is no Error yet: the last run
-// meets it again, behind the triangles before it.
+// A run that discards its triangles. Returns false for a damaged file, without an Error: the last
+// run reports it, after the triangles before the damage.
 template <class Corners, class Faces>
 bool finish_faces(Corners& corners, BatchWriter& writer, const Faces& faces) {
   try {

@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-// *use: the patterns that match this or an earlier name; null: nobody asks.
+// *use: the patterns that match this or an earlier name; null: not recorded.
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name,
                  std::vector<bool>* use) {
   bool any = false;

@@ -1,11 +1,11 @@
-// What every scene format gives: triangles in world space, in batches.
+// The interface of all scene formats: triangles in world space, in batches.
 //
 // One function per format, one file per function. A reader streams: it holds at most the vertex
 // positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
 // memory go to a spill file where it was given one (io/scene/mesh/positions.h). It checks every
 // count against the remaining bytes before it allocates, and answers a broken file with one Error
 // (kBadInput).
-// Readers hand on non-finite coordinates as they are; io/scene/scene.cpp decides about them.
+// Readers pass non-finite coordinates on unchanged; io/scene/scene.cpp decides about them.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ struct SpillSpace {
   // Bytes of the budget that the reader takes for positions: at least 16 blocks of the file. With
   // blocks of b bytes a mesh may have share^2 / 8b bytes of positions (12 or 24 a vertex) at least.
   uint64_t share = 0;
-  std::function<SpillFile*()> file;         // opened when it is first asked for
+  std::function<SpillFile*()> file;         // opened by the first call
   std::function<uint64_t()> stream_number;  // one that no stream of the file ever had
 };
 

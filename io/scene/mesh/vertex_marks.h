@@ -1,9 +1,9 @@
 // The box of the vertices that triangles use, without a join: a bit per vertex, then one pass over
 // the positions.
 //
-// Answers only where it is certain to be what the triangles themselves would give; else the join
-// has to tell: the marks do not fit in memory, a coordinate is NaN or infinite, or zeros of both
-// signs stand on one face of the box (the earlier of the two stays, in the order of triangles).
+// Returns a box only if it certainly equals that of the triangles. Otherwise the join is needed:
+// the marks do not fit in memory, a coordinate is NaN or infinite, or zeros of both signs are on
+// one face of the box (the triangles' order decides which of them is kept).
 #pragma once
 
 #include <cstdint>

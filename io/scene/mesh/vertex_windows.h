@@ -1,13 +1,13 @@
-// Vertex positions that do not fit in memory, brought to the corners that ask for them: an external
-// join of sequential passes, whatever the order of the faces.
+// Vertex positions that do not fit in memory: an external join brings them to the corners that
+// refer to them, in sequential passes whatever the order of the faces.
 //
 // A window is a run of consecutive vertices that fits in memory.
 //   add      the positions go to one stream per window as they are read
-//   record   the face loop asks for corners without getting them: the index of each within its
+//   record   the face loop requests corners without receiving them: the index of each within its
 //            window is appended to the references of the window
-//   join     per window: its positions in memory, its references one by one, the positions asked
-//            for appended to its answers
-//   next     the face loop asks again: each corner takes the next answer of its window
+//   join     per window: its positions in memory, its references one by one, the position of each
+//            appended to the answers of the window
+//   next     the face loop runs again: each corner takes the next answer of its window
 // The order of the corners is known to the face loop alone, so nothing is sorted and no number of a
 // corner is stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
 // back by corner (the same bytes three times).
@@ -84,7 +84,7 @@ class VertexWindows {
   }
   // Every position was added and every corner recorded.
   void join();
-  // The next corner asked for is again the first that was recorded.
+  // Restarts at the first recorded corner.
   void rewind();
   // Position `i`, which must have been recorded here in the order of asking.
   Point next(uint64_t i) {

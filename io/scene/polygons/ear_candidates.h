@@ -1,8 +1,8 @@
-// Which corners of a polygon may be ears: not asked yet, or not since the ring changed around them.
+// The corners of a polygon that may be ears: not tested since the ring last changed around them.
 //
-// A corner that is no ear because another one lies in its triangle waits for that one. Nothing else
-// can make it an ear, so it is not asked again before, and the answers are those of asking all.
-// Rejected: to ask every corner again after each ear, which is quadratic wherever ears are rare.
+// A corner that is not an ear because another one is in its triangle waits for that one. Nothing
+// else can make it an ear, so it is not tested before, and the result equals that of testing all.
+// Rejected: testing every corner after each ear, which is quadratic where ears are rare.
 #pragma once
 
 #include <array>
@@ -71,12 +71,12 @@ class EarCandidates {
     unlink(corner);
     set_.insert(corner);
   }
-  // It is none, whatever becomes of the others, and asked again only after insert().
+  // It is not an ear, independent of the other corners; tested again only after insert().
   void erase(uint32_t corner) {
     unlink(corner);
     set_.erase(corner);
   }
-  // It is none because of `other`.
+  // It is not an ear because of `other`.
   void wait(uint32_t corner, uint32_t other) {
     erase(corner);
     const uint32_t head = n_ + other, first = links_[head].next;

@@ -93,8 +93,8 @@ double Triangulator::most_left(size_t a, size_t b, const FlatBox& box) const {
 }
 
 // The box of all corners that forbids() can find in the triangle. turn() errs by less than `error`,
-// so none of a corner's three shares in a, b and c (its turns over the area) is less than -error /
-// area, and it lies outside of their box by that part of its width at most, twice.
+// so none of a corner's barycentric coordinates in a, b, c (its turns over the area) is less than
+// -error / area, and it is outside of their box by at most twice that fraction of the box's width.
 FlatBox Triangulator::reach(size_t a, size_t b, size_t c) const {
   const glm::dvec2 all = tree_.box().max - tree_.box().min;
   const double span = std::max(all.x, all.y), error = 0x1p-49 * span * span;
@@ -130,7 +130,7 @@ bool Triangulator::leads_inside(size_t from, size_t right, size_t left, size_t t
   return turn(from, right, to) > 0 && turn(from, to, left) > 0;
 }
 
-// Whether corner i of the ring forbids the ear a, b, c: it lies in the closed triangle, and if it
+// Whether corner i of the ring forbids the ear a, b, c: it is in the closed triangle, and if it
 // only touches the outline there (one of its corners, the edge a-b or b-c), one of its own edges
 // leads inside. In a simple polygon no corner touches anything.
 bool Triangulator::forbids(uint32_t i, size_t a, size_t b, size_t c) const {
@@ -148,7 +148,7 @@ bool Triangulator::forbids(uint32_t i, size_t a, size_t b, size_t c) const {
   return true;
 }
 
-// Whether a candidate is an ear; if not, it is no candidate any more.
+// Whether a candidate is an ear; if not, it stops being a candidate.
 bool Triangulator::is_ear(uint32_t ear) {
   const uint32_t a = prev_[ear], c = next_[ear];
   if (!(turn(a, ear, c) > 0)) {
@@ -233,9 +233,9 @@ void Triangulator::clip_repeats(BatchWriter& writer) {
 }
 
 // Where `corner` is the tip of a slit (the ring comes to it and leaves it on the same way), takes
-// the slit out, a triangle without area for each of its corners. Returns what is left at its foot,
-// else `corner`. An ear must not be cut beside a slit: on a zero width nothing tells inside from
-// outside.
+// the slit out, a triangle without area for each of its corners. Returns the remaining corner at
+// its foot, else `corner`. An ear must not be cut beside a slit: inside and outside cannot be
+// distinguished at zero width.
 uint32_t Triangulator::clip_slit(uint32_t corner, BatchWriter& writer) {
   while (left_ > 3 && flat_[prev_[corner]] == flat_[next_[corner]]) {
     corner = clip(corner, writer);

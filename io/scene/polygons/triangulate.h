@@ -6,10 +6,10 @@
 // Schumacker 1974). What no ear can be cut from (self-intersecting, zero area) ends as a fan.
 // Corners that repeat the one before them are clipped first, as triangles without area.
 //
-// Large outlines take some hundred steps per corner. A corner is asked whether it is an ear when
-// its neighbours change, or the corner that forbade it is gone (ear_candidates.h), and corners in
-// its triangle are found by a tree (corner_tree.h), as FIST finds them by a grid (Held 2001). Both
-// give every answer that asking each corner about all others would, to the last bit.
+// Large outlines take some hundred steps per corner. A corner is tested when its neighbours change,
+// or when the corner that forbade it is gone (ear_candidates.h), and corners in its triangle are
+// found by a tree (corner_tree.h), as FIST finds them by a grid (Held 2001). Both give the same
+// result as testing each corner against all others, to the last bit.
 //
 // Weakly simple polygons are covered exactly, too: the ring may touch itself at corners and run
 // along itself, as it does where a hole is joined by a slit. Not so where a corner touches the

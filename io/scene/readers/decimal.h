@@ -1,8 +1,8 @@
-// Decimal numbers as std::from_chars reads them, bit by bit, the usual ones faster.
+// Parses decimal numbers to the same bits as std::from_chars, common ones faster.
 //
 // Up to eight digits are taken at once from a 64-bit word (Lemire 2018). A number m / 10^k with
 // m <= 2^53 and k <= 22 is the quotient of two doubles that are exact, so that one division rounds
-// it correctly (Clinger 1990). Whatever is longer, has an exponent or is no number goes to
+// it correctly (Clinger 1990). Longer words, exponents and words that are not numbers go to
 // from_chars. Rejected: the same through a float quotient (few floats are that short).
 #pragma once
 
@@ -28,7 +28,7 @@ inline Digits leading_digits(const char* eight) {
   uint64_t word;
   std::memcpy(&word, eight, sizeof word);
   word ^= 0x3030303030303030;  // digits become 0 .. 9
-  // The lowest flag is right; a carry out of a byte that is no digit can spoil those above only.
+  // The lowest flag is right; a carry out of a byte that is not a digit affects only those above.
   const uint64_t no_digit = ((word + 0x7676767676767676) | word) & 0x8080808080808080;
   const int count = no_digit == 0 ? 8 : std::countr_zero(no_digit) / 8;
   if (count == 0) return {0, 0};

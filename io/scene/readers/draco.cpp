@@ -74,7 +74,7 @@ class Allowance {
   MemoryBudget::Reservation memory_;
 };
 
-// A Draco decoder that asks the allowance before its two large allocations. `Base` is one of
+// A Draco decoder that checks the budget before its two large allocations. `Base` is one of
 // Draco's decoders; its DecodeConnectivity begins with the counts that are read ahead here.
 template <class Base>
 class GuardedDecoder : public Base {
@@ -243,9 +243,9 @@ DracoMesh decode_here(const DracoSource& source, MemoryBudget* budget) {
     out.memory = allowance.take();
     return out;
   } catch (const std::bad_alloc&) {
-    fail_broken(source.path, "it asks for too much memory");
+    fail_broken(source.path, "it requires too much memory");
   } catch (const std::length_error&) {
-    fail_broken(source.path, "it asks for too much memory");
+    fail_broken(source.path, "it requires too much memory");
   }
 }
 
@@ -292,7 +292,7 @@ class MeshReceiver {
     begun_ = true;
   }
   void require(bool condition) const {
-    if (!condition) fail_broken(source_.path, "its decoder sent what is no mesh");
+    if (!condition) fail_broken(source_.path, "its decoder sent an invalid mesh");
   }
 
   const DracoSource& source_;

@@ -1,5 +1,4 @@
-// How much a decoder of somebody else's may take in a process of its own
-// (streaming/process/limited_child.h).
+// Limits of a third-party decoder in a process of its own (streaming/process/limited_child.h).
 #pragma once
 
 #include <algorithm>

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 28> kSkipped = {
     "d_interp", "deg", "bmat",       "step",      "cstype", "curv",  "curv2",
     "parm",     "end", "shadow_obj", "trace_obj", "ctech",  "stech", "sp"};
 
-// Where a pass over the lines stands, and what the lines before it say about those behind.
+// State of a pass over the lines: its position, and what earlier lines define for later ones.
 struct ObjPlace {
   uint64_t offset = 0, line = 1;
   std::string object;
@@ -34,7 +34,7 @@ struct ObjPlace {
   bool wanted = true;
 };
 
-// One pass over the lines, for positions wherever they are (corners.h).
+// One pass over the lines, for positions in memory or spilled (io/scene/mesh/corners.h).
 template <class Corners>
 class ObjLines {
  public:
@@ -143,8 +143,7 @@ class ObjLines {
   // The "/2/3" of a corner "1/2/3".
   void skip_references() {
     scanner_.skip_while([](char c) { return (c >= '/' && c <= '9') || c == '-' || c == '+'; });
-    if (!scanner_.at_word_end())
-      scanner_.fail("has a corner of a face that is no index/index/index");
+    if (!scanner_.at_word_end()) scanner_.fail("has a face corner that is not index/index/index");
   }
 
   Point position(int64_t index) {

@@ -21,7 +21,7 @@ uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
   return uint64_t(n);
 }
 
-// The faces, for positions wherever they are (corners.h).
+// The face loop, for positions in memory or spilled (io/scene/mesh/corners.h).
 template <class Corners>
 class OffFaces {
  public:

@@ -115,7 +115,7 @@ void decode_limited(const File& file, std::span<const std::byte> bytes, const He
       },
       [&](std::span<const std::byte> block) {
         if (block.size() % sizeof(Triangle) != 0)
-          fail_input(file.path(), "has a decoder that sent what is no triangle");
+          fail_input(file.path(), "its decoder sent an invalid triangle");
         for (; !block.empty(); block = block.subspan(sizeof(Triangle))) {
           Triangle t;
           std::memcpy(&t, block.data(), sizeof t);

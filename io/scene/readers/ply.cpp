@@ -1,7 +1,7 @@
 // PLY (Turk 1994): text and binary, polygons and triangle strips.
 //
-// The elements stand in any order. The vertices are read first; what stands before them is skipped
-// and read from its place afterwards. Faces stream (ply_faces.h).
+// Elements may come in any order. The vertices are read first; elements before them are skipped and
+// read afterwards. Faces are streamed (ply_faces.h).
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -94,7 +94,7 @@ class PlyBody {
     }
   }
 
-  // Where x, y, z stand in a row that holds them as consecutive floats of this machine's order.
+  // Offset of x, y, z in a row that holds them as consecutive floats in native byte order.
   static std::optional<size_t> plain_vertices(const PlyBinaryValues& values,
                                               const PlyElement& element) {
     const auto x = element.find("x");

@@ -111,8 +111,8 @@ class PlyFaces {
     triangulator_.finish(writer_);
   }
 
-  // Each index makes a triangle with the two before it; -1 starts a new strip. A repeated index
-  // is how strips are stitched to one, its triangles are no part of the surface.
+  // Each index makes a triangle with the two before it; -1 starts a new strip. Repeated indices
+  // stitch strips together; their triangles are not part of the surface.
   void read_strip(Values& values, const PlyProperty& list) {
     std::array<int64_t, 2> last{};
     std::array<Point, 2> corner{};

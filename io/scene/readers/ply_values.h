@@ -17,7 +17,7 @@
 
 namespace svdag {
 
-// Where a value stands in the file.
+// Position of a value in the file.
 struct PlyPlace {
   uint64_t offset = 0;
   uint64_t line = 0;  // text only

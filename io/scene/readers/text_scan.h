@@ -2,8 +2,8 @@
 //
 // Lines end with "\n", "\r\n" or "\r"; blanks are spaces and tabs. Decimal numbers become the
 // nearest double (or float), whatever the locale (io/scene/readers/decimal.h), with a leading "+"
-// allowed. A byte of 0 is an error wherever it stands, in what is skipped, too: holes that a crash
-// or a bad copy left are zeros, and would hide the lines that they cover. Invariant: after
+// allowed. A zero byte is an error anywhere, in skipped text too: holes left by a crash or an
+// incomplete copy are zeros, and would hide the lines that they cover. Invariant: after
 // skip_blanks() a whole word is visible, or the word is too long to be one. Rejected: iostreams (20
 // times slower), strtod (locale), reading line by line (every byte twice).
 #pragma once
@@ -30,7 +30,7 @@ class TextScanner {
   };
   static constexpr size_t kLongestWord = 4096;
 
-  // Scans on from where `stream` stands, in line number `line`.
+  // Scans from the position of `stream`, which is in line number `line`.
   TextScanner(ByteStream* stream, Syntax syntax, uint64_t line = 1)
       : stream_(stream), syntax_(syntax), line_(line) {
     refill();

@@ -1,4 +1,4 @@
-// Stands in for draco.cpp where svdag is built without the Draco library.
+// Replaces draco.cpp in builds without the Draco library.
 #ifndef SVDAG_HAS_DRACO
 
 #include "io/scene/mesh/mesh_reader.h"

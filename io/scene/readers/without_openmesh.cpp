@@ -1,4 +1,4 @@
-// Stands in for openmesh.cpp where svdag is built without the OpenMesh library.
+// Replaces openmesh.cpp in builds without the OpenMesh library.
 #ifndef SVDAG_HAS_OPENMESH
 
 #include "io/scene/mesh/mesh_reader.h"

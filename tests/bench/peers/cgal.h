@@ -1,5 +1,5 @@
 // CGAL's do_intersect(triangle, box) with two kernels; in a library of its own, because CGAL's
-// target imposes -frounding-math on whoever links it.
+// target adds -frounding-math to everything that links it.
 //   EPICK  double coordinates, filtered exact predicates, constructions in double
 //   EPECK  lazy exact numbers throughout
 // A triangle of zero area is outside do_intersect's precondition: it goes in as a segment or a

@@ -33,7 +33,7 @@ class EmbreePeer {
   ~EmbreePeer();
 
   // Traces all rays, one after the other or `way` many at once; the layout that Embree wants is
-  // made before the time is taken. `coherent` tells it that neighbouring rays are alike.
+  // made before the time is taken. `coherent`: neighbouring rays are similar.
   RayRun closest(std::span<const FloatRay> rays, Way way, bool coherent) const;
   RayRun any(std::span<const FloatRay> rays, Way way, bool coherent) const;
 

@@ -235,7 +235,7 @@ TEST_F(OutOfCore, WhatWasDamagedBeforeAResumeIsFound) {
     std::ofstream(path, std::ios::binary) << bytes;
     try {
       bake(config);
-      EXPECT_TRUE(as_expected(config));  // all bits were in blocks that nobody needs any more
+      EXPECT_TRUE(as_expected(config));  // all bits were in blocks that are no longer used
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kOutput) << error.what();
       EXPECT_FALSE(std::filesystem::exists(config.output));
@@ -290,7 +290,7 @@ TEST(TriangleBins, GiveBackWhatTheyGotAndNothingStandsBesideTheirCubes) {
         met[at] = true;
       }
     }
-    // A triangle whose centre lies in the grid meets a bin there.
+    // A triangle whose centre is in the grid meets a bin there.
     EXPECT_GT(std::count(met.begin(), met.end(), true), 1500);
   }
 }

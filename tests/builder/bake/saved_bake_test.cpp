@@ -1,4 +1,4 @@
-// What a journal says is read back as it was written, or it is refused before anybody believes it.
+// A journal is read back as it was written, or rejected before it is used.
 #include "builder/bake/saved_bake.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A scene that somebody writes while it is baked is refused: never is a bake of two scenes, and
+// A scene that changes while it is baked is rejected: never is a bake of two scenes, and
 // never a journal with the hash of another.
 #include "builder/bake/scene_watch.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 using Action = std::function<void()>;
 
-// A store that knows nothing, and acts when it is asked for the first time: the triangles have been
+// An empty store that acts at the first look-up: the triangles have been
 // read then, and nothing was saved.
 class ActingStore final : public CellStore {
  public:
@@ -62,8 +62,7 @@ class ChangedScene : public ::testing::Test {
   }
   void rewrite() { write_stl(scene_, random_soup(20'001, 0.1, 2)); }
   void expect_refused(const std::string& file) {
-    EXPECT_SVDAG_ERROR(bake(config_), ExitCode::kBadInput,
-                       file + ": has changed while it was baked");
+    EXPECT_SVDAG_ERROR(bake(config_), ExitCode::kBadInput, file + ": changed during the bake");
     EXPECT_FALSE(std::filesystem::exists(config_.output));
     EXPECT_FALSE(std::filesystem::exists(config_.output + ".scratch"));
   }
@@ -100,7 +99,7 @@ TEST_F(ChangedScene, MattersNoMoreWhenItsTrianglesWereRead) {
   }
 }
 
-// Where a journal would have to name it, there is none.
+// Then no journal is written, since it would have to describe the scene.
 TEST_F(ChangedScene, MattersNoMoreWhereWorkIsSavedLater) {
   config_.checkpoint = 1e-6;
   config_.memory = uint64_t(40) << 20;

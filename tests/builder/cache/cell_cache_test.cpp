@@ -76,7 +76,7 @@ TEST_F(Cache, ASecondBakeTakesEveryCell) {
   EXPECT_GT(second.cells, 100U);
   EXPECT_EQ(second.cache_hits, second.cells);
   EXPECT_EQ(second.voxels, first.voxels);
-  EXPECT_EQ(second.decisions.asked, 0U);
+  EXPECT_EQ(second.decisions.evaluated, 0U);
 }
 
 TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
@@ -198,7 +198,7 @@ TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
   EXPECT_EQ(packs().size(), 5U);
 }
 
-// A pack of `count` cells without voxels that no bake asks for.
+// A pack of `count` cells without voxels that no bake looks up.
 void write_strange_pack(const std::string& path, size_t count) {
   static std::mt19937_64 random(14);
   BakedRun baked;

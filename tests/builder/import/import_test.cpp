@@ -127,7 +127,7 @@ TEST(ImportVoxels, MoreVoxelsThanTheDiskCanSortAreRefusedBeforeTheFirst) {
   config.memory = uint64_t(64) << 20;
   SequentialExecutor executor;
   const VoxelSource never = [](const VoxelSink&, const FullCubeSink&) -> GridPlacement {
-    ADD_FAILURE() << "a voxel was asked for";
+    ADD_FAILURE() << "a voxel was read";
     return {};
   };
   EXPECT_SVDAG_ERROR(import_voxels(never, config, &executor, uint64_t(1) << 60), ExitCode::kOutput,

@@ -169,7 +169,7 @@ TEST_F(MergeRuns, ARunOfAPartDoesNotTellHowItWasMade) {
     bake(config);
     const std::string once = read_bytes(config.output);
     config.memory = 4 * kMiB;
-    config.checkpoint = 1e-6;  // tables are emptied wherever they can be
+    config.checkpoint = 1e-6;  // tables are emptied as often as possible
     for (const int cell_level : {0, 2, 5}) {
       config.cell_level = cell_level;
       config.output = path("again.run");

@@ -90,8 +90,8 @@ TEST(GridPart, SharesAreDisjointAndFillTheGrid) {
     EXPECT_LE(most, least + 1);
     EXPECT_GE(least, 8U);
   }
-  EXPECT_SVDAG_ERROR(GridPart::share(0, 3), ExitCode::kUsage, "there is no part 0 of 3");
-  EXPECT_SVDAG_ERROR(GridPart::share(4, 3), ExitCode::kUsage, "there is no part 4 of 3");
+  EXPECT_SVDAG_ERROR(GridPart::share(0, 3), ExitCode::kUsage, "--part 0/3: parts are numbered");
+  EXPECT_SVDAG_ERROR(GridPart::share(4, 3), ExitCode::kUsage, "--part 4/3: parts are numbered");
   EXPECT_SVDAG_ERROR(GridPart::of_cells(GridPart::share(1, 64), 4), ExitCode::kUsage,
                      "16^3 voxels");
 }

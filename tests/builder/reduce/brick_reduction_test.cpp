@@ -1,4 +1,5 @@
-// Bricks and whole cubes in Morton order become the minimal DAG, wherever the table was spilled.
+// Bricks and full cubes in Morton order become the minimal DAG, independent of when the table is
+// spilled.
 #include "builder/reduce/brick_reduction.h"
 
 #include <gtest/gtest.h>

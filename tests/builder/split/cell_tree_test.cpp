@@ -44,7 +44,7 @@ TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
   TriangleList all;
   for (const TriangleSetup& t : setups) all.push_back({&t, t.edges});
   const uint64_t held = entries_on_the_way(all, Cube(), grid.levels) * sizeof(ListedTriangle);
-  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they do stand on every level
+  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they are on every level
   EXPECT_GE(tree.bytes(1) - tree.bytes(0), held);
   EXPECT_EQ(tree.bytes(9) - tree.bytes(8), tree.bytes(1) - tree.bytes(0));
 }

@@ -1,4 +1,4 @@
-// What a bake will take of the disk is told before it takes it.
+// The disk space of a bake is reported before it is used.
 #include "builder/workspace/disk_need.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(DiskNeed, IsNeverLessThanWhatWasSpilled) {
   EXPECT_EQ(need.estimate(), 107'011'787U);
 }
 
-// A triangle that crosses the grid takes more than its corners: it stands in many bins.
+// A triangle that crosses the grid takes more than its corners: it is in many bins.
 TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   const TempFolder folder;
   write_stl(folder.file("scene.stl"), random_soup(8000, 4, 19));
@@ -67,7 +67,7 @@ TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   EXPECT_LT(report.scratch.estimated, report.scratch.written * 2);
 }
 
-// Triangles that miss the part are counted with the others, and take nothing, wherever in the file
+// Triangles that miss the part are counted with the others, and take nothing, anywhere in the file
 // they stand.
 class DiskNeedOfAPart : public ::testing::TestWithParam<bool> {};
 

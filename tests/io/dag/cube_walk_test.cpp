@@ -22,7 +22,7 @@ VoxelSet inside(const VoxelSet& set, const VoxelBox& box) {
   return result;
 }
 
-// All that a walk hands out, and that nothing is handed out twice.
+// A walk emits all voxels, and none twice.
 VoxelSet walked(CubeWalk* walk, const VoxelBox& box, int64_t* largest = nullptr) {
   VoxelSet set;
   uint64_t count = 0;

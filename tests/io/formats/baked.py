@@ -61,7 +61,7 @@ class Bakery:
         self.folder = pathlib.Path(self.holder.name)
 
     def run(self, *arguments, code=0):
-        """stdout; of a failure that is asked for, stderr."""
+        """stdout; stderr of an expected failure."""
         done = subprocess.run([self.programs / arguments[0], *map(str, arguments[1:])], capture_output=True,
                               text=True, cwd=self.folder)
         if done.returncode != code:
@@ -78,7 +78,7 @@ class Bakery:
 
 
 def coarser(voxels, levels):
-    """What stands in cubes of 2^levels voxels."""
+    """The content of cubes of 2^levels voxels."""
     return numpy.unique(voxels.astype("<i8") >> levels, axis=0).reshape(-1, 3)
 
 

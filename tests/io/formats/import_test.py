@@ -192,7 +192,7 @@ class Import(unittest.TestCase):
         left = self.few[self.few[:, 0] < 11]
         right = self.few[self.few[:, 0] >= 11] - [11, 0, 0]
         sizes = (11, 32, 31), (21, 32, 32)  # the middle of an odd side is rounded down
-        for shift in (0, -500):  # what lies below 0 moves up
+        for shift in (0, -500):  # coordinates below 0 are shifted up
             places = [[shift + 5, shift + 16, shift + 15], [shift + 11 + 10, shift + 16, shift + 16]]
             data = write_foreign.vox((left, sizes[0]), (right, sizes[1]), places=places)
             with self.subTest(shift=shift):

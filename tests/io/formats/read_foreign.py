@@ -90,9 +90,9 @@ def read_hashdag(path, order=XYZ):
     low, high = words[nodes].astype("<u8"), words[nodes + 1].astype("<u8") if len(nodes) else words[nodes].astype("<u8")
     bricks = low | high << numpy.uint64(32)
     used = sum(1 + int(words[n]).bit_count() for n in seen) + 2 * len(set(nodes.tolist()))
-    demand(used == count, "words that nobody points to")
+    demand(used == count, "words without a pointer to them")
     sides = {box[i + 3] - box[i] for i in range(3)}
-    demand(max(sides) - min(sides) <= 1e-9 * max(sides), "the box is no cube")
+    demand(max(sides) - min(sides) <= 1e-9 * max(sides), "the box is not a cube")
     return Found(2**levels, ordered(expand_bricks(bricks, at, order)), box[:3], max(sides) / 2**levels)
 
 
@@ -111,7 +111,7 @@ def read_symvox(path, order=XYZ):
         if len(unique):
             end = int(unique[-1]) + 1 + int(words[unique[-1]]).bit_count()
         demand(not numpy.any(words[nodes] >> 8), "mirror bits")
-        # Pointers stand in descending order of the children: those above c come first.
+        # Pointers are in descending order of the children: those above c come first.
         nodes, at = children_of(words[nodes], nodes, at,
                                 lambda n, m, c: words[n + 1 + rank_below(m >> (c + 1), 8)], order)
         demand(len(nodes) == 0 or nodes.max() < count, "a pointer leads out of the file")
@@ -147,10 +147,10 @@ def read_transform_dag(path, order=ZYX):
     nodes, at = start()
     for i in range(root_level, 2, -1):
         table = levels[i].astype("<i8")
-        demand(set(nodes.tolist()) == set(range(len(table))), "nodes that nobody points to")
+        demand(set(nodes.tolist()) == set(range(len(table))), "nodes without a pointer to them")
         masks = sum((table[nodes, c] != 0xffffffff).astype("<i8") << c for c in range(8))
         nodes, at = children_of(masks, nodes, at, lambda n, m, c: table[n, c], order)
-    demand(set(nodes.tolist()) == set(range(len(leaves))), "leaves that nobody points to")
+    demand(set(nodes.tolist()) == set(range(len(leaves))), "leaves without a pointer to them")
     return Found(resolution, ordered(expand_bricks(leaves[nodes], at, order)))
 
 

@@ -108,7 +108,7 @@ TEST(SentCubes, HeadsOfNoGridAreRefused) {
     SentCubes cubes("x.vdb", kMuch);
     EXPECT_SVDAG_ERROR(cubes.take(block), ExitCode::kBadInput, part);
   };
-  const char* no_grid = "sent what is no grid";
+  const char* no_grid = "sent an invalid grid";
   refused({}, no_grid);
   refused(Bytes(sizeof(CubeHead) - 1), no_grid);
   refused(head_block(head(3), "name"), no_grid);

@@ -149,7 +149,7 @@ TEST_F(Vdb, OneOfSeveralGridsIsChosenByName) {
 
 TEST_F(Vdb, BrokenFilesAreASentence) {
   EXPECT_SVDAG_ERROR(read_vdb(path("none.vdb"), "", {}), ExitCode::kBadInput, "none.vdb");
-  std::ofstream(path("text.vdb")) << "this is no grid";
+  std::ofstream(path("text.vdb")) << "this is not a grid";
   EXPECT_SVDAG_ERROR(read_vdb(path("text.vdb"), "", {}), ExitCode::kBadInput,
                      "OpenVDB cannot read it");
   write("cut.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);

@@ -14,7 +14,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import screen
-import told
+import manuals
 
 BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 SHARE = BUILD / "share"
@@ -70,7 +70,7 @@ class Shell(unittest.TestCase):
         (cls.folder / "folder").mkdir(parents=True)
         for name in FILES:
             (cls.folder / name).touch()
-        cls.commands = told.commands(BUILD)
+        cls.commands = manuals.commands(BUILD)
         cls.environment = dict(os.environ, HOME=cls.kitchen.name, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C.UTF-8")
 
     @classmethod

@@ -12,7 +12,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import told
+import manuals
 
 BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 MAN = BUILD / "share" / "man"
@@ -28,7 +28,7 @@ def read(page):
 
 class Pages(unittest.TestCase):
     def setUp(self):
-        self.commands = told.commands(BUILD)
+        self.commands = manuals.commands(BUILD)
 
     def test_every_command_and_topic_has_a_page(self):
         self.assertEqual(sorted(p.name for p in (MAN / "man1").iterdir()),
@@ -60,17 +60,17 @@ class Rendered(unittest.TestCase):
         broken.unlink()
 
     def test_pages_and_help_name_the_same_options(self):
-        for command in told.commands(BUILD).values():
+        for command in manuals.commands(BUILD).values():
             shown = subprocess.run([BUILD / command.name.split()[0], *command.name.split()[1:], "--help"], check=True,
                                    capture_output=True, text=True).stdout
-            in_help = {n for line in shown.splitlines() if line[:3] == "  -" for n in told.options_in(line.strip())}
+            in_help = {n for line in shown.splitlines() if line[:3] == "  -" for n in manuals.options_in(line.strip())}
             page = MAN / "man1" / f"{command.page()}.1"
-            in_page = {n for line in read(page)[0].splitlines() if line[:8] == "       -" for n in told.options_in(line.strip())}
+            in_page = {n for line in read(page)[0].splitlines() if line[:8] == "       -" for n in manuals.options_in(line.strip())}
             self.assertEqual(in_page, in_help, command.name)
             self.assertGreaterEqual(len(in_help), 2, command.name)
 
     def test_texts_of_options_and_examples_are_in_the_page(self):
-        for command in told.commands(BUILD).values():
+        for command in manuals.commands(BUILD).values():
             text = read(MAN / "man1" / f"{command.page()}.1")[0]
             squeezed = " ".join(text.split())
             for option in command.options + command.operands:

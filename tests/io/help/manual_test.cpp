@@ -1,4 +1,4 @@
-// What a program tells about itself reaches the writers of pages as it was told.
+// A program's manual reaches the writers of pages unchanged.
 #include "io/help/manual.h"
 
 #include <gtest/gtest.h>

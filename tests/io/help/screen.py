@@ -30,7 +30,7 @@ class Screen:
             return b""
         try:
             data = os.read(self.master, 1 << 16)
-        except OSError:  # nobody has the terminal any more
+        except OSError:  # the terminal is closed
             return b""
         self.seen += data
         return data

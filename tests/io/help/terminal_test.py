@@ -14,7 +14,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import screen
-import told
+import manuals
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "COLUMNS"}
@@ -41,7 +41,7 @@ def drawn(text):
 
 class Help(unittest.TestCase):
     def test_fits_every_terminal_from_40_columns_on(self):
-        for command in told.commands(PROGRAMS):
+        for command in manuals.commands(PROGRAMS):
             for columns in (40, 57, 80, 100):
                 code, text = screen.shown(help_of(command), columns)
                 self.assertEqual(code, 0)
@@ -65,7 +65,7 @@ class Help(unittest.TestCase):
         self.assertEqual(piped(help_of("svdag build"), COLUMNS="many").stdout, text)
 
     def test_says_the_same_words_at_every_width(self):
-        for command in told.commands(PROGRAMS):
+        for command in manuals.commands(PROGRAMS):
             words = [piped(help_of(command), COLUMNS=columns).stdout.replace("\\\n", "").split() for columns in ("40", "100")]
             self.assertEqual(words[0], words[1], command)
 

@@ -12,7 +12,7 @@ by bit, so this is the order of every floating-point operation (all in double, n
   rotation       of the quaternion (x, y, z, w), with n = ((x*x + y*y) + z*z) + w*w:
                    diagonal       (((w*w + x*x) - y*y) - z*z) / n       cyclic in x, y, z
                    off-diagonal   (2 * (x*y - w*z)) / n                 and so on
-  local matrix   column c of the rotation times scale[c]; or `matrix` as it stands
+  local matrix   column c of the rotation times scale[c]; or `matrix` unchanged
   composition    parent * local, each entry (p0*l0 + p1*l1) + p2*l2, the last column then + p3
   point          ((m0*x + m1*y) + m2*z) + m3
   normalised     integers divided by their largest value, at least -1 (KHR_mesh_quantization)

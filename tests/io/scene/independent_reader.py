@@ -31,7 +31,7 @@ def nearest_float(text):
         return float("inf") if double > 0 else float("-inf")
     if double != double or abs(double) == float("inf") or double == single:
         return single
-    # Rounding twice goes wrong only if the double lies exactly between two floats.
+    # Rounding twice goes wrong only if the double is exactly between two floats.
     bits = struct.unpack("<i", struct.pack("<f", single))[0]
     other = struct.unpack("<f", struct.pack("<i", bits + (1 if abs(double) > abs(single) else -1)))[0]
     exact = Fraction(text)

@@ -12,7 +12,7 @@ uint64_t heap_bytes() {
   return heap.uordblks + heap.hblkhd;
 }
 
-// What a reader holds while it hands on the triangles of `text`.
+// The memory of a reader while it passes on the triangles of `text`.
 uint64_t held_by(Reader reader, std::string_view text) {
   const MemoryFile memory(text);
   MemoryBudget budget;

@@ -122,9 +122,9 @@ TEST(AtomicFile, WhatIsNoRegularFileIsRefusedBeforeItIsWritten) {
   std::filesystem::create_symlink("/dev/null", folder.file("device"));
   std::filesystem::create_symlink("/proc/self/fd/1", folder.file("stdout"));
   for (const char* name : {"pipe", "device", "stdout"})
-    EXPECT_SVDAG_ERROR(AtomicFile(folder.file(name)), ExitCode::kOutput, "is no regular file");
+    EXPECT_SVDAG_ERROR(AtomicFile(folder.file(name)), ExitCode::kOutput, "is not a regular file");
   EXPECT_SVDAG_ERROR(AtomicFile(folder.file("folder")), ExitCode::kOutput, "is a folder");
-  EXPECT_SVDAG_ERROR(AtomicFile("/dev/null"), ExitCode::kOutput, "is no regular file");
+  EXPECT_SVDAG_ERROR(AtomicFile("/dev/null"), ExitCode::kOutput, "is not a regular file");
   EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("device")));
   EXPECT_EQ(folder.entries(), 4U);
@@ -137,7 +137,7 @@ TEST(AtomicFile, WhatIsMadeBeforeTheCommitIsRefusedToo) {
     std::filesystem::create_directory(folder.file("folder"));
     ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
     EXPECT_SVDAG_ERROR(to_folder.commit(), ExitCode::kOutput, "folder: is a folder");
-    EXPECT_SVDAG_ERROR(to_pipe.commit(), ExitCode::kOutput, "pipe: is no regular file");
+    EXPECT_SVDAG_ERROR(to_pipe.commit(), ExitCode::kOutput, "pipe: is not a regular file");
   }
   EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
   EXPECT_EQ(folder.entries(), 2U);

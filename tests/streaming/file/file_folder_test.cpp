@@ -20,7 +20,7 @@ mode_t mode_of(const std::string& path) {
   return status.st_mode & 07777;
 }
 
-// As on a file server that takes root for nobody.
+// As on a file server that maps root to another user.
 TEST(PrivateFolder, IsOursIfWeMadeItWhoeverItSeemsToBelongTo) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can make a folder that is another user's";
   const TempFolder temp;

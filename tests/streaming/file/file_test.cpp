@@ -146,7 +146,7 @@ TEST(File, SameFileSeesThroughNames) {
   EXPECT_FALSE(same_file(folder.file("none"), folder.file("none")));
 }
 
-// What the system lacks is no fault of the file: a farm tries 4 and 5 again, and never 3.
+// A lack of system resources is not the file's fault: a farm retries 4 and 5, but never 3.
 TEST(File, TooManyOpenFilesAreNoBadInput) {
   const TempFolder folder;
   const std::string path = folder.write("a", "a");

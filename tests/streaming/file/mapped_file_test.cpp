@@ -68,7 +68,7 @@ TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
   }
 }
 
-// The rest of a page that the file still has a part of reads as zeros, and nothing tells.
+// The rest of a page that the file still has a part of reads as zeros, without a signal.
 TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileThatChanged) {
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
@@ -106,7 +106,7 @@ bool ended_otherwise(int status) {
   return !WIFEXITED(status) || WEXITSTATUS(status) != int(ExitCode::kBadInput);
 }
 
-// What was checked is no longer there, and may lead anywhere.
+// Content that changed after the check may cause any error.
 void fail_after(bool written, const std::string& path, const std::function<void()>& fail) {
   ::_exit(run_program({.name = "svdag", .no_memory = "no memory"}, [&] {
     const MappedFile mapped = map(path, kSize);

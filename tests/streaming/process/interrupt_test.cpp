@@ -32,7 +32,7 @@ TEST(Interrupt, NothingIsThrownBeforeASignal) {
   EXPECT_EQ(caught(), 0);
   pretend_interrupt(SIGTERM);
   EXPECT_EQ(caught(), SIGTERM);
-  EXPECT_EQ(caught(), SIGTERM);  // for every thread that asks
+  EXPECT_EQ(caught(), SIGTERM);  // for every thread that checks
   pretend_interrupt(0);
   EXPECT_EQ(caught(), 0);
 }

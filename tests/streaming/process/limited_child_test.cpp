@@ -51,7 +51,7 @@ TEST(LimitedChild, LeavesTheParentAsItWas) {
 }
 
 TEST(LimitedChild, ItsErrorsAreErrorsHere) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer asks for its stack where something is thrown";
+  if (kSanitized) GTEST_SKIP() << "a sanitizer needs system calls when something is thrown";
   EXPECT_SVDAG_ERROR(
       result_of([](const BlockSink&) { fail_input("x.drc", "has no triangles", 12); }),
       ExitCode::kBadInput, "x.drc: has no triangles (at byte 12)");

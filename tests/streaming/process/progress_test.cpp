@@ -48,7 +48,7 @@ TEST(Progress, NeedsNoEscapeSequence) {
 
 TEST(Progress, SaysNothingUnlessItIsOn) {
   EXPECT_EQ(drawn(Progress::Mode::kOff, 4, 1), "");
-  EXPECT_EQ(drawn(Progress::Mode::kAuto, 4, 1), "");  // stderr is no terminal here
+  EXPECT_EQ(drawn(Progress::Mode::kAuto, 4, 1), "");  // stderr is not a terminal here
 }
 
 }  // namespace

@@ -126,9 +126,9 @@ TEST(ExternalSort, AnErrorOfTheTakerEndsTheSort) {
     for (const Key& key : make_keys(Kind::kRandom, count, 6)) sorter.sort.push(key);
     size_t calls = 0;
     const auto fail_soon = [&](std::span<const Key>) {
-      if (++calls == 3) throw Error(ExitCode::kOutput, "no more");
+      if (++calls == 3) throw Error(ExitCode::kOutput, "full");
     };
-    EXPECT_SVDAG_ERROR(sorter.sort.finish(fail_soon), ExitCode::kOutput, "no more");
+    EXPECT_SVDAG_ERROR(sorter.sort.finish(fail_soon), ExitCode::kOutput, "full");
   }
 }
 

@@ -183,7 +183,7 @@ TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
   EXPECT_EQ(folder.read("s/thesis.txt"), "years");
 }
 
-// Left by whoever was killed while he asked whose the files are that are made there.
+// Left by a process that was killed while it tested the owner of new files.
 TEST(ScratchDir, WhatAskedForTheOwnerOfFilesIsNobodysFile) {
   const TempFolder folder;
   const std::string path = folder.file("s");

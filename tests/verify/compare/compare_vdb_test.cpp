@@ -79,7 +79,7 @@ TEST_F(CompareVdb, EachDroppedVoxelIsExtraAndEachAddedOneIsMissing) {
   EXPECT_EQ(result.first_missing[0], LatticePoint(200, 201, 202));
 }
 
-// What the header says of the number of voxels is no proof of it.
+// The header's number of voxels is not trusted.
 TEST_F(CompareVdb, VoxelsAreCountedWhateverTheHeaderSays) {
   VoxelSet fewer = voxels_;
   fewer.erase(fewer.begin());

@@ -1,4 +1,4 @@
-// The sandwich: right files lie in it, by OpenVDB's distances, and each voxel out of it is found.
+// The distance bounds: correct files are within them, and each voxel outside is found.
 #include "verify/compare/distance_bounds.h"
 
 #include <gtest/gtest.h>

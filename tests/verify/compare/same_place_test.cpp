@@ -150,7 +150,7 @@ TEST(SamePlace, WhatFloatsKeepNearZero) {
 }
 
 TEST(SamePlace, WhatOnlyFloatsMayDo) {
-  // The same distance between two bakes is none that rounding explains.
+  // The same distance between two bakes cannot be rounding.
   const Grid grid = bake(16), kept = through_floats(grid);
   const double voxels = (kept.origin.y - grid.origin.y) / grid.voxel_size;
   ASSERT_GT(std::abs(voxels), 1e-5);

@@ -52,7 +52,7 @@ struct Tetrahedron {
   LatticeTriangle face(size_t i) const {
     return {{corners[(i + 1) % 4], corners[(i + 2) % 4], corners[(i + 3) % 4]}};
   }
-  // Whether the moved point lies inside; a flat tetrahedron has no inside.
+  // Whether the moved point is inside; a flat tetrahedron has no inside.
   bool contains(const LatticePoint& p) const {
     for (size_t i = 0; i < 4; ++i) {
       const Int128 at_corner = planes[i].value_at(corners[i]);

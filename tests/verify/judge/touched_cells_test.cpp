@@ -1,4 +1,4 @@
-// The touched cells are those whose closed cube meets the closed box, no more and no fewer.
+// The touched cells are those whose closed cube meets the closed box, exactly.
 #include "verify/judge/touched_cells.h"
 
 #include <gtest/gtest.h>

@@ -128,7 +128,7 @@ TEST_F(SampledScene, OneDrawIsTheScenesAndSeesAnEmptyFile) {
   EXPECT_EQ(result.comparison.wrong_bricks, 1U);
 }
 
-// What the bounds are of: bricks that are missing altogether are no bricks of the file.
+// Scope of the bounds: completely missing bricks are not bricks of the file.
 TEST_F(SampledScene, MissingBricksAreSeenByTheScenesDrawsAlone) {
   const Grid grid = divide_box(scene().bounds(), 7);
   VoxelSet lacking = voxels(grid);

@@ -42,7 +42,7 @@ TEST_F(SnappedSceneTest, TheLargestMoveIsThatOfABakeToTheLastBit) {
     EXPECT_EQ(judged(part).largest_move, baked(part)) << at;
     different += baked(part) != baked(grid);
   }
-  EXPECT_GT(different, 0);  // only triangles that the selection may need are asked
+  EXPECT_GT(different, 0);  // only triangles that the selection may need are tested
 }
 
 TEST_F(SnappedSceneTest, AnotherMoveInTheHeaderIsADefectAndNoneIsNoClaim) {

@@ -3,13 +3,13 @@
 // Embree (Wald et al. 2014) finds which triangle a ray meets, and which are near a point, in
 // floats. It gets the coordinates that lose least: voxels relative to a point in their middle, so
 // that a vertex moves by 2^-25 of the extent at most, and rays that floats hold exactly
-// (`float_ray`). Every hit it proposes is asked again in double against the snapped triangle
+// (`float_ray`). Every hit it proposes is tested again in double against the snapped triangle
 // (triangle.h), before it can count or hide another: a filter inside the search, so coincident
 // triangles are not lost. Distances are of the snapped triangles in double; Embree only lists the
 // candidates.
 //
-// What Embree's floats miss stays missed: near a silhouette, within float_error() of an edge. A
-// judge that must not miss would be a traversal of our own, which is what is to be judged.
+// Hits that Embree's floats miss stay missed: near a silhouette, within float_error() of an edge. A
+// judge without misses would need a traversal of our own, which is what is being judged.
 //
 // This is the only part of svdag that knows Embree; it needs all triangles in memory.
 #pragma once

@@ -10,7 +10,7 @@
 namespace svdag {
 
 struct NearestVoxel {
-  bool found = false;   // false: no centre is nearer than what was asked for
+  bool found = false;   // false: no centre is within the requested distance
   double distance = 0;  // from the point to the voxel's centre, in voxels
   uint32_t voxel[3] = {};
 };

@@ -1,28 +1,27 @@
-// What rays through the triangles say about rays through the DAG.
+// Judges rays through the DAG by rays through the triangles.
 //
 // Three claims follow from the rules of occupancy (docs/accuracy.md) and are judged:
 //
-//   (a) no triangle is hit without a voxel at or before it. Conservative: a point of a triangle
-//   lies
+//   (a) no triangle is hit without a voxel at or before it. Conservative: a point of a triangle is
 //       in a set voxel's closed cube, whatever the ray. Thin: only for rays along an axis through
 //       centres of voxels, since "every line of centres that meets the projected triangle sets
 //       exactly one voxel of the line", the one where it crosses; other rays may pass between the
 //       voxels of a slanted wall, so they are counted and not judged.
 //   (b) no voxel is far from the scene: its centre is within half a diagonal (conservative: a
-//       triangle meets the cube) or half a side (thin: one meets a centre segment). None lies
-//       outside of the selection, however near a triangle is.
-//   (c) no point of the surface is far from the voxels. Conservative only: it lies in a set voxel's
+//       triangle meets the cube) or half a side (thin: one meets a centre segment). None is outside
+//       of the selection, however near a triangle is.
+//   (c) no point of the surface is far from the voxels. Conservative only: it is in a set voxel's
 //       closed cube, whose centre is within half a diagonal. A point nearer than doubt() to the
-//       border of the selection may by its rounding lie outside, where nothing is set, and is not
-//       judged. Thin: a triangle that crosses no centre segment sets nothing, so there is no bound.
+//       border of the selection may be outside because of rounding, where nothing is set, and is
+//       not judged. Thin: a triangle that crosses no centre segment sets nothing, so no bound
+//       exists.
 //
-// Rays see no triangle of zero area; (c) asks of its points, too.
+// Rays miss triangles of zero area; (c) tests their points, too.
 //
 // What is only measured: hits of one side alone, how much nearer the DAG's hit is, and the distance
 // between surface and centres of voxels both ways (Hausdorff).
 //
-// A hit that passes within doubt() of an edge is no proof that the ray does hit: it is counted
-// apart.
+// A hit within doubt() of an edge does not prove that the ray hits: it is counted separately.
 #pragma once
 
 #include <array>
@@ -39,7 +38,7 @@ namespace svdag {
 
 struct RayJudgeConfig {
   Rule rule = Rule::kConservative;
-  VoxelBox selection;  // triangles outside set no voxel, and are no hits
+  VoxelBox selection;  // triangles outside set no voxel, and do not count as hits
   uint64_t rays = 0;
   uint64_t seed = 1;
 };
@@ -63,7 +62,7 @@ struct RayJudgement {
   uint64_t judged = 0;                         // triangle hits about which (a) says something
   uint64_t late = 0;                           // of these, against (a)
   uint64_t doubtful = 0;                       // would be, but pass within doubt of an edge
-  uint64_t voxels = 0;                         // asked for (b)
+  uint64_t voxels = 0;                         // tested for (b)
   uint64_t far = 0;                            // of these, too far from the scene
   uint64_t outside = 0;                        // of these, outside of the selection
   uint64_t points = 0;                         // of the surface
@@ -75,7 +74,7 @@ struct RayJudgement {
   std::vector<RayOffender> first;
 
   bool ok() const { return late == 0 && far == 0 && outside == 0 && uncovered == 0; }
-  // Whether a claim was asked of anything at all.
+  // Whether any claim was tested.
   bool tested() const { return judged > 0 || voxels > 0 || points_judged > 0; }
   void append(const RayJudgement& later);
 };

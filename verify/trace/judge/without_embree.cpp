@@ -1,4 +1,4 @@
-// Stands in for embree.cpp where svdag is built without Embree.
+// Replaces embree.cpp in builds without Embree.
 #ifndef SVDAG_HAS_EMBREE
 
 #include "streaming/error.h"

@@ -1,7 +1,7 @@
-// Beams: one coarse traversal tells for a whole bundle of rays when they can hit anything at all.
+// Beams: one coarse traversal bounds the times at which a whole bundle of rays can hit anything.
 //
-// Idea: Laine and Karras 2010; Kaempe, Sintorn, Assarsson 2013. A beam holds rays whose origins lie
-// in a box O and whose directions lie in a box D. At time t they all lie in the box O + t D, so a
+// Idea: Laine and Karras 2010; Kaempe, Sintorn, Assarsson 2013. A beam holds rays whose origins are
+// in a box O and whose directions are in a box D. At time t they are all in the box O + t D, so a
 // cube can be met only while
 //
 //   O.low + t D.low <= cube.high  and  cube.low <= O.high + t D.high        on each axis
@@ -62,7 +62,7 @@ class Beam {
   bool any_ = false;
 };
 
-// A descent, nearest children first, that drops what lies inside the span found so far.
+// A descent, nearest children first, that skips cubes inside the span found so far.
 class Beam::Walk {
  public:
   SVDAG_HD Walk(const Beam& beam, const DagView& dag, const Span& span, const Cut& cut, bool both)

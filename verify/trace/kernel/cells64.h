@@ -1,4 +1,4 @@
-// Which of a node's 64 cells a ray meets, asked at once: no step from cell to cell.
+// Computes which of a node's 64 cells a ray meets, all at once, without stepping from cell to cell.
 //
 // Idea: a cell is met if the latest of begin and its three near planes comes before the earliest of
 // end and its three far planes (ray.h). A node has five planes per axis, so fifteen times say it
@@ -9,10 +9,10 @@
 // where `enter` is the time at which the node is entered.
 //
 // Invariant: no met cell is lost. Rounding is monotone, in the times as in their bytes, so near <
-// far gives byte(near) <= byte(far); the byte of what comes after `enter` is 1 or more. What is
-// lost is sharpness: a cell that is missed by less than a 63rd of a step may be reported. Its own
-// cells will not be, or the voxel is asked exactly (Walk64::find); so answers do not depend on
-// scale, on the order of operations here, or on fused ones.
+// far gives byte(near) <= byte(far); the byte of any time after `enter` is 1 or more. The test is
+// less sharp: a cell that is missed by less than a 63rd of a step may be reported. Its own cells
+// will not be, or the voxel is tested exactly (Walk64::find); so results do not depend on scale, on
+// the order of operations here, or on fused ones.
 //
 // scale = 63 / (time to cross a cell along the steepest axis): a node is left within 252 units.
 //

@@ -1,22 +1,22 @@
-// What a ray is, when it crosses a plane, and what a hit is: the words that every traversal shares.
+// Defines a ray, the times at which it crosses planes, and a hit: shared by all traversals.
 //
-// Coordinates are voxels. A ray is looked at in mirrored coordinates, in which its direction is
-// positive on all axes: axis a is flipped (x -> N - x) where the direction is negative. The planes
-// x = i, y = j, z = k cut it at the times
+// Coordinates are in voxels. A ray is mirrored so that its direction is positive on all axes: axis
+// a is flipped (x -> N - x) where the direction is negative. The planes x = i, y = j, z = k cut it
+// at the times
 //
 //   time(a, i) = (i - origin[a]) * inverse[a]         one subtraction, one multiplication, in
 //   double
 //
-// and nothing else decides where a ray is: at time t it is in the cell of the last planes that have
-// been passed (time <= t). A cube is entered at enter = max(begin, its three near planes), left at
+// and these alone define its position: at time t it is in the cell of the last planes that it has
+// passed (time <= t). A cube is entered at enter = max(begin, its three near planes), left at
 // exit = min(end, its three far planes), and met if enter < exit. Of the solid cubes that are met
 // the one entered first is the hit. So the hit is a function of ray and voxels, not of how a
 // traversal walks: every one (plain, fast, in vectors, on a GPU) gives the same bits.
 //
 // Exactness: planes are integers, times are never stepped, so errors do not add up: at 1M^3 a ray
-// is where it should be to within 2^-32 voxel. Rounding is monotone, so times ascend with their
-// planes; no cell between is skipped and none comes twice. Rejected: floats in [1, 2) (23 bits are
-// too few beyond 8K^3); sums of increments (they drift); origin * inverse taken out of the
+// is at its exact position to within 2^-32 voxel. Rounding is monotone, so times ascend with their
+// planes; no cell between is skipped and none is visited twice. Rejected: floats in [1, 2) (23 bits
+// are too few beyond 8K^3); sums of increments (they drift); origin * inverse taken out of the
 // parentheses (cancels, and is no faster without fused operations, which differ between machines).
 //
 // Depends on dag_view.h alone, for host and CUDA.
@@ -64,8 +64,8 @@ struct Span {
 // When a cube counts as solid before its voxels are reached.
 struct Cut {
   uint32_t level = 0xffffffffU;  // cubes of this level do; default: only voxels
-  // A cube does that is no larger than spread * t * |direction| where it is entered: the width of a
-  // cone of that many units per unit of length (2 * tangent of half its angle). 0: no cone.
+  // A cube counts as solid if it is not larger than spread * t * |direction| where it is entered:
+  // the width of a cone, in units per unit of length (2 * tangent of half its angle). 0: no cone.
   double spread = 0;
 
   SVDAG_HD bool cuts(uint32_t levels) const { return level < levels || spread > 0; }

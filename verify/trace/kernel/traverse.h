@@ -1,7 +1,7 @@
 // The one traversal kernel: the closest solid cube along a ray, front to back through the DAG.
 //
-// verify/trace/kernel/ray.h says what the answer is. Idea: the ray's cell is kept as integers, one
-// voxel coordinate per axis, whose bits are the way down from the root (Laine and Karras 2010).
+// verify/trace/kernel/ray.h defines the result. Idea: the ray's cell is kept as integers, one voxel
+// coordinate per axis, whose bits are the path down from the root (Laine and Karras 2010).
 // Down: one bit per axis and level chooses the child, no arithmetic on times. On: three far planes,
 // the first one is the exit; the new cell is origin + slope * t, rounded down. Up: the highest bit
 // in which old and new cell differ is the level of their common ancestor, so the walk resumes there
@@ -10,14 +10,15 @@
 //
 // The octant ahead: a ray only moves up along the (mirrored) axes, so of a node only the children
 // at or above its cell on all axes can still be met. If the mask holds none of those, the whole
-// node is left at once; bricks are asked the same as 64-bit and as 8-bit masks.
+// node is left at once; bricks are tested in the same way as 64-bit and as 8-bit masks.
 //
 // Exactness: origin + slope * t is off by rounding, at most 6 * 2^-53 * (|origin| + N) on each side
 // of the comparison with time(a, plane) that decides. Farther than margin = 2^-50 * (|origin| + N)
-// from a plane the rounded cell is therefore the right one; nearer, that plane's time is asked. An
-// axis whose far plane is the exit needs neither: it is at that plane. From farther than 2^40
-// voxels away, where neighbouring planes can have the same time, a bisection over the times answers
-// for each axis. Rejected: times of middle planes on the way down (three per level).
+// from a plane the rounded cell is therefore the right one; nearer, that plane's time decides. An
+// axis whose far plane is the exit needs neither: it is at that plane. For origins farther than
+// 2^40 voxels away, where neighbouring planes can have the same time, the cell is found by
+// bisection over the times of each axis. Rejected: times of middle planes on the way down (three
+// per level).
 //
 // Depends on ray.h alone, for host and CUDA. Pointers are trusted: DagFile::open proved them.
 #pragma once
@@ -154,7 +155,7 @@ class Tracer::Walk {
   SVDAG_HD uint32_t in_brick(uint64_t brick) {
     const unsigned block = child_at(1) ^ ray_.flip, voxel = child_at(0) ^ ray_.flip;
     const unsigned byte = unsigned(brick >> (8 * block)) & 0xffU;
-    // A block is asked where it is entered, not again at each of its voxels.
+    // A block is tested where it is entered, not again at each of its voxels.
     if (kCut && byte != 0 && up_ > 0 && cut_.solid(dag_.levels - 1, 2, t_)) return dag_.levels - 1;
     if (byte >> voxel & 1U) return dag_.levels;
     if ((byte & ahead_.children(voxel)) != 0) {

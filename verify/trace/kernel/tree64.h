@@ -1,9 +1,9 @@
-// A 64-tree in memory, made from a DAG: what a tracer of many rays walks instead of the file.
+// A 64-tree in memory, built from a DAG, for tracing many rays.
 //
 // Takes two to three times the file's size on huge pages, and a third to half a microsecond per
-// node of the DAG, in depth-first order, so that what a ray meets lies together. So it is for those
-// who trace many rays per node of the DAG and have the memory; everybody else traces the mapped
-// file, with the same hits.
+// node of the DAG. Nodes are in depth-first order, so that the nodes that a ray meets are close
+// together. It pays for many rays per node of the DAG; otherwise the mapped file is traced, with
+// the same hits.
 #pragma once
 
 #include <vector>

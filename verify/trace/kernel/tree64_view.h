@@ -1,8 +1,8 @@
-// Looking at a 64-tree: the DAG's levels taken two at a time, for tracing alone.
+// A view of a 64-tree: the DAG with its levels taken two at a time, for tracing alone.
 //
-// Idea: bricks are cubes of 4^3 cells already, 64 bits; so let every node be one. Halves the way
-// down (7 nodes instead of 13 at 16K^3), and a ray is told of 64 cells at once which it meets
-// (cells64.h). Still a DAG: what the file shares over two levels is shared here.
+// Idea: bricks are cubes of 4^3 cells already, 64 bits; so every node is one. This halves the depth
+// (7 nodes instead of 13 at 16K^3), and the cells that a ray meets are found for 64 cells at once
+// (cells64.h). It is still a DAG: subtrees that the file shares over two levels are shared here.
 //
 // Notation: a node of depth d (the root's is 0) has cells of side 4^(depth - d); those of depth
 // `depth` are the bricks, whose cells are voxels. Cell 8b + c is child c of child b, as the bits of
@@ -12,8 +12,8 @@
 //   d + 1 = depth   per present cell the brick itself: no pointer, and no memory to wait for but
 //                   that of the nodes
 //
-// Where the DAG's levels are odd in number the root's cube is twice as wide as the grid and repeats
-// it, so that mirroring (ray.h) needs no exception; clipped rays end before they come there.
+// If the DAG has an odd number of levels, the root's cube is twice as wide as the grid and repeats
+// it, so that mirroring (ray.h) needs no exception; clipped rays end before they reach the copy.
 //
 // Depends on dag_view.h alone, for host and CUDA. verify/trace/kernel/tree64.h makes it.
 #pragma once

@@ -1,13 +1,13 @@
-// One ray's walk through a 64-tree: the voxel of traverse.h, by other means.
+// One ray's walk through a 64-tree: finds the same voxel as traverse.h, by other means.
 //
-// Idea: along a mirrored ray no coordinate falls, so met cells come in the ascending order of their
-// numbers. Of a node the cells that are both set and met (cells64.h) are therefore a queue that 64
-// bits hold. A walk is a stack of such queues: a step makes the queue of one node, then goes to the
-// first cell of the deepest queue that is not empty. Empty space and leaving nodes cost nothing,
-// and there is no branch to guess but the last, when a voxel is asked.
+// Idea: along a mirrored ray no coordinate decreases, so cells are met in ascending order of their
+// numbers. The cells of a node that are both set and met (cells64.h) therefore form a queue in 64
+// bits. A walk is a stack of such queues: a step makes the queue of one node, then goes to the
+// first cell of the deepest non-empty queue. Empty space and leaving nodes cost nothing, and the
+// only unpredictable branch is the last one, when a voxel is tested.
 //
-// A step ends with the address that the next one reads, already on its way to the cache: whoever
-// has several rays takes turns between them (rays.cpp), and none waits for memory.
+// A step ends with a prefetch of the address that the next one reads: a caller with several rays
+// alternates between them (rays.cpp), so none waits for memory.
 //
 // Invariant: every met voxel is in a met cell of a met node, so the first voxel that is met by its
 // own six times is the hit, entered at the latest of the near three: the bits of ray.h, whatever

@@ -15,7 +15,7 @@
 namespace svdag {
 namespace {
 
-// What a pixel is answered, as --dump writes it. Steps are no part of an answer.
+// The result of a pixel, as --dump writes it. The number of steps is not part of it.
 struct Record {
   uint32_t found, voxel[3], level, axis;
   double t;
@@ -69,7 +69,7 @@ void print(const Answers& answers) {
   std::printf("answers  %016llx\n", static_cast<unsigned long long>(hash_of(answers)));
 }
 
-// A file, if one is asked for. It is opened before the work, so that no work is lost to a name.
+// An optional output file, opened before the work, so that no work is lost if it cannot be written.
 class Output {
  public:
   explicit Output(const std::string& path) {
@@ -141,8 +141,8 @@ void check_outputs(const TraceOptions& options) {
   }
 }
 
-// Pages that are promised and not there end a program without a word, so it is asked before: the
-// answers may take half of the memory, and what they leave is for the file. Returns that.
+// Overcommitted pages that are not available kill a program without a message, so this is checked
+// before: results may take half of the memory, and the rest is for the file. Returns the rest.
 uint64_t room_for_file(const TraceOptions& options) {
   const uint64_t half = default_memory_limit();
   const uint64_t pixel = kAnswerBytes + (options.dump.empty() ? 0 : sizeof(Record));

@@ -51,7 +51,7 @@ Manual trace_manual() {
   manual.notes =
       std::string(
           "Sizes and pointers of the file are proven before a ray is sent, its checksums are not: "
-          "svdag-verify check tells whether it is what was baked.\n\n"
+          "svdag-verify check proves that it is what was baked.\n\n"
           "Example:\n  svdag-trace city.svdag --preset inside --cone 9\n\n") +
       kExitCodes;
   return manual;

@@ -130,8 +130,7 @@ Camera make_camera(const TraceOptions& options, const PlainFile& file, const Vox
   return look_at(position, target, options.up, fov, aspect);
 }
 
-// A word that is an option, with the value that stands behind it in the same word, if any does:
-// --size=4x4, -j2.
+// An option, with its value if that is in the same word: --size=4x4, -j2.
 struct Word {
   explicit Word(const std::string& word) {
     const bool is_long = word.starts_with("--");
@@ -153,8 +152,9 @@ const ManualOption& option_of(const Manual& manual, const std::string& name) {
   const CommandWords known{"", std::move(names)};
   const std::string unknown =
       explain_unknown(manual.command, std::span(&known, 1), std::span(&name, 1));
-  fail_usage(unknown.empty() ? "\"" + name + "\" is no option; see " + manual.command + " --help"
-                             : unknown);
+  fail_usage(unknown.empty()
+                 ? "\"" + name + "\" is not an option; see " + manual.command + " --help"
+                 : unknown);
 }
 
 std::string value_of(const ManualOption& option, const Word& word) {

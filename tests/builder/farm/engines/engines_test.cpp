@@ -32,13 +32,13 @@ class Engines : public ::testing::Test {
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
   }
-  // The commands that were asked for, a line each.
+  // The requested commands, a line each.
   std::string asked() const { return read_bytes(folder_.file("asked")); }
   ptrdiff_t times_asked(const std::string& shard) const {
     std::istringstream lines(asked());
     return std::count(std::istream_iterator<std::string>(lines), {}, shard);
   }
-  // What sbatch was asked for by `submit`, a line each; a job's number is that of its line.
+  // The sbatch calls of `submit`, a line each; a job's number is that of its line.
   std::vector<std::string> submitted(const SlurmConfig& config = {}) const {
     const std::string log = folder_.file("asked");
     std::filesystem::remove(log);
@@ -103,7 +103,7 @@ TEST_F(Engines, DoTheOtherStepsWhileAnotherProcessDoesOne) {
   EXPECT_EQ(times_asked("1"), 1) << "no process is started in vain";
 }
 
-// Shard 2 fails by itself, each time when somebody else has just begun it.
+// Shard 2 fails by itself, each time when another process has just begun it.
 TEST_F(Engines, CountTheAttemptsThatFailWhileAnotherProcessBeginsTheStep) {
   const std::string scratch = plan_.path(plan_.steps[1].output) + ".scratch";
   const std::string owner = scratch + "/owner";
@@ -120,13 +120,14 @@ TEST_F(Engines, CountTheAttemptsThatFailWhileAnotherProcessBeginsTheStep) {
 TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {
   Plan moved = plan_;
   moved.folder += "/caf\xe9";
-  EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is no UTF-8");
+  EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is not valid UTF-8");
   EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "/scratch/\xff", ""}), ExitCode::kUsage,
-                     "is no UTF-8");
+                     "is not valid UTF-8");
   const auto here = std::filesystem::current_path();
   std::filesystem::create_directory(folder_.file("caf\xe9"));
   std::filesystem::current_path(folder_.file("caf\xe9"));
-  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "spill", ""}), ExitCode::kUsage, "is no UTF-8");
+  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "spill", ""}), ExitCode::kUsage,
+                     "is not valid UTF-8");
   std::filesystem::current_path(here);
 }
 
@@ -298,7 +299,7 @@ TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
   EXPECT_EQ(described("svdag", "/link/../spill").second, "/link/../spill");  // of the host's link
 }
 
-// In a template "{{x}}" is a variable; defaults of parameters are none.
+// In a template "{{x}}" is a variable, but not in defaults of parameters.
 TEST_F(Engines, WriteNoTemplateIntoATemplate) {
   for (const std::string& name : {std::string("{{city}}.svdag"), std::string(130, 'a')}) {
     plan_.steps.back().output = name;

@@ -86,7 +86,7 @@ TEST_F(Steps, AreDoneOnceAndWhatIsNotTheirsIsReplaced) {
       EXPECT_EQ(read_bytes(path), bytes);
     }
     std::filesystem::remove(receipt_path(plan, step));
-    EXPECT_FALSE(do_step(plan, step).kept) << "a file that nobody vouches for";
+    EXPECT_FALSE(do_step(plan, step).kept) << "a file without a receipt";
     EXPECT_EQ(read_bytes(path), bytes);
   }
 }
@@ -166,7 +166,7 @@ void write_journal(const std::string& scratch, SavedKind kind) {
   journal.append(uint32_t(kind), std::vector<std::byte>(4));
 }
 
-// Nobody is there who would say --restart: svdag run and farms ask for a step as it is.
+// Nothing passes --restart: svdag run and farms start a step without options.
 TEST_F(Steps, BeginAfreshWhereTheirScratchIsDamaged) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
@@ -271,7 +271,7 @@ TEST_F(Steps, SayThatThePlanIsDamagedForGood) {
   EXPECT_SVDAG_ERROR(do_step(plan, plan.steps[1]), ExitCode::kBadInput, "triangles");
 }
 
-// What lies beside another name may be anybody's.
+// Scratch beside another output may belong to any bake.
 TEST_F(Steps, ThatWriteElsewhereDiscardNothing) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));

@@ -82,7 +82,7 @@ TEST_F(Plans, DoNotChange) {
   EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
 }
 
-// The scratch folder is waited for: whoever had it may have finished a plan.
+// The planner waits for the scratch folder: its owner may have finished a plan.
 TEST_F(Plans, DoNotReplaceOneThatAnotherProcessJustFinished) {
   const std::string folder = config().folder;
   std::filesystem::create_directory(folder);
@@ -152,12 +152,17 @@ TEST_F(Plans, ThatAreDamagedSaySo) {
   huge.replace(huge.find("\"voxel_size\": "), 14, "\"voxel_size\": -");
   write(json, huge);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "impossible grid");
+  std::string kind = text;
+  kind.replace(kind.find("\"kind\": \"box\""), 13, "\"kind\": \"hexagons\"");
+  write(json, kind);
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
+                     "plan.json: unknown kind of grid: hexagons");
   write(json, text);
   std::string flipped = bytes;
   flipped[flipped.size() / 2] ^= 1;
   write(index, flipped);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "index");
-  EXPECT_SVDAG_ERROR(load_plan(folder_.path(), true), ExitCode::kBadInput, "is no plan");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.path(), true), ExitCode::kBadInput, "not a plan folder");
 }
 
 TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {

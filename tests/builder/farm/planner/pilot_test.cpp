@@ -1,4 +1,4 @@
-// What a pilot tells from a sample, beside what a bake finds.
+// The pilot's estimates from a sample, compared with a bake.
 #include "builder/farm/planner/pilot.h"
 
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@ GltfBuilder indexed_triangle() {
   return gltf;
 }
 
-// scenes/scene.gltf refers to `uri`; secret.bin lies outside of scenes.
+// scenes/scene.gltf refers to `uri`; secret.bin is outside of scenes.
 class GltfUri : public testing::Test {
  protected:
   GltfUri() { std::filesystem::create_directories(folder_.path() + "/scenes/sub dir"); }
@@ -64,7 +64,7 @@ TEST_F(GltfUri, NothingOutsideOfTheFolderIsOpened) {
   }
 }
 
-// The file that lies outside holds the very triangle that is asked for: a way out would be seen.
+// The file outside holds the requested triangle: an escape would be detected.
 TEST_F(GltfUri, NoSpellingOfAWayOutIsOne) {
   namespace fs = std::filesystem;
   const std::string top = folder_.path(), inside = top + "/scenes/";

@@ -1,4 +1,4 @@
-// Primitives that several nodes share are decoded once: nobody may see the difference.
+// Primitives that several nodes share are decoded once, with the same result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

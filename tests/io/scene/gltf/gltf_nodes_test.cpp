@@ -1,4 +1,4 @@
-// The glTF node hierarchy: where a mesh stands in the world, and whether it is drawn.
+// The glTF node hierarchy: the world position of a mesh, and whether it is included.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 const Corners kTriangleCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-// Five vertices on a line of x, so that x tells which vertex a corner is.
+// Five vertices on a line of x, so that x identifies the vertex of a corner.
 const std::vector<float> kFive = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0};
 
 GltfBuilder one_triangle() {

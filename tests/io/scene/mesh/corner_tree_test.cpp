@@ -92,7 +92,7 @@ TEST(EarCandidates, ACornerThatWaitsIsAskedWhenItsCornerWakesItAndNotBefore) {
   EXPECT_EQ(candidates.next(0), 4U);
   candidates.wake(4, [](uint32_t i) { return i == 1; });
   EXPECT_EQ(candidates.next(0), 1U);
-  candidates.insert(0);  // asked for another reason: waits no more
+  candidates.insert(0);  // tested again for another reason: no longer waits
   candidates.erase(0);
   candidates.erase(1);
   candidates.wake(4, [](uint32_t) { return true; });

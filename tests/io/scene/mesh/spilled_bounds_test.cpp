@@ -125,7 +125,7 @@ uint64_t bytes_read() {
   return bytes;
 }
 
-// A bake asks for the bounds and then for the triangles. Every pass may read a window too much.
+// A bake reads the bounds and then the triangles. Every pass may read a window too much.
 TEST(SpilledBounds, ABakeReadsTheFileAtMostThreeTimes) {
   std::mt19937_64 random(3);
   const RandomMesh mesh(random, 10000, 100000);

@@ -93,7 +93,7 @@ TEST(Spilled, Obj) {
 }
 
 // The share holds some chunks of positions: they are in memory first and leave it later, in OBJ
-// behind triangles that were handed on already.
+// after triangles that were passed on already.
 TEST(Spilled, PositionsLeaveMemoryInTheMiddleOfAFile) {
   Random random(6);
   for (int round = 0; round < 2; ++round) {

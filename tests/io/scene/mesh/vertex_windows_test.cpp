@@ -31,7 +31,7 @@ void expect_every_corner(uint64_t share, size_t block_bytes, uint64_t vertices, 
   }
 }
 
-// Blocks of 8 KiB have no room for a whole number of positions: some stand in two blocks.
+// Blocks of 8 KiB do not hold a whole number of positions: some are in two blocks.
 TEST(VertexWindows, EveryCornerGetsItsPositionAsOftenAsItIsAskedForWithinTheShare) {
   for (const size_t block : {4096, 8192, 16384}) {
     for (const uint64_t vertices : {1, 700, 5000, 6144}) {

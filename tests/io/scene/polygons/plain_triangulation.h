@@ -1,5 +1,5 @@
 // Ear clipping as io/scene/polygons/triangulate.h defines it, without what makes it fast: each
-// corner is asked about all others, and all are asked again after each ear. In the plane z = 0.
+// corner is tested against all others, and all are tested again after each ear. In the plane z = 0.
 #pragma once
 
 #include <optional>

@@ -159,7 +159,7 @@ class RandomPolygon {
   Ring ring_;
 };
 
-// Every point between the lines of the grid lies in one triangle if the polygon holds it, else in
+// Every point between the lines of the grid is in one triangle if the polygon holds it, else in
 // none; those on an edge of a triangle are not asked.
 void expect_same_points(const Ring& ring) {
   const auto triangles = triangulate(ring);

@@ -251,7 +251,7 @@ TEST(DracoGltf, ACompressedPrimitiveIsDecodedAndPlaced) {
   EXPECT_THAT(failure(gltf), HasSubstr("positions"));
 }
 
-// The indices may be compressed although the positions are not: those are no zeros.
+// The indices may be compressed although the positions are not: these are not zeros.
 TEST(DracoGltf, IndicesWithoutPlainDataAreNotTakenForZeros) {
   GltfBuilder gltf;
   gltf.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};

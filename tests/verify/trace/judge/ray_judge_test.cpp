@@ -109,7 +109,7 @@ TEST(RayJudge, VoxelsOutsideASelectionAreSeenHoweverNearATriangle) {
   ASSERT_LT(inside, voxels.size());
   const RayJudgement r = judged(c, voxels);
   EXPECT_FALSE(r.ok());
-  EXPECT_GE(r.outside, voxels.size() - inside);  // all are asked once, some by rays, too
+  EXPECT_GE(r.outside, voxels.size() - inside);  // all are tested once, some by rays, too
   EXPECT_EQ(r.far, 0U);
   ASSERT_FALSE(r.first.empty());
   EXPECT_EQ(r.first[0].what, RayOffender::What::kOutside);

@@ -49,7 +49,7 @@ TEST_F(PlainFileTest, AFileThatIsNotThereIsASentence) {
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "cannot be opened");
 }
 
-// Of a file of another kind nothing is damaged, whatever stands where we have our size.
+// A file of another kind is not reported as damaged, whatever its bytes at our size field.
 TEST_F(PlainFileTest, AFileOfAnotherKindIsToldSo) {
   for (const size_t size : {8U, 1023U, 1024U, 5000U}) {
     write(std::vector<std::byte>(size, std::byte{'v'}));

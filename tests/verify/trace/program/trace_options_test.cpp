@@ -70,7 +70,7 @@ TEST(TraceOptions, WithoutALightItIsAboveWhatIsSeen) {
   }
 }
 
-// Inside, it hangs below a ceiling; a camera of one's own is no preset.
+// Inside, it hangs below a ceiling; a user's camera is not a preset.
 TEST(TraceOptions, OnlyThePresetInsideMovesTheLight) {
   const double above = work_of({}).light.centre[1];
   EXPECT_LT(work_of({"--preset", "inside"}).light.centre[1], above);
@@ -126,9 +126,9 @@ TEST(TraceOptions, WhatCannotBeMeantIsASentence) {
     std::vector<std::string> words;
     const char* sentence;
   } cases[] = {
-      {{"--sise"}, "--sise is no option of svdag-trace; did you mean --size?"},
-      {{"-x"}, "-x is no option of svdag-trace"},
-      {{"-5"}, "\"-5\" is no option"},
+      {{"--sise"}, "unknown option --sise of svdag-trace; did you mean --size?"},
+      {{"-x"}, "unknown option -x of svdag-trace"},
+      {{"-5"}, "\"-5\" is not an option"},
       {{"--size"}, "--size: needs a value"},
       {{"--size="}, "--size: the value is empty"},
       {{"--size", "4"}, "is not WIDTHxHEIGHT"},

@@ -31,20 +31,20 @@ class Command:
 
 def commands(programs):
     """{"svdag build": Command}; those of svdag-export and svdag-import as commands of svdag."""
-    told = {}
+    found = {}
     for program in PROGRAMS:
         table = subprocess.run([programs / program, "--manual-table"], check=True, capture_output=True, text=True).stdout
         for line in table.splitlines():
             kind, *fields = line.split("\t")
             if kind in ("program", "command"):
-                command = told[fields[0]] = Command(fields[0])
+                command = found[fields[0]] = Command(fields[0])
             elif kind == "note":
                 command.notes.append(fields[0])
             else:
                 names, value, _, choices, endings, _, _, text = fields
                 option = Option(names.split(), value, choices.split(), endings.split(" ") if endings else [], text)
                 (command.operands if kind == "operand" else command.options).append(option)
-    return told
+    return found
 
 
 def options_in(title):
