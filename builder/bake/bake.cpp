@@ -99,7 +99,7 @@ SplitScene split_scene(const Tools& tools, const Scene& scene, const Grid& grid,
                        const SplitConfig& config, Description* description,
                        Checkpoint* checkpoint) {
   SplitScene split = svdag::split(scene, grid, config, tools.workspace->budget());
-  description->watch()->check();  // the triangles are not read again
+  description->check_files();  // the triangles are not read again
   if (split.counts.scene.triangles == 0)
     fail_input(tools.config.scene.paths.front(), "the scene has no triangles to bake");
   if (!split.tree) {
@@ -176,7 +176,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   BuildReport report;
   report.rule = config.descent.rule;
   report.resumed = saved.has_value();
-  if (config.ready == nullptr) description->watch()->begin();
+  if (config.ready == nullptr) description->watch_files();
 
   progress->phase("read bounds", 0);
   const ChosenGrid chosen = read_grid(config, scene, saved);

@@ -93,9 +93,9 @@ bool is_of_this_algorithm(const std::string& description) {
 
 const std::vector<SceneFile>& Description::files() {
   if (files_.empty()) {
-    watch_.begin();
+    if (watch_.empty()) watch_files();
     std::vector<SceneFile> files = scene_files(scene_);
-    watch_.check();
+    check_files();
     files_ = std::move(files);
   }
   return files_;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "builder/bake/scene_watch.h"
 #include "builder/build.h"
 
 namespace svdag {
@@ -27,11 +26,12 @@ bool is_of_this_algorithm(const std::string& description);
 // computed on demand and once; Error if the scene has changed since the bake read it.
 class Description {
  public:
-  Description(const BuildConfig& config, const Scene& scene)
-      : config_(config), scene_(scene), watch_(scene) {}
+  Description(const BuildConfig& config, const Scene& scene) : config_(config), scene_(scene) {}
 
-  // Call begin() on it before the scene is read.
-  SceneWatch* watch() { return &watch_; }
+  // Records the state of the scene's files; call before the scene is read.
+  void watch_files() { watch_ = scene_.watch(); }
+  // Error (kBadInput) if a file has changed since.
+  void check_files() const { watch_.check(); }
 
   const std::vector<SceneFile>& files();
   std::string text();
@@ -41,7 +41,7 @@ class Description {
  private:
   const BuildConfig& config_;
   const Scene& scene_;
-  SceneWatch watch_;
+  InputWatch watch_;
   std::vector<SceneFile> files_;
   bool changed_ = false;
 };

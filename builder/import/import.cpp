@@ -179,7 +179,7 @@ class Import {
   }
 
   void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels) const {
-    if (config_.check_source) config_.check_source();
+    if (config_.inputs != nullptr) config_.inputs->check();
     output->finish(roots, voxels, 0);
   }
 

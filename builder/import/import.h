@@ -12,13 +12,14 @@
 
 #include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
+#include "streaming/file/input_watch.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {
 
 struct ImportConfig {
-  std::string source;                       // the file that is read, for an Error
-  std::function<void()> check_source = {};  // asked before the output gets its name; may throw
+  std::string source;                  // the file that is read, for an Error
+  const InputWatch* inputs = nullptr;  // checked before the output gets its name
   std::string output;
   int levels = 0;       // -r: L of the grid, where the file leaves it open; 0: as small as possible
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine

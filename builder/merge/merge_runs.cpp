@@ -1,7 +1,6 @@
 #include "builder/merge/merge_runs.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
@@ -40,24 +39,6 @@ Run run_of(const RunFile& file) {
   run.nodes.resize(size_t(file.header().levels - 2));
   for (auto& level : run.nodes) level.file = &file;
   return run;
-}
-
-// Runs `merge`. If a run file changed since it was checked, that is reported as the cause of any
-// error.
-std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
-                                     const std::function<std::vector<SubDagRoot>()>& merge) {
-  const auto require_unchanged = [&] {
-    for (const RunFile& file : files) file.require_unchanged();
-  };
-  std::vector<SubDagRoot> tops;
-  try {
-    tops = merge();
-  } catch (const std::exception&) {
-    require_unchanged();
-    throw;
-  }
-  require_unchanged();
-  return tops;
 }
 
 }  // namespace
@@ -105,7 +86,8 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   MemoryBudget* const budget = workspace.budget();
   Scratch* const scratch = workspace.scratch();
   std::vector<RunFile> files;
-  for (const std::string& path : config.runs) files.push_back(RunFile::open(path, budget));
+  InputWatch inputs;
+  for (const std::string& path : config.runs) files.push_back(RunFile::open(path, budget, &inputs));
   GridPart part = joined_part(files);
   report.grid = files.front().grid();
   if (!names_run(config.output)) {
@@ -142,7 +124,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   }
   // A source holds its block and, where maps are spilled, the writer of one.
   const uint64_t source_bytes = kRunBlockBytes + 4 * scratch->block_bytes();
-  const auto tops = merge_proven(files, [&] {
+  const auto tops = inputs.guard([&] {
     return merge(runs, std::move(roots), part,
                  share_for_merge(budget, scratch, executor->workers(), source_bytes), output.get(),
                  executor);

@@ -94,16 +94,15 @@ void require_run(bool condition, const File& file, const char* sentence, uint64_
   if (!condition) fail_input(file.path(), std::string("damaged run: ") + sentence, offset);
 }
 
-RunFile RunFile::open(const std::string& path, MemoryBudget* budget) {
+RunFile RunFile::open(const std::string& path, MemoryBudget* budget, InputWatch* watch) {
   File file = File::open_read(path);
-  const FileState before = state_of(file);
+  if (watch != nullptr) watch->add(file);
   const RunHeader header = read_header(file);
-  return RunFile(std::move(file), before, header, budget);
+  return RunFile(std::move(file), header, budget);
 }
 
-RunFile::RunFile(File file, const FileState& before, const RunHeader& header, MemoryBudget* budget)
+RunFile::RunFile(File file, const RunHeader& header, MemoryBudget* budget)
     : file_(std::move(file)),
-      before_(before),
       header_(header),
       layout_(header),
       counted_(budget->reserve(

@@ -17,7 +17,7 @@
 #include "builder/run/run_format.h"
 #include "io/dag/format.h"
 #include "streaming/file/file.h"
-#include "streaming/file/file_state.h"
+#include "streaming/file/input_watch.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/spill/block_source.h"
 
@@ -25,7 +25,8 @@ namespace svdag {
 
 class RunFile {
  public:
-  static RunFile open(const std::string& path, MemoryBudget* budget);
+  // `watch`, if given, records the file.
+  static RunFile open(const std::string& path, MemoryBudget* budget, InputWatch* watch = nullptr);
 
   const std::string& path() const { return file_.path(); }
   const File& file() const { return file_; }
@@ -39,16 +40,13 @@ class RunFile {
   uint64_t keys(int level) const { return header_.keys[level]; }
   // The keys of `level` as bytes; the run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
-  // Error if the file was changed since it was opened: it may differ from what check_run() proved.
-  void require_unchanged() const { svdag::require_unchanged(file_, before_); }
 
  private:
-  RunFile(File file, const FileState& before, const RunHeader& header, MemoryBudget* budget);
+  RunFile(File file, const RunHeader& header, MemoryBudget* budget);
   void read_part(MemoryBudget* budget);
   void read_roots(MemoryBudget* budget);
 
   File file_;
-  FileState before_;
   RunHeader header_;
   RunLayout layout_;
   MemoryBudget::Reservation counted_;  // part and roots

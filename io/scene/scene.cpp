@@ -157,6 +157,12 @@ Box Scene::bounds(SceneCounts* counts) const {
   return box;
 }
 
+InputWatch Scene::watch() const {
+  InputWatch watch;
+  visit_files([&](const File& file) { watch.add_reopened(file); });
+  return watch;
+}
+
 void Scene::visit_files(const std::function<void(const File&)>& visit) const {
   for (const std::string& path : config_.paths) {
     if (config_.names.excludes(base_name(path))) continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/scene/mesh/mesh_reader.h"
+#include "streaming/file/input_watch.h"
 
 namespace svdag {
 
@@ -40,6 +41,8 @@ class Scene {
 
   // All files that decide the triangles: those of the scene, and the buffers that a .gltf names.
   void visit_files(const std::function<void(const File&)>& visit) const;
+  // Records the state of all these files. Call before the scene is read.
+  InputWatch watch() const;
 
   const SceneConfig& config() const { return config_; }
 

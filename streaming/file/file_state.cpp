@@ -9,17 +9,17 @@
 namespace svdag {
 
 FileState state_of(const File& file) {
+  return state_of(file.descriptor(), file.path());
+}
+
+FileState state_of(int descriptor, const std::string& path) {
   struct stat status;
-  if (::fstat(file.descriptor(), &status) != 0)
-    fail_call(ExitCode::kBadInput, "cannot be examined", file.path(), errno);
+  if (::fstat(descriptor, &status) != 0)
+    fail_call(ExitCode::kBadInput, "cannot be examined", path, errno);
   return {status.st_dev,
           status.st_ino,
           uint64_t(status.st_size),
           {status.st_mtim.tv_sec, status.st_mtim.tv_nsec}};
-}
-
-void require_unchanged(const File& file, const FileState& before) {
-  if (state_of(file) != before) fail_input(file.path(), "was changed while it was read");
 }
 
 }  // namespace svdag

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "streaming/file/file.h"
 
@@ -24,7 +25,10 @@ struct FileState {
 // consistency).
 FileState state_of(const File& file);
 
-// Throws Error (kBadInput) if `file` was cut short or written since it was `before`.
-void require_unchanged(const File& file, const FileState& before);
+// The same of an open descriptor; `path` is for errors.
+FileState state_of(int descriptor, const std::string& path);
+
+// The message about an input file that changed.
+constexpr const char* kChangedInput = "was changed while it was read";
 
 }  // namespace svdag

@@ -80,7 +80,6 @@ extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
 }
 
 constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
-constexpr const char* kWritten = "was changed while it was read";
 
 std::string tell_of(const File& file, const char* sentence) {
   return Error(ExitCode::kBadInput, sentence, file.path()).what();
@@ -94,7 +93,7 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
       lost(tell_of(file, kLost)),
-      written(std::make_unique<const std::string>(tell_of(file, kWritten))) {
+      written(std::make_unique<const std::string>(tell_of(file, kChangedInput))) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
   for (auto& each : known) {
     const Mapping* none = nullptr;
@@ -132,7 +131,7 @@ const std::string& MappedFile::path() const {
 void require_mapped_files() {
   for (const auto& each : known) {
     const MappedFile::Mapping* mapping = each.load();
-    if (mapping != nullptr && mapping->changed()) fail_input(mapping->file.path(), kWritten);
+    if (mapping != nullptr && mapping->changed()) fail_input(mapping->file.path(), kChangedInput);
   }
 }
 

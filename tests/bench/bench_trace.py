@@ -2,7 +2,7 @@
 """`make bench-trace`: rays through the DAG beside the same rays through the triangles by Embree.
 
 trace_rows (tests/bench/trace_rows.cpp) traces them in turns, one thread; this bakes Sponza, writes
-build/bench/trace.csv, and puts the tables between the markers in docs/performance.md.
+build/bench/trace.csv, and puts the tables between the markers in docs/tracing.md.
 """
 import argparse
 import csv
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 from bakes import Bakes, label
-from bench import OUT, PAGE, ROOT, fill, processor, write_csv
+from bench import OUT, ROOT, fill, processor, write_csv
 from bench_tables import table
 
 SCENE = "sponza"
@@ -125,7 +125,7 @@ def main():
     contents = {"trace against": f"{processor(1)}, MRays/s.\n\n{against(rows)}", "trace ours": ours(rows)}
     print("\n\n".join(contents.values()))
     if not options.csv_only:
-        fill(PAGE, contents)
+        fill(ROOT / "docs" / "tracing.md", contents)
 
 
 if __name__ == "__main__":

@@ -49,9 +49,10 @@ void check(const Workload& work) {
 void try_words(std::vector<std::string> words) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
-  const TraceOptions options = parse_trace_options(int(argv.size()), argv.data());
+  const auto options = parse_trace_options(int(argv.size()), argv.data());
+  if (!options) return;
   static const PlainFile file = small_file();
-  check(make_workload(options, file));
+  check(make_workload(*options, file));
 }
 
 }  // namespace

@@ -3,26 +3,21 @@
 
 #include "io/help/command_line.h"
 #include "io/units.h"
-#include "verify/commands/check.h"
-#include "verify/commands/diff.h"
-#include "verify/commands/mesh.h"
 #include "verify/commands/options.h"
-#include "verify/commands/trace.h"
-#include "verify/commands/vdb.h"
 
 namespace svdag {
 
-void add_check(CLI::App* app, int* result) {
+void add_check(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<CheckConfig>();
   CLI::App* command =
       app->add_subcommand("check", "Prove every checksum and pointer, order and minimality");
   add_file(command, &config->file);
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify check scene.svdag"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
-void add_mesh(CLI::App* app, int* result) {
+void add_mesh(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<MeshConfig>();
   CLI::App* command = app->add_subcommand(
       "mesh", "Voxelize the scene again, by other means, and compare every voxel");
@@ -44,10 +39,10 @@ void add_mesh(CLI::App* app, int* result) {
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify mesh sponza.svdag sponza.glb",
                          "svdag-verify mesh --sample 100000 city.svdag city.ply --json"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
-void add_diff(CLI::App* app, int* result) {
+void add_diff(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<DiffConfig>();
   CLI::App* command =
       app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
@@ -70,10 +65,10 @@ void add_diff(CLI::App* app, int* result) {
             "Refuse to write more points than this (default 10M)");
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify diff old.svdag new.svdag"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
-void add_vdb(CLI::App* app, int* result) {
+void add_vdb(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<VdbConfig>();
   CLI::App* command = app->add_subcommand("vdb", "Compare every voxel with an OpenVDB grid");
   add_file(command, &config->file);
@@ -103,10 +98,10 @@ void add_vdb(CLI::App* app, int* result) {
             "Refuse to write more extra voxels than this (default 10M)");
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify vdb scene.svdag scene.vdb"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
-void add_trace(CLI::App* app, int* result) {
+void add_trace(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<TraceConfig>();
   CLI::App* command = app->add_subcommand(
       "trace", "Send rays through the DAG and through the triangles (by Embree), and compare");
@@ -119,7 +114,7 @@ void add_trace(CLI::App* app, int* result) {
   add_threads(command, &config->common);
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify trace sponza.svdag sponza.glb"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
 }  // namespace svdag

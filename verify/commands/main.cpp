@@ -13,16 +13,16 @@ int run_judge(int argc, char** argv) {
   app.set_version_flag("-V,--version", "svdag-verify " SVDAG_VERSION, "Print the version and exit");
   app.require_subcommand(1);
   add_examples(&app, {"svdag-verify check scene.svdag", "svdag-verify mesh scene.svdag scene.ply"});
-  int result = 0;
-  add_check(&app, &result);
-  add_mesh(&app, &result);
-  add_diff(&app, &result);
-  add_vdb(&app, &result);
-  add_trace(&app, &result);
-  add_render(&app, &result);
-  add_report(&app, &result);
+  VerifyCommand command;
+  add_check(&app, &command);
+  add_mesh(&app, &command);
+  add_diff(&app, &command);
+  add_vdb(&app, &command);
+  add_trace(&app, &command);
+  add_render(&app, &command);
+  add_report(&app, &command);
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
-  return result;
+  return std::visit([](const auto& parsed) { return run(parsed); }, command);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 #include "io/help/command_line.h"
 #include "verify/commands/options.h"
-#include "verify/commands/render.h"
-#include "verify/commands/report.h"
 
 namespace svdag {
 namespace {
@@ -36,7 +34,7 @@ void add_light(CLI::App* command, RenderCommandConfig* config) {
 
 }  // namespace
 
-void add_render(CLI::App* app, int* result) {
+void add_render(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<RenderCommandConfig>();
   CLI::App* command =
       app->add_subcommand("render", "Make a picture by tracing rays through the DAG");
@@ -87,10 +85,10 @@ void add_render(CLI::App* app, int* result) {
   add_examples(command, {"svdag-verify render scene.svdag -o scene.png",
                          "svdag-verify render scene.svdag -o ao.png --mode ao --preset inside",
                          "svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
-void add_report(CLI::App* app, int* result) {
+void add_report(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<ReportConfig>();
   CLI::App* command = app->add_subcommand(
       "report", "Make a page of HTML of a bake: pictures, verdicts, levels, times");
@@ -112,7 +110,7 @@ void add_report(CLI::App* app, int* result) {
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
   add_examples(command, {"svdag-verify report a.svdag a.json -o a.html"});
-  command->callback([config, result] { *result = run(*config); });
+  command->callback([=] { *parsed = *config; });
 }
 
 }  // namespace svdag

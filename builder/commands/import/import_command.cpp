@@ -138,19 +138,14 @@ int run(const ImportCommandConfig& config) {
                ": an import is a .svdag, and this is the name of a run: choose another one");
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
-  const FileState before = state_of(file);
-  ImportConfig wanted = config.import;
-  wanted.source = config.file;
-  wanted.check_source = [&] { require_unchanged(file, before); };
+  InputWatch inputs;
+  inputs.add(file);
+  ImportConfig import = config.import;
+  import.source = config.file;
+  import.inputs = &inputs;
   const Row& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
-  ImportReport report;
-  try {
-    report = import_as(row, file, config, wanted);
-  } catch (const std::exception&) {
-    wanted.check_source();  // if it was, that is the reason to tell
-    throw;
-  }
+  const ImportReport report = inputs.guard([&] { return import_as(row, file, config, import); });
   if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
                 config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),

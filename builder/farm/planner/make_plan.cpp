@@ -8,7 +8,6 @@
 
 #include "builder/bake/choose_grid.h"
 #include "builder/bake/description.h"
-#include "builder/bake/scene_watch.h"
 #include "builder/farm/plan/leaf_bins.h"
 #include "builder/farm/plan/merge_tree.h"
 #include "builder/farm/plan/plan_folder.h"
@@ -60,8 +59,7 @@ class Planner {
         progress_(progress),
         workspace_(scratch_path(config), config.build.memory, 1),
         vertices_(workspace_.vertices()),
-        scene_(config.build.scene, workspace_.budget(), &vertices_),
-        watch_(scene_) {
+        scene_(config.build.scene, workspace_.budget(), &vertices_) {
     make_room();
   }
 
@@ -90,7 +88,7 @@ class Planner {
   Workspace workspace_;
   SpillSpace vertices_;
   Scene scene_;
-  SceneWatch watch_;
+  InputWatch inputs_;  // of the scene
   std::unique_ptr<SpillFile> triangles_;
   PilotConfig pilot_config_;
   Pilot pilot_;
@@ -112,7 +110,7 @@ void Planner::read_scene() {
   if (!config_.folder.empty())
     scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
   progress_->phase("read bounds", 0);
-  watch_.begin();
+  inputs_ = scene_.watch();
   const Box box = config_.build.bounds ? Box() : scene_.bounds();
   plan_.folder = config_.folder;
   plan_.grid = choose_grid(config_.build, box);
@@ -125,7 +123,7 @@ void Planner::read_scene() {
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
-  watch_.check();
+  inputs_.check();
   plan_.counts = scene.counts;
   if (scene.counts.scene.triangles == 0)
     fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");

@@ -57,10 +57,11 @@ TEST(ImportVoxels, NothingIsKeptOfASourceThatWasWrittenMeanwhile) {
   const TempFolder folder;
   const std::string source = folder.write("voxels.npz", "one");
   const File file = File::open_read(source);
-  const FileState before = state_of(file);
+  InputWatch inputs;
+  inputs.add(file);
   ImportConfig config;
   config.output = folder.write("a.svdag", "old");
-  config.check_source = [&] { require_unchanged(file, before); };
+  config.inputs = &inputs;
   SequentialExecutor executor;
   const auto read_while = [&](const std::function<void()>& act) {
     import_voxels(
@@ -75,7 +76,7 @@ TEST(ImportVoxels, NothingIsKeptOfASourceThatWasWrittenMeanwhile) {
                      "voxels.npz: was changed while it was read");
   EXPECT_EQ(folder.read("a.svdag"), "old");
   folder.write("voxels.npz", "one");
-  config.check_source = {};
+  config.inputs = nullptr;
   read_while([] {});
   EXPECT_NE(folder.read("a.svdag"), "old");
 }

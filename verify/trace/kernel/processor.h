@@ -4,7 +4,7 @@
 // every shift needs one certain register. Compiled for AVX2 and BMI (2013) it is 1.5 times as fast.
 // The attributes make a second copy of the loop and of all it calls; nothing else changes, and
 // contraction is off (-ffp-contract=off), so the copies compute the same bits. Rejected: lanes as
-// rays (docs/performance.md, "Tracing").
+// rays (docs/tracing.md).
 #pragma once
 
 #if defined(__x86_64__)

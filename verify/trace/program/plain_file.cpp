@@ -6,7 +6,7 @@
 
 #include "streaming/error.h"
 #include "streaming/file/file.h"
-#include "streaming/file/file_state.h"
+#include "streaming/file/input_watch.h"
 
 namespace svdag {
 namespace {
@@ -27,8 +27,9 @@ void check_magic(const File& file, uint64_t size) {
 // Its size is held against its header before so much memory is taken.
 std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
   const File file = File::open_read(path);
-  const FileState before = state_of(file);
-  const uint64_t size = before.size;
+  InputWatch inputs;
+  inputs.add(file);
+  const uint64_t size = file.size();
   check_magic(file, size);
   require(size >= sizeof(Header), path, "it ends within its header");
   Header header;
@@ -40,7 +41,7 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
                 path);
   std::vector<uint64_t> words((size + 7) / 8);
   file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
-  require_unchanged(file, before);
+  inputs.check();
   return words;
 }
 

@@ -2,13 +2,11 @@
 #include <cstdio>
 #include <optional>
 
-#include "io/help/help_text.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file_names.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/process/program.h"
-#include "streaming/process/terminal.h"
 #include "verify/trace/program/device.h"
 #include "verify/trace/program/trace_options.h"
 
@@ -156,13 +154,6 @@ uint64_t room_for_file(const TraceOptions& options) {
 }
 
 int run(const TraceOptions& options) {
-  if (options.help || options.version || options.table) {
-    const std::string text = options.help      ? help_text(trace_manual(), text_width(stdout))
-                             : options.version ? "svdag-trace " SVDAG_VERSION "\n"
-                                               : to_table(trace_manual());
-    std::fputs(text.c_str(), stdout);
-    return 0;
-  }
   check_outputs(options);
   const PlainFile file = read_plain_file(options.file, room_for_file(options));
   const Workload work = make_workload(options, file);
@@ -190,6 +181,8 @@ int run(const TraceOptions& options) {
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  return svdag::run_program({"svdag-trace", "this machine has too little memory for that"},
-                            [&] { return svdag::run(svdag::parse_trace_options(argc, argv)); });
+  return svdag::run_program({"svdag-trace", "this machine has too little memory for that"}, [&] {
+    const auto options = svdag::parse_trace_options(argc, argv);
+    return options ? svdag::run(*options) : 0;
+  });
 }

@@ -1,11 +1,10 @@
 #include "verify/trace/program/trace_options.h"
 
-#include <algorithm>
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <set>
 
-#include "io/suggest.h"
+#include "io/help/command_line.h"
 #include "streaming/error.h"
 #include "verify/trace/program/picture_name.h"
 #include "verify/trace/program/presets.h"
@@ -22,87 +21,117 @@ std::vector<double> numbers(const std::string& name, const std::string& text) {
     double value = 0;
     const auto read = std::from_chars(at, end, value);
     if (read.ec != std::errc() || !std::isfinite(value) || (read.ptr != end && *read.ptr != ','))
-      fail_usage(name + ": \"" + text + "\" is not finite numbers with commas between them");
+      fail_usage(name + ": \"" + text + "\" is not a list of finite numbers separated by commas");
     values.push_back(value);
     if (read.ptr == end) return values;
     at = read.ptr + 1;
   }
 }
 
-uint32_t count(const std::string& name, const std::string& text, uint32_t least, uint32_t most) {
-  uint32_t value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || value < least ||
-      value > most)
-    fail_usage(name + ": \"" + text + "\" is not a number from " + std::to_string(least) + " to " +
-               std::to_string(most));
-  return value;
+double number(const std::string& name, const std::string& text, double max) {
+  const std::vector<double> values = numbers(name, text);
+  if (values.size() != 1 || !(values[0] >= 0 && values[0] <= max))
+    fail_usage(name + ": \"" + text + "\" is not a number in the valid range");
+  return values[0];
 }
 
-double number(const std::string& name, const std::string& text, double most) {
-  const std::vector<double> values = numbers(name, text);
-  if (values.size() != 1 || !(values[0] >= 0 && values[0] <= most))
-    fail_usage(name + ": \"" + text + "\" is not a number of 0 or more that makes sense here");
-  return values[0];
+uint32_t side(const std::string& text) {
+  uint32_t value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || value < 1 || value > 16384)
+    fail_usage("--size: \"" + text + "\" is not a number from 1 to 16384");
+  return value;
 }
 
 void set_size(const std::string& text, TraceOptions* options) {
   const size_t cross = text.find('x');
   if (cross == std::string::npos) fail_usage("--size: \"" + text + "\" is not WIDTHxHEIGHT");
-  options->width = count("--size", text.substr(0, cross), 1, 16384);
-  options->height = count("--size", text.substr(cross + 1), 1, 16384);
+  options->width = side(text.substr(0, cross));
+  options->height = side(text.substr(cross + 1));
 }
 
-void set_flag(const std::string& name, TraceOptions* options) {
-  if (name == "--compare")
-    options->compare = true;
-  else if (name == "--help")
-    options->help = true;
-  else if (name == "--version")
-    options->version = true;
-  else if (name == "--no-beams")
-    options->beams = false;
+void add_view_options(CLI::App* app, TraceOptions* options) {
+  app->add_option_function<std::string>(
+         "--size", [=](const std::string& s) { set_size(s, options); }, "Pixels (default 1280x720)")
+      ->type_name("WxH");
+  one_of(app->add_option(
+             "--preset", options->preset,
+             "iso, front, back, left, right, top or inside, without --camera (default iso)"),
+         {"iso", "front", "back", "left", "right", "top", "inside"})
+      ->type_name("NAME");
+  app->add_option_function<std::string>(
+         "--camera", [=](const std::string& s) { options->camera = numbers("--camera", s); },
+         "Position, target, angle of view in degrees")
+      ->type_name("px,py,pz,tx,ty,tz[,fov]");
+  one_of(app->add_option_function<std::string>(
+             "--up", [=](const std::string& axis) { options->up = axis[0] - 'x'; },
+             "The axis that points up: x, y or z (default y)"),
+         {"x", "y", "z"})
+      ->type_name("AXIS");
 }
 
-// "x, y or z"
-std::string any_of(const std::vector<std::string>& choices) {
-  std::string text = choices[0];
-  for (size_t i = 1; i < choices.size(); ++i)
-    text += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
-  return text;
+void add_ray_options(CLI::App* app, TraceOptions* options) {
+  app->add_option_function<std::string>(
+         "--light", [=](const std::string& s) { options->light = numbers("--light", s); },
+         "Position and radius of the light (default: above the scene)")
+      ->type_name("x,y,z[,radius]");
+  from_to(app->add_option("--samples", options->samples, "soft, ao: rays per pixel (default 64)"),
+          1, 4096)
+      ->type_name("N");
+  app->add_option_function<std::string>(
+         "--reach", [=](const std::string& s) { options->reach = number("--reach", s, 1e100); },
+         "ao: length of the rays (default 0: unlimited)")
+      ->type_name("LENGTH");
+  app->add_option_function<std::string>(
+         "--cone", [=](const std::string& s) { options->cone = number("--cone", s, 44); },
+         "ao: half the angle of the cone in which they end early, 0 to 44, for example 9 "
+         "(default 0, which is exact)")
+      ->type_name("DEGREES");
+  app->add_flag_callback(
+      "--no-beams", [=] { options->beams = false; },
+      "Primary rays start at the camera (same hits)");
 }
 
-// `name`: the last of the option's names; `value`: one of its choices, if it has any.
-void set_option(const std::string& name, const std::string& value, TraceOptions* options) {
-  if (name == "--device") {
-    options->device = value;
-  } else if (name == "--size") {
-    set_size(value, options);
-  } else if (name == "--preset") {
-    options->preset = value;
-  } else if (name == "--camera") {
-    options->camera = numbers(name, value);
-  } else if (name == "--light") {
-    options->light = numbers(name, value);
-  } else if (name == "--up") {
-    options->up = value[0] - 'x';
-  } else if (name == "--samples") {
-    options->samples = count(name, value, 1, 4096);
-  } else if (name == "--rounds") {
-    options->rounds = count(name, value, 1, 1000);
-  } else if (name == "--threads") {
-    options->threads = count(name, value, 1, 1024);
-  } else if (name == "--reach") {
-    options->reach = number(name, value, 1e100);
-  } else if (name == "--cone") {
-    options->cone = number(name, value, 44);
-  } else if (name == "--dump") {
-    options->dump = value;
-  } else if (name == "--picture") {
-    refuse_other_pictures(value, ".ppm",
-                          "pictures are PPM: choose a name in .ppm (svdag-verify render: PNG)");
-    options->picture = value;
-  }
+void add_output_options(CLI::App* app, TraceOptions* options) {
+  takes_files(
+      app->add_option("--dump", options->dump,
+                      "Write 56 bytes per pixel, little-endian: u32 found, x, y, z, level, axis; "
+                      "f64 t; u32 blocked rays of shadow, soft, ao; u32 0, 0, 0"),
+      {"*"})
+      ->type_name("FILE");
+  takes_files(app->add_option_function<std::string>(
+                  "--picture",
+                  [=](const std::string& name) {
+                    refuse_other_pictures(name, ".ppm",
+                                          "pictures are PPM: choose a name in .ppm "
+                                          "(svdag-verify render: PNG)");
+                    options->picture = name;
+                  },
+                  "Write a picture of the result"),
+              {".ppm"})
+      ->type_name("FILE.ppm");
+}
+
+void add_options(CLI::App* app, TraceOptions* options) {
+  takes_files(app->add_option("FILE", options->file, "The .svdag file"), {".svdag"})->required();
+  one_of(app->add_option("--device", options->device, "cpu or cuda (default cpu)"), {"cpu", "cuda"})
+      ->type_name("NAME");
+  app->add_flag("--compare", options->compare,
+                "Trace on both, and count the pixels that differ; exit 1 if any does");
+  add_view_options(app, options);
+  add_ray_options(app, options);
+  from_to(app->add_option("--rounds", options->rounds,
+                          "Repeat N times and report the least time (default 3)"),
+          1, 1000)
+      ->type_name("N");
+  from_to(
+      app->add_option("-j,--threads", options->threads, "Threads of the processor (default: all)"),
+      1, 1024)
+      ->type_name("N");
+  add_output_options(app, options);
+  add_examples(app, {"svdag-trace city.svdag --preset inside --cone 9"},
+               "Sizes and pointers of the file are validated before tracing, but not its "
+               "checksums: svdag-verify check proves that it is what was baked.");
 }
 
 Vec3 in_voxels(const double* point, const Header& header) {
@@ -130,74 +159,16 @@ Camera make_camera(const TraceOptions& options, const PlainFile& file, const Vox
   return look_at(position, target, options.up, fov, aspect);
 }
 
-// An option, with its value if that is in the same word: --size=4x4, -j2.
-struct Word {
-  explicit Word(const std::string& word) {
-    const bool is_long = word.starts_with("--");
-    const size_t end = is_long ? word.find('=') : std::min<size_t>(2, word.size());
-    name = word.substr(0, end);
-    if (end < word.size()) value = word.substr(is_long ? end + 1 : end);
-  }
-
-  std::string name;
-  std::optional<std::string> value;
-};
-
-const ManualOption& option_of(const Manual& manual, const std::string& name) {
-  std::vector<std::string> names;
-  for (const ManualOption& option : manual.options) {
-    if (std::ranges::find(option.names, name) != option.names.end()) return option;
-    names.insert(names.end(), option.names.begin(), option.names.end());
-  }
-  const CommandWords known{"", std::move(names)};
-  const std::string unknown =
-      explain_unknown(manual.command, std::span(&known, 1), std::span(&name, 1));
-  fail_usage(unknown.empty()
-                 ? "\"" + name + "\" is not an option; see " + manual.command + " --help"
-                 : unknown);
-}
-
-std::string value_of(const ManualOption& option, const Word& word) {
-  if (!word.value) fail_usage(word.name + ": needs a value (--help lists the options)");
-  if (word.value->empty()) fail_usage(word.name + ": the value is empty");
-  if (!option.choices.empty() &&
-      std::ranges::find(option.choices, *word.value) == option.choices.end())
-    fail_usage(word.name + ": \"" + *word.value + "\" is not " + any_of(option.choices));
-  return *word.value;
-}
-
 }  // namespace
 
-TraceOptions parse_trace_options(int argc, char** argv) {
-  const Manual manual = trace_manual();
+std::optional<TraceOptions> parse_trace_options(int argc, char** argv) {
+  CLI::App app(
+      "Traces rays through a .svdag on the processor or a GPU, and counts them per second.",
+      "svdag-trace");
+  app.set_version_flag("-V,--version", "svdag-trace " SVDAG_VERSION, "Print the version and exit");
   TraceOptions options;
-  std::set<std::string> given;
-  bool only_files = false;  // behind "--"
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    if (only_files || text.size() < 2 || text[0] != '-') {
-      if (!options.file.empty()) fail_usage(text + ": only one FILE can be traced");
-      options.file = text;
-      continue;
-    }
-    if (text == kManualTable || text == "--") {
-      (text == "--" ? only_files : options.table) = true;
-      continue;
-    }
-    Word word(text);
-    const ManualOption& option = option_of(manual, word.name);
-    const std::string& name = option.names.back();
-    if (!given.insert(name).second) fail_usage(word.name + ": is given twice");
-    if (option.value.empty()) {
-      if (word.value) fail_usage(word.name + ": takes no value");
-      set_flag(name, &options);
-      continue;
-    }
-    if (!word.value && i + 1 < argc) word.value = argv[++i];
-    set_option(name, value_of(option, word), &options);
-  }
-  if (options.file.empty() && !options.help && !options.version && !options.table)
-    fail_usage("give the .svdag to trace (--help lists the options)");
+  add_options(&app, &options);
+  if (read_command_line(&app, argc, argv)) return std::nullopt;
   return options;
 }
 

@@ -1,7 +1,10 @@
-// The command line of svdag-trace, read without a library.
+// The command line of svdag-trace.
 #pragma once
 
-#include "io/help/manual.h"
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "verify/trace/program/device.h"
 
 namespace svdag {
@@ -19,18 +22,14 @@ struct TraceOptions {
   double reach = 0;  // of ambient occlusion, in world units; 0: no limit
   double cone = 0;   // half the angle of its rays' cones, in degrees; 0: exact
   bool beams = true;
-  bool compare = false;                               // the processor's answers with the GPU's
-  bool help = false, version = false, table = false;  // the last: kManualTable
-  std::string dump, picture;                          // files to write, or empty
+  bool compare = false;       // trace on both, and compare
+  std::string dump, picture;  // files to write; empty: none
 };
 
-// Anything that cannot be meant is an Error (kUsage).
-TraceOptions parse_trace_options(int argc, char** argv);
+// Nothing if the command line is complete without tracing (--help, --version). Error: kUsage.
+std::optional<TraceOptions> parse_trace_options(int argc, char** argv);
 
-// The rays that the options ask for, on this file.
+// The rays of the options, in voxels of the file. Error (kUsage) if they are impossible.
 Workload make_workload(const TraceOptions& options, const PlainFile& file);
-
-// What its options say.
-Manual trace_manual();
 
 }  // namespace svdag

@@ -17,7 +17,7 @@ TraceOptions parse(std::vector<std::string> words) {
   words.insert(words.begin(), {"svdag-trace", "a.svdag"});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
-  return parse_trace_options(int(argv.size()), argv.data());
+  return parse_trace_options(int(argv.size()), argv.data()).value();
 }
 
 // 16^3 voxels of side 1/4 from (-1, 2, 8) on, of which those from (1, 2, 3) to (9, 10, 11) matter.

@@ -1,6 +1,6 @@
 // A scene that changes while it is baked is rejected: never is a bake of two scenes, and
 // never a journal with the hash of another.
-#include "builder/bake/scene_watch.h"
+#include "streaming/file/input_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,8 @@ class ChangedScene : public ::testing::Test {
   }
   void rewrite() { write_stl(scene_, random_soup(20'001, 0.1, 2)); }
   void expect_refused(const std::string& file) {
-    EXPECT_SVDAG_ERROR(bake(config_), ExitCode::kBadInput, file + ": changed during the bake");
+    EXPECT_SVDAG_ERROR(bake(config_), ExitCode::kBadInput,
+                       file + ": was changed while it was read");
     EXPECT_FALSE(std::filesystem::exists(config_.output));
     EXPECT_FALSE(std::filesystem::exists(config_.output + ".scratch"));
   }
