@@ -73,7 +73,7 @@ void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
   in->get(&saved->description);
   saved->grid = get_grid(in);
   in->get(&saved->block_bytes);
-  in->require(Scratch::can_have_blocks_of(saved->block_bytes), "impossible size of blocks");
+  in->require(Scratch::is_block_size(saved->block_bytes), "impossible size of blocks");
 }
 
 void grow(uint32_t* blocks, const SpillStream& stream) {

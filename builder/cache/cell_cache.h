@@ -25,10 +25,10 @@
 namespace svdag {
 
 struct CellCacheConfig {
-  std::string folder;                        // made, for this user alone, if it is not there
-  uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
-  size_t most_packs = 4096;
-  size_t most_open = 0;  // packs of which a bake takes; 0: by what the process may open
+  std::string folder;                       // made, for this user alone, if it is not there
+  uint64_t max_bytes = uint64_t(16) << 30;  // of all packs
+  size_t max_packs = 4096;
+  size_t max_open = 0;  // packs of which a bake takes; 0: by what the process may open
 };
 
 class CellCache final : public CellStore {
@@ -49,27 +49,27 @@ class CellCache final : public CellStore {
 
  private:
   // ListedTriangle `entry` of packs_[pack].
-  struct Place {
+  struct CellAddress {
     uint32_t pack, entry;
   };
-  struct Found {
+  struct PackFile {
     std::filesystem::file_time_type used;
     std::string name;
     uint64_t bytes;
   };
-  struct Open {
+  struct OpenPack {
     Pack pack;
-    std::vector<Pack::Taken> taken;
+    std::vector<Pack::TakenCell> taken;
     bool proven = false, unusable = false;
   };
-  std::vector<Found> find_packs() const;
+  std::vector<PackFile> find_packs() const;
   void open_packs();
   void make_index();
-  const CellKey& key_at(Place place) const {
-    return packs_[place.pack].pack.entries()[place.entry].key;
+  const CellKey& key_at(CellAddress address) const {
+    return packs_[address.pack].pack.entries()[address.entry].key;
   }
   void trim() const;
-  bool usable(Open* open);
+  bool is_usable(OpenPack* open);
   void discard(const std::string& name) const;
 
   CellCacheConfig config_;
@@ -77,10 +77,10 @@ class CellCache final : public CellStore {
   Rule rule_;
   MemoryBudget* budget_;
   Folder folder_;
-  std::vector<Open> packs_;
-  size_t open_ = 0;                    // of them
-  MemoryBudget::Reservation counted_;  // places_
-  std::vector<Place> places_;          // of all keys, by key
+  std::vector<OpenPack> packs_;
+  size_t open_packs_ = 0;               // of them
+  MemoryBudget::Reservation counted_;   // places_
+  std::vector<CellAddress> addresses_;  // of all keys, by key
   std::mutex mutex_;
   uint64_t hits_ = 0, ignored_ = 0;
   std::string complaint_;

@@ -157,19 +157,20 @@ void Pack::prove() {
   file_ = std::move(file);
 }
 
-BakedRun Pack::extract(std::vector<Taken> taken, int levels, MemoryBudget* budget,
+BakedRun Pack::extract(std::vector<TakenCell> taken, int levels, MemoryBudget* budget,
                        const SpillTarget* target) const {
-  const auto range_of = [&](const Taken& t) { return morton_range(t.cube, levels); };
-  std::sort(taken.begin(), taken.end(),
-            [&](const Taken& a, const Taken& b) { return range_of(a).begin < range_of(b).begin; });
+  const auto range_of = [&](const TakenCell& t) { return morton_range(t.cube, levels); };
+  std::sort(taken.begin(), taken.end(), [&](const TakenCell& a, const TakenCell& b) {
+    return range_of(a).begin < range_of(b).begin;
+  });
   PackExtraction extraction(
       header_, [&](uint32_t height, const auto& use) { read_height(file_, height, use); }, budget);
-  for (const Taken& t : taken) {
+  for (const TakenCell& t : taken) {
     if (entries_[t.entry].rank != kNoNode) extraction.take(entries_[t.entry]);
   }
   BakedRun baked;
   baked.run = extraction.run(levels, target);
-  for (const Taken& t : taken) {
+  for (const TakenCell& t : taken) {
     const PackEntry& entry = entries_[t.entry];
     append_range(&baked.finished, range_of(t));
     baked.voxels += entry.voxels;

@@ -41,13 +41,13 @@ class Pack {
   // it was written, or its nodes are none that a run can have; an Error if it cannot be read.
   void prove();
 
-  struct Taken {
+  struct TakenCell {
     size_t entry;
     Cube cube;
   };
   // The run of what was taken into a grid of `levels` levels, of a pack that was proven. Spilled if
   // there is a target.
-  BakedRun extract(std::vector<Taken> taken, int levels, MemoryBudget* budget,
+  BakedRun extract(std::vector<TakenCell> taken, int levels, MemoryBudget* budget,
                    const SpillTarget* target) const;
 
  private:

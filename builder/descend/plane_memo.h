@@ -39,7 +39,7 @@
 namespace svdag {
 
 struct PlaneMemoCounts {
-  uint64_t asked = 0;     // cubes that one triangle covers, put to the memo
+  uint64_t queries = 0;   // cubes that one triangle covers, put to the memo
   uint64_t answered = 0;  // of these: without descending
   uint64_t hits = 0;      // nodes found, inner ones of an answer included
   uint64_t computed = 0;  // nodes computed
@@ -62,9 +62,9 @@ class PlaneMemo {
   // What the memo knows about a triangle's plane.
   struct Known {
     LatticePlane plane;
-    uint32_t number;  // of the plane
-    int asked_from;   // levels from this one on may be asked for
-    int stored_from;  // levels from this one on repeat
+    uint32_t number;       // of the plane
+    int min_query_level;   // levels from this one on may be asked for
+    int min_stored_level;  // levels from this one on repeat
   };
   // Admits the triangle, of which a cube of `side` voxels may be met; none if its plane does not
   // repay (yet) or has no integers. Valid until forget().
@@ -101,7 +101,7 @@ class PlaneMemo {
     uint32_t plane;  // 1 + plane number; 0: free
   };
   // The entries of one level: small cubes have few contents, so their table stays in the cache.
-  struct Table {
+  struct LevelTable {
     HugePages memory;
     std::span<MemoEntry> entries;     // in `memory`; a set begins at a line of the cache
     std::vector<uint32_t> unsettled;  // entries written since the last flush
@@ -137,24 +137,24 @@ class PlaneMemo {
   void prefetch(uint32_t number, int level, int64_t offset);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
-  static MemoEntry* set_of(Table* table, uint32_t tag);
-  void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
+  static MemoEntry* set_of(LevelTable* table, uint32_t tag);
+  void put(LevelTable* table, uint32_t tag, uint32_t plane, const Answer& answer);
   // Whether `bytes` more were granted.
   bool charge(uint64_t bytes);
-  void grow(Table* table);
+  void grow(LevelTable* table);
 
   int levels_;
   Rule rule_;
   const Kernels* kernels_;
   double repeats_;
   NodeTable* table_;
-  int stored_from_ = 0;        // of the current query
-  std::vector<Table> tables_;  // [level]
+  int min_stored_level_ = 0;        // of the current query
+  std::vector<LevelTable> tables_;  // [level]
   std::vector<Plane> planes_;
   std::vector<Normal> normals_;
-  std::vector<uint32_t> slots_;  // open addressing by normal: 1 + place in normals_
-  uint64_t most_;                // bytes
-  bool crowded_ = false;         // no plane can be added
+  std::vector<uint32_t> normal_slots_;  // open addressing by normal: 1 + place in normals_
+  uint64_t max_bytes_;                  // bytes
+  bool is_full_ = false;                // no plane can be added
   MemoryBudget::Reservation reservation_;
   PlaneMemoCounts counts_;
 };

@@ -144,11 +144,11 @@ class Merger {
   RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held, const Add& add) {
     uint64_t keys = 0;
     for (const auto& input : inputs) keys += input.count();
-    const bool many = inputs.size() > config_.sources;
+    const bool many = inputs.size() > config_.max_sources;
     const bool spill = many || held + keys * sizeof(uint32_t) > config_.map_bytes;
     if (config_.scratch == nullptr || !spill)
       return merge_at_once<Key>(inputs, add, nullptr, config_.budget);
-    return merge_in_groups<Key>(inputs, add, config_.sources, config_.scratch, config_.budget);
+    return merge_in_groups<Key>(inputs, add, config_.max_sources, config_.scratch, config_.budget);
   }
 
   std::span<Run> runs_;

@@ -35,7 +35,7 @@ struct MergeConfig {
   Scratch* scratch = nullptr;          // null: all runs are in memory, and all maps shall be
   uint64_t map_bytes = 0;              // maps of two levels that need more are spilled
   uint64_t window_bytes = UINT64_MAX;  // of a spilled map, loaded at a time by each worker
-  size_t sources = 2;                  // that may be open at once, if they are spilled; at least 2
+  size_t max_sources = 2;              // that may be open at once, if they are spilled; at least 2
 };
 
 // What a merge by `workers` takes of the budget, where an open run takes `source_bytes`. `scratch`:

@@ -45,7 +45,7 @@ LevelInput<Key> spilled_input(SpillFile* file, const SpillStream& stream, Memory
 template <class Key, class Add>
 RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, Scratch* scratch,
                        MemoryBudget* budget) {
-  constexpr uint64_t kLook = 1 << 16;  // keys between two looks for an interrupt
+  constexpr uint64_t kKeysPerCheck = 1 << 16;  // keys between two looks for an interrupt
   std::vector<uint64_t> counts;
   std::vector<LevelSource<Key>> sources;
   for (const LevelInput<Key>& input : inputs) {
@@ -58,7 +58,7 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
   Tournament tournament(sources.size(), prefix, before);
   uint64_t merged = 0;
   for (size_t s = tournament.winner(); !sources[s].ended();) {
-    if (++merged % kLook == 0) check_interrupt();
+    if (++merged % kKeysPerCheck == 0) check_interrupt();
     const Key key = sources[s].head();
     const uint32_t index = add(key);
     do {
@@ -75,26 +75,26 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
 // As merge_at_once, with at most `most` sources open at a time: they are merged in groups, and the
 // groups merged. Maps are spilled.
 template <class Key, class Add>
-RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add, size_t most,
-                         Scratch* scratch, MemoryBudget* budget) {
-  if (inputs.size() <= most) return merge_at_once<Key>(inputs, add, scratch, budget);
+RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add,
+                         size_t max_sources, Scratch* scratch, MemoryBudget* budget) {
+  if (inputs.size() <= max_sources) return merge_at_once<Key>(inputs, add, scratch, budget);
   std::vector<RankMaps> into;  // [group]: of its members
   std::vector<SpillStream> merged;
-  for (size_t begin = 0; begin < inputs.size(); begin += most) {
+  for (size_t begin = 0; begin < inputs.size(); begin += max_sources) {
     SpillWriter writer(scratch->passing(), scratch->new_streams(), budget);
     uint64_t next = 0;
     const auto append = [&](const Key& key) {
       writer.append(std::as_bytes(std::span(&key, 1)));
       return as_u32(next++, "nodes in a level of some runs");
     };
-    const auto group = inputs.subspan(begin, std::min(most, inputs.size() - begin));
+    const auto group = inputs.subspan(begin, std::min(max_sources, inputs.size() - begin));
     into.push_back(merge_at_once<Key>(group, append, scratch, budget));
     merged.push_back(writer.finish());
   }
   std::vector<LevelInput<Key>> groups;
   for (const SpillStream& stream : merged)
     groups.push_back(spilled_input<Key>(scratch->passing(), stream, budget));
-  RankMaps out_of = merge_in_groups<Key>(groups, add, most, scratch, budget);
+  RankMaps out_of = merge_in_groups<Key>(groups, add, max_sources, scratch, budget);
   for (const SpillStream& stream : merged) scratch->passing()->free(stream);
   RankMaps maps = RankMaps::none(scratch, budget);
   for (size_t g = 0; g < into.size(); ++g) {

@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-std::pair<int32_t, uint32_t> place_of(const SubDagRoot& root) {
+std::pair<int32_t, uint32_t> level_and_run(const SubDagRoot& root) {
   return {root.level, root.run};
 }
 
@@ -16,13 +16,14 @@ std::pair<int32_t, uint32_t> place_of(const SubDagRoot& root) {
 TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part)
     : roots_(std::move(roots)), part_(part) {
   std::sort(roots_.begin(), roots_.end(), [](const SubDagRoot& a, const SubDagRoot& b) {
-    return place_of(a) != place_of(b) ? place_of(a) < place_of(b) : a.morton < b.morton;
+    return level_and_run(a) != level_and_run(b) ? level_and_run(a) < level_and_run(b)
+                                                : a.morton < b.morton;
   });
 }
 
 std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t run) const {
-  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& place) {
-    return place_of(root) < place;
+  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& cube) {
+    return level_and_run(root) < cube;
   };
   const auto begin = std::lower_bound(roots_.begin(), roots_.end(), std::pair(level, run), before);
   auto end = begin;
@@ -32,32 +33,32 @@ std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t 
 
 const std::vector<NodeKey>& TopTree::sorted_nodes() {
   // Siblings are consecutive in Morton order: one pass makes the parents.
-  std::vector<Place> parents;
+  std::vector<TopCube> parents;
   std::vector<NodeKey> keys;
-  for (const Place& place : places_) {
-    if (parents.empty() || parents.back().morton != place.morton >> 3) {
-      parents.push_back({place.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
+  for (const TopCube& cube : cubes_) {
+    if (parents.empty() || parents.back().morton != cube.morton >> 3) {
+      parents.push_back({cube.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
       keys.push_back({});
     }
-    keys.back()[place.morton & 7] = 1 + place.index;
+    keys.back()[cube.morton & 7] = 1 + cube.index;
   }
   nodes_ = keys;
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-  for (Place& parent : parents) {
+  for (TopCube& parent : parents) {
     const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), keys[parent.index]);
     parent.index = uint32_t(at - nodes_.begin());
   }
-  places_ = std::move(parents);
+  cubes_ = std::move(parents);
   return nodes_;
 }
 
 void TopTree::end_level(int level) {
-  std::sort(places_.begin(), places_.end(),
-            [](const Place& a, const Place& b) { return a.morton < b.morton; });
-  std::erase_if(places_, [&](const Place& place) {
-    const bool top = part_.is_top(level, place.morton);
-    if (top) tops_.push_back({place.morton, level, 0, place.index});
+  std::sort(cubes_.begin(), cubes_.end(),
+            [](const TopCube& a, const TopCube& b) { return a.morton < b.morton; });
+  std::erase_if(cubes_, [&](const TopCube& cube) {
+    const bool top = part_.is_top(level, cube.morton);
+    if (top) tops_.push_back({cube.morton, level, 0, cube.index});
     return top;
   });
 }

@@ -21,12 +21,12 @@ class TopTree {
   // per window of that map; end_level().
   template <class Map>
   void resolve_own(const Map& indices) {
-    for (Place& place : places_) place.index = indices[place.index];
+    for (TopCube& cube : cubes_) cube.index = indices[cube.index];
   }
   template <class Map>
   void resolve_run(int level, uint32_t run, const Map& map) {
     for (auto [root, end] = roots_of(level, run); root != end; ++root)
-      if (map.holds(root->rank)) places_.push_back({root->morton, map[root->rank]});
+      if (map.holds(root->rank)) cubes_.push_back({root->morton, map[root->rank]});
   }
   void end_level(int level);
 
@@ -37,7 +37,7 @@ class TopTree {
   std::vector<SubDagRoot> take_tops() { return std::move(tops_); }
 
  private:
-  struct Place {
+  struct TopCube {
     uint64_t morton;  // of the cube at the current level
     uint32_t index;   // resolved: global index; between the calls: position in nodes_
   };
@@ -48,7 +48,7 @@ class TopTree {
   std::vector<SubDagRoot> roots_;  // by level and run
   const GridPart& part_;
   std::vector<SubDagRoot> tops_;
-  std::vector<Place> places_;   // occupied cubes of the current level, ascending
+  std::vector<TopCube> cubes_;  // occupied cubes of the current level, ascending
   std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats
 };
 

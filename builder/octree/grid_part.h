@@ -1,11 +1,10 @@
-// A part of the grid: whole bricks, as ranges of Morton codes. What one run holds, of which others
-// hold the rest.
+// A part of the grid: whole bricks, as ranges of Morton codes. A run holds the voxels of one part.
 //
-// The *tops* of a part are its maximal cubes: cubes of the octree that lie in it whole and whose
-// parents do not. The same voxels have the same tops, however the ranges were put together, so a
-// sub-DAG per top that is not empty is a canonical form of what stands in the part.
-// Rejected: the cells as roots (their level is a choice of whoever bakes), and one root for all (it
-// would hold nodes of which others know the rest).
+// The *tops* of a part are its maximal cubes: octree cubes that are entirely in the part while
+// their parents are not. They depend on the set of voxels alone, not on how the ranges were
+// combined, so one sub-DAG per non-empty top is a canonical form of the content of a part.
+// Rejected: the cells as roots (their level is a choice of each bake), and one root for all (its
+// upper nodes would describe cubes that are only partly in this run).
 #pragma once
 
 #include <cstdint>
@@ -25,10 +24,10 @@ struct CellRange {
 class GridPart {
  public:
   static GridPart whole(int levels) { return GridPart({{0, uint64_t(1) << 3 * levels}}, levels); }
-  // Cells of level levels - 2 at most; those finer, or outside the grid, are an Error (kUsage).
+  // `cells` of level levels - 2 at most, inside the grid; finer cells are an Error (kUsage).
   static GridPart of_cells(const CellRange& cells, int levels);
-  // GridPart `number` (1 .. count) of `count` parts of as many cells, up to one; Error (kUsage) if
-  // there is no such part.
+  // The cells of part `number` (1 .. count) of `count` parts, whose numbers of cells differ by at
+  // most one; Error (kUsage) for an invalid number or count.
   static CellRange share(uint64_t number, uint64_t count);
 
   // `ranges` in any order, of whole bricks in a grid of `levels` levels.
@@ -42,15 +41,15 @@ class GridPart {
   bool holds(const MortonRange& range) const {
     return set_.coverage(range) == MortonSet::Coverage::kAll;
   }
-  // The rest of the grid.
+  // The grid without this part.
   GridPart rest() const;
 
-  // Whether the cube of `level` with Morton code `code` is a top.
+  // Whether the cube of `level` with Morton code `code` is a top of this part.
   bool is_top(int level, uint64_t code) const;
   // All tops in Morton order.
   std::vector<Cube> tops() const;
-  // Whether `box` meets the closed part. Of two parts together this is true if and only if it is
-  // true of one of them.
+  // Whether `box` meets the closed part. A box meets the union of two parts if and only if it meets
+  // one of them.
   bool meets(const LatticeBox& box) const { return meets(Cube(), box); }
 
  private:

@@ -1,4 +1,4 @@
-// A cube of the octree, by level and coordinate.
+// A cube of the octree: its level and coordinate.
 #pragma once
 
 #include "io/grid.h"
@@ -27,7 +27,7 @@ struct Cube {
     const LatticePoint min = corner(levels);
     return {min, min + (int64_t(1) << side_log2(levels))};
   }
-  // Its voxels.
+  // The voxels of the cube.
   VoxelBox voxels(int levels) const noexcept {
     const int shift = levels - level;
     const LatticePoint min = {coordinate.x << shift, coordinate.y << shift, coordinate.z << shift};
@@ -36,7 +36,7 @@ struct Cube {
   bool operator==(const Cube&) const = default;
 };
 
-// The cube of `level` <= cube.level in which `cube` lies.
+// The cube of `level` <= cube.level that contains `cube`.
 inline Cube ancestor(const Cube& cube, int level) noexcept {
   const int up = cube.level - level;
   return {level, {cube.coordinate.x >> up, cube.coordinate.y >> up, cube.coordinate.z >> up}};

@@ -18,17 +18,17 @@ class Payload {
 
   uint64_t position() const { return position_; }
   // What comes next, `most` bytes at most; not at the end.
-  std::span<const std::byte> take(uint64_t most) {
+  std::span<const std::byte> take(uint64_t max_bytes) {
     if (rest_.empty()) {
       rest_ = reader_.next();
       const uint64_t checksum = reader_.checksum();
       hasher_.update(std::as_bytes(std::span(&checksum, 1)));
       check_interrupt();
     }
-    const auto piece = rest_.first(std::min<uint64_t>(most, rest_.size()));
-    rest_ = rest_.subspan(piece.size());
-    position_ += piece.size();
-    return piece;
+    const auto chunk = rest_.first(std::min<uint64_t>(max_bytes, rest_.size()));
+    rest_ = rest_.subspan(chunk.size());
+    position_ += chunk.size();
+    return chunk;
   }
   Hasher128* hasher() { return &hasher_; }
 
@@ -46,19 +46,19 @@ uint64_t offset_of(uint64_t position) {
 }
 
 // Which keys of a level are reached, of those with a rank in a window.
-class Marks {
+class RankMarks {
  public:
   static constexpr const char* kPurpose = "the check of a run";
 
-  Marks(uint64_t bytes, MemoryBudget* budget)
-      : most_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
+  RankMarks(uint64_t bytes, MemoryBudget* budget)
+      : max_ranks_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
 
   uint64_t end() const { return first_ + marked_.size(); }
   // A window that begins with rank `first` of `count`; nothing in it is marked.
   void begin(uint64_t first, uint64_t count) {
     first_ = first;
     marked_ = {};
-    const uint64_t size = std::min(most_, count - first);
+    const uint64_t size = std::min(max_ranks_, count - first);
     counted_.resize((size + 7) / 8, kPurpose);
     marked_.resize(size);
   }
@@ -68,7 +68,7 @@ class Marks {
   bool all() const { return std::find(marked_.begin(), marked_.end(), false) == marked_.end(); }
 
  private:
-  uint64_t most_;  // ranks in a window
+  uint64_t max_ranks_;  // ranks in a window
   uint64_t first_ = 0;
   MemoryBudget::Reservation counted_;
   std::vector<bool> marked_;
@@ -89,10 +89,10 @@ class Check {
     }
     begin_marks(0, 0);
     require(marks_.all() && run_.keys(0) <= 1, kNotReached, offset_of(payload_.position()));
-    skip_to(run_.layout().roots.begin);
-    pass(run_.layout().roots.end);
-    skip_to(run_.layout().ranges.begin);
-    pass(run_.layout().payload);
+    skip_zeros(run_.layout().roots.begin);
+    skip_checked(run_.layout().roots.end);
+    skip_zeros(run_.layout().ranges.begin);
+    skip_checked(run_.layout().payload);
     const RunHeader& header = run_.header();
     require(content_hash_of(header, payload_.hasher()) ==
                 Hash128{header.content_hash[0], header.content_hash[1]},
@@ -107,34 +107,34 @@ class Check {
   }
   // Of the piece that was taken last.
   void require_here(bool condition, const char* sentence) const {
-    require(condition, sentence, offset_of(piece_));
+    require(condition, sentence, offset_of(chunk_begin_));
   }
   std::span<const std::byte> take_to(uint64_t position) {
-    piece_ = payload_.position();
-    return payload_.take(position - piece_);
+    chunk_begin_ = payload_.position();
+    return payload_.take(position - chunk_begin_);
   }
 
   // Zeros up to `position`.
-  void skip_to(uint64_t position) {
+  void skip_zeros(uint64_t position) {
     while (payload_.position() < position) {
       for (const std::byte byte : take_to(position))
         require_here(byte == std::byte(0), "the gap between two sections is not zero");
     }
   }
   // Bytes that open() has looked at.
-  void pass(uint64_t position) {
+  void skip_checked(uint64_t position) {
     while (payload_.position() < position) take_to(position);
   }
 
   template <class Key>
   void scan(int level) {
     const RunSection& section = run_.layout().levels[level];
-    skip_to(section.begin);
+    skip_zeros(section.begin);
     Key last{};  // below all keys, since no key is empty
     while (payload_.position() < section.end) {
-      const auto piece = take_to(section.end);
+      const auto chunk = take_to(section.end);
       for (const Key& key :
-           std::span(reinterpret_cast<const Key*>(piece.data()), piece.size() / sizeof(Key))) {
+           std::span(reinterpret_cast<const Key*>(chunk.data()), chunk.size() / sizeof(Key))) {
         require_here(last < key, "nodes are empty or do not ascend");
         last = key;
         if constexpr (std::is_same_v<Key, NodeKey>) check_children(level, key);
@@ -175,8 +175,8 @@ class Check {
   const RunFile& run_;
   MemoryBudget* budget_;
   Payload payload_;
-  uint64_t piece_ = 0;  // where the piece of the payload begins that was taken last
-  Marks marks_;         // of the level below the one that is scanned
+  uint64_t chunk_begin_ = 0;  // where the piece of the payload begins that was taken last
+  RankMarks marks_;           // of the level below the one that is scanned
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ void check_identity(const File& file, const RunHeader& h) {
               offsetof(RunHeader, header_checksum));
 }
 
-void check_place(const File& file, const RunHeader& h) {
+void check_grid_fields(const File& file, const RunHeader& h) {
   check_grid(h, [&](bool condition, const char* sentence, uint64_t offset) {
     require_run(condition, file, sentence, offset);
   });
@@ -47,7 +47,7 @@ void check_counts(const File& file, const RunHeader& h) {
               offsetof(RunHeader, largest_snap));
   for (uint32_t k = 0; k < kRunLevels; ++k) {
     const uint64_t count = h.keys[k];
-    require_run(count <= kMostRunKeys && count <= size / 8, file, "impossible number of nodes",
+    require_run(count <= kMaxRunKeys && count <= size / 8, file, "impossible number of nodes",
                 offsetof(RunHeader, keys) + 8 * k);
     require_run(count == 0 || k + 1 < h.levels, file, "unused level",
                 offsetof(RunHeader, keys) + 8 * k);
@@ -70,7 +70,7 @@ RunHeader read_header(const File& file) {
       std::memcmp(header.magic, kRunMagic, sizeof kRunMagic) == 0)
     throw Error(ExitCode::kBadInput, "ends too early", file.path(), n);
   check_identity(file, header);
-  check_place(file, header);
+  check_grid_fields(file, header);
   check_counts(file, header);
   return header;
 }

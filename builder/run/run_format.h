@@ -23,8 +23,8 @@ constexpr uint32_t kRunVersion = 1;
 constexpr uint32_t kRunLevels = 19;         // levels 0 .. L-2, L <= 20
 constexpr uint32_t kRunBlockBytes = 65536;  // of a block with its frame; the last one is shorter
 constexpr uint64_t kRunPayload = kRunBlockBytes - kSpillHeader;
-constexpr uint64_t kRunAlignment = 64;          // of sections; divides kRunPayload
-constexpr uint64_t kMostRunKeys = 0xfffffffeU;  // of a level
+constexpr uint64_t kRunAlignment = 64;         // of sections; divides kRunPayload
+constexpr uint64_t kMaxRunKeys = 0xfffffffeU;  // of a level
 
 struct RunHeader {
   unsigned char magic[8];

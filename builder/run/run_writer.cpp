@@ -53,7 +53,7 @@ uint32_t RunWriter::add_node(const NodeKey& children) {
 
 uint32_t RunWriter::add(const void* key, size_t size) {
   uint64_t& count = header_.keys[level_];
-  if (count >= kMostRunKeys)
+  if (count >= kMaxRunKeys)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " needs more than 2^32 - 2 nodes, which a run cannot hold: "
                                        "lower the resolution or bake smaller parts");

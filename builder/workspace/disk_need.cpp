@@ -9,18 +9,19 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle = 48;  // in bins, small ones, those on borders twice
-constexpr double kEarliest = 0.2;           // share of the work that tells about the rest
+constexpr uint64_t kBytesPerTriangle =
+    48;                            // of a small one in bins; on a bin border it counts twice
+constexpr double kMinShare = 0.2;  // share of the work from which the rest is estimated
 
 }  // namespace
 
-void DiskNeed::check(uint64_t certain, uint64_t more, const char* purpose) const {
+void DiskNeed::check(uint64_t required, uint64_t estimated, const char* purpose) const {
   const uint64_t free = scratch_->folder()->free_bytes();
-  if (certain <= free) return;
+  if (required <= free) return;
   throw Error(ExitCode::kOutput,
-              std::string("spilling the ") + purpose + " takes about " + format_bytes(more) +
-                  " more, but the disk has only " + format_bytes(free) +
-                  " free: make room, or choose another --scratch or more --memory",
+              std::string("spilling the ") + purpose + " needs about " + format_bytes(estimated) +
+                  " more, but the disk has " + format_bytes(free) +
+                  " free: free disk space, or give another --scratch or a larger --memory",
               scratch_->folder()->path());
 }
 
@@ -31,8 +32,8 @@ void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
 }
 
 void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
-  count = std::max(count, read);  // 0: nobody has counted them
-  // At least what there is: rounding may lose a byte of it.
+  count = std::max(count, read);  // 0: the number is unknown
+  // At least `bytes`: rounding may lose a byte.
   triangles_ = std::max(bytes, uint64_t(double(bytes) * double(count) / double(read)));
   check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
 }
@@ -44,7 +45,7 @@ void DiskNeed::expect_records(uint64_t bytes, uint64_t in_memory, const char* pu
 }
 
 void DiskNeed::expect_runs(uint64_t bytes, double share) {
-  if (share < kEarliest) return;
+  if (share < kMinShare) return;
   runs_ = uint64_t(double(bytes) / share);
   if (runs_ > bytes) check((runs_ - bytes) / 2, runs_ - bytes, "nodes");
 }

@@ -1,10 +1,11 @@
-// How much scratch a bake or an import will take, told before hours of work instead of after them.
+// Estimates the scratch space of a bake or an import, so that a full disk is reported before hours
+// of work.
 //
-// What triangles take at the least is known as soon as they were counted, and better once the first
-// stand in bins, a large one in many. How much a scene repeats itself nobody knows before it is
-// baked, so what runs will take is reckoned from those there are and the share of the cells that is
-// done, once that is a fifth. Cells differ, so only a disk that cannot hold half of what was
-// reckoned is an Error (kOutput).
+// Triangles: a lower bound follows from their number, a better estimate from the first ones in
+// bins, where a large triangle is stored several times. Runs: how often a scene repeats itself is
+// unknown before it is baked, so their size is extrapolated from the runs so far, once a fifth of
+// the cells is done. Cells differ, so it is an Error (kOutput) only if the disk cannot hold half of
+// an estimate.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +18,24 @@ class DiskNeed {
  public:
   explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
 
-  // `count` triangles will be spilled, if they take more than `triangle_bytes` in memory. What the
-  // split needs beside them depends on where they lie, so they may be all the same. 0: nobody
-  // knows, as how many meet a part.
+  // Expects `count` triangles to be spilled if they take more than `triangle_bytes` in memory.
+  // They may be spilled below that limit, since the cell tree of the split needs memory too; how
+  // much depends on their positions. 0: the number is unknown, as for the triangles of a grid part.
   void expect_triangles(uint64_t count, uint64_t triangle_bytes);
-  // The first `read` of `count` triangles took `bytes` where they were spilled. Others may be
-  // smaller.
+  // The first `read` of `count` triangles were spilled and took `bytes`. The others may be smaller.
   void expect_spilled(uint64_t count, uint64_t read, uint64_t bytes);
-  // `bytes` of records will be sorted, all of which are spilled if they take more than `in_memory`.
-  // Their number is known, so a disk that cannot hold them all is an Error.
+  // `bytes` of records will be sorted; all are spilled if they take more than `in_memory`. The size
+  // is known, so a disk that cannot hold all of them is an Error.
   void expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose);
   // Runs of `bytes` were spilled for `share` of the work.
   void expect_runs(uint64_t bytes, double share);
 
-  // In bytes; 0: nothing was spilled.
+  // Estimated bytes of all spilled data; 0: nothing is spilled.
   uint64_t estimate() const { return triangles_ + records_ + runs_; }
 
  private:
-  // `certain` of the `more` bytes must fit.
-  void check(uint64_t certain, uint64_t more, const char* purpose) const;
+  // Throws unless `required` of the `estimated` further bytes fit on the disk.
+  void check(uint64_t required, uint64_t estimated, const char* purpose) const;
 
   Scratch* scratch_;
   uint64_t triangles_ = 0, records_ = 0, runs_ = 0;

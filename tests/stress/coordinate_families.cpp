@@ -77,7 +77,7 @@ Family scaled(const char* name, double unit) {
               return on_planes ? std::nearbyint(x / unit * 2) / 2 * unit : x;
             });
           },
-          Place::kAnywhere,
+          SpotArea::kAnywhere,
           [unit](int levels, StressRandom* random) {
             const double size = (random->coin() ? 1 : 0.37) * unit;
             const Point corner = unit * 1e3 * Point(random->unit(), random->unit(), random->unit());
@@ -116,13 +116,13 @@ std::vector<Family> coordinate_families() {
   const auto smallest_grid = [](int levels, StressRandom*) {
     return around_zero(levels, 0x1p-1021);
   };
-  return {{"utm_centimetres", utm_centimetres, Place::kAnywhere, utm_grid},
-          {"utm_floats", utm_floats, Place::kAnywhere, utm_grid},
-          {"non_dyadic_voxels", non_dyadic, Place::kAnywhere, non_dyadic_grid},
+  return {{"utm_centimetres", utm_centimetres, SpotArea::kAnywhere, utm_grid},
+          {"utm_floats", utm_floats, SpotArea::kAnywhere, utm_grid},
+          {"non_dyadic_voxels", non_dyadic, SpotArea::kAnywhere, non_dyadic_grid},
           scaled("scaled_2^-110", 0x1p-110),
           scaled("scaled_2^50", 0x1p50),
-          {"denormals_and_zeros", denormals, Place::kMiddle, zero_grid},
-          {"denormal_scene", denormal_scene, Place::kMiddle, smallest_grid}};
+          {"denormals_and_zeros", denormals, SpotArea::kMiddle, zero_grid},
+          {"denormal_scene", denormal_scene, SpotArea::kMiddle, smallest_grid}};
 }
 
 }  // namespace svdag

@@ -19,7 +19,7 @@ using Soup = std::vector<LatticeTriangle>;
 struct Family {
   std::string name;
   std::function<Soup(const Spot&, StressRandom*)> draw;
-  Place place = Place::kAnywhere;
+  SpotArea area = SpotArea::kAnywhere;
   std::function<Grid(int levels, StressRandom*)> grid = [](int levels, StressRandom*) {
     return unit_grid(levels);
   };

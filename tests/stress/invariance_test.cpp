@@ -36,7 +36,7 @@ Sample draw_sample() {
   const auto family = *any_of<size_t>(0, families.size());
   const int levels = *rc::gen::element(10, 13, 16, 20);
   Sample sample{{}, {}, StressRandom(*rc::gen::arbitrary<uint64_t>())};
-  sample.spot = draw_spot(unit_grid(levels), 0, 32, Place::kAnywhere, &sample.random);
+  sample.spot = draw_spot(unit_grid(levels), 0, 32, SpotArea::kAnywhere, &sample.random);
   for (int a = 0; a < 3; ++a) {
     VoxelBox& region = sample.spot.region;
     region.min[a] = std::clamp<int64_t>(region.min[a], 40, sample.spot.grid.resolution() - 72);

@@ -33,7 +33,7 @@ TEST_P(Judges, AgreeWithEachOther) {
       StressRandom random(uint64_t(levels) * 77 + uint64_t(rule));
       for (int round = 0; round < 3; ++round) {
         const Grid grid = GetParam().grid(levels, &random);
-        const Spot spot = draw_spot(grid, levels - 5, 12, GetParam().place, &random);
+        const Spot spot = draw_spot(grid, levels - 5, 12, GetParam().area, &random);
         const std::vector<LatticeTriangle> triangles = GetParam().draw(spot, &random);
         const VoxelRegion truth = judged(spot, rule, triangles);
         EXPECT_EQ(judged_by(JudgeChoice::Kind::kInteger, rule, spot, triangles), truth);

@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kLargest = int64_t(1) << 38;  // half sides of giants: |q| stays below 2^41
+constexpr int64_t kMaxCoordinate = int64_t(1) << 38;  // half sides of giants: |q| stays below 2^41
 
 Soup eight_voxels(const Spot& spot, StressRandom* random) {
   Soup soup(6);
@@ -21,14 +21,14 @@ Soup eight_voxels(const Spot& spot, StressRandom* random) {
 
 // Of any size from 16 voxels to many times the grid, passing through the region.
 Soup giant(const Spot& spot, StressRandom* random) {
-  const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
+  const int64_t size = random->log_between(16 * spot.voxel(), kMaxCoordinate);
   const LatticePoint at = spot.anchor(random);
   return {around_centroid(at, at + random->point(size), at + random->point(size))};
 }
 
 // As above, with an edge or a vertex in the region instead of the middle.
 Soup giant_border(const Spot& spot, StressRandom* random) {
-  const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
+  const int64_t size = random->log_between(16 * spot.voxel(), kMaxCoordinate);
   const LatticePoint at = spot.anchor(random), d = random->point(size);
   const LatticePoint third = at + random->point(size);
   if (random->coin()) return {{{at, at + d, third}}};
@@ -64,7 +64,7 @@ Soup collinear(const Spot& spot, StressRandom* random) {
   Soup soup(3);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.anchor(random);
-    LatticePoint d = random->point(random->log_between(1, kLargest / 16));
+    LatticePoint d = random->point(random->log_between(1, kMaxCoordinate / 16));
     if (random->coin()) d[random->axis()] = 0;
     for (LatticePoint& p : t.v) p = at + d * random->around(8);
   }

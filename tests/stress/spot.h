@@ -37,10 +37,10 @@ struct Spot {
 };
 
 // Which part of the grid a family is about.
-enum class Place { kAnywhere, kBorder, kMiddle };
+enum class SpotArea { kAnywhere, kBorder, kMiddle };
 
 // A spot whose descent starts at `depth`; the region is a cube of at most `side` voxels.
-Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRandom* random);
+Spot draw_spot(const Grid& grid, int depth, int64_t side, SpotArea area, StressRandom* random);
 
 // A grid whose world and voxels are the same but for F: voxel size 1, corner at zero.
 Grid unit_grid(int levels);

@@ -60,19 +60,19 @@ std::vector<std::vector<Triangle>> scenes() {
           dyadic(boxes_and_quad(30, 22))};
 }
 
-struct Place {
+struct BakeSetup {
   int cell_level = 2;
   size_t threads = 2;
 };
 
-Grid bake(const std::string& scene, const std::string& output, Rule rule, const Place& place) {
+Grid bake(const std::string& scene, const std::string& output, Rule rule, const BakeSetup& setup) {
   BuildConfig config;
   config.scene.paths = {scene};
   config.output = output;
   config.voxel_size = kVoxel;
   config.descent.rule = rule;
-  config.cell_level = place.cell_level;
-  ParallelExecutor executor(place.threads);
+  config.cell_level = setup.cell_level;
+  ParallelExecutor executor(setup.threads);
   Progress progress;
   return build(config, &executor, &progress).grid;
 }
@@ -136,14 +136,14 @@ TEST(WholePath, FarFromZeroOneFileForEveryCellSizeThreadCountAndOrder) {
       write_off(scene, triangles);
       bake(scene, output, rule, {0, 1});
       const std::string expected = read_bytes(output);
-      for (const Place& place : {Place{2, 3}, Place{4, 2}, Place{6, 1}}) {
+      for (const BakeSetup& setup : {BakeSetup{2, 3}, BakeSetup{4, 2}, BakeSetup{6, 1}}) {
         for (size_t i = triangles.size() - 1; i > 0; --i)
           std::swap(triangles[i], triangles[random.below(i + 1)]);
         write_off(scene, triangles);
-        bake(scene, output, rule, place);
+        bake(scene, output, rule, setup);
         EXPECT_TRUE(read_bytes(output) == expected)
-            << "rule " << int(rule) << ", cells " << place.cell_level << ", threads "
-            << place.threads;
+            << "rule " << int(rule) << ", cells " << setup.cell_level << ", threads "
+            << setup.threads;
       }
     }
   }

@@ -76,7 +76,7 @@ TEST_F(Cache, ASecondBakeTakesEveryCell) {
   EXPECT_GT(second.cells, 100U);
   EXPECT_EQ(second.cache_hits, second.cells);
   EXPECT_EQ(second.voxels, first.voxels);
-  EXPECT_EQ(second.decisions.asked, 0U);
+  EXPECT_EQ(second.decisions.total, 0U);
 }
 
 TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
@@ -135,8 +135,8 @@ TEST_F(Cache, LeavesTheFilesOfOthersAlone) {
   fs::create_directories(cache_.folder);
   for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
     std::ofstream(fs::path(cache_.folder) / name) << name;
-  cache_.most_packs = 1;
-  cache_.most_bytes = 1;
+  cache_.max_packs = 1;
+  cache_.max_bytes = 1;
   bake_as_expected(config);
   for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
     EXPECT_TRUE(fs::exists(fs::path(cache_.folder) / name)) << name;
@@ -186,7 +186,7 @@ TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
   }
   // The cells of all packs, in one bake that may open two of them.
   MemoryBudget budget(uint64_t(1) << 30);
-  cache_.most_open = 2;
+  cache_.max_open = 2;
   CellCache cache(cache_, grid_of(7), Rule::kConservative, &budget);
   std::set<fs::path> used;
   for (const fs::path& path : packs()) {
@@ -252,7 +252,7 @@ TEST_F(Cache, TheLeastUsedPacksGoFirst) {
   prepare(random_soup(500, 0.1, 9), 6);
   bake_as_expected(config);
   ASSERT_EQ(packs().size(), 2U);
-  cache_.most_bytes = 2 * fs::file_size(first);
+  cache_.max_bytes = 2 * fs::file_size(first);
   prepare(random_soup(500, 0.1, 10), 6);
   bake_as_expected(config);
   EXPECT_FALSE(fs::exists(first));
@@ -260,7 +260,7 @@ TEST_F(Cache, TheLeastUsedPacksGoFirst) {
 }
 
 TEST_F(Cache, TooManyPacksGoAsTooLargeOnesDo) {
-  cache_.most_packs = 3;
+  cache_.max_packs = 3;
   fs::create_directory(cache_.folder);
   std::vector<fs::path> before;
   for (unsigned seed = 20; seed < 26; ++seed) {
