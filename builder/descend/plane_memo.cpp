@@ -11,14 +11,13 @@
 namespace svdag {
 namespace {
 
-constexpr int kMaxExactSideLog2 = 32;   // log2 of the side in lattice units: offsets fit 63 bits
-constexpr int kMaxRoundedSideLog2 = 6;  // log2 of the side in voxels: beyond, most ranges straddle
-constexpr double kMinWidth = 8;  // voxels: smaller triangles cover no cube that may be asked for
-constexpr double kMinBrickRepeats =
-    16;                             // bricks per content, in `repeats`, from which a plane repays
-constexpr int64_t kBucketSpan = 3;  // buckets on either side in which an entry is found, too
-constexpr int kMaxTableLog2 = 19;   // log2 of its entries
-constexpr size_t kCacheLine = 64;   // bytes of a line of the cache; a set fills two of them
+constexpr int kMaxExactSideLog2 = 32;    // in lattice units: up to here offsets fit 63 bits
+constexpr int kMaxRoundedSideLog2 = 6;   // in voxels: beyond it most ranges straddle
+constexpr double kMinWidth = 8;          // voxels: smaller triangles cover no cube worth a query
+constexpr double kMinBrickRepeats = 16;  // bricks per content, times `repeats`, to admit a plane
+constexpr int64_t kBucketSpan = 3;       // neighbouring buckets per side that also get an entry
+constexpr int kMaxTableLog2 = 19;        // of the number of entries
+constexpr size_t kCacheLine = 64;        // bytes; a set fills two lines
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -26,7 +25,7 @@ uint64_t mix(uint64_t a, uint64_t b) noexcept {
   return uint64_t(product) ^ uint64_t(product >> 64);
 }
 
-// Neighbouring buckets of a plane stand side by side.
+// Tags of neighbouring buckets of a plane are adjacent.
 uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   const uint64_t hash = mix(plane, uint64_t(bucket >> 3) * 0x9e3779b97f4a7c15);
   return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
@@ -71,7 +70,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   if (!plane || is_full_) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
-  const double area = std::max(n.area, 0.5 * whole * whole);  // what is to come counts as well
+  const double area = std::max(n.area, 0.5 * whole * whole);  // includes the rest of this triangle
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
     return area >= repeats_ * contents(n.n, level).count * s * s;
@@ -87,8 +86,9 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   return Known{*plane, n.number - 1, first_level(*plane), min_stored_level};
 }
 
-// Offsets of exact planes fit 63 bits up to here. Of the others most ranges straddle some value in
-// large cubes, unless the values lie in few clusters.
+// The coarsest level at which the plane can be queried: offsets of exact planes fit 63 bits from
+// here on. Of other planes most ranges straddle a critical value in large cubes, unless these
+// values are in few clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
   const int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
   if (plane.exact) return exact;
@@ -130,26 +130,27 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
     Normal& other = normals_[normal_slots_[slot] - 1];
     if (std::equal(p.n, p.n + 3, other.n)) return &other;
   }
-  // Half as much again for the slots and for room to grow; a plane may be added to each later.
+  // Charges the normal and its possible plane, plus half for the slots and for growing vectors.
   is_full_ = !charge((sizeof(Normal) + sizeof(Plane)) * 3 / 2);
   normals_.push_back({{p.n[0], p.n[1], p.n[2]}, 0, 0});
   normal_slots_[slot] = uint32_t(normals_.size());
   return &normals_.back();
 }
 
-// How many contents a cube of the level has that matter, and the length of their intervals.
+// Estimates the number of frequent contents of a cube of `level`, and the length of their
+// intervals.
 //
 // The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
-// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums lie in s + 1
-// clusters: between them are the few long intervals that almost every cube falls into; likewise
-// (s + 1)^2 clusters where only a is small.
+// c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1
+// clusters, and almost every cube is in one of the few long intervals between them. Where only a is
+// small there are (s + 1)^2 clusters.
 PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
   double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
   std::sort(c, c + 3);
   const double s = double(int64_t(1) << (levels_ - level));
   const double voxel = double(int64_t(1) << fraction_bits(levels_));
   const double gap = c[2], gap2 = (c[1] + c[2]) * s / ((s + 1) * (s + 1));
-  const double max_count = 2 * (c[0] + c[1] + c[2]) * s + 1;  // whole numbers: no more fit
+  const double max_count = 2 * (c[0] + c[1] + c[2]) * s + 1;  // integers: no more fit
   if ((c[0] + c[1]) * s < gap / 4) return {1, std::min(2 * (s + 1), max_count), gap * voxel};
   if (c[0] * s < gap2 / 4) return {2, std::min(2 * (s + 1) * (s + 1), max_count), gap2 * voxel};
   const double all = std::min(2 * (s + 1) * (s + 1) * (s + 1), max_count);
@@ -169,7 +170,7 @@ void PlaneMemo::add_plane(const Normal& normal) {
 
 PlaneBrick PlaneMemo::plane_brick(const Plane& p) const {
   const int fraction = fraction_bits(levels_);
-  // The offsets that set the voxel at the corner.
+  // The range of offsets that set the voxel at the corner.
   int64_t first = p.negative << fraction, last = p.positive << fraction;
   if (rule_ == Rule::kThin) {
     const int64_t dominant = std::max({std::abs(p.n[0]), std::abs(p.n[1]), std::abs(p.n[2])});
@@ -225,7 +226,7 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
     }
   }
   if (!compute(number, level, range, out)) return false;
-  // Into every bucket that the interval meets, near the one that was asked for.
+  // Store it in every bucket that the interval meets, near the queried one.
   const int64_t first = std::max(out->low >> log2, bucket - kBucketSpan);
   const int64_t last = std::min(out->high >> log2, bucket + kBucketSpan);
   for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);
@@ -247,7 +248,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
                            planes_[number].n[2] << half_log2};
   NodeKey key{};
-  // Beyond these offsets the plane passes a child.
+  // Beyond these offsets the plane misses a child.
   const int64_t low = planes_[number].negative << half_log2;
   const int64_t high = planes_[number].positive << half_log2;
   *out = {-kFarOffset, kFarOffset, 0, 0, 0};
@@ -305,7 +306,7 @@ void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const Answe
   size_t way = 0;
   while (way < kWays && set[way].plane != 0) ++way;
   if (way == kWays) {
-    way = (tag ^ tag >> 16) >> 3 & 3;  // full: one of them goes
+    way = (tag ^ tag >> 16) >> 3 & 3;  // full: replace one entry
   } else {
     ++table->used;
   }
@@ -331,14 +332,14 @@ void PlaneMemo::drop_contents() {
   }
 }
 
-// Starts again with a larger table, if there is room: entries do not know all their buckets, and a
-// table grows only a few times.
+// Replaces the table by an empty larger one, if there is memory. Entries are not moved: they do not
+// store their buckets, and a table grows only a few times.
 void PlaneMemo::grow(LevelTable* table) {
   const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
   if (size == table->entries.size()) return;
   if (!charge((size - table->entries.size()) * sizeof(MemoEntry))) return;
   table->entries = {};
-  table->memory = {};  // the old ones go before the new ones come
+  table->memory = {};  // free the old memory before allocating
   size_t bytes = size * sizeof(MemoEntry) + kCacheLine;
   table->memory = HugePages(bytes);  // zeros: free entries
   void* begin = table->memory.data();
