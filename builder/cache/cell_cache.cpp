@@ -27,20 +27,20 @@ std::string random_name() {
   return std::string(name) + kExtension;
 }
 
-// Somebody else's file in the folder, whatever it is called, is none.
-bool is_of_cache(const std::string& name) {
+// Whether `name` is the name of a pack. Other files in the folder are left alone.
+bool is_pack_name(const std::string& name) {
   return name.size() == 16 + std::strlen(kExtension) && name.ends_with(kExtension) &&
          name.find_first_not_of("0123456789abcdef") == 16;
 }
 
-// A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
+// A quarter of the file descriptors of this process; the rest of the bake needs some too.
 size_t packs_to_keep_open() {
   struct rlimit files;
   return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
 }
 
-// Of an Error being handled that is no fault of the pack: it passes, and the bake goes on without
-// it, but for a defect of ours.
+// For an Error that does not prove the pack damaged: rethrows a defect of the program (kInternal);
+// otherwise returns, and the bake continues without the pack.
 void rethrow_if_internal(const Error& error) {
   if (error.code() == ExitCode::kInternal) throw;
 }
@@ -65,13 +65,13 @@ CellCache::~CellCache() {
   }
 }
 
-// All that there are, that used least recently first.
+// All packs in the folder, least recently used first.
 std::vector<CellCache::PackFile> CellCache::find_packs() const {
   std::vector<PackFile> packs;
   for (const std::string& name : folder_.names()) {
-    if (!is_of_cache(name)) continue;
+    if (!is_pack_name(name)) continue;
     const fs::path path = fs::path(config_.folder) / name;
-    std::error_code gone;  // another bake may trim, too
+    std::error_code gone;  // another bake may remove packs too
     const auto used = fs::last_write_time(path, gone);
     const uint64_t bytes = gone ? 0 : fs::file_size(path, gone);
     if (!gone) packs.push_back({used, name, bytes});
@@ -105,12 +105,12 @@ void CellCache::open_packs() {
       rethrow_if_internal(error);
     }
   }
-  counted_ = budget_->reserve(entries * sizeof(CellAddress), "places in the cell cache");
+  counted_ = budget_->reserve(entries * sizeof(CellAddress), "index of the cell cache");
   addresses_.reserve(entries);
   make_index();
 }
 
-// Of equal keys the one stays whose pack was used last.
+// Of equal keys, the one in the most recently used pack is kept.
 void CellCache::make_index() {
   for (uint32_t p = 0; p < packs_.size(); ++p) {
     const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
@@ -130,11 +130,11 @@ CellKey CellCache::key(const Cube& cube, const TriangleList& list) const {
 void CellCache::discard(const std::string& name) const {
   try {
     folder_.remove(name);
-  } catch (const Error&) {  // a cache that cannot be written to serves all the same
+  } catch (const Error&) {  // a read-only cache can still be used
   }
 }
 
-// Proves a pack before its first use; its file is marked as used.
+// Proves a pack before its first use and updates the time of last use of its file.
 bool CellCache::is_usable(OpenPack* open) {
   if (open->proven || open->unusable) return open->proven;
   if (open_packs_ >= config_.max_open) return false;
@@ -143,7 +143,7 @@ bool CellCache::is_usable(OpenPack* open) {
     open->pack.prove();
     open->proven = true;
     ++open_packs_;
-    std::error_code ignored;  // a cache that cannot be written to serves all the same
+    std::error_code ignored;  // a read-only cache can still be used
     fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
   } catch (const DamagedPack&) {
     discard(fs::path(open->pack.path()).filename().string());
@@ -172,9 +172,9 @@ void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>&
                       const std::function<void(BakedRun)>& use) {
   for (OpenPack& open : packs_) {
     if (open.taken.empty()) continue;
-    const std::optional<SpillTarget> address = target(open.pack.bytes());
+    const std::optional<SpillTarget> spill_target = target(open.pack.bytes());
     use(open.pack.extract(std::move(open.taken), grid_.levels, budget_,
-                          address ? &*address : nullptr));
+                          spill_target ? &*spill_target : nullptr));
     open.taken.clear();
   }
 }
@@ -189,7 +189,7 @@ void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     const std::lock_guard lock(mutex_);
-    complaint_ = std::string("the cell cache is not written: ") + error.what();
+    complaint_ = std::string("cannot write the cell cache: ") + error.what();
   }
 }
 

@@ -26,7 +26,7 @@ uint64_t checksum_of(const PackHeader& header) {
   return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(PackHeader, checksum)));
 }
 
-// Appends the keys of a level, wherever they are; returns how many there are.
+// Appends the keys of a level, from memory or from scratch; returns their number.
 template <class Key>
 uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget* budget,
                       PackBlockWriter* out) {
@@ -40,7 +40,7 @@ uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget*
   return level.spilled->bytes / sizeof(Key);
 }
 
-// Keys of one height, of which none is empty: what a merge relies on.
+// Checks that the keys of one height ascend and are not empty, which a merge relies on.
 template <class Key>
 class Ascending {
  public:
@@ -92,12 +92,13 @@ Pack::Pack(std::string path) : path_(std::move(path)) {
   bool sound =
       read == sizeof header_ && std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0;
   if (sound && header_.version != kPackVersion && header_.checksum == checksum_of(header_))
-    throw Error(ExitCode::kBadInput, "is of another version of svdag", path_);  // which may use it
+    throw Error(ExitCode::kBadInput, "is of another version of svdag",
+                path_);  // not damaged: that version may use it
   sound = sound && header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
           header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
   if (!sound || kPackBegin + payload_of(header_) + blocks_of(header_) * sizeof(uint64_t) != size)
-    throw DamagedPack(path_, "is no pack of a cell cache, or damaged");
+    throw DamagedPack(path_, "is not a pack of a cell cache, or is damaged");
 }
 
 uint64_t Pack::index_bytes() const {

@@ -1,6 +1,7 @@
-// Sub-DAGs of cells that were baked before, found by what is in the cells.
+// Interface of a store of baked cells, which finds the sub-DAG of a cell by its content.
 //
-// The voxelizer asks this interface; builder/cache/cell_cache.h answers from a folder.
+// The voxelizer uses this interface; CellCache (builder/cache/cell_cache.h) implements it in a
+// folder.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +19,22 @@ class CellStore {
  public:
   virtual ~CellStore() = default;
 
-  // The key of `cube` with the triangles of `list`, which holds all that touch it.
+  // The key of `cube`; `list` holds all triangles that touch it.
   virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
-  // Whether the sub-DAG of `key` is known. If so it stands in `cube` now, and nobody bakes that.
-  // From any thread.
+  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube`: the caller then skips
+  // the descent, and taken() returns the sub-DAG. Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube) = 0;
-  // Hands over the taken cells as runs. target(bytes) decides whether a run of up to `bytes` is
-  // spilled, and where to.
+  // Passes the taken cells to `use`, as runs. target(bytes) decides whether a run of up to `bytes`
+  // bytes is spilled, and where to.
   virtual void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                      const std::function<void(BakedRun)>& use) = 0;
-  // Adds the cells of `baked` to what is known; `runs` holds the run if it was spilled. From any
-  // thread.
+  // Stores the cells of `baked`; `runs` holds its run if that is spilled. Thread-safe.
   virtual void keep(const BakedRun& baked, SpillFile* runs) = 0;
-  // Of the cells that were asked for, how many were known.
+  // Number of cells found in the store.
   virtual uint64_t hits() const = 0;
-  // How many packs of cells were not looked at, for lack of memory.
+  // Number of packs that were skipped for lack of memory.
   virtual uint64_t ignored() const = 0;
-  // Why cells could not be kept; empty if all could.
+  // Why cells could not be stored; empty if all were.
   virtual std::string complaint() const = 0;
 };
 

@@ -14,16 +14,16 @@
 namespace svdag {
 namespace {
 
-// What differs first between the bakes of two runs, or nothing.
+// The first difference between the bakes of two runs; null if there is none.
 const char* difference(const RunFile& a, const RunFile& b) {
   const Grid g = a.grid(), h = b.grid();
   if (a.rule() != b.rule()) return "the rule differs";
-  if (g.kind != h.kind) return "one grid divides its scene, the other is a lattice";
+  if (g.kind != h.kind) return "one was baked with --resolution, the other with --voxel-size";
   const bool divides = g.kind == Grid::Kind::kBox;  // then the voxel size follows
   if (divides && g.levels != h.levels) return "the resolution differs";
   if (g.voxel_size != h.voxel_size) return "the voxel size differs";
   if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
-    return "the grid holds another box";
+    return "the grids cover different boxes";
   if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
   return nullptr;
 }
@@ -42,8 +42,8 @@ Run run_of(const RunFile& file) {
   return run;
 }
 
-// What was proven of a run is so no more where another program writes to it: that is the reason
-// to tell, whatever a merge trips over.
+// Runs `merge` on checked run files. If another program wrote to one of them meanwhile, the check
+// is invalid: this is then the reported error, whatever the merge failed with.
 std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
                                      const std::function<std::vector<SubDagRoot>()>& merge) {
   const auto require_unchanged = [&] {
@@ -70,7 +70,7 @@ GridPart joined_part(const std::vector<RunFile>& runs) {
   std::vector<Owned> owned;
   for (const RunFile& run : runs) {
     if (const char* const what = difference(runs.front(), run))
-      fail_usage(runs.front().path() + " and " + run.path() + " are of different bakes: " + what);
+      fail_usage(runs.front().path() + " and " + run.path() + " are from different bakes: " + what);
     for (const MortonRange& range : run.part().ranges()) owned.push_back({range, &run});
   }
   std::sort(owned.begin(), owned.end(),
@@ -90,10 +90,10 @@ void require_whole(const GridPart& part, const Grid& grid, const std::string& ou
     const VoxelBox voxels = cube.voxels(grid.levels);
     if (!voxels.meets(grid.selection)) continue;
     const LatticePoint low = voxels.min;
-    fail_usage(output + ": a part of the grid is in none of the runs, first the " +
+    fail_usage(output + ": the runs do not cover the grid: the " +
                format_resolution(uint64_t(voxels.max.x - low.x)) + "^3 voxels from (" +
                std::to_string(low.x) + ", " + std::to_string(low.y) + ", " + std::to_string(low.z) +
-               ") on: add the missing run, or merge to an output that ends in .run");
+               ") on are missing: add the missing run, or merge to a .run");
   }
 }
 
@@ -110,8 +110,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   report.grid = files.front().grid();
   if (!names_run(config.output)) {
     require_whole(part, report.grid, config.output);
-    part =
-        GridPart::whole(report.grid.levels);  // what is not there holds nothing that was asked for
+    part = GridPart::whole(report.grid.levels);  // the rest has no selected voxels
   }
 
   if (config.discard_unfinished) {
@@ -141,7 +140,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
     report.runs_bytes += file.header().file_bytes;
     largest_snap = std::max(largest_snap, file.header().largest_snap);
   }
-  // A source holds its block and, where maps are spilled, the writer of one.
+  // A source holds its block and, where maps are spilled, the writer of its map.
   const uint64_t source_bytes = kRunBlockBytes + 4 * scratch->block_bytes();
   const auto tops = merge_proven(files, [&] {
     return merge(runs, std::move(roots), part,

@@ -22,8 +22,8 @@ TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part)
 }
 
 std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t run) const {
-  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& cube) {
-    return level_and_run(root) < cube;
+  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& key) {
+    return level_and_run(root) < key;
   };
   const auto begin = std::lower_bound(roots_.begin(), roots_.end(), std::pair(level, run), before);
   auto end = begin;
@@ -32,7 +32,7 @@ std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t 
 }
 
 const std::vector<NodeKey>& TopTree::sorted_nodes() {
-  // Siblings are consecutive in Morton order: one pass makes the parents.
+  // Siblings are consecutive in Morton order, so one pass builds the parents.
   std::vector<TopCube> parents;
   std::vector<NodeKey> keys;
   for (const TopCube& cube : cubes_) {

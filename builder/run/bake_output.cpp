@@ -22,7 +22,8 @@ void refuse_foreign_name(const std::string& path) {
   for (const char* ending : {".vdb", ".nvdb", ".npz", ".npy", ".vox", ".binvox", ".svo", ".octree",
                              ".ply", ".stl", ".obj", ".off", ".gltf", ".glb"}) {
     if (path.ends_with(ending))
-      fail_usage(path + ": a bake is a .svdag or a .run; svdag export makes other formats of it");
+      fail_usage(path +
+                 ": the output must be a .svdag or a .run: use svdag export for other formats");
   }
 }
 

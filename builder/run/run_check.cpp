@@ -10,14 +10,14 @@
 namespace svdag {
 namespace {
 
-// The payload, piece by piece.
+// Reads the payload of a run in chunks and hashes the checksums of its blocks.
 class Payload {
  public:
   Payload(const RunFile& run, MemoryBudget* budget)
       : reader_(run.file(), run.header(), {0, run.layout().payload}, budget) {}
 
   uint64_t position() const { return position_; }
-  // What comes next, `most` bytes at most; not at the end.
+  // The next chunk, of at most `max_bytes`. Must not be called at the end.
   std::span<const std::byte> take(uint64_t max_bytes) {
     if (rest_.empty()) {
       rest_ = reader_.next();
@@ -39,13 +39,13 @@ class Payload {
   Hasher128 hasher_;
 };
 
-// Where byte `position` of the payload stands in the file.
+// The offset in the file of byte `position` of the payload.
 uint64_t offset_of(uint64_t position) {
   return sizeof(RunHeader) + position / kRunPayload * kRunBlockBytes + kSpillHeader +
          position % kRunPayload;
 }
 
-// Which keys of a level are reached, of those with a rank in a window.
+// Marks the keys of a level that are reached, for a window of ranks.
 class RankMarks {
  public:
   static constexpr const char* kPurpose = "the check of a run";
@@ -54,7 +54,7 @@ class RankMarks {
       : max_ranks_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
 
   uint64_t end() const { return first_ + marked_.size(); }
-  // A window that begins with rank `first` of `count`; nothing in it is marked.
+  // Begins an unmarked window at rank `first` of `count`.
   void begin(uint64_t first, uint64_t count) {
     first_ = first;
     marked_ = {};
@@ -105,7 +105,7 @@ class Check {
   void require(bool condition, const char* sentence, uint64_t offset) const {
     require_run(condition, run_.file(), sentence, offset);
   }
-  // Of the piece that was taken last.
+  // Reports the offset of the chunk read last.
   void require_here(bool condition, const char* sentence) const {
     require(condition, sentence, offset_of(chunk_begin_));
   }
@@ -114,14 +114,14 @@ class Check {
     return payload_.take(position - chunk_begin_);
   }
 
-  // Zeros up to `position`.
+  // Checks that all bytes up to `position` are zero.
   void skip_zeros(uint64_t position) {
     while (payload_.position() < position) {
       for (const std::byte byte : take_to(position))
         require_here(byte == std::byte(0), "the gap between two sections is not zero");
     }
   }
-  // Bytes that open() has looked at.
+  // Skips bytes whose content RunFile::open() checks; their checksums are still verified.
   void skip_checked(uint64_t position) {
     while (payload_.position() < position) take_to(position);
   }
@@ -130,7 +130,7 @@ class Check {
   void scan(int level) {
     const RunSection& section = run_.layout().levels[level];
     skip_zeros(section.begin);
-    Key last{};  // below all keys, since no key is empty
+    Key last{};  // below every key, since no key is zero
     while (payload_.position() < section.end) {
       const auto chunk = take_to(section.end);
       for (const Key& key :
@@ -156,7 +156,8 @@ class Check {
     }
   }
 
-  // The first window of `level` is marked, by the level above; that is read again for the others.
+  // The scan of the level above has marked the first window of `level`. For each further window the
+  // level above is read again.
   void require_reached(int level) {
     for (;;) {
       require(marks_.all(), kNotReached, offset_of(run_.layout().levels[level].begin));
@@ -175,8 +176,8 @@ class Check {
   const RunFile& run_;
   MemoryBudget* budget_;
   Payload payload_;
-  uint64_t chunk_begin_ = 0;  // where the piece of the payload begins that was taken last
-  RankMarks marks_;           // of the level below the one that is scanned
+  uint64_t chunk_begin_ = 0;  // position in the payload of the chunk read last
+  RankMarks marks_;           // of the level below the scanned one
 };
 
 }  // namespace

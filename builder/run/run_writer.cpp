@@ -55,13 +55,13 @@ uint32_t RunWriter::add(const void* key, size_t size) {
   uint64_t& count = header_.keys[level_];
   if (count >= kMaxRunKeys)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
-                                       " needs more than 2^32 - 2 nodes, which a run cannot hold: "
+                                       " has more than 2^32 - 2 nodes, the limit of a run: "
                                        "lower the resolution or bake smaller parts");
   append(key, size);
   return uint32_t(count++);
 }
 
-// Sections are aligned and their items divide a payload: no item straddles two blocks.
+// Sections are aligned and item sizes divide a payload, so no item straddles two blocks.
 void RunWriter::append(const void* bytes, size_t size) {
   std::memcpy(block_.data() + kSpillHeader + filled_, bytes, size);
   filled_ += size;
