@@ -92,7 +92,7 @@ void CellCache::open_packs() {
       Pack pack(config_.folder + "/" + file.name);
       const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(CellAddress);
       if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
-        ++ignored_;
+        ++skipped_packs_;
         continue;
       }
       pack.read_entries(budget_);
@@ -143,8 +143,8 @@ bool CellCache::is_usable(OpenPack* open) {
     open->pack.prove();
     open->proven = true;
     ++open_packs_;
-    std::error_code ignored;  // a read-only cache can still be used
-    fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
+    std::error_code unused;  // a read-only cache can still be used
+    fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), unused);
   } catch (const DamagedPack&) {
     discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
@@ -182,14 +182,14 @@ void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>&
 void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
   {
     const std::lock_guard lock(mutex_);
-    if (!complaint_.empty()) return;
+    if (!write_error_.empty()) return;
   }
   try {
     write_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     const std::lock_guard lock(mutex_);
-    complaint_ = std::string("cannot write the cell cache: ") + error.what();
+    write_error_ = std::string("cannot write the cell cache: ") + error.what();
   }
 }
 

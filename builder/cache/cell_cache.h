@@ -46,8 +46,8 @@ class CellCache final : public CellStore {
   // A failed write is not an error; complaint() returns the reason.
   void keep(const BakedRun& baked, SpillFile* runs) override;
   uint64_t hits() const override { return hits_; }
-  uint64_t ignored() const override { return ignored_; }
-  std::string complaint() const override { return complaint_; }
+  uint64_t ignored() const override { return skipped_packs_; }
+  std::string complaint() const override { return write_error_; }
 
  private:
   // Entry `entry` of packs_[pack].
@@ -84,8 +84,8 @@ class CellCache final : public CellStore {
   MemoryBudget::Reservation counted_;   // of addresses_
   std::vector<CellAddress> addresses_;  // of all keys, sorted by key
   std::mutex mutex_;
-  uint64_t hits_ = 0, ignored_ = 0;
-  std::string complaint_;
+  uint64_t hits_ = 0, skipped_packs_ = 0;
+  std::string write_error_;
 };
 
 }  // namespace svdag

@@ -22,7 +22,7 @@ class CellStore {
   // The key of `cube`; `list` holds all triangles that touch it.
   virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
   // Returns true if the sub-DAG of `key` is stored, and takes it for `cube`: the caller then skips
-  // the descent, and taken() returns the sub-DAG. Thread-safe.
+  // the descent, and the sub-DAG is part of a later run of taken(). Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube) = 0;
   // Passes the taken cells to `use`, as runs. target(bytes) decides whether a run of up to `bytes`
   // bytes is spilled, and where to.

@@ -70,25 +70,25 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   if (!plane || is_full_) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
-  const double area = std::max(n.area, 0.5 * whole * whole);  // includes the rest of this triangle
+  const double area =
+      std::max(n.area, 0.5 * whole * whole);  // includes later cells of this triangle
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
     return area >= repeats_ * contents(n.n, level).count * s * s;
   };
-  int min_stored_level = levels_ - 2;
-  if (area < kMinBrickRepeats * repeats_ * contents(n.n, min_stored_level).count * 16)
-    return std::nullopt;
-  while (min_stored_level > 0 && repeats(min_stored_level - 1)) --min_stored_level;
+  int stored = levels_ - 2;
+  if (area < kMinBrickRepeats * repeats_ * contents(n.n, stored).count * 16) return std::nullopt;
+  while (stored > 0 && repeats(stored - 1)) --stored;
   if (n.number == 0) {
     add_plane(n);
     n.number = uint32_t(planes_.size());
   }
-  return Known{*plane, n.number - 1, first_level(*plane), min_stored_level};
+  return Known{*plane, n.number - 1, first_level(*plane), stored};
 }
 
-// The coarsest level at which the plane can be queried: offsets of exact planes fit 63 bits from
-// here on. Of other planes most ranges straddle a critical value in large cubes, unless these
-// values are in few clusters.
+// The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of other
+// planes most ranges straddle a critical value in larger cubes, unless the values form few
+// clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
   const int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
   if (plane.exact) return exact;
@@ -137,8 +137,7 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
   return &normals_.back();
 }
 
-// Estimates the number of frequent contents of a cube of `level`, and the length of their
-// intervals.
+// Estimates the number of frequent contents of a cube, and the length of their intervals.
 //
 // The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
 // c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1

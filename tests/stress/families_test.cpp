@@ -1,4 +1,4 @@
-// Every family on every grid at every depth and for both rules: nothing missed, nothing extra.
+// Every family on every grid, at every depth and for both rules: no missing voxel, no extra one.
 //
 // SVDAG_STRESS_DECISIONS sets the decisions per family, grid and rule (2*10^5; `make stress` 10^7).
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ uint64_t min_decisions() {
 
 struct Outcome {
   Tally tally;
-  std::set<int> depths;  // at which a descent started that had something to decide
+  std::set<int> depths;  // start depths of the descents with at least one decision
   uint64_t windows = 0;
 };
 
@@ -31,7 +31,7 @@ Outcome stress(const Family& family, int levels, Rule rule, uint64_t decisions) 
   StressRandom random(uint64_t(levels) * 1000 + uint64_t(rule));
   Outcome outcome;
   const size_t depths = size_t(levels - 1);       // 0 .. L-2
-  const uint64_t max_windows = 1000 + decisions;  // of a family that misses its own regions
+  const uint64_t max_windows = 1000 + decisions;  // for a family that misses its own regions
   while ((outcome.tally.decisions < decisions || outcome.depths.size() < depths) &&
          outcome.windows < max_windows) {
     const int depth = int(outcome.windows++ % depths);

@@ -1,5 +1,5 @@
-// The judges agree with each other on every family: clipping and centre lines in integers
-// (verify/), CGAL's exact kernel (verify/judge/judge_cgal.h), and the suite's own centre lines.
+// The judges agree on every family: clipping and centre lines in integers (verify/), CGAL's exact
+// kernel (verify/judge/judge_cgal.h), and the centre lines of this suite.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Near-planar patches: no wrong voxel under the conditions of builder/descend/patch.h, and wrong
-// ones without any of them.
+// Near-planar patches: no wrong voxels with the conditions of builder/descend/patch.h, and wrong
+// ones if any condition is left out.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Ties: geometry exactly on the planes of the grid, and one lattice step beside them.
+// Families of ties: geometry exactly on the planes of the grid, and one lattice step off them.
 #include "tests/stress/family.h"
 
 namespace svdag {
@@ -65,7 +65,7 @@ Soup giant_on_corners(const Spot& spot, StressRandom* random) {
   return {around_centroid(at, at + a, at + b)};
 }
 
-// All vertices on centres of voxels: every tie of rule thin.
+// All vertices on centres of voxels: every tie of the thin rule.
 Soup vertices_on_centres(const Spot& spot, StressRandom* random) {
   Soup soup = vertices_on_corners(spot, random);
   for (LatticeTriangle& t : soup) {
@@ -91,7 +91,7 @@ Soup outer_faces(const Spot& spot, StressRandom* random) {
   return soup;
 }
 
-// Planes +-x +-y +-z = c through voxel corners, or one step beside them.
+// Planes +-x +-y +-z = c through voxel corners, or one step off them.
 Soup diagonal_plane(const Spot& spot, StressRandom* random) {
   const LatticePoint at = spot.corner(random);
   const int64_t sign[3] = {random->sign(), random->sign(), random->sign()};
@@ -109,7 +109,7 @@ Soup diagonal_plane(const Spot& spot, StressRandom* random) {
   return {around_centroid(start, start + on_plane(), start + on_plane())};
 }
 
-// Giants that lean from a voxel plane by a few lattice steps over their whole length.
+// Giants that deviate from a voxel plane by a few lattice steps over their whole length.
 Soup near_axis_giant(const Spot& spot, StressRandom* random) {
   const int w = random->axis();
   LatticePoint at = spot.anchor(random);

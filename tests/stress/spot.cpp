@@ -33,7 +33,7 @@ Spot draw_spot(const Grid& grid, int depth, int64_t side, SpotArea area, StressR
     int64_t at = random->between(0, room);
     if (here == SpotArea::kMiddle) at = grid.resolution() / 2 - region / 2 - low;
     if (here == SpotArea::kBorder) at = low == 0 ? 0 : room;
-    // A quarter of the regions hugs the border of the start's cube.
+    // A quarter of the regions are at a border of the start cube on this axis.
     if (here == SpotArea::kAnywhere && random->below(4) == 0) at = random->coin() ? 0 : room;
     spot.region.min[a] = low + std::clamp<int64_t>(at, 0, room);
     spot.region.max[a] = spot.region.min[a] + region;

@@ -1,9 +1,9 @@
-// The whole bake, not only the predicate: far from zero, split into cells, for both rules.
+// Whole bakes, not only the predicate: far from zero, split into cells, for both rules.
 //
-// A scene on dyadic coordinates, baked on a lattice of dyadic voxels, is moved by 5,000,192 voxels
-// (4883 times 1024, so that the corner of the grid moves by the same): every level of the two files
-// has the same bytes, and only the place of the grid differs. Where arithmetic depends on the
-// distance from zero, or on the cells, it does not.
+// A scene with dyadic coordinates, baked on a lattice of dyadic voxels, is moved by 5,000,192
+// voxels (4883 times 1024, so that the corner of the grid moves by the same). Every level of the
+// two files then has the same bytes, and only the position of the grid differs. A computation that
+// depends on the distance from zero, or on the cells, would fail this.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr double kVoxel = 0.25;
 constexpr int64_t kShift = 4883 * 1024;  // voxels
 constexpr Rule kRules[2] = {Rule::kConservative, Rule::kThin};
 
-// Text, since the coordinates need more than a float: %.17g gives every double back.
+// As text, since the coordinates exceed float precision: %.17g is exact for every double.
 void write_off(const std::string& path, const std::vector<Triangle>& triangles) {
   std::ofstream out(path);
   out << "OFF\n" << 3 * triangles.size() << " " << triangles.size() << " 0\n";
@@ -38,7 +38,7 @@ void write_off(const std::string& path, const std::vector<Triangle>& triangles) 
     out << "3 " << 3 * i << " " << 3 * i + 1 << " " << 3 * i + 2 << "\n";
 }
 
-// Enlarged to 200 voxels, coordinates rounded to 2^-24; sums with the shift are exact.
+// Scales to 200 voxels and rounds to multiples of 2^-24, so that sums with the shift are exact.
 std::vector<Triangle> dyadic(std::vector<Triangle> triangles) {
   for (Triangle& t : triangles) {
     for (Point& p : t.v) {
@@ -77,7 +77,7 @@ Grid bake(const std::string& scene, const std::string& output, Rule rule, const 
   return build(config, &executor, &progress).grid;
 }
 
-// The bytes of all levels.
+// The bytes of all levels of a file.
 std::string dag_bytes(const std::string& path) {
   const DagFile file = DagFile::open(path);
   const std::string bytes = read_bytes(path);

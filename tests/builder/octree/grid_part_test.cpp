@@ -57,7 +57,7 @@ TEST(GridPart, AndItsRestAreTheGrid) {
 TEST(GridPart, WhatMeetsTwoPartsTogetherMeetsOneOfThem) {
   std::mt19937_64 random(3);
   const int f = fraction_bits(kLevels);
-  const auto coordinate = [&] {  // on voxel planes, too
+  const auto coordinate = [&] {  // half of them on voxel planes
     const int64_t whole = int64_t(random() % 40) - 4;
     return (whole << f) + (random() % 2 ? 0 : int64_t(random() % (1 << f)));
   };
