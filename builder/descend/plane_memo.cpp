@@ -70,8 +70,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   if (!plane || is_full_) return std::nullopt;
   Normal& n = *normal(*plane);
   n.area += 0.5 * width * width;
-  const double area =
-      std::max(n.area, 0.5 * whole * whole);  // includes later cells of this triangle
+  const double area = std::max(n.area, 0.5 * whole * whole);  // includes its later cells
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
     return area >= repeats_ * contents(n.n, level).count * s * s;
@@ -86,9 +85,8 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   return Known{*plane, n.number - 1, first_level(*plane), stored};
 }
 
-// The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of other
-// planes most ranges straddle a critical value in larger cubes, unless the values form few
-// clusters.
+// The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of others
+// most ranges straddle a critical value in larger cubes, unless these form few clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
   const int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
   if (plane.exact) return exact;
@@ -141,8 +139,8 @@ PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
 //
 // The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
 // c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1
-// clusters, and almost every cube is in one of the few long intervals between them. Where only a is
-// small there are (s + 1)^2 clusters.
+// clusters, and almost every cube is in a long interval between two of them. Where only a is small
+// there are (s + 1)^2 clusters.
 PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
   double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
   std::sort(c, c + 3);
