@@ -323,7 +323,7 @@ BuildReport Bake::run() {
   end_phase(&report_.seconds.write, &report_.phase_peaks.write);
   progress_->finish();
 
-  report_.nodes = output->keys();
+  report_.nodes = output->key_counts();
   report_.file_bytes = output->file_bytes();
   report_.content_hash = output->content_hash();
   report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),

@@ -68,7 +68,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
   if (width < kMinWidth && repeats_ > 0) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
   if (!plane || is_full_) return std::nullopt;
-  Normal& n = *normal(*plane);
+  Normal& n = *find_normal(*plane);
   n.area += 0.5 * width * width;
   const double area = std::max(n.area, 0.5 * whole * whole);  // includes its later cells
   const auto repeats = [&](int level) {
@@ -111,7 +111,7 @@ bool PlaneMemo::charge(uint64_t bytes) {
   return total <= max_bytes_ && reservation_.try_resize(total);
 }
 
-PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
+PlaneMemo::Normal* PlaneMemo::find_normal(const LatticePlane& p) {
   const auto slot_of = [&](const int64_t n[3]) {
     return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (normal_slots_.size() - 1);
   };
@@ -161,11 +161,11 @@ void PlaneMemo::add_plane(const Normal& normal) {
     const int log2 = std::ilogb(contents(plane.n, level).length);
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
-  plane.brick = plane_brick(plane);
+  plane.brick = make_plane_brick(plane);
   planes_.push_back(plane);
 }
 
-PlaneBrick PlaneMemo::plane_brick(const Plane& p) const {
+PlaneBrick PlaneMemo::make_plane_brick(const Plane& p) const {
   const int fraction = fraction_bits(levels_);
   // The range of offsets that set the voxel at the corner.
   int64_t first = p.negative << fraction, last = p.positive << fraction;
@@ -198,13 +198,13 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
   ++counts_.queries;
   min_stored_level_ = known.min_stored_level;
   Answer answer;
-  if (!node(known.number, cube.level, range, &answer)) return std::nullopt;
+  if (!find_node(known.number, cube.level, range, &answer)) return std::nullopt;
   ++counts_.answered;
   *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
   return SubDag{answer.node, answer.voxels};
 }
 
-bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
   if (level < min_stored_level_) return compute(number, level, range, out);
   LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) {
@@ -266,7 +266,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   for (; met != 0; met &= met - 1) {
     const unsigned c = unsigned(std::countr_zero(met));
     Answer child;
-    if (!node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
+    if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
       return false;
     out->low = std::max(out->low, child.low + shift[c]);
     out->high = std::min(out->high, child.high + shift[c]);

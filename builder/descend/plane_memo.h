@@ -125,7 +125,7 @@ class PlaneMemo {
   };
   static constexpr size_t kWays = 4;
 
-  Normal* normal(const LatticePlane& plane);
+  Normal* find_normal(const LatticePlane& plane);
   struct Contents {
     int dimensions;  // number of dimensions of the clusters of offsets
     double count;
@@ -134,8 +134,8 @@ class PlaneMemo {
   Contents contents(const int64_t n[3], int level) const;
   int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
-  PlaneBrick plane_brick(const Plane& plane) const;
-  bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  PlaneBrick make_plane_brick(const Plane& plane) const;
+  bool find_node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   void prefetch(uint32_t number, int level, int64_t offset);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);

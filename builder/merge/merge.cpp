@@ -137,7 +137,7 @@ class Merger {
     const RunFile* const file = keys.file;
     if (file == nullptr) return {keys.keys, {}, 0, nullptr};
     const auto open = [file, level, budget] { return file->read(level, budget); };
-    return {{}, open, file->keys(level) * sizeof(Key), map};
+    return {{}, open, file->key_count(level) * sizeof(Key), map};
   }
 
   // `held`: bytes of the resident maps that the inputs use.

@@ -96,7 +96,7 @@ RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add
     groups.push_back(spilled_input<Key>(scratch->passing(), stream, budget));
   RankMaps out_of = merge_in_groups<Key>(groups, add, max_sources, scratch, budget);
   for (const SpillStream& stream : merged) scratch->passing()->free(stream);
-  RankMaps maps = RankMaps::none(scratch, budget);
+  RankMaps maps = RankMaps::without_sources(scratch, budget);
   for (size_t g = 0; g < into.size(); ++g) {
     for (size_t s = 0; s < into[g].size(); ++s) maps.append_composed(&into[g], s, out_of, g);
     out_of.free(g);

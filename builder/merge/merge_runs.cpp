@@ -152,7 +152,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   output->finish(tops, report.voxels, largest_snap);
   progress->finish();
   report.seconds.write = seconds.lap();
-  report.nodes = output->keys();
+  report.nodes = output->key_counts();
   report.file_bytes = output->file_bytes();
   report.content_hash = output->content_hash();
   report.scratch_written = scratch->written_bytes();

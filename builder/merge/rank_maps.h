@@ -31,7 +31,9 @@ class RankMaps {
   RankMaps(RankMaps&&) = default;
   RankMaps& operator=(RankMaps&&) = default;
   // Spilled maps, with no source yet.
-  static RankMaps none(Scratch* scratch, MemoryBudget* budget) { return {{}, scratch, budget}; }
+  static RankMaps without_sources(Scratch* scratch, MemoryBudget* budget) {
+    return {{}, scratch, budget};
+  }
 
   // Appends the index of the next key of `source`.
   void push(size_t source, uint32_t index) {

@@ -6,7 +6,7 @@
 
 namespace svdag {
 
-std::vector<uint64_t> DagOutput::keys() const {
+std::vector<uint64_t> DagOutput::key_counts() const {
   const Header& header = writer_.header();
   std::vector<uint64_t> keys;
   for (uint32_t k = 0; k < header.section_count; ++k) keys.push_back(header.sections[k].nodes);

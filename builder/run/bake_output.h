@@ -24,7 +24,7 @@ class BakeOutput {
   virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) = 0;
 
   // Of the finished file.
-  virtual std::vector<uint64_t> keys() const = 0;  // per level; the last entry counts bricks
+  virtual std::vector<uint64_t> key_counts() const = 0;  // per level; the last entry counts bricks
   virtual uint64_t file_bytes() const = 0;
   virtual std::string content_hash() const = 0;  // 32 hex digits
 };
@@ -40,7 +40,7 @@ class DagOutput final : public BakeOutput {
     writer_.finish(voxels, largest_snap);
   }
   uint64_t voxels() const { return writer_.header().voxels; }
-  std::vector<uint64_t> keys() const override;
+  std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }
   std::string content_hash() const override;
 

@@ -88,7 +88,7 @@ class Check {
       require_reached(level + 1);
     }
     begin_marks(0, 0);
-    require(marks_.all() && run_.keys(0) <= 1, kNotReached, offset_of(payload_.position()));
+    require(marks_.all() && run_.key_count(0) <= 1, kNotReached, offset_of(payload_.position()));
     skip_zeros(run_.layout().roots.begin);
     skip_checked(run_.layout().roots.end);
     skip_zeros(run_.layout().ranges.begin);
@@ -144,13 +144,13 @@ class Check {
 
   void check_children(int level, const NodeKey& key) {
     for (const uint32_t child : key) {
-      require_here(child <= run_.keys(level + 1), "a child is outside of the run");
+      require_here(child <= run_.key_count(level + 1), "a child is outside of the run");
       if (child != 0) marks_.mark(child - 1);
     }
   }
 
   void begin_marks(int level, uint64_t first) {
-    marks_.begin(first, run_.keys(level));
+    marks_.begin(first, run_.key_count(level));
     for (const SubDagRoot& root : run_.roots()) {
       if (root.level == level) marks_.mark(root.rank);
     }
@@ -161,7 +161,7 @@ class Check {
   void require_reached(int level) {
     for (;;) {
       require(marks_.all(), kNotReached, offset_of(run_.layout().levels[level].begin));
-      if (marks_.end() == run_.keys(level)) return;
+      if (marks_.end() == run_.key_count(level)) return;
       begin_marks(level, marks_.end());
       const std::unique_ptr<BlockSource> above = run_.read(level - 1, budget_);
       for (auto block = above->next(); !block.empty(); block = above->next()) {

@@ -35,7 +35,7 @@ class RunFile {
   const GridPart& part() const { return part_; }
   // In Morton order, with `run` = 0.
   const std::vector<SubDagRoot>& roots() const { return roots_; }
-  uint64_t keys(int level) const { return header_.keys[level]; }
+  uint64_t key_count(int level) const { return header_.keys[level]; }
   // Streams the keys of `level` as bytes. The run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
   // Error if the file was written since open(): the result of check_run() is then invalid.

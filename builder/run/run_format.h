@@ -19,9 +19,8 @@ namespace svdag {
 
 constexpr unsigned char kRunMagic[8] = {0x89, 'S', 'V', 'R', 'U', 'N', '\r', '\n'};
 constexpr uint32_t kRunVersion = 1;
-constexpr uint32_t kRunLevels = 19;  // levels 0 .. L-2, L <= 20
-constexpr uint32_t kRunBlockBytes =
-    65536;  // of a block with its frame; the last one may be shorter
+constexpr uint32_t kRunLevels = 19;         // levels 0 .. L-2, L <= 20
+constexpr uint32_t kRunBlockBytes = 65536;  // with its frame; the last block may be shorter
 constexpr uint64_t kRunPayload = kRunBlockBytes - kSpillHeader;
 constexpr uint64_t kRunAlignment = 64;         // of sections; divides kRunPayload
 constexpr uint64_t kMaxRunKeys = 0xfffffffeU;  // per level

@@ -115,7 +115,7 @@ void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, doubl
   file_.commit();
 }
 
-std::vector<uint64_t> RunWriter::keys() const {
+std::vector<uint64_t> RunWriter::key_counts() const {
   return {header_.keys, header_.keys + header_.levels - 1};
 }
 

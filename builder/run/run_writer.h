@@ -33,7 +33,7 @@ class RunWriter final : public BakeOutput {
   uint32_t add_node(const NodeKey& children) override;
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) override;
 
-  std::vector<uint64_t> keys() const override;
+  std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return header_.file_bytes; }
   std::string content_hash() const override;
 

@@ -20,7 +20,7 @@ BoxPlacement placement_of(const LatticeTriangle& t, const Grid& grid, const Grid
   return selection.holds(box) ? BoxPlacement::kInside : BoxPlacement::kClipped;
 }
 
-bool zero_area(const LatticeTriangle& t) {
+bool has_zero_area(const LatticeTriangle& t) {
   const LatticePoint p = t.v[1] - t.v[0], q = t.v[2] - t.v[0];
   for (int u = 0; u < 3; ++u) {
     const int v = (u + 1) % 3;
@@ -96,7 +96,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       counts.outside += placement == BoxPlacement::kOutside;
       counts.clipped += placement == BoxPlacement::kClipped;
       if (placement == BoxPlacement::kOutside) continue;
-      counts.degenerate += zero_area(snapped);
+      counts.degenerate += has_zero_area(snapped);
       largest_move = std::max(largest_move, move);
       store.add(snapped);
     }

@@ -142,7 +142,7 @@ bool on_lattice(const LatticeTriangle& t) noexcept {
 BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
     : reader_(file, bin.stream, budget), left_(bin.triangles) {}
 
-uint8_t BinReader::byte() {
+uint8_t BinReader::read_byte() {
   if (at_ == end_) {
     const std::span<std::byte> block = reader_.next();
     if (block.empty()) reader_.fail_damaged();
@@ -152,11 +152,11 @@ uint8_t BinReader::byte() {
   return *at_++;
 }
 
-int64_t BinReader::number() {
+int64_t BinReader::read_number() {
   uint64_t code = 0;
   for (int shift = 0;; shift += 7) {
     if (shift > 63) reader_.fail_damaged();
-    const uint8_t b = byte();
+    const uint8_t b = read_byte();
     code |= uint64_t(b & 0x7f) << shift;
     if (b < 0x80) break;
   }
@@ -167,9 +167,10 @@ bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
   if (left_ == 0) return false;
   for (; max_count > 0 && left_ > 0; --max_count, --left_) {
     LatticeTriangle& t = out->emplace_back();
-    for (int a = 0; a < 3; ++a) t.v[0][a] = number();
+    for (int a = 0; a < 3; ++a) t.v[0][a] = read_number();
     for (size_t i = 1; i < 3; ++i) {
-      for (int a = 0; a < 3; ++a) t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(number()));
+      for (int a = 0; a < 3; ++a)
+        t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
     }
     if (!on_lattice(t)) reader_.fail_damaged();
   }

@@ -73,8 +73,8 @@ class BinReader {
   bool read(size_t max_count, std::vector<LatticeTriangle>* out);
 
  private:
-  int64_t number();
-  uint8_t byte();
+  int64_t read_number();
+  uint8_t read_byte();
 
   SpillReader reader_;
   uint64_t left_;

@@ -41,7 +41,7 @@ TEST(GridPart, TopsAreTheMaximalCubesAndFillIt) {
   }
 }
 
-TEST(GridPart, AndItsRestAreTheGrid) {
+TEST(GridPart, AndItsRestMakeUpTheGrid) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 200; ++i) {
     const GridPart part = random_part(&random), rest = part.rest();
@@ -54,7 +54,7 @@ TEST(GridPart, AndItsRestAreTheGrid) {
 }
 
 // The largest snap move of a run relies on this.
-TEST(GridPart, WhatMeetsTwoPartsTogetherMeetsOneOfThem) {
+TEST(GridPart, ABoxMeetsTheUnionOfTwoPartsIfItMeetsOneOfThem) {
   std::mt19937_64 random(3);
   const int f = fraction_bits(kLevels);
   const auto coordinate = [&] {  // half of them on voxel planes
