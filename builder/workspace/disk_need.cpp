@@ -9,9 +9,8 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle =
-    48;                            // of a small one in bins; on a bin border it counts twice
-constexpr double kMinShare = 0.2;  // share of the work from which the rest is estimated
+constexpr uint64_t kBytesPerTriangle = 48;  // of small ones in bins, with copies at borders
+constexpr double kMinShare = 0.2;           // share of the work from which the rest is estimated
 
 }  // namespace
 
@@ -20,7 +19,7 @@ void DiskNeed::check(uint64_t required, uint64_t estimated, const char* purpose)
   if (required <= free) return;
   throw Error(ExitCode::kOutput,
               std::string("spilling the ") + purpose + " needs about " + format_bytes(estimated) +
-                  " more, but the disk has " + format_bytes(free) +
+                  " more, but the disk has only " + format_bytes(free) +
                   " free: free disk space, or give another --scratch or a larger --memory",
               scratch_->folder()->path());
 }
