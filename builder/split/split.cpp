@@ -57,8 +57,7 @@ class TriangleStore {
   }
 
  private:
-  static constexpr uint64_t kTrianglesPerCheck =
-      1024;  // triangles between two checks of the memory
+  static constexpr uint64_t kTrianglesPerCheck = 1024;  // of the memory
 
   void spill_if_full() {
     if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
