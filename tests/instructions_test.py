@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Instructions of small bakes under callgrind, against tests/instructions.json.
+"""Compares the instruction counts of small bakes under callgrind with those in tests/instructions.json.
 
-Seconds vary from run to run, instructions hardly: a slow path that comes back shows here. More than
-RISE fails; less than FALL requests an --update of the numbers, so that the gain is kept. Vectors are
-fixed to what valgrind emulates; the numbers belong to the release build of the Debian that make test names.
+Times vary from run to run, instruction counts hardly, so this test finds slow paths that return. A ratio
+above RISE fails. A ratio below FALL fails too: record the improvement with --update. The vectors are fixed to
+what valgrind emulates; the counts are of the release build on the Debian version of `make test`.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = pathlib.Path(__file__).resolve().parent
-KNOWN = HERE / "instructions.json"
+EXPECTED = HERE / "instructions.json"
 RISE, FALL = 1.05, 0.80
 VECTORS = "SSE4"
 # name: (arguments of svdag-scene, of svdag build)
@@ -40,20 +40,21 @@ def count(programs, name, folder):
     return int(collected.group(1))
 
 
-def complaint(name, now, known):
-    if known is None:
-        return f"{name}: {now:,} instructions, and no number is kept"
-    if now > RISE * known:
-        return f"{name}: {now:,} instructions, {now / known - 1:.1%} more than the {known:,} that are kept"
-    if now < FALL * known:
-        return f"{name}: {now:,} instructions, {1 - now / known:.1%} less than the {known:,} that are kept: keep the gain"
+def failure(name, now, expected):
+    if expected is None:
+        return f"{name}: {now:,} instructions, and no expected count is recorded"
+    if now > RISE * expected:
+        return f"{name}: {now:,} instructions, {now / expected - 1:.1%} more than the expected {expected:,}"
+    if now < FALL * expected:
+        return (f"{name}: {now:,} instructions, {1 - now / expected:.1%} less than the expected {expected:,}: "
+                "record it with --update")
     return None
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("programs", type=pathlib.Path, help="folder of the built programs")
-    parser.add_argument("--update", action="store_true", help="keep what the programs need now")
+    parser.add_argument("--update", action="store_true", help="record the counts of these programs")
     options = parser.parse_args()
     if shutil.which("valgrind") is None:
         print("valgrind is not on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
@@ -61,16 +62,16 @@ def main():
     with tempfile.TemporaryDirectory(prefix="svdag-instructions-") as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = dict(zip(BAKES, pool.map(lambda name: count(options.programs, name, pathlib.Path(folder)), BAKES)))
     if options.update:
-        KNOWN.write_text(json.dumps(counts, indent=2) + "\n")
-    known = json.loads(KNOWN.read_text())
-    complaints = [c for c in (complaint(name, now, known.get(name)) for name, now in counts.items()) if c]
+        EXPECTED.write_text(json.dumps(counts, indent=2) + "\n")
+    expected = json.loads(EXPECTED.read_text())
+    failures = [c for c in (failure(name, now, expected.get(name)) for name, now in counts.items()) if c]
     for name, now in counts.items():
-        print(f"{name}: {now:,} instructions, {now / known.get(name, now):.3f} of what is kept")
-    if complaints:
-        print(*complaints, sep="\n")
-        print("If this is meant to be: tests/instructions_test.py build/release --update")
-    print(f"{len(counts) - len(complaints)} passed, {len(complaints)} failed, 0 skipped")
-    return len(complaints) > 0
+        print(f"{name}: {now:,} instructions, {now / expected.get(name, now):.3f} of the expected count")
+    if failures:
+        print(*failures, sep="\n")
+        print("If this is intended: tests/instructions_test.py build/release --update")
+    print(f"{len(counts) - len(failures)} passed, {len(failures)} failed, 0 skipped")
+    return len(failures) > 0
 
 
 if __name__ == "__main__":

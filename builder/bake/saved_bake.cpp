@@ -63,7 +63,7 @@ void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
   visit_fields(saved->grid, GetField{in});
   in->require(saved->grid.is_possible(), "impossible grid");
   in->get(&saved->block_bytes);
-  in->require(Scratch::can_have_blocks_of(saved->block_bytes), "impossible size of blocks");
+  in->require(Scratch::is_block_size(saved->block_bytes), "impossible size of blocks");
 }
 
 void grow(uint32_t* blocks, const SpillStream& stream) {

@@ -18,30 +18,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEnding = ".cells";
+constexpr const char* kExtension = ".cells";
 
 std::string random_name() {
   std::random_device device;
   char name[17];
   std::snprintf(name, sizeof name, "%08x%08x", unsigned(device()), unsigned(device()));
-  return std::string(name) + kEnding;
+  return std::string(name) + kExtension;
 }
 
-// Whether the name is that of a pack; other files in the folder are left alone.
-bool is_of_cache(const std::string& name) {
-  return name.size() == 16 + std::strlen(kEnding) && name.ends_with(kEnding) &&
+// Whether `name` is the name of a pack. Other files in the folder are left alone.
+bool is_pack_name(const std::string& name) {
+  return name.size() == 16 + std::strlen(kExtension) && name.ends_with(kExtension) &&
          name.find_first_not_of("0123456789abcdef") == 16;
 }
 
-// A quarter of the descriptors that this process may have: the rest of the bake needs some, too.
+// A quarter of the file descriptors of this process; the rest of the bake needs some too.
 size_t packs_to_keep_open() {
   struct rlimit files;
   return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? size_t(files.rlim_cur / 4) : 0;
 }
 
-// Ignores an Error that is not caused by the pack, so the bake continues without it; rethrows
-// internal errors.
-void let_pass(const Error& error) {
+// For an Error that does not prove the pack damaged: rethrows a defect of the program (kInternal);
+// otherwise returns, and the bake continues without the pack.
+void rethrow_if_internal(const Error& error) {
   if (error.code() == ExitCode::kInternal) throw;
 }
 
@@ -54,7 +54,7 @@ CellCache::CellCache(const CellCacheConfig& config, const Grid& grid, Rule rule,
       rule_(rule),
       budget_(budget),
       folder_(Folder::open_shared(config.folder)) {
-  if (config_.most_open == 0) config_.most_open = packs_to_keep_open();
+  if (config_.max_open == 0) config_.max_open = packs_to_keep_open();
   open_packs();
 }
 
@@ -65,18 +65,18 @@ CellCache::~CellCache() {
   }
 }
 
-// All that there are, that used least recently first.
-std::vector<CellCache::Found> CellCache::find_packs() const {
-  std::vector<Found> packs;
+// All packs in the folder, least recently used first.
+std::vector<CellCache::PackFile> CellCache::find_packs() const {
+  std::vector<PackFile> packs;
   for (const std::string& name : folder_.names()) {
-    if (!is_of_cache(name)) continue;
+    if (!is_pack_name(name)) continue;
     const fs::path path = fs::path(config_.folder) / name;
-    std::error_code gone;  // another bake may trim, too
+    std::error_code gone;  // another bake may remove packs too
     const auto used = fs::last_write_time(path, gone);
     const uint64_t bytes = gone ? 0 : fs::file_size(path, gone);
     if (!gone) packs.push_back({used, name, bytes});
   }
-  std::sort(packs.begin(), packs.end(), [](const Found& a, const Found& b) {
+  std::sort(packs.begin(), packs.end(), [](const PackFile& a, const PackFile& b) {
     return std::tie(a.used, a.name) < std::tie(b.used, b.name);
   });
   return packs;
@@ -85,14 +85,14 @@ std::vector<CellCache::Found> CellCache::find_packs() const {
 void CellCache::open_packs() {
   const MemoryShares shares(budget_->limit());
   uint64_t left = shares.cache_index, entries = 0;
-  std::vector<Found> found = find_packs();
+  std::vector<PackFile> found = find_packs();
   std::reverse(found.begin(), found.end());
-  for (const Found& file : found) {
+  for (const PackFile& file : found) {
     try {
       Pack pack(config_.folder + "/" + file.name);
       const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(CellAddress);
       if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
-        ++ignored_;
+        ++skipped_packs_;
         continue;
       }
       pack.read_entries(budget_);
@@ -102,25 +102,25 @@ void CellCache::open_packs() {
     } catch (const DamagedPack&) {
       discard(file.name);
     } catch (const Error& error) {
-      let_pass(error);
+      rethrow_if_internal(error);
     }
   }
-  counted_ = budget_->reserve(entries * sizeof(CellAddress), "places in the cell cache");
-  places_.reserve(entries);
+  counted_ = budget_->reserve(entries * sizeof(CellAddress), "index of the cell cache");
+  addresses_.reserve(entries);
   make_index();
 }
 
-// Of equal keys the one stays whose pack was used last.
+// Of equal keys, the one in the most recently used pack is kept.
 void CellCache::make_index() {
   for (uint32_t p = 0; p < packs_.size(); ++p) {
     const uint32_t count = as_u32(packs_[p].pack.entry_count(), "cells of a pack");
-    for (uint32_t e = 0; e < count; ++e) places_.push_back({p, e});
+    for (uint32_t e = 0; e < count; ++e) addresses_.push_back({p, e});
   }
-  std::sort(places_.begin(), places_.end(), [this](CellAddress a, CellAddress b) {
+  std::sort(addresses_.begin(), addresses_.end(), [this](CellAddress a, CellAddress b) {
     return std::tie(key_at(a).words, a.pack, a.entry) < std::tie(key_at(b).words, b.pack, b.entry);
   });
   const auto same = [this](CellAddress a, CellAddress b) { return key_at(a) == key_at(b); };
-  places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
+  addresses_.erase(std::unique(addresses_.begin(), addresses_.end(), same), addresses_.end());
 }
 
 CellKey CellCache::key(const Cube& cube, const TriangleList& list) const {
@@ -130,39 +130,39 @@ CellKey CellCache::key(const Cube& cube, const TriangleList& list) const {
 void CellCache::discard(const std::string& name) const {
   try {
     folder_.remove(name);
-  } catch (const Error&) {  // a cache that cannot be written to serves all the same
+  } catch (const Error&) {  // a read-only cache can still be used
   }
 }
 
-// Proves a pack before its first use; its file is marked as used.
-bool CellCache::usable(Open* open) {
+// Proves a pack before its first use and updates the time of last use of its file.
+bool CellCache::is_usable(OpenPack* open) {
   if (open->proven || open->unusable) return open->proven;
-  if (open_ >= config_.most_open) return false;
+  if (open_packs_ >= config_.max_open) return false;
   open->unusable = true;
   try {
     open->pack.prove();
     open->proven = true;
-    ++open_;
-    std::error_code ignored;  // a cache that cannot be written to serves all the same
-    fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), ignored);
+    ++open_packs_;
+    std::error_code unused;  // a read-only cache can still be used
+    fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), unused);
   } catch (const DamagedPack&) {
     discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
-    let_pass(error);
+    rethrow_if_internal(error);
   }
   return open->proven;
 }
 
 bool CellCache::take(const CellKey& key, const Cube& cube) {
   const auto found = std::lower_bound(
-      places_.begin(), places_.end(), key,
-      [this](CellAddress place, const CellKey& k) { return key_at(place).words < k.words; });
-  if (found == places_.end() || key_at(*found) != key) return false;
+      addresses_.begin(), addresses_.end(), key,
+      [this](CellAddress address, const CellKey& k) { return key_at(address).words < k.words; });
+  if (found == addresses_.end() || key_at(*found) != key) return false;
   const std::lock_guard lock(mutex_);
-  Open& open = packs_[found->pack];
+  OpenPack& open = packs_[found->pack];
   const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
-  if (!fits || !usable(&open)) return false;
+  if (!fits || !is_usable(&open)) return false;
   open.taken.push_back({found->entry, cube});
   ++hits_;
   return true;
@@ -170,10 +170,11 @@ bool CellCache::take(const CellKey& key, const Cube& cube) {
 
 void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                       const std::function<void(BakedRun)>& use) {
-  for (Open& open : packs_) {
+  for (OpenPack& open : packs_) {
     if (open.taken.empty()) continue;
-    const std::optional<SpillTarget> place = target(open.pack.bytes());
-    use(open.pack.extract(std::move(open.taken), grid_.levels, budget_, place ? &*place : nullptr));
+    const std::optional<SpillTarget> spill_target = target(open.pack.bytes());
+    use(open.pack.extract(std::move(open.taken), grid_.levels, budget_,
+                          spill_target ? &*spill_target : nullptr));
     open.taken.clear();
   }
 }
@@ -181,24 +182,24 @@ void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>&
 void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
   {
     const std::lock_guard lock(mutex_);
-    if (!complaint_.empty()) return;
+    if (!write_error_.empty()) return;
   }
   try {
     write_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     const std::lock_guard lock(mutex_);
-    complaint_ = std::string("the cell cache is not written: ") + error.what();
+    write_error_ = std::string("cannot write the cell cache: ") + error.what();
   }
 }
 
 void CellCache::trim() const {
-  const std::vector<Found> packs = find_packs();
+  const std::vector<PackFile> packs = find_packs();
   uint64_t all = 0;
-  for (const Found& pack : packs) all += pack.bytes;
+  for (const PackFile& pack : packs) all += pack.bytes;
   size_t left = packs.size();
-  for (const Found& pack : packs) {
-    if (all <= config_.most_bytes && left <= config_.most_packs) return;
+  for (const PackFile& pack : packs) {
+    if (all <= config_.max_bytes && left <= config_.max_packs) return;
     folder_.remove(pack.name);
     all -= pack.bytes;
     --left;

@@ -1,16 +1,18 @@
-// `--cache DIR`: cells that were baked before are taken from a folder instead of being baked.
+// The cell cache (`--cache DIR`): a folder of baked cells that later bakes reuse.
 //
-// The folder holds packs (builder/cache/cell_pack.h), one for each table of nodes that a bake
-// filled with new cells. A bake reads the entries of all packs when it begins, takes what it meets,
-// and adds packs of its own at its end, each under a random name and complete from the moment that
-// it has the name: any number of bakes may share the folder. A pack is read through before anything
-// of it is taken, and stays open then, for another bake may remove it. A damaged pack is removed. A
-// pack that cannot be opened or read just now is skipped; so are packs beyond the number that may
-// be open at once, and the least recently used where the entries of all have no room in their share
-// of the memory (builder/workspace/memory_shares.h). The folder has two limits, of bytes and of
-// packs, for small packs are never joined and each costs a bake its reading: beyond them the packs
-// go that were not used for the longest time. Rejected: a file per cell (262,144 at 64K^3), one
-// data base (locks over NFS).
+// The folder holds packs (builder/cache/cell_pack.h), one for each node table that a bake filled
+// with new cells. A bake reads the entries of all packs when it begins, takes the cells that it
+// meets, and adds packs of its own at its end. A pack gets a random name, by a rename once it is
+// complete, so any number of bakes can share the folder.
+//
+// A pack is read completely before a cell is taken from it, and then stays open, since another bake
+// may remove it. A damaged pack is removed. A pack that cannot be opened or read is skipped. So are
+// packs beyond the number that may be open at once, and the least recently used packs if the
+// entries of all do not fit in their share of the memory (builder/workspace/memory_shares.h).
+//
+// The folder is limited in bytes and in packs, since small packs are never joined and a bake reads
+// each. Beyond a limit the least recently used packs are removed. Rejected: a file per cell
+// (262,144 at 64K^3), a database (locks over NFS).
 #pragma once
 
 #include <filesystem>
@@ -25,10 +27,10 @@
 namespace svdag {
 
 struct CellCacheConfig {
-  std::string folder;                        // made, for this user alone, if it is not there
-  uint64_t most_bytes = uint64_t(16) << 30;  // of all packs
-  size_t most_packs = 4096;
-  size_t most_open = 0;  // packs of which a bake takes; 0: by what the process may open
+  std::string folder;                       // created if missing, accessible to this user only
+  uint64_t max_bytes = uint64_t(16) << 30;  // of all packs
+  size_t max_packs = 4096;
+  size_t max_open = 0;  // packs from which a bake takes cells; 0: by the file limit
 };
 
 class CellCache final : public CellStore {
@@ -41,35 +43,35 @@ class CellCache final : public CellStore {
   bool take(const CellKey& key, const Cube& cube) override;
   void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
              const std::function<void(BakedRun)>& use) override;
-  // What cannot be written is not kept; complaint() says why.
+  // A failed write is not an error; complaint() returns the reason.
   void keep(const BakedRun& baked, SpillFile* runs) override;
   uint64_t hits() const override { return hits_; }
-  uint64_t ignored() const override { return ignored_; }
-  std::string complaint() const override { return complaint_; }
+  uint64_t ignored() const override { return skipped_packs_; }
+  std::string complaint() const override { return write_error_; }
 
  private:
-  // ListedTriangle `entry` of packs_[pack].
+  // Entry `entry` of packs_[pack].
   struct CellAddress {
     uint32_t pack, entry;
   };
-  struct Found {
+  struct PackFile {
     std::filesystem::file_time_type used;
     std::string name;
     uint64_t bytes;
   };
-  struct Open {
+  struct OpenPack {
     Pack pack;
-    std::vector<Pack::Taken> taken;
+    std::vector<Pack::TakenCell> taken;
     bool proven = false, unusable = false;
   };
-  std::vector<Found> find_packs() const;
+  std::vector<PackFile> find_packs() const;
   void open_packs();
   void make_index();
-  const CellKey& key_at(CellAddress place) const {
-    return packs_[place.pack].pack.entries()[place.entry].key;
+  const CellKey& key_at(CellAddress address) const {
+    return packs_[address.pack].pack.entries()[address.entry].key;
   }
   void trim() const;
-  bool usable(Open* open);
+  bool is_usable(OpenPack* open);
   void discard(const std::string& name) const;
 
   CellCacheConfig config_;
@@ -77,13 +79,13 @@ class CellCache final : public CellStore {
   Rule rule_;
   MemoryBudget* budget_;
   Folder folder_;
-  std::vector<Open> packs_;
-  size_t open_ = 0;                    // of them
-  MemoryBudget::Reservation counted_;  // places_
-  std::vector<CellAddress> places_;    // of all keys, by key
+  std::vector<OpenPack> packs_;
+  size_t open_packs_ = 0;               // number of packs_ that are open
+  MemoryBudget::Reservation counted_;   // of addresses_
+  std::vector<CellAddress> addresses_;  // of all keys, sorted by key
   std::mutex mutex_;
-  uint64_t hits_ = 0, ignored_ = 0;
-  std::string complaint_;
+  uint64_t hits_ = 0, skipped_packs_ = 0;
+  std::string write_error_;
 };
 
 }  // namespace svdag

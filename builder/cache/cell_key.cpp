@@ -8,9 +8,9 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kVersion = 1;  // changes when nodes or bricks of the same triangles would
+constexpr int64_t kVersion = 1;  // to be changed when the sub-DAG of the same triangles changes
 
-using Words = std::array<int64_t, 9>;  // corners, relative to the cell's
+using Words = std::array<int64_t, 9>;  // three vertices, relative to the cell's corner
 
 void put_selection(const Grid& grid, const Cube& cube, std::vector<int64_t>* text) {
   const int shift = grid.levels - cube.level;

@@ -1,13 +1,12 @@
-// The key of a cell: BLAKE2b-256 of everything that determines its voxels.
+// The key of a cell: the BLAKE2b-256 hash of everything that determines its voxels.
 //
-// That is the version of the algorithm, the rule, the cell's side and F, the part of the cell that
-// may be set, and the triangles relative to the cell's corner, sorted, without duplicates. Not the
-// grid: the same geometry elsewhere, in an instance or in a grid that moved by whole cells, has the
-// same key. A listed triangle that misses the cell changes the key, which costs a bake of the cell
-// but never gives a wrong one. The hash is cryptographic, so no scene can be made to collide with
-// another one, and a cache can be shared.
-// Rejected: a fast hash (a scene's author could make two cells collide), keys of clipped triangles
-// (clipping rounds, or needs rationals).
+// Hashed are the version of the algorithm, the rule, the cell's side and F, the selected box in the
+// cell, and the triangles relative to the cell's corner, sorted and unique. The grid is not: the
+// same geometry at another position, as an instance or in a grid that is moved by whole cells, has
+// the same key. A listed triangle that misses the cell changes the key; the cell is then baked
+// again, but never wrong. Collisions cannot be constructed (256 bits, cryptographic), so a cache
+// can be shared. Rejected: a fast hash (the author of a scene could make two cells collide), keys
+// of clipped triangles (clipping rounds, or needs rationals).
 #pragma once
 
 #include "builder/cache/cell_store.h"

@@ -26,7 +26,7 @@ uint64_t checksum_of(const PackHeader& header) {
   return checksum64(std::as_bytes(std::span(&header, 1)).first(offsetof(PackHeader, checksum)));
 }
 
-// Appends the keys of a level, in memory or spilled; returns their number.
+// Appends the keys of a level, from memory or from scratch; returns their number.
 template <class Key>
 uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget* budget,
                       PackBlockWriter* out) {
@@ -40,7 +40,7 @@ uint64_t append_level(const RunLevel<Key>& level, SpillFile* runs, MemoryBudget*
   return level.spilled->bytes / sizeof(Key);
 }
 
-// Keys of one height, of which none is empty: what a merge relies on.
+// Checks that the keys of one height ascend and are not empty, which a merge relies on.
 template <class Key>
 class Ascending {
  public:
@@ -92,7 +92,8 @@ Pack::Pack(std::string path) : path_(std::move(path)) {
   bool sound =
       read == sizeof header_ && std::memcmp(header_.magic, kPackMagic, sizeof kPackMagic) == 0;
   if (sound && header_.version != kPackVersion && header_.checksum == checksum_of(header_))
-    throw Error(ExitCode::kBadInput, "is of another version of svdag", path_);  // which may use it
+    throw Error(ExitCode::kBadInput, "is of another version of svdag",
+                path_);  // not damaged: that version may use it
   sound = sound && header_.version == kPackVersion && header_.checksum == checksum_of(header_) &&
           header_.file_bytes == size && header_.entries <= size / sizeof(PackEntry);
   for (const uint64_t keys : header_.keys) sound = sound && keys <= size / sizeof(Brick);
@@ -157,19 +158,20 @@ void Pack::prove() {
   file_ = std::move(file);
 }
 
-BakedRun Pack::extract(std::vector<Taken> taken, int levels, MemoryBudget* budget,
+BakedRun Pack::extract(std::vector<TakenCell> taken, int levels, MemoryBudget* budget,
                        const SpillTarget* target) const {
-  const auto range_of = [&](const Taken& t) { return morton_range(t.cube, levels); };
-  std::sort(taken.begin(), taken.end(),
-            [&](const Taken& a, const Taken& b) { return range_of(a).begin < range_of(b).begin; });
+  const auto range_of = [&](const TakenCell& t) { return morton_range(t.cube, levels); };
+  std::sort(taken.begin(), taken.end(), [&](const TakenCell& a, const TakenCell& b) {
+    return range_of(a).begin < range_of(b).begin;
+  });
   PackExtraction extraction(
       header_, [&](uint32_t height, const auto& use) { read_height(file_, height, use); }, budget);
-  for (const Taken& t : taken) {
+  for (const TakenCell& t : taken) {
     if (entries_[t.entry].rank != kNoNode) extraction.take(entries_[t.entry]);
   }
   BakedRun baked;
   baked.run = extraction.run(levels, target);
-  for (const Taken& t : taken) {
+  for (const TakenCell& t : taken) {
     const PackEntry& entry = entries_[t.entry];
     append_range(&baked.finished, range_of(t));
     baked.voxels += entry.voxels;

@@ -1,7 +1,6 @@
-// A pack: the sub-DAGs of the cells that one worker baked, in one file of a cell cache.
+// A pack: a file of a cell cache with the sub-DAGs of the cells of one node table.
 //
-// What is in it: builder/cache/pack_layout.h. What a bake takes of it:
-// builder/cache/pack_extraction.h.
+// Its layout: builder/cache/pack_layout.h. Reading cells from it: builder/cache/pack_extraction.h.
 #pragma once
 
 #include <memory>
@@ -16,48 +15,48 @@
 
 namespace svdag {
 
-// Writes a pack of the cells of `baked` that have keys, baked in a grid of `levels` levels; writes
-// nothing without such cells. `runs` holds the run if it was spilled.
+// Writes a pack with the cells of `baked` that have keys; writes nothing if there are none.
+// `levels` is L of the grid; `runs` holds the run of `baked` if it is spilled.
 void write_pack(const std::string& path, const BakedRun& baked, int levels, SpillFile* runs,
                 MemoryBudget* budget);
 
 class Pack {
  public:
-  // Reads the header. A DamagedPack (builder/cache/pack_blocks.h) if it is not sound.
+  // Reads the header. DamagedPack (builder/cache/pack_blocks.h) if it is invalid.
   explicit Pack(std::string path);
 
   const std::string& path() const { return path_; }
   uint64_t bytes() const { return header_.file_bytes; }
-  // How many entries there are, and the memory that read_entries() takes.
+  // Number of entries, and memory in bytes of read_entries().
   uint64_t entry_count() const { return header_.entries; }
   uint64_t index_bytes() const;
-  // The memory that extract() takes at most, beside that of the run.
+  // Largest memory of extract() in bytes, without that of the run.
   uint64_t marks_bytes() const;
 
-  // To be called once, before all below. A DamagedPack if they are not sound.
+  // Must be called once, before the functions below. DamagedPack if the entries are invalid.
   void read_entries(MemoryBudget* budget);
   std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file and reads it once to the end. DamagedPack if a byte was changed, or if its nodes
-  // cannot be those of a run; Error if it cannot be read.
+  // Opens the file, keeps it open, and reads it once to the end. DamagedPack if a byte differs from
+  // what was written, or its nodes cannot be those of a run; another Error if it cannot be read.
   void prove();
 
-  struct Taken {
+  struct TakenCell {
     size_t entry;
     Cube cube;
   };
-  // The run of what was taken into a grid of `levels` levels, of a pack that was proven. Spilled if
-  // there is a target.
-  BakedRun extract(std::vector<Taken> taken, int levels, MemoryBudget* budget,
+  // The taken cells as a run of a grid with `levels` levels; spilled if `target` is given. The pack
+  // must be proven.
+  BakedRun extract(std::vector<TakenCell> taken, int levels, MemoryBudget* budget,
                    const SpillTarget* target) const;
 
  private:
-  // Reads the section of `height` in order, piece by piece.
+  // Reads the section of `height` in order and passes it to `use` in chunks.
   void read_height(const File& file, uint32_t height,
                    const std::function<void(std::span<std::byte>)>& use) const;
 
   std::string path_;
   PackHeader header_{};
-  MemoryBudget::Reservation counted_;  // the next two
+  MemoryBudget::Reservation counted_;  // of the next two
   std::vector<PackEntry> entries_;
   std::vector<uint64_t> checksums_;  // of the blocks
   File file_;

@@ -1,6 +1,6 @@
-// Sub-DAGs of cells baked before, looked up by the content of the cells.
+// Interface of a store of baked cells, which finds the sub-DAG of a cell by its content.
 //
-// The interface between the voxelizer and a cache; builder/cache/cell_cache.h implements it with a
+// The voxelizer uses this interface; CellCache (builder/cache/cell_cache.h) implements it in a
 // folder.
 #pragma once
 
@@ -19,20 +19,20 @@ class CellStore {
  public:
   virtual ~CellStore() = default;
 
-  // The key of `cube` with the triangles of `list`, which holds all that touch it.
+  // The key of `cube`; `list` holds all triangles that touch it.
   virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
-  // Returns true if the sub-DAG of `key` is stored: it is then used for `cube`, and the caller
-  // skips the descent. From any thread.
+  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube`: the caller then skips
+  // the descent, and the sub-DAG is part of a later run of taken(). Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube) = 0;
-  // Passes the taken cells to use() as runs. target(bytes) decides whether a run of up to `bytes`
-  // is spilled, and where.
+  // Passes the taken cells to `use`, as runs. target(bytes) decides whether a run of up to `bytes`
+  // bytes is spilled, and where to.
   virtual void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                      const std::function<void(BakedRun)>& use) = 0;
-  // Stores the cells of `baked`; `runs` holds the run if it was spilled. From any thread.
+  // Stores the cells of `baked`; `runs` holds its run if that is spilled. Thread-safe.
   virtual void keep(const BakedRun& baked, SpillFile* runs) = 0;
   // Number of cells found in the store.
   virtual uint64_t hits() const = 0;
-  // Number of packs ignored for lack of memory.
+  // Number of packs that were skipped for lack of memory.
   virtual uint64_t ignored() const = 0;
   // Why cells could not be stored; empty if all were.
   virtual std::string complaint() const = 0;

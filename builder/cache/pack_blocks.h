@@ -1,5 +1,5 @@
-// The bytes of a pack between its header and its checksums: written and read in order, in blocks of
-// 64 KiB with a checksum each.
+// The payload of a pack, between its header and its checksums: written and read in order, in blocks
+// of 64 KiB with a checksum each.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace svdag {
 
-constexpr uint64_t kPackBegin = 256;  // of the first block in the file
+constexpr uint64_t kPackBegin = 256;  // offset of the first block in the file
 constexpr uint64_t kPackBlock = 65536;
-constexpr uint64_t kPackAlignment = 64;  // of sections, from kPackBegin on
+constexpr uint64_t kPackAlignment = 64;  // of sections, relative to kPackBegin
 
-// The bytes of a pack are not those that were written. Any other Error (no descriptor left, a file
-// server that does not answer) says nothing about the pack.
+// The bytes of a pack differ from those that were written. Any other Error (no file descriptor
+// left, a file server that does not answer) does not mean that the pack is damaged.
 class DamagedPack : public Error {
  public:
   DamagedPack(const std::string& path, const std::string& sentence,
@@ -34,9 +34,9 @@ class PackBlockWriter {
  public:
   explicit PackBlockWriter(AtomicFile* file) : file_(file), block_(kPackBlock) {}
   void append(std::span<const std::byte> bytes);
-  // Zeros up to where a section may begin.
+  // Appends zeros up to the next possible start of a section.
   void align();
-  // Writes the last block and the checksums; returns the size of the file.
+  // Writes the last block and the checksums; returns the file size.
   uint64_t finish();
 
  private:
@@ -48,9 +48,9 @@ class PackBlockWriter {
   std::vector<uint64_t> checksums_;
 };
 
-// Hands bytes `begin` .. `end` (from kPackBegin on) of `file` to `use`, piece by piece. Pieces
-// begin at multiples of 64 bytes if `begin` does. A block that does not match its checksum is a
-// DamagedPack.
+// Passes bytes `begin` .. `end` (relative to kPackBegin) of `file` to `use`, in chunks. Chunks
+// begin at multiples of 64 bytes if `begin` does. DamagedPack if a block does not match its
+// checksum.
 void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t payload,
                uint64_t begin, uint64_t end, const std::function<void(std::span<std::byte>)>& use);
 

@@ -69,7 +69,7 @@ void PackExtraction::mark_children(uint32_t height) {
     for (const NodeKey& key : keys_in<NodeKey>(bytes)) {
       if (!marks_[height].has(rank++)) continue;
       for (const uint32_t child : key) {
-        SVDAG_ASSERT(child <= header_.keys[height - 1]);  // the pack was proven
+        SVDAG_ASSERT(child <= header_.keys[height - 1]);  // prove() checked it
         if (child != 0) marks_[height - 1].set(child - 1);
       }
     }

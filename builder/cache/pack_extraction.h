@@ -1,6 +1,7 @@
-// What a bake takes of a pack is a run again: what the taken nodes reach, marked from the top down
-// and copied from the bricks up, with ranks for the old ranks. Both orders are the same, so nothing
-// is sorted.
+// Extracts the cells that a bake takes from a pack as a run.
+//
+// The nodes that the taken ones reach are marked from the top down, then copied from the bricks up,
+// with new ranks. Old and new ranks have the same order, so nothing is sorted.
 #pragma once
 
 #include <functional>
@@ -15,18 +16,18 @@ namespace svdag {
 
 class PackExtraction {
  public:
-  // Hands the section of a height to its second argument, in order and piece by piece.
+  // Passes the section of a height to the second argument, in order and in chunks.
   using Read =
       std::function<void(uint32_t height, const std::function<void(std::span<std::byte>)>&)>;
 
-  // Of a proven pack; `header` must outlive this.
+  // The pack must be proven; `header` must outlive this object.
   PackExtraction(const PackHeader& header, Read read, MemoryBudget* budget);
 
-  // All that is taken, before the run is made.
+  // Takes an entry; all must be taken before run().
   void take(const PackEntry& entry) { marks_[entry.height].set(entry.rank); }
-  // For a grid of `levels` levels; spilled if there is a target.
+  // The run of a grid with `levels` levels; spilled if `target` is given.
   Run run(int levels, const SpillTarget* target);
-  // Of an entry that was taken, in the run.
+  // The rank in the run of a taken entry. After run().
   uint32_t rank(const PackEntry& entry) const { return marks_[entry.height].rank(entry.rank); }
 
  private:

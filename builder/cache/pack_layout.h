@@ -2,10 +2,11 @@
 //
 //   header | bricks | nodes of height 3, 4, ... | entries | checksums
 //
-// Heights instead of levels (a node of height h covers 2^h voxels a side, bricks have 2), so that a
-// pack serves grids of any resolution. Each height is sorted and closed like a level of a run
-// (builder/reduce/run.h): children are 1 + rank in the height below. An entry says which node is
-// the sub-DAG of which key, or that nothing is set. The checksums are those of 64 KiB blocks.
+// Nodes are stored by height instead of level (a node of height h covers 2^h voxels a side, bricks
+// have height 2), so that a pack serves grids of any resolution. Each height is sorted and closed
+// like a level of a run (builder/reduce/run.h): children are 1 + rank in the height below. An entry
+// maps a key to the node that is its sub-DAG, or to no node if the cell is empty. There is one
+// checksum per block of 64 KiB.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,7 @@ struct PackEntry {
   CellKey key;
   uint64_t voxels;
   uint32_t height;
-  uint32_t rank;  // kNoNode: nothing is set in the cell
+  uint32_t rank;  // kNoNode: the cell is empty
 };
 
 struct PackHeader {
@@ -35,11 +36,11 @@ struct PackHeader {
   char magic[8];
   uint32_t version;
   uint32_t unused;
-  uint64_t keys[kHeights];  // [h]: of height h
+  uint64_t keys[kHeights];  // [h]: number of keys of height h
   uint64_t entries;
   uint64_t file_bytes;
   unsigned char reserved[48];  // zero
-  uint64_t checksum;           // XXH3-64 of all before
+  uint64_t checksum;           // XXH3-64 of the fields before
 };
 static_assert(sizeof(PackHeader) == kPackBegin && sizeof(PackEntry) == 48);
 
@@ -47,7 +48,7 @@ constexpr uint64_t pack_key_bytes(uint32_t height) {
   return height == kBrickHeight ? sizeof(Brick) : sizeof(NodeKey);
 }
 
-// Where the section of `height` begins, from kPackBegin on; that of kHeights is the entries.
+// Start of the section of `height`, relative to kPackBegin; that of kHeights holds the entries.
 inline uint64_t pack_section(const PackHeader& header, uint32_t height) {
   uint64_t at = 0;
   for (uint32_t h = kBrickHeight; h < height; ++h)
@@ -55,7 +56,7 @@ inline uint64_t pack_section(const PackHeader& header, uint32_t height) {
   return at;
 }
 
-// The keys in the bytes of a section, or in a piece of it.
+// The keys in the bytes of a section, or in a chunk of it.
 template <class Key>
 std::span<const Key> keys_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const Key*>(bytes.data()), bytes.size() / sizeof(Key)};

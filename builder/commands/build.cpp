@@ -57,7 +57,7 @@ double bits_per_voxel(const BuildReport& r) {
 
 // Share of the decisions at voxels that double could not make and integers made.
 double exact_share(const BuildReport& r) {
-  return r.decisions.evaluated == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.evaluated);
+  return r.decisions.total == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.total);
 }
 
 std::string report_json(const BakeCommand& config, const BuildReport& r) {
@@ -77,7 +77,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"patterns_unmatched", r.split.scene.unmatched},
                {"largest_snap_voxels", r.split.largest_snap},
                {"quantisation_voxels", r.split.scene.quantisation / r.grid.voxel_size},
-               {"decisions", r.decisions.evaluated},
+               {"decisions", r.decisions.total},
                {"decisions_exact_share", exact_share(r)},
                {"plane_memo",
                 {{"asked", r.memo.queries},
@@ -139,7 +139,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
       format_count(r.split.degenerate).c_str(), format_count(r.split.scene.invalid).c_str());
   std::printf(
       "  accuracy: largest snap move %.3g voxel; %.3g %% of %s decisions made in integers\n",
-      r.split.largest_snap, 100 * exact_share(r), format_count(r.decisions.evaluated).c_str());
+      r.split.largest_snap, 100 * exact_share(r), format_count(r.decisions.total).c_str());
   if (r.split.scene.quantisation > 0)
     std::printf("  the scene's positions are quantised in steps of %.3g voxel (Draco)\n",
                 r.split.scene.quantisation / r.grid.voxel_size);
@@ -150,7 +150,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
     std::printf("; %s of its packs ignored, for which --memory is too small",
                 format_count(r.cache_ignored).c_str());
   std::printf("\n");
-  std::printf("  planes: %s cubes looked up in the memo, %s answered; %s nodes computed for it\n",
+  std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.queries).c_str(), format_count(r.memo.answered).c_str(),
               format_count(r.memo.computed).c_str());
   std::printf(

@@ -80,9 +80,7 @@ void add_cache_options(CLI::App* app, CellCacheConfig* config) {
   CLI::Option* size =
       app->add_option_function<std::string>(
              "--cache-size",
-             [config](const std::string& s) {
-               config->most_bytes = parse_count(s, "--cache-size");
-             },
+             [config](const std::string& s) { config->max_bytes = parse_count(s, "--cache-size"); },
              "Most bytes that the cache may hold; the least used go first (default: 16G)")
           ->type_name("SIZE");
   if (config->folder.empty()) size->needs(cache);  // else the list has one

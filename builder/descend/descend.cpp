@@ -84,7 +84,7 @@ std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList
   if (list.size() > 1) return config_.patches ? find_patch(cube, list) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
   const std::optional<PlaneMemo::Known>& known = admitted(*list[0].triangle);
-  if (!known || cube.level < known->min_level) return std::nullopt;
+  if (!known || cube.level < known->min_query_level) return std::nullopt;
   return memo_.find(*known, cube);
 }
 

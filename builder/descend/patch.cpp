@@ -43,7 +43,7 @@ bool has_mate(std::span<const ListedTriangle> list, const TriangleSetup& t, int 
 }  // namespace
 
 bool may_be_patch(std::span<const ListedTriangle> list, int64_t voxels) noexcept {
-  // Over the cube the offsets of two planes part by (difference of slopes) * s, in voxels; an
+  // Over the cube the offsets of two planes diverge by (difference of slopes) * s, in voxels; an
   // interval of offsets is about 1/s^2 long.
   const double s = double(voxels + 1), tolerance = 1 / (s * s * s);
   const TriangleSetup& first = *list[0].triangle;
@@ -95,10 +95,10 @@ bool covers_witness(std::span<const ListedTriangle> list, const LatticePlane& pl
                     const Witness& witness) noexcept {
   const int w = 3 - plane.u - plane.v;
   const int64_t layer = plane.n[w] > 0 ? witness.voxel[w] : voxels - 1 - witness.voxel[w];
-  const bool least = layer <= voxels - 3;
+  const bool smallest = layer <= voxels - 3;
   LatticePoint point = corner;
   for (int a = 0; a < 3; ++a) {
-    const bool upper = (plane.n[a] > 0) != least;
+    const bool upper = (plane.n[a] > 0) != smallest;
     point[a] += (witness.voxel[a] + upper) << fraction;
   }
   return std::any_of(list.begin(), list.end(), [&](const ListedTriangle& entry) {

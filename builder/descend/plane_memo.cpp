@@ -11,13 +11,13 @@
 namespace svdag {
 namespace {
 
-constexpr int kLargestExact = 32;   // log2 of the side in lattice units: offsets fit 63 bits
-constexpr int kLargestRounded = 6;  // log2 of the side in voxels: beyond, most ranges straddle
-constexpr double kNarrowest = 8;    // voxels: smaller triangles cover no cube that is looked up
-constexpr double kAdmitted = 16;    // bricks per content, in `repeats`, from which a plane repays
-constexpr int64_t kSpan = 3;        // buckets on either side in which an entry is found, too
-constexpr int kLargestTable = 19;   // log2 of its entries
-constexpr size_t kLine = 64;        // bytes of a line of the cache; a set fills two of them
+constexpr int kMaxExactSideLog2 = 32;    // in lattice units: up to here offsets fit 63 bits
+constexpr int kMaxRoundedSideLog2 = 6;   // in voxels: beyond it most ranges straddle
+constexpr double kMinWidth = 8;          // voxels: smaller triangles cover no cube worth a query
+constexpr double kMinBrickRepeats = 16;  // bricks per content, times `repeats`, to admit a plane
+constexpr int64_t kBucketSpan = 3;       // neighbouring buckets per side that also get an entry
+constexpr int kMaxTableLog2 = 19;        // of the number of entries
+constexpr size_t kCacheLine = 64;        // bytes; a set fills two lines
 
 uint64_t mix(uint64_t a, uint64_t b) noexcept {
   const unsigned __int128 product =
@@ -25,7 +25,7 @@ uint64_t mix(uint64_t a, uint64_t b) noexcept {
   return uint64_t(product) ^ uint64_t(product >> 64);
 }
 
-// Neighbouring buckets of a plane stand side by side.
+// Tags of neighbouring buckets of a plane are adjacent.
 uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   const uint64_t hash = mix(plane, uint64_t(bucket >> 3) * 0x9e3779b97f4a7c15);
   return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
@@ -53,11 +53,11 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       repeats_(repeats),
       table_(table),
       tables_(size_t(levels - 1)),
-      slots_(1024),
-      most_(std::min({bytes, table->budget()->limit() / 32, uint64_t(1) << 29})),
+      normal_slots_(1024),
+      max_bytes_(std::min({bytes, table->budget()->limit() / 32, uint64_t(1) << 29})),
       reservation_(table->budget()->reserve(0, "plane memo")) {
   for (int level = 0; level <= levels - 2; ++level) {
-    const int log2 = std::min(14 + 2 * (levels - 2 - level), kLargestTable);
+    const int log2 = std::min(14 + 2 * (levels - 2 - level), kMaxTableLog2);
     tables_[size_t(level)].limit = size_t(1) << log2;
   }
 }
@@ -65,92 +65,92 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
 std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
   const double whole = t.extent / double(int64_t(1) << fraction_bits(levels_));
   const double width = std::min(whole, side);
-  if (width < kNarrowest && repeats_ > 0) return std::nullopt;
+  if (width < kMinWidth && repeats_ > 0) return std::nullopt;
   const std::optional<LatticePlane> plane = lattice_plane(t);
-  if (!plane || crowded_) return std::nullopt;
-  Normal& n = *normal(*plane);
+  if (!plane || is_full_) return std::nullopt;
+  Normal& n = *find_normal(*plane);
   n.area += 0.5 * width * width;
-  const double area = std::max(n.area, 0.5 * whole * whole);  // what is to come counts as well
+  const double area = std::max(n.area, 0.5 * whole * whole);  // includes its later cells
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
     return area >= repeats_ * contents(n.n, level).count * s * s;
   };
-  int stored_from = levels_ - 2;
-  if (area < kAdmitted * repeats_ * contents(n.n, stored_from).count * 16) return std::nullopt;
-  while (stored_from > 0 && repeats(stored_from - 1)) --stored_from;
+  int stored = levels_ - 2;
+  if (area < kMinBrickRepeats * repeats_ * contents(n.n, stored).count * 16) return std::nullopt;
+  while (stored > 0 && repeats(stored - 1)) --stored;
   if (n.number == 0) {
     add_plane(n);
     n.number = uint32_t(planes_.size());
   }
-  return Known{*plane, n.number - 1, first_level(*plane), stored_from};
+  return Known{*plane, n.number - 1, first_level(*plane), stored};
 }
 
-// The level from which on a plane is looked up. Offsets of exact planes fit 63 bits up to it. Of
-// other planes most ranges straddle a value in large cubes, unless the values form few clusters.
+// The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of others
+// most ranges straddle a critical value in larger cubes, unless these form few clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
-  const int exact = std::max(0, levels_ - (kLargestExact - fraction_bits(levels_)));
+  const int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
   if (plane.exact) return exact;
-  int level = std::max(exact, levels_ - kLargestRounded);
+  int level = std::max(exact, levels_ - kMaxRoundedSideLog2);
   while (level > exact && contents(plane.n, level - 1).dimensions == 1) --level;
   return level;
 }
 
 void PlaneMemo::forget() {
-  if (!crowded_) return;
-  crowded_ = false;
+  if (!is_full_) return;
+  is_full_ = false;
   normals_ = {};
   planes_ = {};
-  std::fill(slots_.begin(), slots_.end(), 0);
+  std::fill(normal_slots_.begin(), normal_slots_.end(), 0);
   drop_contents();
-  for (Table& table : tables_) table.entries = {}, table.memory = {};
+  for (LevelTable& table : tables_) table.entries = {}, table.memory = {};
   reservation_.resize(0, "plane memo");
 }
 
 bool PlaneMemo::charge(uint64_t bytes) {
-  const uint64_t wanted = reservation_.bytes() + bytes;
-  return wanted <= most_ && reservation_.try_resize(wanted);
+  const uint64_t total = reservation_.bytes() + bytes;
+  return total <= max_bytes_ && reservation_.try_resize(total);
 }
 
-PlaneMemo::Normal* PlaneMemo::normal(const LatticePlane& p) {
+PlaneMemo::Normal* PlaneMemo::find_normal(const LatticePlane& p) {
   const auto slot_of = [&](const int64_t n[3]) {
-    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (slots_.size() - 1);
+    return mix(uint64_t(n[0]) << 32 ^ uint64_t(n[1]), uint64_t(n[2])) & (normal_slots_.size() - 1);
   };
-  if (2 * (normals_.size() + 1) > slots_.size()) {
-    slots_.assign(2 * slots_.size(), 0);
+  if (2 * (normals_.size() + 1) > normal_slots_.size()) {
+    normal_slots_.assign(2 * normal_slots_.size(), 0);
     for (size_t i = 0; i < normals_.size(); ++i) {
       size_t slot = slot_of(normals_[i].n);
-      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = uint32_t(i + 1);
+      while (normal_slots_[slot] != 0) slot = (slot + 1) & (normal_slots_.size() - 1);
+      normal_slots_[slot] = uint32_t(i + 1);
     }
   }
   size_t slot = slot_of(p.n);
-  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
-    Normal& other = normals_[slots_[slot] - 1];
+  for (; normal_slots_[slot] != 0; slot = (slot + 1) & (normal_slots_.size() - 1)) {
+    Normal& other = normals_[normal_slots_[slot] - 1];
     if (std::equal(p.n, p.n + 3, other.n)) return &other;
   }
-  // Half as much again for the slots and for room to grow; a plane may be added to each later.
-  crowded_ = !charge((sizeof(Normal) + sizeof(Plane)) * 3 / 2);
+  // Charges the normal and its possible plane, plus half for the slots and for growing vectors.
+  is_full_ = !charge((sizeof(Normal) + sizeof(Plane)) * 3 / 2);
   normals_.push_back({{p.n[0], p.n[1], p.n[2]}, 0, 0});
-  slots_[slot] = uint32_t(normals_.size());
+  normal_slots_[slot] = uint32_t(normals_.size());
   return &normals_.back();
 }
 
-// The number of relevant contents of a cube of the level, and the length of their intervals.
+// Estimates the number of frequent contents of a cube, and the length of their intervals.
 //
 // The voxels' offsets are the sums i a + j b + k c with i, j, k <= s, for the magnitudes a <= b <=
 // c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1
-// clusters: between them are the few long intervals that contain almost every cube; likewise
-// (s + 1)^2 clusters where only a is small.
+// clusters, and almost every cube is in a long interval between two of them. Where only a is small
+// there are (s + 1)^2 clusters.
 PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
   double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
   std::sort(c, c + 3);
   const double s = double(int64_t(1) << (levels_ - level));
   const double voxel = double(int64_t(1) << fraction_bits(levels_));
   const double gap = c[2], gap2 = (c[1] + c[2]) * s / ((s + 1) * (s + 1));
-  const double most = 2 * (c[0] + c[1] + c[2]) * s + 1;  // whole numbers: no more fit
-  if ((c[0] + c[1]) * s < gap / 4) return {1, std::min(2 * (s + 1), most), gap * voxel};
-  if (c[0] * s < gap2 / 4) return {2, std::min(2 * (s + 1) * (s + 1), most), gap2 * voxel};
-  const double all = std::min(2 * (s + 1) * (s + 1) * (s + 1), most);
+  const double max_count = 2 * (c[0] + c[1] + c[2]) * s + 1;  // integers: no more fit
+  if ((c[0] + c[1]) * s < gap / 4) return {1, std::min(2 * (s + 1), max_count), gap * voxel};
+  if (c[0] * s < gap2 / 4) return {2, std::min(2 * (s + 1) * (s + 1), max_count), gap2 * voxel};
+  const double all = std::min(2 * (s + 1) * (s + 1) * (s + 1), max_count);
   return {3, all, (c[0] + c[1] + c[2]) * s * voxel / all};
 }
 
@@ -161,13 +161,13 @@ void PlaneMemo::add_plane(const Normal& normal) {
     const int log2 = std::ilogb(contents(plane.n, level).length);
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
-  plane.brick = plane_brick(plane);
+  plane.brick = make_plane_brick(plane);
   planes_.push_back(plane);
 }
 
-PlaneBrick PlaneMemo::plane_brick(const Plane& p) const {
+PlaneBrick PlaneMemo::make_plane_brick(const Plane& p) const {
   const int fraction = fraction_bits(levels_);
-  // The offsets that set the voxel at the corner.
+  // The range of offsets that set the voxel at the corner.
   int64_t first = p.negative << fraction, last = p.positive << fraction;
   if (rule_ == Rule::kThin) {
     const int64_t dominant = std::max({std::abs(p.n[0]), std::abs(p.n[1]), std::abs(p.n[2])});
@@ -196,17 +196,17 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
 std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
                                       const OffsetRange& range, Witness* witness) {
   ++counts_.queries;
-  stored_from_ = known.stored_from;
+  min_stored_level_ = known.min_stored_level;
   Answer answer;
-  if (!node(known.number, cube.level, range, &answer)) return std::nullopt;
+  if (!find_node(known.number, cube.level, range, &answer)) return std::nullopt;
   ++counts_.answered;
   *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
   return SubDag{answer.node, answer.voxels};
 }
 
-bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
-  if (level < stored_from_) return compute(number, level, range, out);
-  Table& table = tables_[size_t(level)];
+bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+  if (level < min_stored_level_) return compute(number, level, range, out);
+  LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) {
     grow(&table);
     if (table.entries.empty()) return compute(number, level, range, out);
@@ -223,16 +223,16 @@ bool PlaneMemo::node(uint32_t number, int level, const OffsetRange& range, Answe
     }
   }
   if (!compute(number, level, range, out)) return false;
-  // Into every bucket that the interval meets, near the requested one.
-  const int64_t first = std::max(out->low >> log2, bucket - kSpan);
-  const int64_t last = std::min(out->high >> log2, bucket + kSpan);
+  // Store it in every bucket that the interval meets, near the queried one.
+  const int64_t first = std::max(out->low >> log2, bucket - kBucketSpan);
+  const int64_t last = std::min(out->high >> log2, bucket + kBucketSpan);
   for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);
   return true;
 }
 
 void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset) {
-  Table& table = tables_[size_t(level)];
-  if (level < stored_from_ || table.entries.empty()) return;
+  LevelTable& table = tables_[size_t(level)];
+  if (level < min_stored_level_ || table.entries.empty()) return;
   const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
   const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(number, bucket)));
   __builtin_prefetch(set);
@@ -245,7 +245,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
                            planes_[number].n[2] << half_log2};
   NodeKey key{};
-  // Beyond these offsets the plane passes a child.
+  // Beyond these offsets the plane misses a child.
   const int64_t low = planes_[number].negative << half_log2;
   const int64_t high = planes_[number].positive << half_log2;
   *out = {-kFarOffset, kFarOffset, 0, 0, 0};
@@ -266,7 +266,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   for (; met != 0; met &= met - 1) {
     const unsigned c = unsigned(std::countr_zero(met));
     Answer child;
-    if (!node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
+    if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
       return false;
     out->low = std::max(out->low, child.low + shift[c]);
     out->high = std::min(out->high, child.high + shift[c]);
@@ -293,17 +293,17 @@ bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answ
   return true;
 }
 
-PlaneMemo::MemoEntry* PlaneMemo::set_of(Table* table, uint32_t tag) {
+PlaneMemo::MemoEntry* PlaneMemo::set_of(LevelTable* table, uint32_t tag) {
   return &table->entries[(tag & table->mask) * kWays];
 }
 
-void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer) {
+void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const Answer& answer) {
   if (2 * table->used > table->entries.size()) grow(table);
   MemoEntry* set = set_of(table, tag);
   size_t way = 0;
   while (way < kWays && set[way].plane != 0) ++way;
   if (way == kWays) {
-    way = (tag ^ tag >> 16) >> 3 & 3;  // full: one of them goes
+    way = (tag ^ tag >> 16) >> 3 & 3;  // full: replace one entry
   } else {
     ++table->used;
   }
@@ -314,7 +314,7 @@ void PlaneMemo::put(Table* table, uint32_t tag, uint32_t plane, const Answer& an
 
 void PlaneMemo::settle() {
   for (int level = 0; level <= levels_ - 2; ++level) {
-    Table& table = tables_[size_t(level)];
+    LevelTable& table = tables_[size_t(level)];
     for (const uint32_t i : table.unsettled)
       table.entries[i].node = table_->settled(level, table.entries[i].node);
     table.unsettled.clear();
@@ -322,25 +322,25 @@ void PlaneMemo::settle() {
 }
 
 void PlaneMemo::drop_contents() {
-  for (Table& table : tables_) {
+  for (LevelTable& table : tables_) {
     std::fill(table.entries.begin(), table.entries.end(), MemoEntry{});
     table.unsettled.clear();
     table.used = 0;
   }
 }
 
-// Starts again with a larger table, if there is room: entries do not know all their buckets, and a
-// table grows only a few times.
-void PlaneMemo::grow(Table* table) {
+// Replaces the table by an empty larger one, if there is memory. Entries are not moved: they do not
+// store their buckets, and a table grows only a few times.
+void PlaneMemo::grow(LevelTable* table) {
   const size_t size = std::min(std::max(size_t(256), 4 * table->entries.size()), table->limit);
   if (size == table->entries.size()) return;
   if (!charge((size - table->entries.size()) * sizeof(MemoEntry))) return;
   table->entries = {};
-  table->memory = {};  // the old ones go before the new ones come
-  size_t bytes = size * sizeof(MemoEntry) + kLine;
+  table->memory = {};  // free the old memory before allocating
+  size_t bytes = size * sizeof(MemoEntry) + kCacheLine;
   table->memory = HugePages(bytes);  // zeros: free entries
   void* begin = table->memory.data();
-  begin = std::align(kLine, size * sizeof(MemoEntry), begin, bytes);
+  begin = std::align(kCacheLine, size * sizeof(MemoEntry), begin, bytes);
   table->entries = {static_cast<MemoEntry*>(begin), size};
   table->mask = uint32_t(size / kWays - 1);
   table->unsettled.clear();

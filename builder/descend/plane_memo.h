@@ -1,25 +1,27 @@
-// Plane memo: the voxels of a plane in a cube are computed once per content, not once per cube.
+// Plane memo: a cache of the content of cubes that a plane crosses, computed once per content
+// instead of once per cube.
 //
 // Where one triangle covers a cube, the cube's voxels depend on the plane alone: on its normal n_q
 // and on the offset o of the plane from the cube's corner (builder/overlap/lattice_plane.h). They
-// stay the same while o is between neighbouring lattice values, so every node computed carries
-// the closed integer interval [low, high] of offsets with the same content:
-//   a voxel with n_q . x in [l, h] on its closed cube is set iff l <= o <= h, so a hit leaves
-//   [l, h], a miss (-inf, l-1] or [h+1, inf);
-//   rule thin: set iff o in (m - d, m + d], m at the voxel's centre, 2d = |n_q,w| * side: the
-//   dominant centre segment, which any other crossing implies;
-//   a node leaves the intersection of its children's intervals, each shifted by n_q . corner.
-// A query is a range of offsets that holds g = n_q . x over the triangle in the cube's column; an
-// entry answers it iff its interval holds the range. No entry answers a range that straddles a
-// lattice value: the caller descends. Why a range is exact although g varies: the triangle is a
-// graph over the column; if it missed a voxel with l <= g <= h throughout, it would pass above (or
-// below) the voxel's corner of largest (smallest) n_q . x, where g is beyond h (l).
+// do not change while o is between two neighbouring critical values, so every computed node has a
+// closed integer interval [low, high] of offsets with the same content:
+//   a voxel with n_q . x in [l, h] on its closed cube is set iff l <= o <= h, so its interval is
+//   [l, h] if it is set, (-inf, l-1] or [h+1, inf) if it is clear;
+//   thin rule: set iff o in (m - d, m + d], m at the voxel's centre, 2d = |n_q,w| * side. That is
+//   the dominant centre segment; a crossing of any other one implies a crossing of this one;
+//   the interval of a node is the intersection of its children's, each shifted by n_q . corner.
+// A query is a range of offsets that contains g = n_q . x over the triangle in the cube's column.
+// An entry answers it iff its interval contains the range. No entry answers a range that straddles
+// a critical value; the caller then descends. A range is exact although g varies: the triangle is a
+// graph over the column, and if it missed a voxel with l <= g <= h throughout, it would pass above
+// (or below) the voxel's corner of largest (smallest) n_q . x, where g would be beyond h (l).
 //
-// Repaying: a plane of A square voxels meets about A/s^2 cubes of side s but has at most 2(s+1)^3
-// contents there (an axis-aligned one 2s+1). So entries are kept only for sizes that repeat, and a
-// plane is admitted only when its bricks do. A is what its triangles have brought so far, which
-// finds the tessellated wall too: no triangle of it is large. Rejected: half-open intervals in
-// double (wrong on ties); a memo of child masks (no reuse between parallel planes).
+// When it pays: a plane of A square voxels meets about A/s^2 cubes of side s but has at most
+// 2(s+1)^3 contents there (2s+1 if it is axis-aligned). So entries are stored only for cube sizes
+// whose contents repeat, and a plane is admitted only when its bricks do. A is the area of the
+// triangles so far, so tessellated walls are found too, although none of their triangles is large.
+// Rejected: half-open intervals in double (wrong on ties); a memo of child masks (no reuse between
+// parallel planes).
 #pragma once
 
 #include <array>
@@ -39,49 +41,49 @@
 namespace svdag {
 
 struct PlaneMemoCounts {
-  uint64_t queries = 0;   // cubes looked up
-  uint64_t answered = 0;  // of these, answered without descending
-  uint64_t hits = 0;      // nodes found, inner ones of an answer included
+  uint64_t queries = 0;   // cubes that one triangle or a patch covers, looked up in the memo
+  uint64_t answered = 0;  // of these: answered, without a descent
+  uint64_t hits = 0;      // nodes found, including nodes below the root of an answer
   uint64_t computed = 0;  // nodes computed
 
   PlaneMemoCounts& operator+=(const PlaneMemoCounts& other);
 };
 
-// A voxel of a cube that is set, from the cube's corner; cubes of up to 1024^3 voxels.
+// A set voxel of a cube, relative to the cube's corner; for cubes of up to 1024^3 voxels.
 struct Witness {
   int64_t voxel[3];
 };
 
 class PlaneMemo {
  public:
-  // An entry is kept where a plane meets at least `repeats` cubes per content; 0 keeps all. Takes
-  // at most `bytes`, and 1/32 of the table's memory budget, and needs none of it.
+  // Entries are stored where a plane meets at least `repeats` cubes per content; 0: all are. Takes
+  // at most `bytes` and 1/32 of the memory budget of `table`, and works without any memory.
   PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table,
             uint64_t bytes = UINT64_MAX);
 
-  // A triangle's plane in the memo.
+  // An admitted triangle's plane.
   struct Known {
     LatticePlane plane;
-    uint32_t number;  // of the plane
-    int min_level;    // levels from this one on may be looked up
-    int stored_from;  // levels from this one on repeat
+    uint32_t number;       // index of the plane
+    int min_query_level;   // cubes of this level and finer ones may be looked up
+    int min_stored_level;  // cubes of this level and finer ones are stored
   };
-  // Admits the plane of a triangle that may cover cubes of up to `side` voxels; none if the plane
-  // does not repay (yet) or has no integer normal. Valid until forget().
+  // Admits the plane of a triangle, which is met in a cell of `side` voxels a side. None if the
+  // plane does not pay off (yet) or has no integer form. Valid until forget().
   std::optional<Known> admit(const TriangleSetup& t, double side);
-  // Forgets all planes if they have become too many for the budget.
+  // Discards all planes if they have exceeded the memory.
   void forget();
 
-  // The sub-DAG of a cube (min_level <= level <= brick level) that the triangle covers; none if the
-  // memo cannot answer.
+  // The sub-DAG of a cube (min_query_level <= level <= brick level) that the triangle covers; none
+  // if the cube's range straddles a critical value.
   std::optional<SubDag> find(const Known& known, const Cube& cube);
-  // The same for any triangles whose offsets are in `range`, provided that they have no border in
-  // the cube (builder/descend/patch.h). *witness, if the cube is not empty, is a voxel that is set.
+  // The same for several triangles whose offsets are in `range`, provided that they have no border
+  // in the cube (builder/descend/patch.h). *witness is a set voxel, if the cube is not empty.
   std::optional<SubDag> find(const Known& known, const Cube& cube, const OffsetRange& range,
                              Witness* witness);
-  // Call after each flush of the table.
+  // Replaces pending handles; must be called after each flush of the table.
   void settle();
-  // Call after the table was emptied. The planes are kept.
+  // Discards all entries but keeps the planes; must be called when the table is emptied.
   void drop_contents();
 
   const PlaneMemoCounts& counts() const { return counts_; }
@@ -100,61 +102,61 @@ class PlaneMemo {
     uint32_t witness;
     uint32_t plane;  // 1 + plane number; 0: free
   };
-  // The entries of one level: small cubes have few contents, so their table stays in the cache.
-  struct Table {
+  // The entries of one level. Small cubes have few contents, so their table stays in the CPU cache.
+  struct LevelTable {
     HugePages memory;
-    std::span<MemoEntry> entries;     // in `memory`; a set begins at a line of the cache
-    std::vector<uint32_t> unsettled;  // entries written since the last flush
+    std::span<MemoEntry> entries;     // in `memory`; a set begins at a cache line
+    std::vector<uint32_t> unsettled;  // entries with pending handles, since the last flush
     size_t used = 0, limit = 0;
     uint32_t mask = 0;  // sets - 1
   };
-  // A normal that was met.
+  // A normal of the triangles so far.
   struct Normal {
     int64_t n[3];
-    double area;      // square voxels that its triangles have brought
-    uint32_t number;  // 1 + its place in planes_, once it was admitted
+    double area;      // total area of its triangles, in square voxels
+    uint32_t number;  // 1 + index in planes_; 0: not admitted
   };
-  // What answering needs.
+  // An admitted plane, prepared for queries.
   struct Plane {
     int64_t n[3];
-    int64_t negative, positive;          // sums of the components of either sign
-    std::array<int8_t, 24> bucket_log2;  // [level]: about the length of an interval
+    int64_t negative, positive;          // sums of the negative and of the positive components
+    std::array<int8_t, 24> bucket_log2;  // [level]: approximate length of an interval
     PlaneBrick brick;
   };
   static constexpr size_t kWays = 4;
 
-  Normal* normal(const LatticePlane& plane);
+  Normal* find_normal(const LatticePlane& plane);
   struct Contents {
-    int dimensions;  // of the clusters of offsets
+    int dimensions;  // number of dimensions of the clusters of offsets
     double count;
     double length;  // of an interval
   };
   Contents contents(const int64_t n[3], int level) const;
   int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
-  PlaneBrick plane_brick(const Plane& plane) const;
-  bool node(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  PlaneBrick make_plane_brick(const Plane& plane) const;
+  bool find_node(uint32_t number, int level, const OffsetRange& range, Answer* out);
   void prefetch(uint32_t number, int level, int64_t offset);
   bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
-  static MemoEntry* set_of(Table* table, uint32_t tag);
-  void put(Table* table, uint32_t tag, uint32_t plane, const Answer& answer);
-  // Whether `bytes` more were granted.
+  static MemoEntry* set_of(LevelTable* table, uint32_t tag);
+  void put(LevelTable* table, uint32_t tag, uint32_t plane, const Answer& answer);
+  // Reserves `bytes` more; false if the budget does not allow it.
   bool charge(uint64_t bytes);
-  void grow(Table* table);
+  void grow(LevelTable* table);
 
   int levels_;
   Rule rule_;
   const Kernels* kernels_;
   double repeats_;
   NodeTable* table_;
-  int stored_from_ = 0;        // of the current query
-  std::vector<Table> tables_;  // [level]
+  int min_stored_level_ = 0;        // of the current query
+  std::vector<LevelTable> tables_;  // [level]
   std::vector<Plane> planes_;
   std::vector<Normal> normals_;
-  std::vector<uint32_t> slots_;  // open addressing by normal: 1 + place in normals_
-  uint64_t most_;                // bytes
-  bool crowded_ = false;         // no plane can be added
+  std::vector<uint32_t> normal_slots_;  // open addressing by normal: 1 + index in normals_
+  uint64_t max_bytes_;                  // of the memo
+  bool is_full_ = false;                // no plane can be added until forget()
   MemoryBudget::Reservation reservation_;
   PlaneMemoCounts counts_;
 };

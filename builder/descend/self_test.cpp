@@ -24,7 +24,7 @@ class SplitMix {
   uint64_t state_ = 0;
 };
 
-// Coordinates are multiples of a unit: a step, an eighth or half of a voxel, a voxel.
+// Coordinates are multiples of a unit: a lattice step, an eighth or half of a voxel, or a voxel.
 std::vector<LatticeTriangle> some_triangles(const Grid& grid) {
   const int f = grid.fraction();
   const int side = kLevels + f;
@@ -65,8 +65,8 @@ uint64_t self_test(const DescentConfig& config) {
                                                     : "50597f380fa601c724e6f99b8d00c7f5";
   if (found != expected)
     throw Error(ExitCode::kInternal, std::string("the self-test of the voxelizer failed: this "
-                                                 "machine, or this build, computes other voxels "
-                                                 "than it must (kernels ") +
+                                                 "machine or this build computes wrong voxels "
+                                                 "(kernels ") +
                                          config.kernels->name + ", " + found + ")");
   return 64 * bricks;
 }

@@ -1,7 +1,7 @@
-// Direct access to the voxelizer: a window (a cube of the octree) and triangles in, bricks out.
+// Direct access to the voxelizer: a window (an octree cube) and triangles in, bricks out.
 //
-// Bakes dense cubes (builder/descend/dense_cube.h). Tests judge it rather than a single predicate,
-// so the same suites cover every kernel, filter and memo of the descent.
+// Dense cubes (builder/descend/dense_cube.h) are baked by it. Tests use it instead of single
+// predicates, so the same suites cover every kernel, filter and memo of the descent.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace svdag {
 // A brick at `coordinate`, in units of bricks from the grid's corner.
 using BrickSink = std::function<void(const LatticePoint& coordinate, Brick brick)>;
 
-// All bricks with a voxel in `window` that `triangles` set, in Morton order; returns
-// the number of voxels. `grid.levels` bounds the window's level at grid.levels - 2.
+// Passes the non-empty bricks of `triangles` in `window` to `sink`, in Morton order; returns the
+// number of voxels. window.level is at most grid.levels - 2.
 uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink,
                          MemoryBudget* budget = nullptr);

@@ -187,7 +187,7 @@ class Import {
     ImportReport report;
     report.grid = grid;
     report.voxels = output.voxels();
-    for (const uint64_t nodes : output.keys()) report.nodes += nodes;
+    for (const uint64_t nodes : output.key_counts()) report.nodes += nodes;
     report.file_bytes = output.file_bytes();
     report.content_hash = output.content_hash();
     report.spilled = files_;

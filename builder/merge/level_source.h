@@ -1,5 +1,5 @@
-// The keys of one level of a run in ascending order, one at a time: from memory, or block by block
-// from a file. Children are rewritten on the way where a map says so.
+// A source of one merge: the keys of one level of a run in ascending order, one at a time, from
+// memory or block by block from a file. If a map is given, children are rewritten while reading.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ inline void rewrite(std::span<NodeKey> nodes, const RankMap& map) noexcept {
   }
 }
 
-// As rewrite(), of those children that the window `map` of a map holds. Windows that follow hold
-// lower ranks.
+// Like rewrite(), but only for the children in `map`, a window of a rank map. Later windows must
+// hold lower ranks.
 inline void rewrite_window(std::span<NodeKey> nodes, const RankMap& map) noexcept {
   for (NodeKey& key : nodes) {
     for (uint32_t& child : key) {
@@ -34,7 +34,7 @@ class LevelSource {
  public:
   explicit LevelSource(std::span<const Key> keys)
       : at_(keys.data()), end_(keys.data() + keys.size()) {
-    see();
+    update_prefix();
   }
   // `map`, if given, rewrites the children; it must outlive the source.
   explicit LevelSource(std::unique_ptr<BlockSource> blocks, const RankMap* map = nullptr)
@@ -46,11 +46,11 @@ class LevelSource {
   const Key& head() const { return *at_; }
   void advance() {
     if (++at_ == end_ && blocks_) return refill();
-    see();
+    update_prefix();
   }
   // The first 64 bits of the head decide most comparisons; UINT64_MAX at the end.
   uint64_t prefix() const { return prefix_; }
-  // Whether the head goes before that of `other`, which has the same prefix; an ended source goes
+  // Whether the head is less than that of `other`, which has the same prefix. An ended source is
   // last.
   bool before(const LevelSource& other) const {
     if (ended() || other.ended()) return !ended();
@@ -60,7 +60,7 @@ class LevelSource {
  private:
   static uint64_t prefix_of(Brick brick) { return brick; }
   static uint64_t prefix_of(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
-  void see() { prefix_ = ended() ? UINT64_MAX : prefix_of(*at_); }
+  void update_prefix() { prefix_ = ended() ? UINT64_MAX : prefix_of(*at_); }
 
   void refill() {
     const std::span<std::byte> block = blocks_->next();
@@ -70,7 +70,7 @@ class LevelSource {
     }
     at_ = keys.data();
     end_ = at_ + keys.size();
-    see();
+    update_prefix();
   }
 
   const Key* at_ = nullptr;

@@ -33,7 +33,8 @@ class Merger {
   }
 
  private:
-  // The children of `level`'s nodes get their indices on the level below, then the level is merged.
+  // Replaces the children of the nodes of `level` by their indices in the merged level below, then
+  // merges `level`.
   void run_level(int level) {
     const RankMaps below = std::move(maps_);
     resolve_own(below);
@@ -54,7 +55,7 @@ class Merger {
     for (size_t s = 0; below.spilled() && s < below.size(); ++s) below.free(s);
   }
 
-  // Level 0 has no level above that would ask where its nodes went.
+  // Resolves level 0, which has no level above.
   void resolve_last() {
     resolve_own(maps_);
     for (size_t r = 0; r < runs_.size(); ++r) {
@@ -64,15 +65,15 @@ class Merger {
     top_.end_level(0);
   }
 
-  // The top tree is the source after the runs.
+  // The top tree is the last source, after the runs.
   void resolve_own(const RankMaps& maps) {
     const size_t own = runs_.size();
     if (maps.size() <= own) return;
     maps.spilled() ? top_.resolve_own(maps.load(own)) : top_.resolve_own(maps.resident(own));
   }
 
-  // Run r at `level` as an input whose children are those of the level below. A level in a file is
-  // rewritten while it is read if its map stays, else now, to *rewritten.
+  // Run r at `level` as an input whose children are indices of the merged level below. A level in a
+  // file is rewritten while it is read if its map is in memory, otherwise here, into *rewritten.
   LevelInput<NodeKey> rewritten_input(int level, size_t r, const RankMaps& below,
                                       SpillStream* rewritten) {
     RunLevel<NodeKey>& nodes = runs_[r].nodes[size_t(level)];
@@ -136,19 +137,19 @@ class Merger {
     const RunFile* const file = keys.file;
     if (file == nullptr) return {keys.keys, {}, 0, nullptr};
     const auto open = [file, level, budget] { return file->read(level, budget); };
-    return {{}, open, file->keys(level) * sizeof(Key), map};
+    return {{}, open, file->key_count(level) * sizeof(Key), map};
   }
 
-  // `held`: bytes of the maps that the inputs look into.
+  // `held`: bytes of the resident maps that the inputs use.
   template <class Key, class Add>
   RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held, const Add& add) {
     uint64_t keys = 0;
     for (const auto& input : inputs) keys += input.count();
-    const bool many = inputs.size() > config_.sources;
+    const bool many = inputs.size() > config_.max_sources;
     const bool spill = many || held + keys * sizeof(uint32_t) > config_.map_bytes;
     if (config_.scratch == nullptr || !spill)
       return merge_at_once<Key>(inputs, add, nullptr, config_.budget);
-    return merge_in_groups<Key>(inputs, add, config_.sources, config_.scratch, config_.budget);
+    return merge_in_groups<Key>(inputs, add, config_.max_sources, config_.scratch, config_.budget);
   }
 
   std::span<Run> runs_;
@@ -157,7 +158,7 @@ class Merger {
   std::mutex top_mutex_;
   BakeOutput* output_;
   Executor* executor_;
-  RankMaps maps_;  // of the level merged last: one per run, then the top tree's
+  RankMaps maps_;  // of the level merged last: one per run, then that of the top tree
 };
 
 }  // namespace

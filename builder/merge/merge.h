@@ -1,22 +1,23 @@
-// Last phase: runs and the roots of their cells become one global DAG, written as it is merged.
+// Last phase of a bake: merges runs and the roots of their cells into one DAG, written as it is
+// merged.
 //
-// Since a run is closed and sorted by the same order as every other, run rank -> global index is
-// strictly increasing on each level. Rewriting children by an increasing map keeps a sorted level
-// sorted, so one k-way merge per level, bricks first, is all: no second sort, no random access but
-// in the maps. The nodes above the cells (the top tree) enter as one more sorted source per level.
-// "Global index" is already the word index that the file stores; it ascends like the rank.
+// All runs are closed and sorted in the same order, so on each level the map from the rank in a run
+// to the global index is strictly increasing. Rewriting children by an increasing map keeps a
+// sorted level sorted, so one k-way merge per level, bricks first, is enough: no second sort, and
+// no random access except in the maps. The nodes above the cells (the top tree) are one more sorted
+// source per level. "Global index" is the word index that the file stores; it ascends like the
+// rank.
 //
-// No level must fit in memory, nor its maps: where those do not, they are spilled, and each run's
-// next level is rewritten by itself before it is merged, with one map loaded
-// (builder/merge/rank_maps.h), a window at a time where even that is too large. Windows go from the
-// last to the first: an ascending map lowers no number, so what a window rewrote is beyond all
-// windows that follow, and one stream holds both old and new numbers. More sources than may be open
-// at once are merged in groups first; the maps into and out of a group are both increasing, so
-// composing them is sequential as well.
+// Neither a level nor its maps need to fit in memory. Maps that do not fit are spilled, and the
+// next level of each run is then rewritten separately before it is merged, with one map loaded
+// (builder/merge/rank_maps.h), or a window of one if even that is too large. Windows are applied
+// from the last to the first: an increasing map lowers no number, so the numbers that a window
+// wrote are above all later windows, and one stream can hold old and new numbers. If there are
+// more sources than may be open at once, they are first merged in groups; the maps into and out of
+// a group are both increasing, so composing them is sequential too.
 //
-// The result is the minimal DAG, byte for byte what reducing the whole octree at once would give;
-// or, of a part of the grid, a sub-DAG per top of the part (builder/octree/grid_part.h), in one
-// closed run.
+// The result is the minimal DAG, byte for byte the reduction of the whole octree; for a part of the
+// grid it is one closed run with a sub-DAG per top of the part (builder/octree/grid_part.h).
 #pragma once
 
 #include <span>
@@ -32,19 +33,19 @@ namespace svdag {
 
 struct MergeConfig {
   MemoryBudget* budget = nullptr;      // required
-  Scratch* scratch = nullptr;          // null: all runs and maps are in memory
+  Scratch* scratch = nullptr;          // null: all runs are in memory, and maps are not spilled
   uint64_t map_bytes = 0;              // maps of two levels that need more are spilled
-  uint64_t window_bytes = UINT64_MAX;  // of a spilled map, loaded at a time by each worker
-  size_t sources = 2;                  // that may be open at once, if they are spilled; at least 2
+  uint64_t window_bytes = UINT64_MAX;  // of a spilled map that each worker loads at a time
+  size_t max_sources = 2;              // spilled sources that may be open at once; at least 2
 };
 
-// What a merge by `workers` takes of the budget, where an open run takes `source_bytes`. `scratch`:
-// as in MergeConfig.
+// Shares of the budget for a merge by `workers` workers, where an open source takes `source_bytes`.
+// `scratch`: as in MergeConfig.
 MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t workers,
                             uint64_t source_bytes);
 
-// Writes all levels to `output`, which the caller finishes with the returned roots: those of the
-// tops of `part`. Consumes the runs. The roots must be disjoint and in the part.
+// Writes all levels to `output` and returns the roots of the tops of `part`, with which the caller
+// finishes the output. Empties `runs`. The cells must be disjoint and inside the part.
 std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,
                               const GridPart& part, const MergeConfig& config, BakeOutput* output,
                               Executor* executor);

@@ -1,5 +1,5 @@
-// The k-way merge of one level: ascending sources without repeats become one, and every source gets
-// the map from its ranks to the indices in the output.
+// The k-way merge of one level: merges ascending sources with unique keys into one, and returns for
+// every source the map from its ranks to indices in the output.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace svdag {
 
-// Where the keys of a source stand.
+// The keys of one source: in memory, or in blocks that are read.
 template <class Key>
 struct LevelInput {
-  std::span<const Key> keys;  // in memory, unless `blocks` is set
+  std::span<const Key> keys;  // in memory, if `blocks` is null
   std::function<std::unique_ptr<BlockSource>()> blocks;
-  uint64_t bytes = 0;            // of the blocks
-  const RankMap* map = nullptr;  // rewrites the children of what is read from them
+  uint64_t bytes = 0;            // size of the blocks
+  const RankMap* map = nullptr;  // rewrites the children in nodes read from `blocks`
 
   uint64_t count() const { return blocks ? bytes / sizeof(Key) : keys.size(); }
   LevelSource<Key> open() const {
@@ -31,7 +31,7 @@ struct LevelInput {
   }
 };
 
-// A stream in `file`; both must outlive the input.
+// An input from a stream in `file`; both must outlive the input.
 template <class Key>
 LevelInput<Key> spilled_input(SpillFile* file, const SpillStream& stream, MemoryBudget* budget,
                               const RankMap* map = nullptr) {
@@ -40,12 +40,12 @@ LevelInput<Key> spilled_input(SpillFile* file, const SpillStream& stream, Memory
   return {{}, open, stream.bytes, map};
 }
 
-// add(key) appends to the output and returns the index there. The maps are spilled if `scratch` is
-// given.
+// Merges with all inputs open. add(key) appends a key to the output and returns its index there.
+// The maps are spilled if `scratch` is given.
 template <class Key, class Add>
 RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, Scratch* scratch,
                        MemoryBudget* budget) {
-  constexpr uint64_t kLook = 1 << 16;  // keys between two looks for an interrupt
+  constexpr uint64_t kKeysPerCheck = 1 << 16;  // keys between two interrupt checks
   std::vector<uint64_t> counts;
   std::vector<LevelSource<Key>> sources;
   for (const LevelInput<Key>& input : inputs) {
@@ -58,7 +58,7 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
   Tournament tournament(sources.size(), prefix, before);
   uint64_t merged = 0;
   for (size_t s = tournament.winner(); !sources[s].ended();) {
-    if (++merged % kLook == 0) check_interrupt();
+    if (++merged % kKeysPerCheck == 0) check_interrupt();
     const Key key = sources[s].head();
     const uint32_t index = add(key);
     do {
@@ -72,31 +72,31 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
   return maps;
 }
 
-// As merge_at_once, with at most `most` sources open at a time: they are merged in groups, and the
-// groups merged. Maps are spilled.
+// Like merge_at_once(), with at most `max_sources` inputs open at a time: merges groups of inputs,
+// then the merged groups. The maps are spilled.
 template <class Key, class Add>
-RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add, size_t most,
-                         Scratch* scratch, MemoryBudget* budget) {
-  if (inputs.size() <= most) return merge_at_once<Key>(inputs, add, scratch, budget);
-  std::vector<RankMaps> into;  // [group]: of its members
+RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add,
+                         size_t max_sources, Scratch* scratch, MemoryBudget* budget) {
+  if (inputs.size() <= max_sources) return merge_at_once<Key>(inputs, add, scratch, budget);
+  std::vector<RankMaps> into;  // [group]: maps of its members into the group
   std::vector<SpillStream> merged;
-  for (size_t begin = 0; begin < inputs.size(); begin += most) {
+  for (size_t begin = 0; begin < inputs.size(); begin += max_sources) {
     SpillWriter writer(scratch->passing(), scratch->new_streams(), budget);
     uint64_t next = 0;
     const auto append = [&](const Key& key) {
       writer.append(std::as_bytes(std::span(&key, 1)));
       return as_u32(next++, "nodes in a level of some runs");
     };
-    const auto group = inputs.subspan(begin, std::min(most, inputs.size() - begin));
+    const auto group = inputs.subspan(begin, std::min(max_sources, inputs.size() - begin));
     into.push_back(merge_at_once<Key>(group, append, scratch, budget));
     merged.push_back(writer.finish());
   }
   std::vector<LevelInput<Key>> groups;
   for (const SpillStream& stream : merged)
     groups.push_back(spilled_input<Key>(scratch->passing(), stream, budget));
-  RankMaps out_of = merge_in_groups<Key>(groups, add, most, scratch, budget);
+  RankMaps out_of = merge_in_groups<Key>(groups, add, max_sources, scratch, budget);
   for (const SpillStream& stream : merged) scratch->passing()->free(stream);
-  RankMaps maps = RankMaps::none(scratch, budget);
+  RankMaps maps = RankMaps::without_sources(scratch, budget);
   for (size_t g = 0; g < into.size(); ++g) {
     for (size_t s = 0; s < into[g].size(); ++s) maps.append_composed(&into[g], s, out_of, g);
     out_of.free(g);

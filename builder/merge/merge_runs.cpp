@@ -13,16 +13,16 @@
 namespace svdag {
 namespace {
 
-// What differs first between the bakes of two runs, or nothing.
+// The first difference between the bakes of two runs; null if there is none.
 const char* difference(const RunFile& a, const RunFile& b) {
   const Grid g = a.grid(), h = b.grid();
   if (a.rule() != b.rule()) return "the rule differs";
-  if (g.kind != h.kind) return "one grid divides its scene, the other is a lattice";
+  if (g.kind != h.kind) return "one was baked with --resolution, the other with --voxel-size";
   const bool divides = g.kind == Grid::Kind::kBox;  // then the voxel size follows
   if (divides && g.levels != h.levels) return "the resolution differs";
   if (g.voxel_size != h.voxel_size) return "the voxel size differs";
   if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
-    return "the grid holds another box";
+    return "the grids cover different boxes";
   if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
   return nullptr;
 }
@@ -41,6 +41,24 @@ Run run_of(const RunFile& file) {
   return run;
 }
 
+// Runs `merge` on checked run files. If another program wrote to one of them meanwhile, the check
+// is invalid: this is then the reported error, whatever the merge failed with.
+std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
+                                     const std::function<std::vector<SubDagRoot>()>& merge) {
+  const auto require_unchanged = [&] {
+    for (const RunFile& file : files) file.require_unchanged();
+  };
+  std::vector<SubDagRoot> tops;
+  try {
+    tops = merge();
+  } catch (const std::exception&) {
+    require_unchanged();
+    throw;
+  }
+  require_unchanged();
+  return tops;
+}
+
 }  // namespace
 
 GridPart joined_part(const std::vector<RunFile>& runs) {
@@ -51,7 +69,7 @@ GridPart joined_part(const std::vector<RunFile>& runs) {
   std::vector<Owned> owned;
   for (const RunFile& run : runs) {
     if (const char* const what = difference(runs.front(), run))
-      fail_usage(runs.front().path() + " and " + run.path() + " are of different bakes: " + what);
+      fail_usage(runs.front().path() + " and " + run.path() + " are from different bakes: " + what);
     for (const MortonRange& range : run.part().ranges()) owned.push_back({range, &run});
   }
   std::sort(owned.begin(), owned.end(),
@@ -71,10 +89,10 @@ void require_whole(const GridPart& part, const Grid& grid, const std::string& ou
     const VoxelBox voxels = cube.voxels(grid.levels);
     if (!voxels.meets(grid.selection)) continue;
     const LatticePoint low = voxels.min;
-    fail_usage(output + ": a part of the grid is in none of the runs, first the " +
+    fail_usage(output + ": the runs do not cover the grid: the " +
                format_resolution(uint64_t(voxels.max.x - low.x)) + "^3 voxels from (" +
                std::to_string(low.x) + ", " + std::to_string(low.y) + ", " + std::to_string(low.z) +
-               ") on: add the missing run, or merge to an output that ends in .run");
+               ") on are missing: add the missing run, or merge to a .run");
   }
 }
 
@@ -92,7 +110,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   report.grid = files.front().grid();
   if (!names_run(config.output)) {
     require_whole(part, report.grid, config.output);
-    part = GridPart::whole(report.grid.levels);  // the rest is outside of the selection
+    part = GridPart::whole(report.grid.levels);  // the rest has no selected voxels
   }
 
   if (config.discard_unfinished) {
@@ -122,7 +140,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
     report.runs_bytes += file.header().file_bytes;
     largest_snap = std::max(largest_snap, file.header().largest_snap);
   }
-  // A source holds its block and, where maps are spilled, the writer of one.
+  // A source holds its block and, where maps are spilled, the writer of its map.
   const uint64_t source_bytes = kRunBlockBytes + 4 * scratch->block_bytes();
   const auto tops = inputs.guard([&] {
     return merge(runs, std::move(roots), part,
@@ -134,7 +152,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   output->finish(tops, report.voxels, largest_snap);
   progress->finish();
   report.seconds.write = seconds.lap();
-  report.nodes = output->keys();
+  report.nodes = output->key_counts();
   report.file_bytes = output->file_bytes();
   report.content_hash = output->content_hash();
   report.scratch_written = scratch->written_bytes();

@@ -1,7 +1,8 @@
-// Run files of parts of one bake become one: the whole as a `.svdag`, or a larger part as a `.run`.
+// Merges run files of parts of one bake: into the whole as a `.svdag`, or a larger part as a
+// `.run`.
 //
-// The parts may have been baked anywhere and be merged in any tree: the bytes are those of a bake
-// of them all at once. Runs are streamed; no level of any need fit in memory.
+// The parts may be baked anywhere and merged in any tree: the output has the bytes of a single bake
+// of all of them. Runs are streamed; no level needs to fit in memory.
 #pragma once
 
 #include <string>
@@ -15,17 +16,17 @@ namespace svdag {
 
 struct MergeRunsConfig {
   std::vector<std::string> runs;
-  std::string output;   // a `.run` if it is named so, else a `.svdag`
+  std::string output;   // a `.run` if the name ends in ".run", else a `.svdag`
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
-  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
-  bool discard_unfinished = false;  // discard an unfinished bake of the output
+  std::string scratch;  // --scratch: where to create the scratch folder; empty: beside the output
+  bool discard_unfinished = false;  // delete the scratch of an unfinished bake of this output
 };
 
 struct MergeRunsReport {
   Grid grid;
   uint64_t voxels = 0;
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
-  uint64_t runs_bytes = 0;      // of the runs
+  uint64_t runs_bytes = 0;      // total size of the run files
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits
   struct Seconds {
@@ -36,14 +37,14 @@ struct MergeRunsReport {
 };
 
 // Throws Error; the output is then the old file, or, if only the last sync or the clean-up failed,
-// the complete new one. Runs of different grids or rules, runs that overlap, and a `.svdag` of
-// which a part is missing are an Error (kUsage); a run that is damaged is one (kBadInput) before
-// the merge begins.
+// the complete new one. Error (kUsage) for runs of different grids or rules, runs that overlap, and
+// a `.svdag` output that the runs do not cover; Error (kBadInput), before the merge begins, for a
+// damaged run.
 MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Progress* progress);
 
-// What all `runs` hold together. Error (kUsage) if they are of different bakes, or overlap.
+// The union of the parts of `runs`. Error (kUsage) if they are from different bakes, or overlap.
 GridPart joined_part(const std::vector<RunFile>& runs);
-// Error (kUsage) unless `part` holds every voxel of `grid` that may be set.
+// Error (kUsage) unless `part` holds every voxel of the selection of `grid`.
 void require_whole(const GridPart& part, const Grid& grid, const std::string& output);
 
 }  // namespace svdag

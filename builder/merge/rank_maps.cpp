@@ -63,17 +63,17 @@ RankMap RankMaps::load(size_t source, uint64_t begin, uint64_t end) const {
   const uint64_t per_block = scratch_->passing()->payload_bytes() / sizeof(uint32_t);
   RankMap map;
   map.first = begin;
-  const uint64_t wanted = std::min(end, count(source)) - begin;
-  map.reservation = budget_->reserve(wanted * sizeof(uint32_t), kPurpose);
-  map.indices.resize(wanted);
-  if (wanted == 0) return map;
+  const uint64_t length = std::min(end, count(source)) - begin;
+  map.reservation = budget_->reserve(length * sizeof(uint32_t), kPurpose);
+  map.indices.resize(length);
+  if (length == 0) return map;
   SpillReader reader(scratch_->passing(), stream, budget_, begin / per_block);
   uint64_t skip = begin % per_block;
-  for (uint64_t got = 0; got < wanted; skip = 0) {
+  for (uint64_t loaded = 0; loaded < length; skip = 0) {
     const std::span<const uint32_t> block = next_indices(&reader).subspan(skip);
-    const uint64_t n = std::min<uint64_t>(block.size(), wanted - got);
-    std::copy_n(block.data(), n, map.indices.data() + got);
-    got += n;
+    const uint64_t n = std::min<uint64_t>(block.size(), length - loaded);
+    std::copy_n(block.data(), n, map.indices.data() + loaded);
+    loaded += n;
   }
   return map;
 }

@@ -1,7 +1,7 @@
-// The maps of one merged level: for each source, rank in the source -> index in the output.
+// The rank maps of one merged level: for each source, rank in the source -> index in the output.
 //
-// Maps ascend, so they are written and read in order; only looking children up is random, and that
-// needs the map of one run at a time. In memory, or spilled one stream per source.
+// They are in memory, or spilled with one stream per source. Maps ascend, so they are written and
+// read in order. Only looking up children is random access, with the map of one run at a time.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace svdag {
 
-// A map in memory, or a window of one, counted.
+// A rank map in memory, or a window of one, with its reservation.
 struct RankMap {
   HugeVector<uint32_t> indices;
   MemoryBudget::Reservation reservation;
@@ -26,14 +26,16 @@ struct RankMap {
 class RankMaps {
  public:
   RankMaps() = default;
-  // For sources of `counts` keys; spilled if `scratch` is given.
+  // counts[s]: number of keys of source s. The maps are spilled if `scratch` is given.
   RankMaps(std::span<const uint64_t> counts, Scratch* scratch, MemoryBudget* budget);
   RankMaps(RankMaps&&) = default;
   RankMaps& operator=(RankMaps&&) = default;
-  // Spilled, without sources yet.
-  static RankMaps none(Scratch* scratch, MemoryBudget* budget) { return {{}, scratch, budget}; }
+  // Spilled maps, with no source yet.
+  static RankMaps without_sources(Scratch* scratch, MemoryBudget* budget) {
+    return {{}, scratch, budget};
+  }
 
-  // The index of the next key of `source`.
+  // Appends the index of the next key of `source`.
   void push(size_t source, uint32_t index) {
     if (writers_.empty()) {
       maps_[source].indices.push_back(index);
@@ -41,18 +43,18 @@ class RankMaps {
       writers_[source].append(std::as_bytes(std::span(&index, 1)));
     }
   }
-  // Ends pushing.
+  // Must be called after the last push().
   void finish();
-  // Adds the map of one more source: what `member` of *into maps to, mapped by `group` of out_of.
-  // All are spilled; that of `member` is freed.
+  // Appends the map of one more source: the map `member` of *into composed with the map `group` of
+  // out_of. All maps are spilled; that of `member` is freed.
   void append_composed(RankMaps* into, size_t member, const RankMaps& out_of, size_t group);
 
   bool spilled() const { return scratch_ != nullptr; }
   size_t size() const { return spilled() ? streams_.size() : maps_.size(); }
   const RankMap& resident(size_t source) const { return maps_[source]; }
-  // Of a spilled map, the indices of ranks `begin` to `end` at most, into memory.
+  // Loads the indices of ranks `begin` .. `end` - 1 of a spilled map, or fewer at its end.
   RankMap load(size_t source, uint64_t begin = 0, uint64_t end = UINT64_MAX) const;
-  // Ranks of a spilled map.
+  // Number of ranks of a spilled map.
   uint64_t count(size_t source) const { return streams_[source].bytes / sizeof(uint32_t); }
   uint64_t resident_bytes() const;
   // Frees a spilled map.

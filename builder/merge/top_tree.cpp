@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-std::pair<int32_t, uint32_t> order_of(const SubDagRoot& root) {
+std::pair<int32_t, uint32_t> level_and_run(const SubDagRoot& root) {
   return {root.level, root.run};
 }
 
@@ -16,13 +16,14 @@ std::pair<int32_t, uint32_t> order_of(const SubDagRoot& root) {
 TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part)
     : roots_(std::move(roots)), part_(part) {
   std::sort(roots_.begin(), roots_.end(), [](const SubDagRoot& a, const SubDagRoot& b) {
-    return order_of(a) != order_of(b) ? order_of(a) < order_of(b) : a.morton < b.morton;
+    return level_and_run(a) != level_and_run(b) ? level_and_run(a) < level_and_run(b)
+                                                : a.morton < b.morton;
   });
 }
 
 std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t run) const {
-  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& order) {
-    return order_of(root) < order;
+  const auto before = [](const SubDagRoot& root, const std::pair<int32_t, uint32_t>& key) {
+    return level_and_run(root) < key;
   };
   const auto begin = std::lower_bound(roots_.begin(), roots_.end(), std::pair(level, run), before);
   auto end = begin;
@@ -31,7 +32,7 @@ std::pair<TopTree::Roots, TopTree::Roots> TopTree::roots_of(int level, uint32_t 
 }
 
 const std::vector<NodeKey>& TopTree::sorted_nodes() {
-  // Siblings are consecutive in Morton order: one pass makes the parents.
+  // Siblings are consecutive in Morton order, so one pass builds the parents.
   std::vector<TopCube> parents;
   std::vector<NodeKey> keys;
   for (const TopCube& cube : cubes_) {

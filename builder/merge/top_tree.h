@@ -1,5 +1,5 @@
-// The octree above the cells, built upwards while the merge goes from level to level, up to the
-// tops of the part that is merged: the root of the grid if that is all.
+// The octree above the cells, built upwards level by level during the merge, up to the tops of the
+// merged part (the root of the grid if the part is the whole grid).
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ class TopTree {
   // The roots are in `part`, which must outlive the tree.
   TopTree(std::vector<SubDagRoot> roots, const GridPart& part);
 
-  // After level `level` was merged, in this order: resolve_own() with the indices of what
-  // sorted_nodes() returned; resolve_run() for each run with its map from rank to index, or once
-  // per window of that map; end_level().
+  // To be called after level `level` is merged, in this order: resolve_own() with the indices of
+  // the nodes that sorted_nodes() returned; resolve_run() for each run with its map from rank to
+  // index, or once per window of that map; end_level().
   template <class Map>
   void resolve_own(const Map& indices) {
     for (TopCube& cube : cubes_) cube.index = indices[cube.index];
@@ -30,26 +30,26 @@ class TopTree {
   }
   void end_level(int level);
 
-  // The parents of the cubes resolved last, as nodes, ascending without repeats.
+  // The parents of the cubes resolved last, as ascending, unique nodes.
   const std::vector<NodeKey>& sorted_nodes();
 
-  // After the end of level 0: the tops of the part that are not empty, with `rank` the index.
+  // After end_level(0): the non-empty tops of the part; their `rank` is the global index.
   std::vector<SubDagRoot> take_tops() { return std::move(tops_); }
 
  private:
   struct TopCube {
     uint64_t morton;  // of the cube at the current level
-    uint32_t index;   // resolved: global index; between the calls: position in nodes_
+    uint32_t index;   // global index once resolved; before that, index in nodes_
   };
   using Roots = std::vector<SubDagRoot>::const_iterator;
 
   std::pair<Roots, Roots> roots_of(int level, uint32_t run) const;
 
-  std::vector<SubDagRoot> roots_;  // by level and run
+  std::vector<SubDagRoot> roots_;  // sorted by level and run
   const GridPart& part_;
   std::vector<SubDagRoot> tops_;
   std::vector<TopCube> cubes_;  // occupied cubes of the current level, ascending
-  std::vector<NodeKey> nodes_;  // of the level being merged, ascending without repeats
+  std::vector<NodeKey> nodes_;  // of the level being merged, ascending and unique
 };
 
 }  // namespace svdag

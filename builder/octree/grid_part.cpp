@@ -11,7 +11,7 @@ GridPart GridPart::of_cells(const CellRange& cells, int levels) {
                cells.end <= uint64_t(1) << 3 * cells.level);
   if (cells.level > levels - 2)
     fail_usage("a grid of " + std::to_string(1 << levels) +
-               "^3 voxels is too small for so many parts: choose fewer");
+               "^3 voxels is too small for this many parts: use fewer");
   const int shift = 3 * (levels - cells.level);
   if (cells.begin == cells.end) return GridPart({}, levels);
   return GridPart({{cells.begin << shift, cells.end << shift}}, levels);
@@ -21,8 +21,8 @@ CellRange GridPart::share(uint64_t number, uint64_t count) {
   constexpr uint64_t kMaxParts = 1'000'000;
   if (count == 0 || count > kMaxParts || number == 0 || number > count)
     fail_usage("--part " + std::to_string(number) + "/" + std::to_string(count) +
-               ": parts are numbered 1/N to N/N, N at most 1,000,000");
-  // At least eight cells each, so that the largest part is an eighth larger than the mean at most.
+               ": parts are numbered from 1 to the count, which is at most 1000000");
+  // At least eight cells each: the largest part is at most an eighth larger than the mean.
   CellRange cells;
   while (uint64_t(1) << 3 * cells.level < 8 * count) ++cells.level;
   const uint64_t all = uint64_t(1) << 3 * cells.level;

@@ -1,10 +1,10 @@
-// A part of the grid: whole bricks, as ranges of Morton codes. One run holds one part.
+// A part of the grid: whole bricks, as ranges of Morton codes. A run holds the voxels of one part.
 //
-// The *tops* of a part are its maximal cubes: cubes of the octree that are completely in the part
-// and whose parents are not. Equal parts have equal tops, however their ranges were composed, so a
-// sub-DAG per non-empty top is a canonical form of the part's voxels.
-// Rejected: the cells as roots (their level is a choice of the bake), and one root for all (it
-// would contain nodes whose other children are in other parts).
+// The *tops* of a part are its maximal cubes: octree cubes that are entirely in the part while
+// their parents are not. They depend on the set of voxels alone, not on how the ranges were
+// combined, so one sub-DAG per non-empty top is a canonical form of the content of a part.
+// Rejected: the cells as roots (their level is a choice of each bake), and one root for all (its
+// upper nodes would describe cubes that are only partly in this run).
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ struct CellRange {
 class GridPart {
  public:
   static GridPart whole(int levels) { return GridPart({{0, uint64_t(1) << 3 * levels}}, levels); }
-  // Cells of level levels - 2 at most; those finer, or outside the grid, are an Error (kUsage).
+  // `cells` of level levels - 2 at most, inside the grid; finer cells are an Error (kUsage).
   static GridPart of_cells(const CellRange& cells, int levels);
-  // Part `number` (1 .. count) of `count` parts of equally many cells, up to one. Error (kUsage) if
-  // `number` is out of range.
+  // The cells of part `number` (1 .. count) of `count` parts, whose numbers of cells differ by at
+  // most one; Error (kUsage) for an invalid number or count.
   static CellRange share(uint64_t number, uint64_t count);
 
   // `ranges` in any order, of whole bricks in a grid of `levels` levels.
@@ -41,15 +41,15 @@ class GridPart {
   bool holds(const MortonRange& range) const {
     return set_.coverage(range) == MortonSet::Coverage::kAll;
   }
-  // The rest of the grid.
+  // The grid without this part.
   GridPart rest() const;
 
-  // Whether the cube of `level` with Morton code `code` is a top.
+  // Whether the cube of `level` with Morton code `code` is a top of this part.
   bool is_top(int level, uint64_t code) const;
   // All tops in Morton order.
   std::vector<Cube> tops() const;
-  // Whether `box` meets the closed part. Of two parts together this is true if and only if it is
-  // true of one of them.
+  // Whether `box` meets the closed part. A box meets the union of two parts if and only if it meets
+  // one of them.
   bool meets(const LatticeBox& box) const { return meets(Cube(), box); }
 
  private:

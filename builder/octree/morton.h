@@ -1,4 +1,4 @@
-// Morton codes: the order of voxels, cells and parts, in which every cube is one range.
+// Morton codes: the order of voxels and cubes in which every octree cube is one range.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ inline MortonRange morton_range(const Cube& cube, int levels) noexcept {
   return {code << shift, (code + 1) << shift};
 }
 
-// Appends `range`, joined to the last one if it follows that.
+// Appends `range`, joined to the last range if it begins where that ends.
 inline void append_range(std::vector<MortonRange>* ranges, const MortonRange& range) {
   if (range.begin == range.end) return;
   if (!ranges->empty() && ranges->back().end == range.begin) {

@@ -17,7 +17,7 @@ MortonSet::MortonSet(std::vector<MortonRange> ranges) {
 }
 
 MortonSet::Coverage MortonSet::coverage(const MortonRange& range) const {
-  // The first range that ends behind the beginning is the only one that can hold it all.
+  // The first range that ends after range.begin is the only one that can hold all of `range`.
   const auto at =
       std::upper_bound(ranges_.begin(), ranges_.end(), range.begin,
                        [](uint64_t code, const MortonRange& r) { return code < r.end; });

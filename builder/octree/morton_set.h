@@ -1,7 +1,8 @@
-// A set of voxels as ranges of Morton codes: what a bake has finished, or what a part holds.
+// A set of voxels as ranges of Morton codes: what a bake has finished, or what a grid part holds.
 //
-// Cells are finished in any order and, where a node table was emptied in between, up to a point
-// within: both are ranges, whatever cells an earlier process with other threads and memory chose.
+// Cells are finished in any order and, where a node table was emptied in between, only in part.
+// Ranges describe both, independent of the cells that an earlier process with other threads and
+// memory chose.
 #pragma once
 
 #include <vector>

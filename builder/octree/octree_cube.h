@@ -1,4 +1,4 @@
-// A cube of the octree, by level and coordinate.
+// A cube of the octree: its level and coordinate.
 #pragma once
 
 #include "io/grid.h"
@@ -27,7 +27,7 @@ struct Cube {
     const LatticePoint min = corner(levels);
     return {min, min + (int64_t(1) << side_log2(levels))};
   }
-  // Its voxels.
+  // The voxels of the cube.
   VoxelBox voxels(int levels) const noexcept {
     const int shift = levels - level;
     const LatticePoint min = {coordinate.x << shift, coordinate.y << shift, coordinate.z << shift};

@@ -1,12 +1,12 @@
-// Where the sub-DAG of a cube is found: what a run says of its roots, and a part of its tops.
+// The location of the sub-DAG of a cube: a root of a run, or a top of a grid part.
 #pragma once
 
 #include <cstdint>
 
 namespace svdag {
 
-// Node `rank` of the cube's level in run `run`. The cube is a cell, part of one in which a node
-// table was emptied, or the top of a part.
+// Node `rank` of the cube's level in run `run`. The cube is a cell, a cube in a cell in which a
+// node table was emptied, or a top of a grid part.
 struct SubDagRoot {
   uint64_t morton;  // of the cube, at its level
   int32_t level;

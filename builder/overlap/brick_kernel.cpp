@@ -1,7 +1,8 @@
-// The 64 voxels of a brick against one triangle: each separating function gives a mask of the
-// voxels that it does not separate; unsure voxels are decided in integers. No voxel is visited for
-// its own sake: edge functions cost 16 evaluations for 64 voxels, the plane only what the others
-// have left.
+// Conservative rule, plain path: the 64 voxels of a brick against one triangle.
+//
+// Each separating function gives a mask of the voxels that it does not separate from the triangle;
+// unsure voxels are decided in integers. An edge function costs 16 evaluations for 64 voxels; the
+// plane is evaluated only for the voxels that are left.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -43,7 +44,7 @@ Brick voxels_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, 
     reached |= unsigned(value > error) << q;
     unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  counts->evaluated += 16;
+  counts->total += 16;
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);
@@ -62,7 +63,7 @@ Brick voxels_on_plane(const TriangleSetup& t, const LatticePoint& corner, int fr
   const double s[3] = {n[0] * side, n[1] * side, n[2] * side};
   const double high = (std::max(s[0], 0.0) + std::max(s[1], 0.0)) + std::max(s[2], 0.0);
   const double low = (std::min(s[0], 0.0) + std::min(s[1], 0.0)) + std::min(s[2], 0.0);
-  counts->evaluated += uint64_t(std::popcount(voxels));
+  counts->total += uint64_t(std::popcount(voxels));
   for (Brick left = voxels; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
     const auto& p = kBrickTables.coordinate[bit];

@@ -1,4 +1,4 @@
-// Masks of a brick's slabs and the coordinates of its bits.
+// Constant tables of a brick: masks of its slabs and columns, coordinates of its bits.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace svdag {
 
-struct BrickTables {            // plain arrays: vector code must not instantiate templates
-                                // (builder/overlap/kernels/kernels.h)
+// Plain arrays, since the code of the vector kernels must not instantiate templates.
+struct BrickTables {
   Brick slab[3][4]{};           // [axis][i]: voxels with coordinate i
   Brick slabs[3][4][4]{};       // [axis][i][j]: voxels with coordinate i .. j
   uint8_t coordinate[64][3]{};  // of each bit
@@ -47,8 +47,8 @@ constexpr BrickTables make_brick_tables() {
 
 inline constexpr BrickTables kBrickTables = make_brick_tables();
 
-// The voxels whose column along w is in `columns`, bit 4i + j for coordinate i on axis w+1, j on
-// w+2.
+// The voxels whose column along w is in `columns`: bit 4i + j is the column at coordinate i on axis
+// w+1 and j on axis w+2.
 constexpr Brick expand_columns(int w, unsigned columns) {
   const auto& table = kBrickTables.columns[w];
   return table[0][columns & 15] | table[1][columns >> 4 & 15] | table[2][columns >> 8 & 15] |

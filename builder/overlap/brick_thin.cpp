@@ -1,18 +1,18 @@
-// Rule thin: the 64 voxels of a brick against one triangle.
+// Thin rule, plain path: the 64 voxels of a brick against one triangle.
 //
 // After the "three axis-parallel centre segments" target of Laine, "A Topological Approach to
 // Voxelization" (2013), which is 6-separating. Notation: S = 2^F; voxel k has centre c = (k + 1/2)
 // S and, per axis w, the segment from c - S/2 w to c + S/2 w. All targets are shifted by d = (e,
-// e^2, e^3), e infinitesimal, so no target is ever exactly on a plane or edge. Voxel k is set iff
-// for some w the shifted segment crosses the triangle:
+// e^2, e^3), e infinitesimal, which resolves all ties. Voxel k is set iff for some w the shifted
+// segment crosses the triangle:
 //   inside   the shifted centre, projected along w, is inside the projected triangle: all edge
 //            functions are positive there; an exact 0 is decided by the coefficient of the
 //            dominant axis (x before y before z), which is what the shift adds first;
 //   crossed  n . (x - v0) has different signs at the two shifted ends; an exact 0 is decided by
 //            the first nonzero of n_x, n_y, n_z.
 //
-// So each line of centres that meets the projected triangle sets exactly one voxel of the line, and
-// the segments of one line share no point: shared edges and vertices neither leak nor count twice.
+// Each line of centres that meets the projected triangle sets exactly one voxel of the line, and
+// the segments of a line share no point, so shared edges and vertices neither leak nor count twice.
 // A triangle of zero area sets nothing. Rejected: the dominant axis alone (leaks in 177 of 1,500
 // tetrahedra), ties by epsilon.
 #include <algorithm>
@@ -26,8 +26,8 @@
 namespace svdag {
 namespace {
 
-// Values of one function at a point of the brick, in double with an error bound, and the exact sign
-// where the double cannot tell.
+// The side of the plane on which a point of the brick is: evaluated in double with an error bound,
+// exactly where that is unsure.
 struct PlaneSide {
   const TriangleSetup& t;
   LatticePoint corner;
@@ -39,7 +39,7 @@ struct PlaneSide {
     const double value =
         at_corner + ((t.normal[0] * double(offset.x) + t.normal[1] * double(offset.y)) +
                      t.normal[2] * double(offset.z));
-    ++counts->evaluated;
+    ++counts->total;
     if (value > error) return true;
     if (value < -error) return false;
     ++counts->exact;
@@ -70,7 +70,7 @@ Brick centres_inside_edge(const TriangleSetup& t, int k, const LatticePoint& cor
     inside |= unsigned(value > error) << q;
     unsure |= unsigned(std::abs(value) <= error) << q;
   }
-  counts->evaluated += 16;
+  counts->total += 16;
   counts->exact += unsigned(std::popcount(unsure));
   for (; unsure != 0; unsure &= unsure - 1) {
     const int q = std::countr_zero(unsure);
@@ -110,8 +110,7 @@ Brick overlap_brick_thin(const ListedTriangle& entry, const LatticePoint& corner
                          DecisionCounts* counts) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const PlaneSide above = plane_side(t, corner, double(int64_t(1) << fraction), counts);
-  const Brick near =
-      overlap_brick(entry, corner, fraction, counts);  // a set voxel is touched as well
+  const Brick near = overlap_brick(entry, corner, fraction, counts);  // a set voxel is also touched
   Brick voxels = 0;
   for (int w = 0; w < 3; ++w) {
     if (t.normal[w] == 0) continue;

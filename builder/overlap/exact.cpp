@@ -5,15 +5,15 @@
 namespace svdag {
 namespace {
 
-// sign(n_w) of a proper triangle, 1 for a segment: stored in the setup's coefficients already.
+// sign(n_w) of a proper triangle, 1 for a segment. The coefficients of the setup include it.
 int orientation(const TriangleSetup& t, int w) noexcept {
   return t.normal[w] < 0 ? -1 : 1;
 }
 
-// Edges below 2^30 have a normal below 2^61.
+// Edges shorter than 2^30 have a normal below 2^61, which fits int64_t.
 constexpr double kSmallExtent = 0x1p30;
 
-// Rounded to nearest, as the conversion of the language; most values fit the fast one.
+// Rounds to nearest, as the built-in conversion does; most values take the faster int64_t path.
 double to_double(int64_t value) noexcept {
   return double(value);
 }

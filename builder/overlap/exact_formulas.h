@@ -52,7 +52,7 @@ int plane_sign(const TriangleSetup& t, const LatticePoint& x) {
   return sign(value);
 }
 
-// Edge function k without the factor sign(n_w), which the caller of a proper triangle applies.
+// Edge function k without the factor sign(n_w), which the caller applies for a proper triangle.
 template <class Int>
 int edge_sign(const TriangleSetup& t, int k, const LatticePoint& x) {
   const int w = k / 3, e = k % 3, u = (w + 1) % 3, v = (w + 2) % 3;

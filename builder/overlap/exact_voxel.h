@@ -1,4 +1,4 @@
-// The exact answers for single voxels, where double cannot tell.
+// Exact decisions for single voxels and columns of a brick, for values that are unsure in double.
 #pragma once
 
 #include "builder/overlap/triangle_setup.h"
@@ -18,7 +18,7 @@ bool column_centre_holds(const TriangleSetup& t, int k, const LatticePoint& corn
                          unsigned column) noexcept;
 // Thin: is n . (x - v0) positive at x, shifted symbolically?
 bool is_above_plane(const TriangleSetup& t, const LatticePoint& x) noexcept;
-// The same where x is an end of the centre segment along axis w of voxel `bit`.
+// Thin: the same for the lower or upper end x of the centre segment of voxel `bit` along axis w.
 bool end_is_above_plane(const TriangleSetup& t, const LatticePoint& corner, int fraction,
                         unsigned bit, int w, bool upper) noexcept;
 

@@ -1,5 +1,6 @@
-// Triangles that reach 2^41 lattice steps or more from the grid's corner: rare (a small --bounds
-// box in a large scene), so clarity counts here and speed does not.
+// Exact signs in 256-bit integers, for triangles that reach 2^41 lattice steps or more from the
+// grid's corner. They are rare (a small --bounds box in a large scene), so this favours clarity
+// over speed.
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "builder/overlap/exact.h"

@@ -9,23 +9,23 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kLargest = int64_t(1) << 28;
+constexpr int64_t kMaxComponent = int64_t(1) << 28;
 
-// A denominator q <= 2^28 for which ratio * q (|ratio| <= 1) seems whole, by continued fractions;
-// kLargest + 1 if none is found. A fraction with a denominator of up to 2^25, rounded to double, is
-// found; integers decide whether it is exact.
+// A denominator q <= 2^28 for which ratio * q (|ratio| <= 1) seems to be an integer, by continued
+// fractions; kMaxComponent + 1 if there is none. Finds every fraction with a denominator of up to
+// 2^25 that was rounded to double; the caller checks in integers whether it is exact.
 int64_t denominator(double ratio) noexcept {
   double rest = std::abs(ratio);
   int64_t before = 1, q = 0;
   for (;;) {
     const double whole = std::floor(rest);
-    if (whole > double(kLargest)) return q;
+    if (whole > double(kMaxComponent)) return q;
     const int64_t next = int64_t(whole) * q + before;
     before = q;
     q = next;
-    if (q > kLargest) return kLargest + 1;
+    if (q > kMaxComponent) return kMaxComponent + 1;
     rest -= whole;
-    if (rest <= double(q) * double(q) * 0x1p-51) return q;  // what rounding has left
+    if (rest <= double(q) * double(q) * 0x1p-51) return q;  // the rest is a rounding error
     rest = 1 / rest;
   }
 }
@@ -33,9 +33,9 @@ int64_t denominator(double ratio) noexcept {
 bool primitive_normal(const __int128 n[3], int w, int u, int v, int64_t out[3]) noexcept {
   const double ratio_u = double(n[u]) / double(n[w]), ratio_v = double(n[v]) / double(n[w]);
   const int64_t qu = denominator(ratio_u), qv = denominator(ratio_v);
-  if (qu > kLargest || qv > kLargest) return false;
+  if (qu > kMaxComponent || qv > kMaxComponent) return false;
   const int64_t q = qu / std::gcd(qu, qv) * qv;
-  if (q > kLargest) return false;
+  if (q > kMaxComponent) return false;
   const int64_t pu = std::llrint(ratio_u * double(q)), pv = std::llrint(ratio_v * double(q));
   if (n[u] * q != n[w] * pu || n[v] * q != n[w] * pv) return false;
   out[w] = q;
@@ -55,11 +55,11 @@ std::optional<LatticePlane> lattice_plane(const TriangleSetup& t) noexcept {
   plane.exact = primitive_normal(n, w, u, v, plane.n);
   if (!plane.exact) {
     const double ratio_u = t.normal[u] / t.normal[w], ratio_v = t.normal[v] / t.normal[w];
-    plane.n[w] = kLargest;
-    plane.n[u] = std::llrint(ratio_u * double(kLargest));
-    plane.n[v] = std::llrint(ratio_v * double(kLargest));
-    plane.slope_u = double(plane.n[u]) - double(kLargest) * ratio_u;
-    plane.slope_v = double(plane.n[v]) - double(kLargest) * ratio_v;
+    plane.n[w] = kMaxComponent;
+    plane.n[u] = std::llrint(ratio_u * double(kMaxComponent));
+    plane.n[v] = std::llrint(ratio_v * double(kMaxComponent));
+    plane.slope_u = double(plane.n[u]) - double(kMaxComponent) * ratio_u;
+    plane.slope_v = double(plane.n[v]) - double(kMaxComponent) * ratio_v;
   }
   const int64_t first = plane.n[0] != 0 ? plane.n[0] : (plane.n[1] != 0 ? plane.n[1] : plane.n[2]);
   if (first < 0) {
@@ -72,7 +72,7 @@ std::optional<LatticePlane> lattice_plane(const TriangleSetup& t) noexcept {
 
 namespace {
 
-// n_q . (point - corner), if it fits.
+// n_q . (point - corner); none if it exceeds 2^61.
 std::optional<int64_t> offset_at(const LatticePlane& p, const LatticePoint& point,
                                  const LatticePoint& corner) noexcept {
   __int128 offset = 0;
@@ -82,9 +82,9 @@ std::optional<int64_t> offset_at(const LatticePlane& p, const LatticePoint& poin
   return int64_t(offset);
 }
 
-// The range of base + slope_u (x_u - v_u) + slope_v (x_v - v_v) over the column. Slopes are wrong
-// by less than slope_error, distances are below 2^42 and exact, sums lose less than 2^-50 of their
-// terms; 2 more steps make the range strictly larger.
+// The range of base + slope_u (x_u - v_u) + slope_v (x_v - v_v) over the column. The error of a
+// slope is below slope_error, distances are below 2^42 and exact, sums lose less than 2^-50 of
+// their terms; a margin of 2 makes the range strictly larger.
 OffsetRange range_in_column(int64_t base, const double slope[2], double slope_error,
                             const double from[2], double side) noexcept {
   double low = 0, high = 0, reach = 0, largest = 0;
@@ -106,7 +106,7 @@ std::optional<OffsetRange> offsets_in_column(const LatticePlane& p, const Lattic
   const auto base = offset_at(p, p.v0, corner);
   if (!base) return std::nullopt;
   if (p.exact) return OffsetRange{*base, *base};
-  // Three roundings of each component and one of their ratio, which is below 1, times 2^28.
+  // Slope error: three roundings of each component and one of their ratio (below 1), times 2^28.
   const double slope[2] = {p.slope_u, p.slope_v};
   const double from[2] = {double(corner[p.u] - p.v0[p.u]), double(corner[p.v] - p.v0[p.v])};
   return range_in_column(*base, slope, 0x1p-22, from, double(side));
@@ -118,7 +118,7 @@ std::optional<OffsetRange> offsets_along(const LatticePlane& p, const TriangleSe
   const LatticePoint& v0 = other.triangle.v[0];
   const auto base = offset_at(p, v0, corner);
   if (!base) return std::nullopt;
-  if (p.exact) {  // the same plane? then all its vertices have one offset
+  if (p.exact) {  // on the same plane or a parallel one, all vertices have one offset
     const auto second = offset_at(p, other.triangle.v[1], corner);
     const auto third = offset_at(p, other.triangle.v[2], corner);
     if (second == base && third == base) return OffsetRange{*base, *base};
@@ -127,7 +127,7 @@ std::optional<OffsetRange> offsets_along(const LatticePlane& p, const TriangleSe
   const double slope[2] = {double(p.n[p.u]) - inverse * other.normal[p.u],
                            double(p.n[p.v]) - inverse * other.normal[p.v]};
   const double from[2] = {double(corner[p.u] - v0[p.u]), double(corner[p.v] - v0[p.v])};
-  // Steep against n_q: the range would not fit any entry, and its arithmetic not 63 bits.
+  // Steep against n_q: the range would fit no entry of the memo, and might overflow 63 bits.
   if (std::max(std::abs(slope[0]), std::abs(slope[1])) > 0x1p16) return std::nullopt;
   return range_in_column(*base, slope, 0x1p-22, from, double(side));
 }

@@ -1,10 +1,11 @@
-// Which children of a cube, and which voxels of a brick, a triangle touches: the plain path.
+// The plain overlap tests: which children of a cube, and which voxels of a brick, a triangle
+// touches.
 //
-// This is the reference that every kernel of builder/overlap/kernels/kernels.h is held against.
+// They are the reference for the kernels of builder/overlap/kernels/kernels.h.
 //
-// Invariant of both: the triangle's bounding box meets the closed cube, and every edge function
+// Precondition of both: the triangle's bounding box meets the closed cube, and every edge function
 // that is not in `edges` holds everywhere in it. Children are decided on the safe side (an unsure
-// one counts as touched, an unsure edge stays on); voxels are decided exactly.
+// child counts as touched, an unsure edge stays on); voxels are decided exactly.
 #pragma once
 
 #include "builder/overlap/triangle_list.h"
@@ -17,7 +18,7 @@ struct ChildOverlap {
   uint8_t touched;    // bit c: child c may be touched; a clear bit is certain
 };
 
-// The children of a cube with centre (x, y, z) that a triangle's box meets, which meets the cube.
+// The children, of a cube with centre (x, y, z), that `box` meets; `box` meets the cube.
 inline uint8_t children_in_box(const LatticeBox& box, int64_t x, int64_t y, int64_t z) noexcept {
   unsigned children = 0xff;
   if (box.min.x > x) children &= 0b11110000;
@@ -33,14 +34,14 @@ inline uint8_t children_in_box(const LatticeBox& box, int64_t x, int64_t y, int6
 ChildOverlap overlap_children(const ListedTriangle& entry, const LatticePoint& corner,
                               int64_t side) noexcept;
 
-// Number of signs of separating functions evaluated at voxels, and of those that double precision
-// could not decide.
+// Numbers of signs of separating functions at voxels: evaluated in total, and of these decided
+// exactly because double left them unsure.
 struct DecisionCounts {
-  uint64_t evaluated = 0;
+  uint64_t total = 0;
   uint64_t exact = 0;
 
   DecisionCounts& operator+=(const DecisionCounts& other) {
-    evaluated += other.evaluated;
+    total += other.total;
     exact += other.exact;
     return *this;
   }
@@ -51,7 +52,7 @@ struct DecisionCounts {
 Brick overlap_brick(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                     DecisionCounts* counts) noexcept;
 
-// The voxels that the triangle sets under rule thin (builder/overlap/brick_thin.cpp).
+// The voxels that the triangle sets under the thin rule (builder/overlap/brick_thin.cpp).
 Brick overlap_brick_thin(const ListedTriangle& entry, const LatticePoint& corner, int fraction,
                          DecisionCounts* counts) noexcept;
 

@@ -9,7 +9,7 @@ namespace {
 // Children with bit (x, y, z) of axis a equal to 1.
 constexpr uint8_t kUpper[3] = {0b11110000, 0b11001100, 0b10101010};
 
-// Drops the children that lie strictly on one side of the plane.
+// Removes the children that are strictly on one side of the plane.
 uint8_t children_on_plane(const TriangleSetup& t, const LatticePoint& corner, double half,
                           uint8_t children) noexcept {
   const double* n = t.normal;
@@ -28,7 +28,7 @@ uint8_t children_on_plane(const TriangleSetup& t, const LatticePoint& corner, do
   return children;
 }
 
-// The children whose squares, in the projection along w, are the quarters `quarters` (bit 2i + j:
+// The children that project along w to the quarters `quarters` of the cube's square (bit 2i + j:
 // half i of axis u, half j of axis v).
 uint8_t children_of_quarters(int w, unsigned quarters) noexcept {
   const uint8_t u = kUpper[(w + 1) % 3], v = kUpper[(w + 2) % 3];
@@ -42,7 +42,7 @@ uint8_t children_of_quarters(int w, unsigned quarters) noexcept {
 
 struct EdgeVerdict {
   uint8_t outside;  // children that the edge separates from the triangle
-  uint8_t inside;   // children in which it holds everywhere
+  uint8_t inside;   // children in which the edge function holds everywhere
 };
 
 EdgeVerdict children_at_edge(const TriangleSetup& t, int k, const LatticePoint& corner, double half,

@@ -1,4 +1,4 @@
-// The lists that go down the octree: which triangles a cube has to ask, and what of them.
+// Triangle lists of octree cubes: the triangles that may touch a cube, with their undecided edges.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace svdag {
 
-// One triangle in the list of a cube that it (very likely) touches, with the edge functions that do
-// not yet hold everywhere in the cube. An edge that holds in a cube holds in all its parts, so it
-// is switched off for good.
+// A triangle in the list of a cube that it (very likely) touches, with the edge functions that do
+// not hold everywhere in the cube. An edge function that holds in a cube holds in all of its
+// sub-cubes, so it stays off below.
 struct ListedTriangle {
   const TriangleSetup* triangle;
   EdgeMask edges;

@@ -10,13 +10,14 @@
 namespace svdag {
 namespace {
 
-// Error of the double evaluation (filter_error), with u = 2^-53, Q = |x - v| <= extent + side (cube
-// and triangle's box meet), D = side, coefficients of sum 1. A factor common to all coefficients
-// of a function does not change its sign, so of the scaling only one rounding per coefficient
-// counts, and 3u D/2 where a function is compared with half of the side. Narrow: edges and x - v
-// are exact, n is rounded once. Coefficients 2u, products 1u, sums 2u: 5u(Q+D), offsets inside the
-// cube 3uD. Wide: edges are rounded as well, and so are vertices: |v| < 1.4 extents there (the box
-// meets the grid), so x - v loses at most 1.4u: 8u(Q+D). Together below 12u(Q+D); 16u is used.
+// Error of the evaluation in double (filter_error), with u = 2^-53, Q = |x - v| <= extent + side
+// (the cube and the triangle's box meet), D = side, coefficients whose magnitudes sum to 1. A
+// common factor of all coefficients of a function does not change its sign, so the scaling
+// contributes only one rounding per coefficient, and 3u D/2 where a function is compared with half
+// of the side. Narrow: edges and x - v are exact, n is rounded once. Coefficients 2u, products 1u,
+// sums 2u: 5u(Q+D); offsets inside the cube 3uD. Wide: edges and vertices are rounded as well.
+// There |v| < 1.4 extents (the box meets the grid), so x - v loses at most 1.4u: 8u(Q+D). The sum
+// is below 12u(Q+D); 16u is used.
 
 void set_box(TriangleSetup* t) noexcept {
   t->box = box_of(t->triangle);
@@ -29,8 +30,8 @@ void set_box(TriangleSetup* t) noexcept {
   t->wide = reach >= kNarrowLimit;
 }
 
-// A triangle of zero area is the segment between its two vertices farthest apart on some axis: all
-// three are collinear, so an axis on which they differ orders them.
+// A triangle of zero area is the segment between its two vertices that are farthest apart on some
+// axis: all three are collinear, so any axis on which they differ orders them.
 void set_segment(TriangleSetup* t) noexcept {
   const auto& v = t->triangle.v;
   uint8_t low = 0, high = 0;
@@ -47,8 +48,8 @@ void set_segment(TriangleSetup* t) noexcept {
   t->edges = point ? EdgeMask(0) : EdgeMask(0b011'011'011);
 }
 
-// Straight loops over the nine functions, which compilers turn into vectors: a scene of small
-// triangles spends much of its time here.
+// Simple loops over the nine functions, which compilers vectorize: a scene of small triangles
+// spends much of its time here.
 void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
   static constexpr int kNext[3] = {1, 2, 0};
   double along_u[9], along_v[9], scale[9];
@@ -65,7 +66,8 @@ void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
   }
   for (int k = 0; k < 9; ++k) {
     const double sum = std::abs(along_u[k]) + std::abs(along_v[k]);
-    const double inverse = scale[k] / std::max(sum, 1.0);  // whole numbers; a point has 0 and 0
+    const double inverse =
+        scale[k] / std::max(sum, 1.0);  // an integer; 0 for an edge that is a point
     t->edge_u[k] = -along_v[k] * inverse;
     t->edge_v[k] = along_u[k] * inverse;
   }

@@ -6,7 +6,7 @@
 
 namespace svdag {
 
-std::vector<uint64_t> DagOutput::keys() const {
+std::vector<uint64_t> DagOutput::key_counts() const {
   const Header& header = writer_.header();
   std::vector<uint64_t> keys;
   for (uint32_t k = 0; k < header.section_count; ++k) keys.push_back(header.sections[k].nodes);
@@ -22,7 +22,8 @@ void refuse_foreign_name(const std::string& path) {
   for (const char* ending : {".vdb", ".nvdb", ".npz", ".npy", ".vox", ".binvox", ".svo", ".octree",
                              ".ply", ".stl", ".obj", ".off", ".gltf", ".glb"}) {
     if (path.ends_with(ending))
-      fail_usage(path + ": a bake is a .svdag or a .run; svdag export makes other formats of it");
+      fail_usage(path +
+                 ": the output must be a .svdag or a .run: use svdag export for other formats");
   }
 }
 

@@ -1,4 +1,4 @@
-// What a merge writes: a `.svdag`, or a `.run` that is merged again.
+// The output file of a merge: a `.svdag`, or a `.run` that is merged again.
 #pragma once
 
 #include <memory>
@@ -15,16 +15,16 @@ namespace svdag {
 class BakeOutput {
  public:
   virtual ~BakeOutput() = default;
-  // Levels come from L-2 to 0, each once. Keys come ascending without repeats; what is returned is
-  // what the level above calls the key by, and ascends like the keys.
+  // Levels are written from L-2 to 0, each once, with ascending, unique keys. add_brick() and
+  // add_node() return the index by which the level above refers to the key; it ascends too.
   virtual void begin_level(int level) = 0;
   virtual uint32_t add_brick(Brick brick) = 0;
   virtual uint32_t add_node(const NodeKey& children) = 0;
-  // Completes the file and gives it its name. `roots`: one per non-empty top of the part.
+  // Completes the file and gives it its name. `roots`: the non-empty tops of the part.
   virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) = 0;
 
   // Of the finished file.
-  virtual std::vector<uint64_t> keys() const = 0;  // per level; the last entry counts bricks
+  virtual std::vector<uint64_t> key_counts() const = 0;  // per level; the last entry counts bricks
   virtual uint64_t file_bytes() const = 0;
   virtual std::string content_hash() const = 0;  // 32 hex digits
 };
@@ -40,7 +40,7 @@ class DagOutput final : public BakeOutput {
     writer_.finish(voxels, largest_snap);
   }
   uint64_t voxels() const { return writer_.header().voxels; }
-  std::vector<uint64_t> keys() const override;
+  std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }
   std::string content_hash() const override;
 
@@ -48,13 +48,13 @@ class DagOutput final : public BakeOutput {
   DagWriter writer_;
 };
 
-// A name that promises a file of another program (".vdb", ".ply") is an Error (kUsage).
+// Error (kUsage) if `path` has the extension of another format (".vdb", ".ply").
 void refuse_foreign_name(const std::string& path);
 
-// Whether `path` is the name of a run: it ends in ".run".
+// Whether `path` names a run, that is, ends in ".run".
 bool names_run(const std::string& path);
 
-// The output for `part`, by the name; a `.svdag` holds the whole grid.
+// Opens the output for `part`, a `.run` or a `.svdag` by its name. A `.svdag` holds the whole grid.
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
                                         const GridPart& part);
 

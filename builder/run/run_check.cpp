@@ -10,25 +10,25 @@
 namespace svdag {
 namespace {
 
-// The payload, piece by piece.
+// Reads the payload of a run in chunks and hashes the checksums of its blocks.
 class Payload {
  public:
   Payload(const RunFile& run, MemoryBudget* budget)
       : reader_(run.file(), run.header(), {0, run.layout().payload}, budget) {}
 
   uint64_t position() const { return position_; }
-  // What comes next, `most` bytes at most; not at the end.
-  std::span<const std::byte> take(uint64_t most) {
+  // The next chunk, of at most `max_bytes`. Must not be called at the end.
+  std::span<const std::byte> take(uint64_t max_bytes) {
     if (rest_.empty()) {
       rest_ = reader_.next();
       const uint64_t checksum = reader_.checksum();
       hasher_.update(std::as_bytes(std::span(&checksum, 1)));
       check_interrupt();
     }
-    const auto piece = rest_.first(std::min<uint64_t>(most, rest_.size()));
-    rest_ = rest_.subspan(piece.size());
-    position_ += piece.size();
-    return piece;
+    const auto chunk = rest_.first(std::min<uint64_t>(max_bytes, rest_.size()));
+    rest_ = rest_.subspan(chunk.size());
+    position_ += chunk.size();
+    return chunk;
   }
   Hasher128* hasher() { return &hasher_; }
 
@@ -39,26 +39,26 @@ class Payload {
   Hasher128 hasher_;
 };
 
-// File offset of byte `position` of the payload.
+// The offset in the file of byte `position` of the payload.
 uint64_t offset_of(uint64_t position) {
   return sizeof(RunHeader) + position / kRunPayload * kRunBlockBytes + kSpillHeader +
          position % kRunPayload;
 }
 
-// Which keys of a level are reached, of those with a rank in a window.
-class Marks {
+// Marks the keys of a level that are reached, for a window of ranks.
+class RankMarks {
  public:
   static constexpr const char* kPurpose = "the check of a run";
 
-  Marks(uint64_t bytes, MemoryBudget* budget)
-      : most_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
+  RankMarks(uint64_t bytes, MemoryBudget* budget)
+      : max_ranks_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
 
   uint64_t end() const { return first_ + marked_.size(); }
-  // A window that begins with rank `first` of `count`; nothing in it is marked.
+  // Begins an unmarked window at rank `first` of `count`.
   void begin(uint64_t first, uint64_t count) {
     first_ = first;
     marked_ = {};
-    const uint64_t size = std::min(most_, count - first);
+    const uint64_t size = std::min(max_ranks_, count - first);
     counted_.resize((size + 7) / 8, kPurpose);
     marked_.resize(size);
   }
@@ -68,7 +68,7 @@ class Marks {
   bool all() const { return std::find(marked_.begin(), marked_.end(), false) == marked_.end(); }
 
  private:
-  uint64_t most_;  // ranks in a window
+  uint64_t max_ranks_;  // ranks in a window
   uint64_t first_ = 0;
   MemoryBudget::Reservation counted_;
   std::vector<bool> marked_;
@@ -88,11 +88,11 @@ class Check {
       require_reached(level + 1);
     }
     begin_marks(0, 0);
-    require(marks_.all() && run_.keys(0) <= 1, kNotReached, offset_of(payload_.position()));
-    skip_to(run_.layout().roots.begin);
-    pass(run_.layout().roots.end);
-    skip_to(run_.layout().ranges.begin);
-    pass(run_.layout().payload);
+    require(marks_.all() && run_.key_count(0) <= 1, kNotReached, offset_of(payload_.position()));
+    skip_zeros(run_.layout().roots.begin);
+    skip_checked(run_.layout().roots.end);
+    skip_zeros(run_.layout().ranges.begin);
+    skip_checked(run_.layout().payload);
     const RunHeader& header = run_.header();
     require(content_hash_of(header, payload_.hasher()) ==
                 Hash128{header.content_hash[0], header.content_hash[1]},
@@ -105,36 +105,36 @@ class Check {
   void require(bool condition, const char* sentence, uint64_t offset) const {
     require_run(condition, run_.file(), sentence, offset);
   }
-  // Of the piece that was taken last.
+  // Reports the offset of the chunk read last.
   void require_here(bool condition, const char* sentence) const {
-    require(condition, sentence, offset_of(piece_));
+    require(condition, sentence, offset_of(chunk_begin_));
   }
   std::span<const std::byte> take_to(uint64_t position) {
-    piece_ = payload_.position();
-    return payload_.take(position - piece_);
+    chunk_begin_ = payload_.position();
+    return payload_.take(position - chunk_begin_);
   }
 
-  // Zeros up to `position`.
-  void skip_to(uint64_t position) {
+  // Checks that all bytes up to `position` are zero.
+  void skip_zeros(uint64_t position) {
     while (payload_.position() < position) {
       for (const std::byte byte : take_to(position))
         require_here(byte == std::byte(0), "the gap between two sections is not zero");
     }
   }
-  // Bytes that open() has looked at.
-  void pass(uint64_t position) {
+  // Skips bytes whose content RunFile::open() checks; their checksums are still verified.
+  void skip_checked(uint64_t position) {
     while (payload_.position() < position) take_to(position);
   }
 
   template <class Key>
   void scan(int level) {
     const RunSection& section = run_.layout().levels[level];
-    skip_to(section.begin);
-    Key last{};  // below all keys, since no key is empty
+    skip_zeros(section.begin);
+    Key last{};  // below every key, since no key is zero
     while (payload_.position() < section.end) {
-      const auto piece = take_to(section.end);
+      const auto chunk = take_to(section.end);
       for (const Key& key :
-           std::span(reinterpret_cast<const Key*>(piece.data()), piece.size() / sizeof(Key))) {
+           std::span(reinterpret_cast<const Key*>(chunk.data()), chunk.size() / sizeof(Key))) {
         require_here(last < key, "nodes are empty or do not ascend");
         last = key;
         if constexpr (std::is_same_v<Key, NodeKey>) check_children(level, key);
@@ -144,23 +144,24 @@ class Check {
 
   void check_children(int level, const NodeKey& key) {
     for (const uint32_t child : key) {
-      require_here(child <= run_.keys(level + 1), "a child is outside of the run");
+      require_here(child <= run_.key_count(level + 1), "a child is outside of the run");
       if (child != 0) marks_.mark(child - 1);
     }
   }
 
   void begin_marks(int level, uint64_t first) {
-    marks_.begin(first, run_.keys(level));
+    marks_.begin(first, run_.key_count(level));
     for (const SubDagRoot& root : run_.roots()) {
       if (root.level == level) marks_.mark(root.rank);
     }
   }
 
-  // The first window of `level` is marked, by the level above; that is read again for the others.
+  // The scan of the level above has marked the first window of `level`. For each further window the
+  // level above is read again.
   void require_reached(int level) {
     for (;;) {
       require(marks_.all(), kNotReached, offset_of(run_.layout().levels[level].begin));
-      if (marks_.end() == run_.keys(level)) return;
+      if (marks_.end() == run_.key_count(level)) return;
       begin_marks(level, marks_.end());
       const std::unique_ptr<BlockSource> above = run_.read(level - 1, budget_);
       for (auto block = above->next(); !block.empty(); block = above->next()) {
@@ -175,8 +176,8 @@ class Check {
   const RunFile& run_;
   MemoryBudget* budget_;
   Payload payload_;
-  uint64_t piece_ = 0;  // where the piece of the payload begins that was taken last
-  Marks marks_;         // of the level below the one that is scanned
+  uint64_t chunk_begin_ = 0;  // position in the payload of the chunk read last
+  RankMarks marks_;           // of the level below the scanned one
 };
 
 }  // namespace

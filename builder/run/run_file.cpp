@@ -20,7 +20,7 @@ void check_identity(const File& file, const RunHeader& h) {
               offsetof(RunHeader, header_checksum));
 }
 
-void check_place(const File& file, const RunHeader& h) {
+void check_grid_fields(const File& file, const RunHeader& h) {
   check_grid(h, [&](bool condition, const char* sentence, uint64_t offset) {
     require_run(condition, file, sentence, offset);
   });
@@ -32,7 +32,7 @@ void check_place(const File& file, const RunHeader& h) {
   }
 }
 
-// Counts are held against the size of the file before anything is made of them.
+// Checks the counts against the file size before anything is allocated by them.
 void check_counts(const File& file, const RunHeader& h) {
   const uint64_t size = file.size();
   require_run(h.header_bytes == sizeof(RunHeader), file, "wrong header size",
@@ -47,7 +47,7 @@ void check_counts(const File& file, const RunHeader& h) {
               offsetof(RunHeader, largest_snap));
   for (uint32_t k = 0; k < kRunLevels; ++k) {
     const uint64_t count = h.keys[k];
-    require_run(count <= kMostRunKeys && count <= size / 8, file, "impossible number of nodes",
+    require_run(count <= kMaxRunKeys && count <= size / 8, file, "impossible number of nodes",
                 offsetof(RunHeader, keys) + 8 * k);
     require_run(count == 0 || k + 1 < h.levels, file, "unused level",
                 offsetof(RunHeader, keys) + 8 * k);
@@ -56,7 +56,7 @@ void check_counts(const File& file, const RunHeader& h) {
               offsetof(RunHeader, ranges));
   require_run(h.roots <= size / sizeof(StoredRoot), file, "impossible number of roots",
               offsetof(RunHeader, roots));
-  require_run(RunLayout(h).file_bytes == size, file, "its size is not that of its counts",
+  require_run(RunLayout(h).file_bytes == size, file, "the file size does not match the counts",
               offsetof(RunHeader, file_bytes));
   for (const unsigned char byte : h.reserved)
     require_run(byte == 0, file, "unknown header field", offsetof(RunHeader, reserved));
@@ -70,7 +70,7 @@ RunHeader read_header(const File& file) {
       std::memcmp(header.magic, kRunMagic, sizeof kRunMagic) == 0)
     throw Error(ExitCode::kBadInput, "ends too early", file.path(), n);
   check_identity(file, header);
-  check_place(file, header);
+  check_grid_fields(file, header);
   check_counts(file, header);
   return header;
 }
@@ -125,19 +125,19 @@ void RunFile::read_part(MemoryBudget* budget) {
     ranges.push_back({range.begin, range.end});
   }
   require_run(run_number(header_, stored) == header_.run, file_,
-              "its number is not that of its part", offsetof(RunHeader, run));
+              "the run number does not match the part", offsetof(RunHeader, run));
   part_ = GridPart(std::move(ranges), int(header_.levels));
 }
 
 void RunFile::read_roots(MemoryBudget* budget) {
-  uint64_t end = 0;  // of the last one, in voxels
+  uint64_t end = 0;  // of the previous root, as a Morton code of voxels
   for (const StoredRoot& root : read_items<StoredRoot>(file_, header_, layout_.roots, budget)) {
     require_run(root.level <= header_.levels - 2 && root.code >> 3 * root.level == 0 &&
                     root.rank < header_.keys[root.level],
                 file_, "impossible root", offsetof(RunHeader, roots));
     const int shift = 3 * int(header_.levels - root.level);
     require_run(root.code << shift >= end && part_.is_top(int(root.level), root.code), file_,
-                "a root is not where it belongs", offsetof(RunHeader, roots));
+                "a root is not a top of the part or not in order", offsetof(RunHeader, roots));
     end = (root.code + 1) << shift;
     roots_.push_back({root.code, int32_t(root.level), 0, root.rank});
   }

@@ -1,10 +1,9 @@
 // A `.run` opened for reading: its header, part and roots, and its levels as streams.
 //
-// open() proves that the header is sound, that the counts in it are those of a file of this size,
-// and that part and roots belong together. The levels are proven by check_run()
-// (builder/run/run_check.h), in one pass; who streams them before that finds damage (every block is
-// checked again), but must not follow a rank. All that is wrong is an Error (kBadInput) that names
-// the file and the place.
+// open() checks that the header is valid, that its counts match the size of the file, and that the
+// roots are tops of the part. check_run() (builder/run/run_check.h) checks the levels, in one pass.
+// Before that, a reader of the levels detects damage (every block is verified when it is read) but
+// must not follow a rank. Every fault is an Error (kBadInput) with the file and the offset.
 #pragma once
 
 #include <memory>
@@ -35,11 +34,13 @@ class RunFile {
   Grid grid() const;
   Rule rule() const { return Rule(header_.rule); }
   const GridPart& part() const { return part_; }
-  // In Morton order; `run` is 0 in them.
+  // In Morton order, with `run` = 0.
   const std::vector<SubDagRoot>& roots() const { return roots_; }
-  uint64_t keys(int level) const { return header_.keys[level]; }
-  // The keys of `level` as bytes; the run must outlive the source.
+  uint64_t key_count(int level) const { return header_.keys[level]; }
+  // Streams the keys of `level` as bytes. The run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
+  // Error if the file was written since open(): the result of check_run() is then invalid.
+  void require_unchanged() const { svdag::require_unchanged(file_, before_); }
 
  private:
   RunFile(File file, const RunHeader& header, MemoryBudget* budget);
@@ -54,21 +55,21 @@ class RunFile {
   std::vector<SubDagRoot> roots_;
 };
 
-// Reads a section block by block. Holds one block: the file is read in order, so the system reads
-// ahead.
+// Reads a section block by block, holding one block. The file is read in order, so the operating
+// system reads ahead.
 class RunReader final : public BlockSource {
  public:
   RunReader(const File& file, const RunHeader& header, const RunSection& section,
             MemoryBudget* budget);
 
   std::span<std::byte> next() override;
-  // Checksum of the block that next() gave out last.
+  // Checksum of the block that next() returned last.
   uint64_t checksum() const { return checksum_; }
 
  private:
   const File& file_;
   uint64_t run_;
-  uint64_t payload_;  // of the file
+  uint64_t payload_;  // size, in bytes
   RunSection left_;
   SpillBlock block_;
   uint64_t checksum_ = 0;

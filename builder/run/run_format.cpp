@@ -8,15 +8,15 @@ constexpr uint64_t kBrickBytes = 8, kNodeBytes = 32;
 }  // namespace
 
 RunLayout::RunLayout(const RunHeader& header) {
-  const auto place = [this](uint64_t bytes) {
+  const auto add_section = [this](uint64_t bytes) {
     const uint64_t begin = (payload + kRunAlignment - 1) / kRunAlignment * kRunAlignment;
     payload = begin + bytes;
     return RunSection{begin, payload};
   };
   for (uint32_t k = header.levels - 1; k-- > 0;)
-    levels[k] = place(header.keys[k] * (k + 2 == header.levels ? kBrickBytes : kNodeBytes));
-  roots = place(header.roots * sizeof(StoredRoot));
-  ranges = place(header.ranges * sizeof(StoredRange));
+    levels[k] = add_section(header.keys[k] * (k + 2 == header.levels ? kBrickBytes : kNodeBytes));
+  roots = add_section(header.roots * sizeof(StoredRoot));
+  ranges = add_section(header.ranges * sizeof(StoredRange));
   blocks = (payload + kRunPayload - 1) / kRunPayload;
   file_bytes = sizeof(RunHeader) + blocks * kSpillHeader + payload;
 }

@@ -1,10 +1,9 @@
 // The file format `.run`, version 1: the structures of docs/run-format.md.
 //
-//   header (1024 bytes) | blocks (builder and scratch frame them alike:
-//   streaming/spill/spill_block.h) | end
+//   header (1024 bytes) | blocks (framed like scratch blocks: streaming/spill/spill_block.h)
 //
-// The payloads of the blocks, one behind the other, are one stream of sections, each of which
-// begins at a multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
+// The concatenated payloads of the blocks are a sequence of sections, each of which begins at a
+// multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +20,10 @@ namespace svdag {
 constexpr unsigned char kRunMagic[8] = {0x89, 'S', 'V', 'R', 'U', 'N', '\r', '\n'};
 constexpr uint32_t kRunVersion = 1;
 constexpr uint32_t kRunLevels = 19;         // levels 0 .. L-2, L <= 20
-constexpr uint32_t kRunBlockBytes = 65536;  // of a block with its frame; the last one is shorter
+constexpr uint32_t kRunBlockBytes = 65536;  // with its frame; the last block may be shorter
 constexpr uint64_t kRunPayload = kRunBlockBytes - kSpillHeader;
-constexpr uint64_t kRunAlignment = 64;          // of sections; divides kRunPayload
-constexpr uint64_t kMostRunKeys = 0xfffffffeU;  // of a level
+constexpr uint64_t kRunAlignment = 64;         // of sections; divides kRunPayload
+constexpr uint64_t kMaxRunKeys = 0xfffffffeU;  // per level
 
 struct RunHeader {
   unsigned char magic[8];
@@ -37,16 +36,17 @@ struct RunHeader {
   double origin[3];       // kBox: world position of the grid's corner; else 0
   double voxel_size;
   int64_t k0[3];         // kLattice: plane number of the corner; else 0
-  uint32_t bounded;      // 1 if voxels outside the selection were left empty on demand
+  uint32_t bounded;      // 1 if voxels outside the selection are left empty by request
   uint32_t block_bytes;  // kRunBlockBytes
   uint32_t selection_min[3];
   uint32_t selection_max[3];  // exclusive
-  uint64_t ranges;            // Morton ranges of the part that the run holds
-  uint64_t run;               // low word of XXH3-128 over all before and the ranges, in each block
-  uint64_t voxels;            // set voxels
-  double largest_snap;        // in voxels, the largest move of a coordinate by the snap
-  uint64_t roots;             // tops of the part that are not empty
-  uint64_t keys[kRunLevels];  // of level k; unused ones are zero
+  uint64_t ranges;            // number of Morton ranges of the part
+  uint64_t run;         // run number: low word of XXH3-128 over the fields before and the ranges;
+                        // also in the frame of each block
+  uint64_t voxels;      // set voxels
+  double largest_snap;  // in voxels, the largest move of a coordinate by the snap
+  uint64_t roots;       // number of non-empty tops of the part
+  uint64_t keys[kRunLevels];  // [k]: number of keys of level k; 0 for unused levels
   uint64_t file_bytes;
   uint64_t content_hash[2];     // XXH3-128 over the blocks' checksums and the header (hash and
                                 // checksum as 0)
@@ -55,7 +55,7 @@ struct RunHeader {
 };
 
 struct StoredRoot {
-  uint64_t code;  // of the top, at its level
+  uint64_t code;  // Morton code of the top, at its level
   uint32_t level;
   uint32_t rank;
 };
@@ -72,14 +72,14 @@ static_assert(offsetof(RunHeader, header_checksum) == 1016);
 static_assert(sizeof(RunHeader) == 1024 && sizeof(StoredRoot) == 16 && sizeof(StoredRange) == 16);
 static_assert(kRunPayload % kRunAlignment == 0);
 
-// Bytes of the payload.
+// A range of bytes of the payload.
 struct RunSection {
   uint64_t begin = 0, end = 0;
   uint64_t bytes() const { return end - begin; }
 };
 
-// Where things stand, by the counts of a header whose levels are 3 .. 20 and whose counts were
-// checked to be of a real file (below 2^48).
+// The sections of a run, computed from the counts of its header. Requires levels of 3 .. 20 and
+// counts that are limited by the size of a real file (below 2^48).
 struct RunLayout {
   explicit RunLayout(const RunHeader& header);
 
@@ -88,9 +88,9 @@ struct RunLayout {
   uint64_t payload = 0, blocks = 0, file_bytes = 0;
 };
 
-// The number of a run: of its grid, rule and part.
+// The run number, which identifies grid, rule and part.
 uint64_t run_number(const RunHeader& header, std::span<const StoredRange> ranges);
-// The hash of the content, given what the checksums of the blocks hashed to so far.
+// The content hash; `blocks` has hashed the checksums of all blocks.
 Hash128 content_hash_of(RunHeader header, Hasher128* blocks);
 uint64_t checksum_of(const RunHeader& header);
 

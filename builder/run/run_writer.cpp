@@ -53,15 +53,15 @@ uint32_t RunWriter::add_node(const NodeKey& children) {
 
 uint32_t RunWriter::add(const void* key, size_t size) {
   uint64_t& count = header_.keys[level_];
-  if (count >= kMostRunKeys)
+  if (count >= kMaxRunKeys)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
-                                       " needs more than 2^32 - 2 nodes, which a run cannot hold: "
+                                       " has more than 2^32 - 2 nodes, the limit of a run: "
                                        "lower the resolution or bake smaller parts");
   append(key, size);
   return uint32_t(count++);
 }
 
-// Sections are aligned and their items divide a payload: no item straddles two blocks.
+// Sections are aligned and item sizes divide a payload, so no item straddles two blocks.
 void RunWriter::append(const void* bytes, size_t size) {
   std::memcpy(block_.data() + kSpillHeader + filled_, bytes, size);
   filled_ += size;
@@ -115,7 +115,7 @@ void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, doubl
   file_.commit();
 }
 
-std::vector<uint64_t> RunWriter::keys() const {
+std::vector<uint64_t> RunWriter::key_counts() const {
   return {header_.keys, header_.keys + header_.levels - 1};
 }
 

@@ -1,15 +1,16 @@
 // Writes a `.run` level by level, bricks first, in one sequential pass (docs/run-format.md).
 //
-// The bytes are canonical: they depend on the grid, the rule, the part and the voxels in it, and on
-// nothing else. For
-//   the sub-DAG of a cube is one (it is minimal), and which cubes have roots follows from the part
-//   (its tops, builder/octree/grid_part.h), not from how it was baked;
-//   every node is reached from a root, since a merge of closed runs adds none that is not;
-//   nodes are numbered by their rank in content order, roots and ranges are in Morton order;
-//   the largest snap move is that of all triangles that meet the closed part, and a maximum over
-//   parts is that of the whole (GridPart::meets);
-//   blocks are filled without gaps, and nothing is written of who wrote, when, or with what.
-// So the hash over them names the content, whatever threads, memory or tree of merges made it.
+// The bytes are canonical: they depend only on the grid, the rule, the part and the voxels in it.
+//   The sub-DAG of a cube is minimal and therefore unique, and the cubes with roots follow from the
+//   part (its tops, builder/octree/grid_part.h), not from how it was baked.
+//   Every node is reached from a root, since a merge of closed runs adds no unreachable nodes.
+//   Nodes are numbered by their rank in content order; roots and ranges are in Morton order.
+//   The largest snap move is that of all triangles that meet the closed part, and the maximum over
+//   parts is that of the whole (GridPart::meets).
+//   Blocks are filled without gaps, and neither times nor the names of users, hosts or programs are
+//   stored.
+// So the content hash identifies the content, whatever threads, memory or tree of merges produced
+// it.
 // Rejected: compressed blocks (their bytes would be those of a version of the compressor).
 #pragma once
 
@@ -32,7 +33,7 @@ class RunWriter final : public BakeOutput {
   uint32_t add_node(const NodeKey& children) override;
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) override;
 
-  std::vector<uint64_t> keys() const override;
+  std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return header_.file_bytes; }
   std::string content_hash() const override;
 
@@ -47,12 +48,12 @@ class RunWriter final : public BakeOutput {
   GridPart part_;
   RunHeader header_{};
   int level_;
-  Brick last_brick_ = 0;  // the keys before, to assert their order
+  Brick last_brick_ = 0;  // the previous keys, to assert their order
   NodeKey last_node_{};
   std::vector<std::byte> block_;
-  size_t filled_ = 0;    // of its payload
+  size_t filled_ = 0;    // bytes of its payload
   uint64_t blocks_ = 0;  // written
-  Hasher128 hasher_;     // of their checksums
+  Hasher128 hasher_;     // of the block checksums
 };
 
 }  // namespace svdag

@@ -27,7 +27,7 @@ SpillStream get_stream(RecordReader* in) {
   in->get(&stream.number);
   in->get(&stream.bytes);
   in->get(&stream.blocks);
-  in->require(stream.bytes <= stream.blocks.size() * Scratch::kLargestBlock, "impossible size");
+  in->require(stream.bytes <= stream.blocks.size() * Scratch::kMaxBlockBytes, "impossible size");
   for (const uint32_t block : stream.blocks) in->require(block != UINT32_MAX, "impossible block");
   return stream;
 }

@@ -1,4 +1,4 @@
-// Bins of triangles in records: in the journal of a bake and in the index of a plan.
+// Serializes triangle bins in records: for the journal of a bake and the index of a plan.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ void put_stream(const SpillStream& stream, RecordWriter* out);
 SpillStream get_stream(RecordReader* in);
 
 void put_bins(const std::vector<TriangleBin>& bins, RecordWriter* out);
-// Bins that cannot be of a grid with `levels` levels are an Error of the reader.
+// Bins that are impossible in a grid with `levels` levels are an Error of the reader.
 std::vector<TriangleBin> get_bins(RecordReader* in, int levels);
 
 }  // namespace svdag

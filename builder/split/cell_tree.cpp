@@ -10,16 +10,16 @@
 namespace svdag {
 namespace {
 
-// Of a triangle in a cell: lists divided on the way down hold it a few times, mostly in cubes ever
-// smaller.
-constexpr uint64_t kPrepared = sizeof(TriangleSetup) + 4 * sizeof(ListedTriangle);
+// Memory of a prepared triangle in a cell: its setup, and its entries in the divided lists of the
+// levels below, most of which are in ever smaller cubes.
+constexpr uint64_t kPreparedBytes = sizeof(TriangleSetup) + 4 * sizeof(ListedTriangle);
 
 }  // namespace
 
 struct CellTree::Node {
   std::array<std::unique_ptr<Node>, 8> children;
-  std::vector<uint32_t> triangles;    // numbers in triangles_
-  std::vector<TriangleSetup> setups;  // the same, prepared; inner nodes only
+  std::vector<uint32_t> triangles;    // indices into triangles_
+  std::vector<TriangleSetup> setups;  // the same triangles, prepared; inner nodes only
 };
 
 CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget)
@@ -29,7 +29,7 @@ CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBud
       root_(std::make_unique<Node>()),
       triangles_(budget, "triangles"),
       reservation_(budget->reserve(0, "triangles")),
-      heaviest_inner_(size_t(cell_level)) {
+      max_inner_triangles_(size_t(cell_level)) {
   SVDAG_ASSERT(cell_level >= root.level && cell_level <= grid.levels - 2);
 }
 
@@ -37,8 +37,8 @@ CellTree::~CellTree() = default;
 
 void CellTree::charge(uint64_t bytes) {
   used_ += bytes;
-  // In steps, so that the shared counter is not touched for every triangle; vectors grow by
-  // doubling, of which half may be empty.
+  // In large steps, so that the shared counter is not updated for every triangle; doubled because
+  // vectors grow by doubling and may be half empty.
   if (2 * used_ > reservation_.bytes())
     reservation_.resize(std::max(2 * used_, reservation_.bytes() + (1U << 20)), "triangles");
 }
@@ -57,11 +57,11 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Lat
     charge(sizeof triangle);
     node->triangles.push_back(triangle);
     if (cube.level == cell_level_) {
-      heaviest_ = std::max<uint64_t>(heaviest_, node->triangles.size());
+      max_cell_triangles_ = std::max<uint64_t>(max_cell_triangles_, node->triangles.size());
     } else {
-      ++inner_;
-      uint64_t& heaviest = heaviest_inner_[size_t(cube.level)];
-      heaviest = std::max<uint64_t>(heaviest, node->triangles.size());
+      ++inner_triangles_;
+      uint64_t& max_at_level = max_inner_triangles_[size_t(cube.level)];
+      max_at_level = std::max<uint64_t>(max_at_level, node->triangles.size());
     }
     return;
   }
@@ -78,17 +78,18 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Lat
 }
 
 uint64_t CellTree::prepared_bytes(size_t workers) const {
-  return workers * heaviest_ * kPrepared;
+  return workers * max_cell_triangles_ * kPreparedBytes;
 }
 
 uint64_t CellTree::bytes(size_t workers) const {
-  // A triangle of an inner node may be in the list of a cube on every level down to bricks, and in
-  // those of 7 of its children: as many as a plane meets.
+  // A triangle of an inner node may be in the list of one cube on every level down to bricks, and
+  // in those of 7 of its children: a plane meets that many.
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
-      std::accumulate(heaviest_inner_.begin(), heaviest_inner_.end(), uint64_t(0));
-  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) + inner_ * kPrepared +
-         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
+      std::accumulate(max_inner_triangles_.begin(), max_inner_triangles_.end(), uint64_t(0));
+  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) +
+         inner_triangles_ * kPreparedBytes + prepared_bytes(workers) +
+         workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
 }
 
 void CellTree::seal() {
@@ -96,7 +97,7 @@ void CellTree::seal() {
 }
 
 void CellTree::prepare(Node* node, int level) {
-  if (level == cell_level_) return;  // the worker that bakes the cell prepares its own
+  if (level == cell_level_) return;  // the worker that bakes the cell prepares these
   charge(node->triangles.size() * sizeof(TriangleSetup));
   node->setups.reserve(node->triangles.size());
   for (const uint32_t i : node->triangles) node->setups.push_back(make_setup(triangles_[i]));
@@ -144,46 +145,48 @@ CellCursor::CellCursor(const CellTree& tree, const OverlapConfig& config)
 
 void CellCursor::enter(const Cube& cube, const CellTree::Node* node,
                        const TriangleList& inherited) {
-  PathCube& step = path_[size_t(cube.level)];
-  step.cube = cube;
-  step.node = node;
-  step.list = inherited;
-  step.divided = false;
+  CursorLevel& level_state = path_[size_t(cube.level)];
+  level_state.cube = cube;
+  level_state.node = node;
+  level_state.list = inherited;
+  level_state.divided = false;
   if (node == nullptr || cube.level == tree_.cell_level()) return;
-  for (const TriangleSetup& t : node->setups) step.list.push_back({&t, t.edges});
+  for (const TriangleSetup& t : node->setups) level_state.list.push_back({&t, t.edges});
 }
 
 const TriangleList& CellCursor::list(const Cube& cube) {
   prepare(path_to(ancestor(cube, tree_.cell_level())));
   for (int level = tree_.cell_level(); level < cube.level; ++level) {
     const Cube from = ancestor(cube, level), to = ancestor(cube, level + 1);
-    divide_list(list_, from, tree_.grid().levels, config_, &parts_);
-    list_ = parts_[morton(to.coordinate) & 7];
+    divide_list(list_, from, tree_.grid().levels, config_, &child_lists_);
+    list_ = child_lists_[morton(to.coordinate) & 7];
   }
   return list_;
 }
 
-const CellCursor::PathCube& CellCursor::path_to(const Cube& cell) {
-  int level = tree_.root().level;  // the deepest step that is on the way to `cell`
+const CellCursor::CursorLevel& CellCursor::path_to(const Cube& cell) {
+  int level = tree_.root().level;  // deepest level of path_ that is an ancestor of `cell`
   while (level < depth_ && path_[size_t(level) + 1].cube == ancestor(cell, level + 1)) ++level;
   for (; level < cell.level; ++level) {
-    PathCube& step = path_[size_t(level)];
-    if (!step.divided)
-      divide_list(step.list, step.cube, tree_.grid().levels, config_, &step.children);
-    step.divided = true;
+    CursorLevel& level_state = path_[size_t(level)];
+    if (!level_state.divided)
+      divide_list(level_state.list, level_state.cube, tree_.grid().levels, config_,
+                  &level_state.children);
+    level_state.divided = true;
     const Cube next = ancestor(cell, level + 1);
     const unsigned c = unsigned(morton(next.coordinate) & 7);
-    enter(next, step.node != nullptr ? step.node->children[c].get() : nullptr, step.children[c]);
+    enter(next, level_state.node != nullptr ? level_state.node->children[c].get() : nullptr,
+          level_state.children[c]);
   }
   depth_ = cell.level;
   return path_[size_t(cell.level)];
 }
 
-void CellCursor::prepare(const PathCube& cell) {
+void CellCursor::prepare(const CursorLevel& cell) {
   list_ = cell.list;
   setups_.clear();
   if (cell.node == nullptr) return;
-  setups_.reserve(cell.node->triangles.size());  // entries point into it
+  setups_.reserve(cell.node->triangles.size());  // list entries point into it
   for (const uint32_t i : cell.node->triangles) {
     setups_.push_back(make_setup(tree_.triangles_[i]));
     list_.push_back({&setups_.back(), setups_.back().edges});

@@ -11,8 +11,8 @@ namespace {
 
 enum class BoxPlacement { kInside, kClipped, kOutside };
 
-// Position of the triangle's box relative to the closed box of the voxels that may be set; outside,
-// too, if it misses the closed part.
+// Position of the triangle's box relative to the closed box of the selection. A box that misses the
+// closed grid part is outside as well.
 BoxPlacement placement_of(const LatticeTriangle& t, const Grid& grid, const GridPart* part) {
   const LatticeBox selection = grid.closed(grid.selection), box = box_of(t);
   if (!box.meets(selection) || (part != nullptr && !part->meets(box)))
@@ -20,7 +20,7 @@ BoxPlacement placement_of(const LatticeTriangle& t, const Grid& grid, const Grid
   return selection.holds(box) ? BoxPlacement::kInside : BoxPlacement::kClipped;
 }
 
-bool zero_area(const LatticeTriangle& t) {
+bool has_zero_area(const LatticeTriangle& t) {
   const LatticePoint p = t.v[1] - t.v[0], q = t.v[2] - t.v[0];
   for (int u = 0; u < 3; ++u) {
     const int v = (u + 1) % 3;
@@ -29,12 +29,12 @@ bool zero_area(const LatticeTriangle& t) {
   return true;
 }
 
-// Where triangles go: to the tree, or, once that was too much, to bins.
-class Store {
+// Collects the triangles: in the cell tree until they exceed their memory, then in bins.
+class TriangleStore {
  public:
-  // `counts`: the triangles dropped before they reach the store.
-  Store(const Grid& grid, const SplitConfig& config, const SplitCounts& counts,
-        MemoryBudget* budget)
+  // `counts` holds the number of triangles dropped so far.
+  TriangleStore(const Grid& grid, const SplitConfig& config, const SplitCounts& counts,
+                MemoryBudget* budget)
       : grid_(grid),
         config_(config),
         counts_(counts),
@@ -43,11 +43,11 @@ class Store {
   void add(const LatticeTriangle& triangle) {
     if (bins_) return bins_->add(triangle);
     tree_->add(triangle);
-    if (tree_->triangles() % kLook == 0) look();
+    if (tree_->triangles() % kTrianglesPerCheck == 0) spill_if_full();
   }
 
   void finish(SplitScene* scene) {
-    if (!bins_) look();
+    if (!bins_) spill_if_full();
     if (bins_) {
       scene->bins = bins_->finish();
     } else {
@@ -57,9 +57,9 @@ class Store {
   }
 
  private:
-  static constexpr uint64_t kLook = 1024;  // triangles between two looks at the memory
+  static constexpr uint64_t kTrianglesPerCheck = 1024;  // of the memory
 
-  void look() {
+  void spill_if_full() {
     if (config_.scratch == nullptr || tree_->bytes(config_.workers) <= config_.triangle_bytes)
       return;
     const int depth =
@@ -84,18 +84,18 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   const Lattice lattice(grid);
   SplitScene result;
   SplitCounts& counts = result.counts;
-  Store store(grid, config, counts, budget);
+  TriangleStore store(grid, config, counts, budget);
   double largest_move = 0;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
-      const BoxPlacement place = placement_of(snapped, grid, config.part);
-      counts.outside += place == BoxPlacement::kOutside;
-      counts.clipped += place == BoxPlacement::kClipped;
-      if (place == BoxPlacement::kOutside) continue;
-      counts.degenerate += zero_area(snapped);
+      const BoxPlacement placement = placement_of(snapped, grid, config.part);
+      counts.outside += placement == BoxPlacement::kOutside;
+      counts.clipped += placement == BoxPlacement::kClipped;
+      if (placement == BoxPlacement::kOutside) continue;
+      counts.degenerate += has_zero_area(snapped);
       largest_move = std::max(largest_move, move);
       store.add(snapped);
     }

@@ -1,7 +1,7 @@
-// The split: streams the scene once, snaps it to the lattice and sorts its triangles into cells.
+// First phase of a bake: streams the scene once, snaps it to the lattice and sorts it into cells.
 //
-// As long as the triangles fit in their share of memory they are held in one CellTree. When they no
-// longer do, they all go to bins (builder/split/triangle_bins.h).
+// The triangles are held in one CellTree as long as they fit in their share of memory. When they
+// exceed it, all triangles, earlier and later ones, go to bins (builder/split/triangle_bins.h).
 #pragma once
 
 #include <functional>
@@ -19,20 +19,20 @@ namespace svdag {
 struct SplitConfig {
   int cell_level = 0;
   size_t workers = 1;
-  uint64_t triangle_bytes = UINT64_MAX;  // CellTree::bytes() from which on triangles are spilled
+  uint64_t triangle_bytes = UINT64_MAX;  // triangles are spilled above this CellTree::bytes()
   Scratch* scratch = nullptr;            // null: triangles are never spilled
   const GridPart* part = nullptr;        // triangles that miss it are dropped; null: the whole grid
-  // Called once, when the first `read` triangles (dropped ones included) take `bytes` in bins, and
-  // more will follow.
+  // Called once, when spilling begins: `read` triangles (dropped ones included) took `bytes` in
+  // bins, and more will follow.
   std::function<void(uint64_t read, uint64_t bytes)> on_spill = {};
 };
 
 struct SplitCounts {
   SceneCounts scene;
-  uint64_t clipped = 0;     // kept, but reaching outside the grid or the selection
-  uint64_t outside = 0;     // triangles whose box misses the grid, or the part: dropped
-  uint64_t degenerate = 0;  // of the others: zero area after the snap
-  double largest_snap = 0;  // in voxels, over the triangles that were kept
+  uint64_t clipped = 0;     // kept, but their box reaches outside the selection
+  uint64_t outside = 0;     // dropped: their box misses the selection or the grid part
+  uint64_t degenerate = 0;  // kept, with zero area after the snap
+  double largest_snap = 0;  // in voxels, of the triangles that are kept
 };
 
 // Calls visit(name, field) for every stored field: the field list of journals and plans.

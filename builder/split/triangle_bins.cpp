@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kLongest = 90;  // bytes of nine numbers
+constexpr size_t kMaxTriangleBytes = 90;  // nine numbers of 10 bytes
 
 uint8_t* put(int64_t value, uint8_t* out) {
   uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
@@ -29,14 +29,14 @@ TriangleBins::TriangleBins(const Grid& grid, const Cube& parent, int depth, Spil
       file_(file),
       scratch_(scratch),
       bins_(size_t(1) << (3 * depth)) {
-  SVDAG_ASSERT(depth >= 1 && depth <= kDeepest && bin_level_ <= grid.levels - 2);
+  SVDAG_ASSERT(depth >= 1 && depth <= kMaxDepth && bin_level_ <= grid.levels - 2);
 }
 
 int TriangleBins::depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
                             const Cube& parent) {
-  const int most = std::min(kDeepest, grid.levels - 2 - parent.level);
+  const int max_depth = std::min(kMaxDepth, grid.levels - 2 - parent.level);
   int depth = 1;
-  while (depth < most && scratch.block_bytes() << (3 * (depth + 1)) <= bytes) ++depth;
+  while (depth < max_depth && scratch.block_bytes() << (3 * (depth + 1)) <= bytes) ++depth;
   return depth;
 }
 
@@ -67,13 +67,13 @@ void TriangleBins::deal(const LatticeTriangle& triangle, const TriangleSetup& se
 
 void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
                           const LatticeBox& box) {
-  Open& bin = bins_[morton(cube.coordinate) % bins_.size()];
+  OpenBin& bin = bins_[morton(cube.coordinate) % bins_.size()];
   if (!bin.writer) {
     bin.writer.emplace(file_, scratch_->new_streams(), scratch_->budget());
     bin.box = box;
   }
   bin.box.add(box);
-  uint8_t bytes[kLongest];
+  uint8_t bytes[kMaxTriangleBytes];
   uint8_t* end = bytes;
   for (int a = 0; a < 3; ++a) end = put(triangle.v[0][a], end);
   for (int i = 1; i < 3; ++i) {
@@ -88,7 +88,7 @@ std::vector<TriangleBin> TriangleBins::finish() {
   std::vector<TriangleBin> bins;
   const uint64_t first = morton(parent_.coordinate) * bins_.size();
   for (uint64_t i = 0; i < bins_.size(); ++i) {
-    Open& bin = bins_[i];
+    OpenBin& bin = bins_[i];
     if (!bin.writer) continue;
     const Cube cube{bin_level_, unmorton(first + i)};
     bins.push_back(
@@ -98,8 +98,8 @@ std::vector<TriangleBin> TriangleBins::finish() {
   return bins;
 }
 
-// The smallest cube that holds all voxels of `cube` that the boxes touch.
-Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
+// The smallest cube that holds all voxels of `cube` that the triangle boxes touch.
+Cube TriangleBins::shrink(const Cube& cube, const OpenBin& bin) const {
   const int f = grid_.fraction();
   const VoxelBox voxels = cube.voxels(grid_.levels);
   LatticePoint low, high;
@@ -107,31 +107,31 @@ Cube TriangleBins::shrink(const Cube& cube, const Open& bin) const {
     low[a] = std::clamp(first_touched(bin.box.min[a], f), voxels.min[a], voxels.max[a] - 1);
     high[a] = std::clamp(last_touched(bin.box.max[a], f), voxels.min[a], voxels.max[a] - 1);
   }
-  Cube least = cube;
+  Cube smallest = cube;
   for (int level = cube.level + 1; level <= grid_.levels - 2; ++level) {
     const int up = grid_.levels - level;
     for (int a = 0; a < 3; ++a) {
-      if (low[a] >> up != high[a] >> up) return least;
+      if (low[a] >> up != high[a] >> up) return smallest;
     }
-    least = {level, {low.x >> up, low.y >> up, low.z >> up}};
+    smallest = {level, {low.x >> up, low.y >> up, low.z >> up}};
   }
-  return least;
+  return smallest;
 }
 
 namespace {
 
 // The snap rejects 2^62 steps and more before it moves a vertex by (2*k0 + 1) * 2^(F-1). A lattice
-// grid is less than 2^38 voxels from zero (io/grid.cpp), and its corner at most a voxel and a step
-// of 1024 further: |2*k0 + 1| < 2^39 + 2^11, so with F <= 23 the shift is less than 2^61 + 2^33.
-// All vertices are shifted equally, so their distances stay less than 2^63.
-constexpr int64_t kFarthest = (int64_t(1) << 62) + (int64_t(1) << 61) + (int64_t(1) << 33);
+// grid is less than 2^38 voxels away from zero (io/grid.cpp), and its corner at most a voxel and a
+// step of 1024 further: |2*k0 + 1| < 2^39 + 2^11, so with F <= 23 the move is less than 2^61 +
+// 2^33. All vertices are moved by the same vector, so two of them differ by less than 2^63.
+constexpr int64_t kMaxCoordinate = (int64_t(1) << 62) + (int64_t(1) << 61) + (int64_t(1) << 33);
 
-// Whether the snap can have made it: what follows counts on it that no difference overflows.
+// Whether the snap can have produced `t`. The voxelizer relies on it: differences do not overflow.
 bool on_lattice(const LatticeTriangle& t) noexcept {
   const LatticeBox box = box_of(t);
   bool near = true;
   for (int a = 0; a < 3; ++a) {
-    near &= box.min[a] >= -kFarthest && box.max[a] <= kFarthest &&
+    near &= box.min[a] >= -kMaxCoordinate && box.max[a] <= kMaxCoordinate &&
             uint64_t(box.max[a]) - uint64_t(box.min[a]) <= uint64_t(INT64_MAX);
   }
   return near;
@@ -142,7 +142,7 @@ bool on_lattice(const LatticeTriangle& t) noexcept {
 BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
     : reader_(file, bin.stream, budget), left_(bin.triangles) {}
 
-uint8_t BinReader::byte() {
+uint8_t BinReader::read_byte() {
   if (at_ == end_) {
     const std::span<std::byte> block = reader_.next();
     if (block.empty()) reader_.fail_damaged();
@@ -152,24 +152,25 @@ uint8_t BinReader::byte() {
   return *at_++;
 }
 
-int64_t BinReader::number() {
+int64_t BinReader::read_number() {
   uint64_t code = 0;
   for (int shift = 0;; shift += 7) {
     if (shift > 63) reader_.fail_damaged();
-    const uint8_t b = byte();
+    const uint8_t b = read_byte();
     code |= uint64_t(b & 0x7f) << shift;
     if (b < 0x80) break;
   }
   return int64_t(code >> 1) ^ -int64_t(code & 1);
 }
 
-bool BinReader::read(size_t most, std::vector<LatticeTriangle>* out) {
+bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
   if (left_ == 0) return false;
-  for (; most > 0 && left_ > 0; --most, --left_) {
+  for (; max_count > 0 && left_ > 0; --max_count, --left_) {
     LatticeTriangle& t = out->emplace_back();
-    for (int a = 0; a < 3; ++a) t.v[0][a] = number();
+    for (int a = 0; a < 3; ++a) t.v[0][a] = read_number();
     for (size_t i = 1; i < 3; ++i) {
-      for (int a = 0; a < 3; ++a) t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(number()));
+      for (int a = 0; a < 3; ++a)
+        t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
     }
     if (!on_lattice(t)) reader_.fail_damaged();
   }

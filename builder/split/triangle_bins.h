@@ -1,9 +1,9 @@
-// Triangles that do not fit in memory, spilled by the cubes of the octree that they meet.
+// Triangles that do not fit in memory, spilled by the octree cubes that they meet.
 //
-// A bin is a cube and the stream of its triangles. Bins are filled many at a time, in one pass, and
-// each is baked by itself, or dealt into bins of its parts. A triangle is stored as nine numbers,
-// the first vertex and the ways to the others, in as few bytes as each needs (LEB128 of the zigzag
-// code): about 40 bytes for those of a scan at 16K, instead of 72.
+// A bin is a cube and the stream of its triangles. Many bins are filled at once, in one pass; each
+// is then baked by itself, or dealt into bins of its sub-cubes. A triangle is stored as nine
+// numbers, its first vertex and the differences to the others, each in as few bytes as it needs
+// (LEB128 of the zigzag code): about 40 bytes for a scan at 16K, instead of 72.
 #pragma once
 
 #include <array>
@@ -18,62 +18,63 @@
 namespace svdag {
 
 struct TriangleBin {
-  Cube cube;          // as small as the triangles allow
-  MortonRange range;  // of the cube that the bin was made for; outside of `cube` it is empty
+  Cube cube;          // the smallest cube that holds all voxels they can set
+  MortonRange range;  // of the original cube of the bin, which is empty outside of `cube`
   uint64_t triangles = 0;
   SpillStream stream;
 };
 
-// Deals triangles into the bins of `parent`'s parts `depth` levels below it.
+// Deals triangles into bins: the cubes `depth` levels below `parent`.
 class TriangleBins {
  public:
-  static constexpr int kDeepest = 3;
+  static constexpr int kMaxDepth = 3;
 
   TriangleBins(const Grid& grid, const Cube& parent, int depth, SpillFile* file, Scratch* scratch);
 
-  // The deepest that `bytes` of open blocks and the grid allow.
+  // The largest depth for which the open blocks take at most `bytes`, and that the grid allows.
   static int depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
                        const Cube& parent);
 
-  // A triangle whose box meets the closed parent.
+  // Adds a triangle whose box meets the closed parent.
   void add(const LatticeTriangle& triangle);
-  // Size of the triangles so far in bins: a large one is stored in each bin that it meets.
+  // Bytes of all bins so far; a triangle counts in each bin that it meets.
   uint64_t bytes() const { return bytes_; }
-  // The bins that triangles met, in Morton order.
+  // Returns the bins that hold triangles, in Morton order.
   std::vector<TriangleBin> finish();
 
  private:
-  struct Open {
+  struct OpenBin {
     std::optional<SpillWriter> writer;
     uint64_t triangles = 0;
-    LatticeBox box;  // of the triangles' boxes
+    LatticeBox box;  // bounding box of the triangles
   };
 
   void deal(const LatticeTriangle& triangle, const TriangleSetup& setup, const Cube& cube);
   void append(const Cube& cube, const LatticeTriangle& triangle, const LatticeBox& box);
-  Cube shrink(const Cube& cube, const Open& bin) const;
+  Cube shrink(const Cube& cube, const OpenBin& bin) const;
 
   Grid grid_;
   Cube parent_;
   int bin_level_;
   SpillFile* file_;
   Scratch* scratch_;
-  std::vector<Open> bins_;  // in Morton order
+  std::vector<OpenBin> bins_;  // in Morton order
   uint64_t bytes_ = 0;
 };
 
-// Reads the triangles of a bin in the order in which they were added. Bytes that are not lattice
-// triangles are treated as a damaged block, since plans are copied between machines.
+// Reads the triangles of a bin, in the order in which they were added. Bytes that do not decode to
+// triangles on the lattice are reported like a damaged block, since the files of a plan may come
+// from elsewhere.
 class BinReader {
  public:
   BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget);
 
-  // Up to `most` more triangles, appended to *out; false at the end.
-  bool read(size_t most, std::vector<LatticeTriangle>* out);
+  // Appends up to `max_count` further triangles to *out; false at the end.
+  bool read(size_t max_count, std::vector<LatticeTriangle>* out);
 
  private:
-  int64_t number();
-  uint8_t byte();
+  int64_t read_number();
+  uint8_t read_byte();
 
   SpillReader reader_;
   uint64_t left_;

@@ -9,18 +9,18 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle = 48;  // in bins, small ones, those on borders twice
-constexpr double kMinShare = 0.2;           // of the work, to extrapolate to the rest
+constexpr uint64_t kBytesPerTriangle = 48;  // of small ones in bins, with copies at borders
+constexpr double kMinShare = 0.2;           // share of the work from which the rest is estimated
 
 }  // namespace
 
-void DiskNeed::check(uint64_t certain, uint64_t more, const char* purpose) const {
+void DiskNeed::check(uint64_t required, uint64_t estimated, const char* purpose) const {
   const uint64_t free = scratch_->folder()->free_bytes();
-  if (certain <= free) return;
+  if (required <= free) return;
   throw Error(ExitCode::kOutput,
-              std::string("spilling the ") + purpose + " takes about " + format_bytes(more) +
+              std::string("spilling the ") + purpose + " needs about " + format_bytes(estimated) +
                   " more, but the disk has only " + format_bytes(free) +
-                  " free: make room, or choose another --scratch or more --memory",
+                  " free: free disk space, or give another --scratch or a larger --memory",
               scratch_->folder()->path());
 }
 
@@ -31,8 +31,8 @@ void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
 }
 
 void DiskNeed::expect_spilled(uint64_t count, uint64_t read, uint64_t bytes) {
-  count = std::max(count, read);  // 0: not counted
-  // At least what there is: rounding may lose a byte of it.
+  count = std::max(count, read);  // 0: the number is unknown
+  // At least `bytes`: rounding may lose a byte.
   triangles_ = std::max(bytes, uint64_t(double(bytes) * double(count) / double(read)));
   check((triangles_ - bytes) / 2, triangles_ - bytes, "triangles");
 }

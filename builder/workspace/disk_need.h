@@ -1,10 +1,11 @@
-// Estimates the scratch space of a bake or import, so that a full disk is reported up front.
+// Estimates the scratch space of a bake or an import, so that a full disk is reported before hours
+// of work.
 //
-// A lower bound for triangles is known once they are counted, and a better estimate once the first
-// ones are in bins (a large triangle is in many). How often a scene repeats itself is unknown
-// before it is baked, so the size of runs is extrapolated from the existing ones and the share of
-// work done, once that is a fifth. Cells differ, so only a disk that cannot hold half of the
-// estimate is an Error (kOutput).
+// Triangles: a lower bound follows from their number, a better estimate from the first ones in
+// bins, where a large triangle is stored several times. Runs: how often a scene repeats itself is
+// unknown before it is baked, so their size is extrapolated from the runs so far, once a fifth of
+// the cells is done. Cells differ, so it is an Error (kOutput) only if the disk cannot hold half of
+// an estimate.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +18,24 @@ class DiskNeed {
  public:
   explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
 
-  // `count` triangles will be spilled if they take more than `triangle_bytes` in memory (or less:
-  // the split's own memory depends on their positions). 0: unknown, as for a part of the grid.
+  // Expects `count` triangles to be spilled if they take more than `triangle_bytes` in memory.
+  // They may be spilled below that limit, since the cell tree of the split needs memory too; how
+  // much depends on their positions. 0: the number is unknown, as for the triangles of a grid part.
   void expect_triangles(uint64_t count, uint64_t triangle_bytes);
-  // The first `read` of `count` triangles took `bytes` when spilled; others may be smaller.
+  // The first `read` of `count` triangles were spilled and took `bytes`. The others may be smaller.
   void expect_spilled(uint64_t count, uint64_t read, uint64_t bytes);
-  // `bytes` of records will be sorted, and all are spilled if they exceed `in_memory`. The number
-  // is exact, so a disk that cannot hold them all is an Error.
+  // `bytes` of records will be sorted; all are spilled if they take more than `in_memory`. The size
+  // is known, so a disk that cannot hold all of them is an Error.
   void expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose);
   // Runs of `bytes` were spilled for `share` of the work.
   void expect_runs(uint64_t bytes, double share);
 
-  // Total estimate in bytes; 0: nothing is spilled.
+  // Estimated bytes of all spilled data; 0: nothing is spilled.
   uint64_t estimate() const { return triangles_ + records_ + runs_; }
 
  private:
-  // Error unless `certain` bytes fit on the disk; `more` is the estimate to report.
-  void check(uint64_t certain, uint64_t more, const char* purpose) const;
+  // Throws unless `required` of the `estimated` further bytes fit on the disk.
+  void check(uint64_t required, uint64_t estimated, const char* purpose) const;
 
   Scratch* scratch_;
   uint64_t triangles_ = 0, records_ = 0, runs_ = 0;

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kSmallestBlock = uint64_t(1) << 14;
+constexpr uint64_t kMinBlockBytes = uint64_t(1) << 14;
 
 }  // namespace
 
@@ -17,10 +17,10 @@ Scratch::Scratch(ScratchDir* folder, MemoryBudget* budget)
     : folder_(folder),
       budget_(budget),
       block_bytes_(
-          std::bit_floor(std::clamp(budget->limit() / 4096, kSmallestBlock, kLargestBlock))) {}
+          std::bit_floor(std::clamp(budget->limit() / 4096, kMinBlockBytes, kMaxBlockBytes))) {}
 
-bool Scratch::can_have_blocks_of(uint64_t bytes) {
-  return std::has_single_bit(bytes) && bytes >= SpillBlock::kAlignment && bytes <= kLargestBlock;
+bool Scratch::is_block_size(uint64_t bytes) {
+  return std::has_single_bit(bytes) && bytes >= SpillBlock::kAlignment && bytes <= kMaxBlockBytes;
 }
 
 SpillFile* Scratch::file(std::unique_ptr<SpillFile>* file, const char* name) {
@@ -32,18 +32,18 @@ SpillFile* Scratch::file(std::unique_ptr<SpillFile>* file, const char* name) {
   return file->get();
 }
 
-std::unique_ptr<SpillFile> Scratch::earlier(const char* name, uint32_t blocks) {
+std::unique_ptr<SpillFile> Scratch::open_existing(const char* name, uint32_t blocks) {
   if (blocks == 0) return nullptr;
   const auto require = [&](bool condition, const char* sentence) {
     if (!condition)
       throw SpoiledScratch(ExitCode::kOutput,
-                           std::string("its file \"") + name + "\" is " + sentence +
+                           std::string("file \"") + name + "\" is " + sentence +
                                ": discard the unfinished bake with --restart",
                            folder_->path());
   };
   require(folder_->has(name), "missing");
   File file = folder_->open(name);
-  require(file.size() / block_bytes_ >= blocks, "cut short");  // all blocks are whole
+  require(file.size() / block_bytes_ >= blocks, "truncated");  // the file holds whole blocks only
   return std::make_unique<SpillFile>(std::move(file), block_bytes_, blocks);
 }
 
@@ -51,8 +51,8 @@ void Scratch::resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_
                      uint64_t next_stream) {
   block_bytes_ = block_bytes;
   next_stream_ = next_stream;
-  triangles_ = earlier("triangles", triangle_blocks);
-  runs_ = earlier("runs", run_blocks);
+  triangles_ = open_existing("triangles", triangle_blocks);
+  runs_ = open_existing("runs", run_blocks);
 }
 
 uint64_t Scratch::sum(uint64_t (SpillFile::*bytes)() const) const {

@@ -1,7 +1,7 @@
-// The spill files of a bake, created on first use.
+// The scratch files of a bake, each created when it is first needed.
 //
-// Three files with different lifetimes: `triangles` and `runs` hold what a resumed bake needs,
-// until the output is complete; the content of `passing` is temporary, and its blocks are reused.
+// Three files with different lifetimes: `triangles` and `runs` hold what a resumed bake needs, and
+// keep it until the output is complete; data in `passing` is short-lived and its blocks are reused.
 // Stream numbers are unique across all three.
 #pragma once
 
@@ -19,37 +19,37 @@ namespace svdag {
 
 class Scratch {
  public:
-  static constexpr uint64_t kLargestBlock = uint64_t(1) << 18;
+  static constexpr uint64_t kMaxBlockBytes = uint64_t(1) << 18;
 
-  // Sizes blocks so that a thousand of them take a quarter of the budget.
+  // Chooses a block size such that a thousand blocks take a quarter of the budget.
   Scratch(ScratchDir* folder, MemoryBudget* budget);
 
   ScratchDir* folder() const { return folder_; }
   MemoryBudget* budget() const { return budget_; }
   size_t block_bytes() const { return block_bytes_; }
-  // Whether this is a valid block size of a scratch or a plan.
-  static bool can_have_blocks_of(uint64_t bytes);
+  // Whether `bytes` is a valid block size of a scratch folder (of any budget) or of a plan.
+  static bool is_block_size(uint64_t bytes);
 
-  // The names of files that a journal may refer to are synced when the files are created.
+  // A file that a journal may refer to is synced to its folder when it is created.
   SpillFile* triangles() { return file(&triangles_, "triangles"); }
   SpillFile* runs() { return file(&runs_, "runs"); }
   SpillFile* passing() { return file(&passing_, "passing"); }
-  // The first of `count` new stream numbers.
+  // Reserves `count` unused stream numbers; returns the first.
   uint64_t new_streams(uint64_t count = 1) { return next_stream_.fetch_add(count); }
 
-  // Opens the files of an earlier process, with its block size and blocks in use; new streams are
-  // numbered from `next_stream`. SpoiledScratch if a file is missing or too short.
+  // Continues the files of an earlier process: block size, blocks in use, first unused stream
+  // number. SpoiledScratch if a file is missing or too short.
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
-  // Sums over the files so far, in bytes: their largest sizes, written, read.
+  // Of all files so far: the sum of their largest sizes, and the bytes written and read.
   uint64_t peak_bytes() const { return sum(&SpillFile::peak_bytes); }
   uint64_t written_bytes() const { return sum(&SpillFile::written_bytes); }
   uint64_t read_bytes() const { return sum(&SpillFile::read_bytes); }
 
  private:
   SpillFile* file(std::unique_ptr<SpillFile>* file, const char* name);
-  std::unique_ptr<SpillFile> earlier(const char* name, uint32_t blocks);
+  std::unique_ptr<SpillFile> open_existing(const char* name, uint32_t blocks);
   uint64_t sum(uint64_t (SpillFile::*bytes)() const) const;
 
   ScratchDir* folder_;

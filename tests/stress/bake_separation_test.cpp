@@ -1,8 +1,8 @@
-// No holes in baked files: windows of an effective 64K^3 on the surface, each one whole bake.
+// Baked files have no holes: windows on the surface at an effective 64K^3, each a complete bake.
 //
-// `--voxel-size` of 1/65536 of the scene and `--bounds` of about 48 voxels give the voxels that a
-// bake of everything has there (tests/builder/build_test.cpp), through readers, split, descent,
-// reduction and file.
+// With `--voxel-size` of 1/65536 of the scene and `--bounds` of about 48 voxels a bake has the same
+// voxels in the bounds as one of the whole scene (tests/builder/build_test.cpp). It runs through
+// readers, split, descent, reduction and file.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -24,7 +24,7 @@ class Projection {
 
   bool upright() const { return n_[w_] == 0; }
 
-  // Is the moved line through (x_u, x_v) inside the projected triangle?
+  // Whether the moved line through (x_u, x_v) is inside the projected triangle.
   bool holds(int64_t xu, int64_t xv) const {
     for (int e = 0; e < 3; ++e) {
       if (edge_sign(t_.v[e], t_.v[(e + 1) % 3], xu, xv) != (n_[w_] > 0)) return false;

@@ -1,4 +1,4 @@
-// Closed forms: numbers of voxels of simple bodies, for any size and position.
+// Closed forms for the number of voxels that simple bodies set, at any size and position.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -20,8 +20,8 @@ uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
   return voxels;
 }
 
-// Calls check(spot, random, at) for many places `at`, voxel corners from which 160 voxels on every
-// side are in the grid: near zero, anywhere, and in the far corner.
+// Calls check(spot, random, at) for many positions `at`: voxel corners that are at least 160 voxels
+// inside the grid, near zero, anywhere, and near the far corner.
 template <class Check>
 void everywhere(const Check& check) {
   StressRandom random(11);
@@ -119,8 +119,8 @@ TEST(ClosedForm, APointTouchesEightFourTwoOrOneVoxels) {
   });
 }
 
-// Rule thin counts a rectangle of whole voxels by its area, on planes, on centres and anywhere
-// else: every line of centres that meets it sets one voxel, and ties go one way.
+// Under the thin rule a rectangle of whole voxels sets as many voxels as its area, on planes, on
+// centres and anywhere else: every line of centres that meets it sets one, and ties go one way.
 TEST(ClosedForm, AThinRectangleHasItsArea) {
   everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
     const LatticePoint s = draw_size(random);

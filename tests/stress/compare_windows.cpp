@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// Whether a descent over the whole start cube stays cheap: every triangle is small.
+// Whether every triangle is small, so that a descent over the whole start cube is cheap.
 bool all_small(const Spot& spot, std::span<const LatticeTriangle> triangles) {
   for (const LatticeTriangle& t : triangles) {
     for (int a = 0; a < 3; ++a) {
@@ -32,7 +32,8 @@ Tally& Tally::operator+=(const Tally& other) {
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside) {
   Grid grid = spot.grid;
-  // The parity of the region's corner serves as a coin, so small triangles are tested in both ways.
+  // The parity of the region's corner is a random choice, so small triangles are tested in both
+  // ways.
   const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0;
   if (!whole) {
     grid.bounded = true;

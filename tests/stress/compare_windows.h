@@ -1,9 +1,9 @@
-// Compares the voxelizer with the judges on the same input, bit by bit.
+// Compares the voxels of the voxelizer and of the judges, bit by bit.
 //
-// A decision is one voxel of a compared region that touches the surface or has a voxel that does
-// among its 26 neighbours in the region (by the conservative judge, for either rule): the voxels
-// within one voxel of the surface, where errors happen. The other voxels of the region are compared
-// as well and not counted.
+// A decision is one voxel of a compared region that touches the surface, or has one among its 26
+// neighbours in the region that does (by the conservative judge, for either rule): the voxels
+// within one voxel of the surface, where errors occur. The other voxels of the region are compared
+// too, but not counted.
 #pragma once
 
 #include <span>
@@ -16,21 +16,21 @@ namespace svdag {
 struct Tally {
   uint64_t decisions = 0;
   uint64_t misses = 0;  // set by the judge only
-  uint64_t extras = 0;  // set by the voxelizer only, or outside of what was selected
+  uint64_t extras = 0;  // set by the voxelizer only, or outside of the selection
 
   Tally& operator+=(const Tally& other);
 };
 
-// The region as the voxelizer (builder/descend/window.h) sets it. `outside`, if given, grows by the
-// voxels set outside the region although only the region was selected.
+// The region as the voxelizer (builder/descend/window.h) sets it. Adds to *outside, if given, the
+// voxels that are set outside the region although only the region is selected.
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
 // The region as the judge sets it: conservative by clipping (verify/judge/clip_judge.h), thin by
 // the crossings of centre lines (tests/stress/centre_lines.h).
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
-// The voxelizer as it is used, against the judge; and one of its other paths
-// (tests/stress/paths.h), in turns, against the same.
+// Compares the voxelizer in its default configuration with the judge, and also one of its other
+// paths (tests/stress/paths.h), each in turn.
 Tally compare_window(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
 }  // namespace svdag

@@ -1,9 +1,9 @@
-// Valleys, ridges and folds that meet a cell in nothing but a corner, an edge or a face.
+// Valleys, ridges and folds that meet a cell only in a corner, an edge or a face.
 //
-// A cell (a cube of the octree, of 1 to 16 voxels) has a corner P on the region. Wings are
-// triangles that leave P away from the cell: two wings with a common edge make a ridge (wings on
-// both sides) or a fold (on the same side); the same surface is a valley for the cell opposite.
-// One lattice step inwards or outwards decides whether the cell is touched at all.
+// A cell (an octree cube of 1 to 16 voxels a side) has a corner P in the region. Wings are
+// triangles that extend from P away from the cell. Two wings with a common edge form a ridge (wings
+// on both sides) or a fold (on the same side); for the opposite cell the same surface is a valley.
+// One lattice step inwards or outwards decides whether the cell is touched.
 #include "tests/stress/family.h"
 
 namespace svdag {
@@ -13,7 +13,7 @@ enum class Contact { kCorner, kEdge, kFace };
 
 struct Cell {
   LatticePoint corner;
-  LatticePoint away;  // +-1 per axis: the directions that leave the cell
+  LatticePoint away;  // +-1 per axis: the directions away from the cell
   int64_t side;
 };
 
@@ -35,7 +35,7 @@ LatticePoint tip(const Cell& cell, unsigned outward, StressRandom* random) {
   return cell.corner + d;
 }
 
-// The two ends of the edge that is shared by both wings, and along which the cell is met.
+// The two ends of the edge that both wings share, along which they meet the cell.
 std::array<LatticePoint, 2> spine(const Cell& cell, Contact contact, int w, StressRandom* random) {
   std::array<LatticePoint, 2> ends{cell.corner, cell.corner};
   switch (contact) {
@@ -69,7 +69,7 @@ Family contact_family(const char* name, Contact contact) {
               if (contact == Contact::kFace) outward = 1U << w;
               const LatticePoint left = tip(cell, outward, random);
               LatticePoint right = tip(cell, outward, random);
-              // A fold: nearly the same wing once more.
+              // A fold: nearly the same wing again.
               if (random->coin()) right = left + random->point(2);
               soup.push_back({{ends[0], ends[1], left}});
               soup.push_back({{ends[1], ends[0], right}});

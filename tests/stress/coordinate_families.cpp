@@ -1,4 +1,4 @@
-// Coordinates: scenes far from zero, of any unit, at the ends of what a double can hold.
+// Families of coordinates: scenes far from zero, in any unit, at the ends of the range of double.
 #include <cmath>
 
 #include "io/float_rounding.h"
@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-// Planes of `grid` moved so that `corner` (world) is within 1024 voxels above its corner.
+// A lattice grid whose corner is at most 1024 voxels below `corner` (world) on each axis.
 Grid lattice_grid(int levels, double size, const Point& corner) {
   Grid grid = unit_grid(levels);
   grid.kind = Grid::Kind::kLattice;
@@ -23,7 +23,7 @@ Grid box_grid(int levels, double size, const Point& corner) {
   return grid;
 }
 
-// Triangles of a few voxels in world doubles; `adjust` makes the coordinates what the family says.
+// Triangles of a few voxels in world doubles; `adjust` changes each coordinate.
 template <class Adjust>
 Soup world_soup(const Spot& spot, StressRandom* random, const Adjust& adjust) {
   std::vector<Triangle> triangles(4);
@@ -39,7 +39,7 @@ Soup world_soup(const Spot& spot, StressRandom* random, const Adjust& adjust) {
   return snapped(spot.grid, triangles);
 }
 
-// Coordinates like those of a national grid, in metres, with centimetres.
+// Coordinates as in a national survey grid: metres with centimetres.
 Grid utm_grid(int levels, StressRandom* random) {
   static constexpr double kSizes[4] = {0.01, 0.1, 0.25, 1.0};
   const double size = kSizes[random->below(4)];
@@ -55,8 +55,8 @@ Soup utm_floats(const Spot& spot, StressRandom* random) {
   return world_soup(spot, random, [](double x) { return round_to_float(x); });
 }
 
-// Voxel sizes that no double holds, and vertices at multiples of their halves: on planes but for
-// the rounding of the world's doubles.
+// Voxel sizes that are not exact in double, and vertices at multiples of half of them: on planes
+// except for the rounding of the world coordinates.
 Grid non_dyadic_grid(int levels, StressRandom* random) {
   static constexpr double kSizes[5] = {0.1, 0.3, 0.7, 1.0 / 3, 0.001};
   const Point corner(random->unit(), -1e3 * random->unit(), 1e4 * random->unit());
@@ -77,7 +77,7 @@ Family scaled(const char* name, double unit) {
               return on_planes ? std::nearbyint(x / unit * 2) / 2 * unit : x;
             });
           },
-          Place::kAnywhere,
+          SpotArea::kAnywhere,
           [unit](int levels, StressRandom* random) {
             const double size = (random->coin() ? 1 : 0.37) * unit;
             const Point corner = unit * 1e3 * Point(random->unit(), random->unit(), random->unit());
@@ -86,8 +86,8 @@ Family scaled(const char* name, double unit) {
           }};
 }
 
-// Zero is in the middle of the grid. (k0 is the plane of voxel -N/2, for N = 1K not a multiple of
-// 1024: the snap does not ask for one.)
+// A grid with zero in its middle. (k0 is the plane of voxel -N/2, for N = 1K not a multiple of
+// 1024; the snap does not require one.)
 Grid around_zero(int levels, double size) {
   Grid grid = lattice_grid(levels, size, Point(0));
   for (int a = 0; a < 3; ++a) grid.k0[a] = -grid.resolution() / 2;
@@ -116,13 +116,13 @@ std::vector<Family> coordinate_families() {
   const auto smallest_grid = [](int levels, StressRandom*) {
     return around_zero(levels, 0x1p-1021);
   };
-  return {{"utm_centimetres", utm_centimetres, Place::kAnywhere, utm_grid},
-          {"utm_floats", utm_floats, Place::kAnywhere, utm_grid},
-          {"non_dyadic_voxels", non_dyadic, Place::kAnywhere, non_dyadic_grid},
+  return {{"utm_centimetres", utm_centimetres, SpotArea::kAnywhere, utm_grid},
+          {"utm_floats", utm_floats, SpotArea::kAnywhere, utm_grid},
+          {"non_dyadic_voxels", non_dyadic, SpotArea::kAnywhere, non_dyadic_grid},
           scaled("scaled_2^-110", 0x1p-110),
           scaled("scaled_2^50", 0x1p50),
-          {"denormals_and_zeros", denormals, Place::kMiddle, zero_grid},
-          {"denormal_scene", denormal_scene, Place::kMiddle, smallest_grid}};
+          {"denormals_and_zeros", denormals, SpotArea::kMiddle, zero_grid},
+          {"denormal_scene", denormal_scene, SpotArea::kMiddle, smallest_grid}};
 }
 
 }  // namespace svdag

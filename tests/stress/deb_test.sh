@@ -1,7 +1,7 @@
 #!/bin/sh
-# The packages of `make deb` in a clean Debian of the smallest kind: they bring what they need and nothing
-# else, the programs bake and prove a scene there, another project builds against libsvdag-dev, and
-# removing them leaves nothing behind.
+# Tests the packages of `make deb` in a minimal, clean Debian: they depend on exactly what they need, the
+# programs bake and verify a scene there, another project builds against libsvdag-dev, and removing them leaves
+# nothing behind.
 # Usage: deb_test.sh PROGRAMS PACKAGES   (the folders of a finished build and of its .deb files; as root)
 set -eu
 cd "$(dirname "$0")/../.."
@@ -11,35 +11,35 @@ skip() { echo "deb_test: skipped, $1"; exit 77; }
 
 [ "$(id -u)" = 0 ] || skip "needs root for chroot"
 command -v debootstrap >/dev/null || skip "needs debootstrap"
-command -v apt-get >/dev/null || skip "needs apt, whose mirror it takes"
-# The programs name their outputs through /proc: it is mounted in a private namespace.
+command -v apt-get >/dev/null || skip "needs apt, to find its mirror"
+# The programs name their outputs through /proc: mount it in a private namespace.
 if [ -z "${SVDAG_OWN_MOUNTS:-}" ]; then
   unshare --mount true 2>/dev/null || skip "needs the right to mount"
   SVDAG_OWN_MOUNTS=1 exec unshare --mount --propagation private sh tests/stress/deb_test.sh "$programs" "$packages"
 fi
 . /etc/os-release
-[ "$ID" = debian ] || skip "the packages are for Debian, and this is $ID"
+[ "$ID" = debian ] || skip "the packages are for Debian, this is $ID"
 
-# The clean root takes its packages from where this machine takes them.
+# The clean root uses the package sources of this machine.
 sources=$(apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' | sort -u)
 mirror=$(echo "$sources" | awk -v suite="$VERSION_CODENAME" '$3 == suite && $4 == "main" { print $2; exit }')
-[ -n "$mirror" ] || skip "apt knows no mirror of $VERSION_CODENAME"
+[ -n "$mirror" ] || skip "apt has no mirror of $VERSION_CODENAME"
 
 work=$(mktemp -d)
 root=$work/root
 trap 'umount "$root"/proc 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
 trap 'exit 130' INT TERM
 log=$work/log
-tell_log() { tail -20 "$log" >&2; exit 1; }
+fail_with_log() { tail -20 "$log" >&2; exit 1; }
 
 echo "a clean $PRETTY_NAME"
-debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" >"$log" 2>&1 || tell_log
+debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" >"$log" 2>&1 || fail_with_log
 echo "$sources" | grep -v -- '-backports ' >"$root"/etc/apt/sources.list
 mountpoint -q "$root"/proc || mount -t proc proc "$root"/proc
 mkdir "$root"/try
 cp "$packages"/svdag_*.deb "$packages"/libsvdag-dev_*.deb "$root"/try
 cp -r tests/package/reader "$root"/try
-"$programs"/svdag-scene city -n 6K -q -o "$root"/try/city.ply  # the generator is not packaged
+"$programs"/svdag-scene city -n 6K -q -o "$root"/try/city.ply  # svdag-scene is not packaged
 
 cat >"$root"/try/install.sh <<'INSIDE'
 set -eu
@@ -86,16 +86,16 @@ dpkg-query -W -f '${Package}\n' | sort | diff before -
 INSIDE
 inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C chroot "$root" sh /try/"$1".sh; }
 
-echo "svdag, and what it declares"
-inside install >"$log" 2>&1 || tell_log
+echo "install svdag with its dependencies"
+inside install >"$log" 2>&1 || fail_with_log
 inside use
-echo "libsvdag-dev: another project"
-inside develop >"$log" 2>&1 || tell_log
+echo "build another project with libsvdag-dev"
+inside develop >"$log" 2>&1 || fail_with_log
 counted=$(chroot "$root" /try/build/count_voxels /try/city.svdag)
 echo "$counted voxels"
 [ "$counted" = "$(chroot "$root" /try/mapped /try/city.svdag)" ] || { echo "the two readers differ" >&2; exit 1; }
-echo "removed again"
-inside remove >"$log" 2>&1 || tell_log
+echo "remove the packages"
+inside remove >"$log" 2>&1 || fail_with_log
 left=$(find "$root"/usr "$root"/etc "$root"/var/lib -name '*svdag*' -not -path '*/apt/*')
 [ -z "$left" ] || { echo "left behind: $left" >&2; exit 1; }
 echo "deb_test: ok"

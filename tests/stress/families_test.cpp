@@ -1,4 +1,4 @@
-// Every family on every grid at every depth and for both rules: nothing missed, nothing extra.
+// Every family on every grid, at every depth and for both rules: no missing voxel, no extra one.
 //
 // SVDAG_STRESS_DECISIONS sets the decisions per family, grid and rule (2*10^5; `make stress` 10^7).
 #include <gtest/gtest.h>
@@ -16,27 +16,27 @@ namespace {
 constexpr int kGrids[4] = {10, 13, 16, 20};  // effective 1K^3, 8K^3, 64K^3, 1M^3
 constexpr int64_t kRegionSide = 32;
 
-uint64_t wanted_decisions() {
+uint64_t min_decisions() {
   const char* text = std::getenv("SVDAG_STRESS_DECISIONS");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 200'000;
 }
 
 struct Outcome {
   Tally tally;
-  std::set<int> depths;  // at which a descent started that had something to decide
+  std::set<int> depths;  // start depths of the descents with at least one decision
   uint64_t windows = 0;
 };
 
 Outcome stress(const Family& family, int levels, Rule rule, uint64_t decisions) {
   StressRandom random(uint64_t(levels) * 1000 + uint64_t(rule));
   Outcome outcome;
-  const size_t depths = size_t(levels - 1);  // 0 .. L-2
-  const uint64_t most = 1000 + decisions;    // of a family that misses its own regions
+  const size_t depths = size_t(levels - 1);       // 0 .. L-2
+  const uint64_t max_windows = 1000 + decisions;  // for a family that misses its own regions
   while ((outcome.tally.decisions < decisions || outcome.depths.size() < depths) &&
-         outcome.windows < most) {
+         outcome.windows < max_windows) {
     const int depth = int(outcome.windows++ % depths);
     const Grid grid = family.grid(levels, &random);
-    const Spot spot = draw_spot(grid, depth, kRegionSide, family.place, &random);
+    const Spot spot = draw_spot(grid, depth, kRegionSide, family.area, &random);
     const Tally tally = compare_window(spot, rule, family.draw(spot, &random));
     if (tally.decisions != 0) outcome.depths.insert(depth);
     outcome.tally += tally;
@@ -47,7 +47,7 @@ Outcome stress(const Family& family, int levels, Rule rule, uint64_t decisions) 
 class Families : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Families, GiveTheVoxelsOfTheJudgeOnEveryGridAtEveryDepth) {
-  const uint64_t decisions = wanted_decisions();
+  const uint64_t decisions = min_decisions();
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     std::printf("%-24s %-12s", GetParam().name.c_str(), rule_name(rule));
     Tally sum;

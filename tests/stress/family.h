@@ -1,8 +1,8 @@
-// Families of awkward geometry: each draws triangles near a spot of a grid.
+// Families of difficult geometry: each draws triangles near a spot of a grid.
 //
-// A family about shapes draws on the lattice; a family about coordinates draws doubles in the world
-// and snaps them (io/lattice.h), so that the snap is in the path. Either way the lattice triangles
-// are the normative geometry for voxelizer and judge.
+// Families of shapes draw on the lattice. Families of coordinates draw world coordinates in double
+// and snap them (io/lattice.h), so that they test the snap too. The lattice triangles are the input
+// of both voxelizer and judge.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ using Soup = std::vector<LatticeTriangle>;
 struct Family {
   std::string name;
   std::function<Soup(const Spot&, StressRandom*)> draw;
-  Place place = Place::kAnywhere;
+  SpotArea area = SpotArea::kAnywhere;
   std::function<Grid(int levels, StressRandom*)> grid = [](int levels, StressRandom*) {
     return unit_grid(levels);
   };
@@ -31,12 +31,13 @@ inline void PrintTo(const Family& family, std::ostream* out) {
 }
 
 std::vector<Family> shape_families();       // small, giant, slivers, degenerate
-std::vector<Family> plane_families();       // exactly on, and next to, the planes of the grid
+std::vector<Family> plane_families();       // exactly on the planes of the grid, and next to them
 std::vector<Family> contact_families();     // touching a cell by a corner, an edge or a face
 std::vector<Family> coordinate_families();  // scenes far away, scaled, denormal
-std::vector<Family> format_families();      // what glTF transforms and Draco quantisation give
-std::vector<Family> range_families();       // the bit budget of the exact tests, and beyond it
-std::vector<Family> patch_families();       // several triangles that are nearly one plane
+std::vector<Family> format_families();      // results of glTF transforms and Draco quantisation
+std::vector<Family>
+range_families();  // coordinates up to the bit limits of the exact tests, and beyond
+std::vector<Family> patch_families();  // several triangles that are nearly one plane
 std::vector<Family> all_families();
 
 // The triangle with two given vertices whose centroid is `at`.

@@ -1,4 +1,4 @@
-// What scene formats make of coordinates: transforms of glTF nodes, quantised positions of Draco.
+// Families of coordinates that scene formats produce: glTF node transforms, Draco quantisation.
 #include <cmath>
 
 #include "io/float_rounding.h"
@@ -28,8 +28,8 @@ std::array<double, 3> mirrored_scale(StressRandom* random) {
   return scale;
 }
 
-// Corners on half voxels, turned and mirrored by two nodes: back on planes, or beside them by what
-// the transform rounds.
+// Corners on half voxels, turned and mirrored by two nodes: on planes again, or off them by the
+// rounding of the transform.
 Soup gltf_nodes(const Spot& spot, StressRandom* random) {
   Trs parent, child;
   const Point at = to_world(spot.grid, Point(spot.corner(random)) / double(spot.voxel()));

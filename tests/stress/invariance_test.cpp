@@ -1,7 +1,7 @@
-// Exact invariances of the voxels of a soup, on soups of every family.
+// Exact invariances of the voxels of a soup, tested on soups of every family.
 //
-// What moves the ties of rule thin (permuting or mirroring axes: its targets are shifted along x
-// before y before z) is tested for the conservative rule only; all else for both.
+// Permuting and mirroring axes changes the ties of the thin rule (its targets are shifted along x
+// before y before z), so these are tested for the conservative rule only; all others for both.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -23,8 +23,8 @@ struct Sample {
   StressRandom random;
 };
 
-// RapidCheck draws the seed (and reports it); families of other grids are snapped already, so
-// their triangles are as good on the unit grid.
+// RapidCheck draws the seed (and reports it). Triangles of families with other grids are already
+// snapped, so they can be used on the unit grid.
 Sample draw_sample() {
   static const std::vector<Family> families = [] {
     std::vector<Family> all;
@@ -36,7 +36,7 @@ Sample draw_sample() {
   const auto family = *any_of<size_t>(0, families.size());
   const int levels = *rc::gen::element(10, 13, 16, 20);
   Sample sample{{}, {}, StressRandom(*rc::gen::arbitrary<uint64_t>())};
-  sample.spot = draw_spot(unit_grid(levels), 0, 32, Place::kAnywhere, &sample.random);
+  sample.spot = draw_spot(unit_grid(levels), 0, 32, SpotArea::kAnywhere, &sample.random);
   for (int a = 0; a < 3; ++a) {
     VoxelBox& region = sample.spot.region;
     region.min[a] = std::clamp<int64_t>(region.min[a], 40, sample.spot.grid.resolution() - 72);
@@ -46,7 +46,7 @@ Sample draw_sample() {
   return sample;
 }
 
-// The voxels of `region` are those of `other`, where `map` takes a voxel of the one to the other.
+// Expects that `map` maps the voxels of `region` to those of `other`.
 template <class Map>
 void expect_mapped(const VoxelRegion& region, const VoxelRegion& other, const Map& map) {
   RC_ASSERT(region.count() == other.count());
@@ -154,7 +154,7 @@ RC_GTEST_PROP(Invariance, SubdivisionAtLatticeMidpoints, ()) {
   expect_unchanged(sample, parts);
 }
 
-// The grid scaled with the scene: the snap gives the same lattice triangles, whatever power of two.
+// With scene and grid scaled by the same power of two, the snap gives the same lattice triangles.
 RC_GTEST_PROP(Invariance, ScalingByPowersOfTwo, ()) {
   Sample sample = draw_sample();
   const Grid& grid = sample.spot.grid;

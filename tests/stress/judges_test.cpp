@@ -1,5 +1,5 @@
-// The judges agree with each other on every family: clipping and centre lines in integers
-// (verify/), CGAL's exact kernel (verify/judge/judge_cgal.h), and the suite's own centre lines.
+// The judges agree on every family: clipping and centre lines in integers (verify/), CGAL's exact
+// kernel (verify/judge/judge_cgal.h), and the centre lines of this suite.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -33,7 +33,7 @@ TEST_P(Judges, AgreeWithEachOther) {
       StressRandom random(uint64_t(levels) * 77 + uint64_t(rule));
       for (int round = 0; round < 3; ++round) {
         const Grid grid = GetParam().grid(levels, &random);
-        const Spot spot = draw_spot(grid, levels - 5, 12, GetParam().place, &random);
+        const Spot spot = draw_spot(grid, levels - 5, 12, GetParam().area, &random);
         const std::vector<LatticeTriangle> triangles = GetParam().draw(spot, &random);
         const VoxelRegion truth = judged(spot, rule, triangles);
         EXPECT_EQ(judged_by(JudgeChoice::Kind::kInteger, rule, spot, triangles), truth);

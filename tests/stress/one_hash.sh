@@ -1,9 +1,9 @@
 #!/bin/bash
-# One scene, one file: whatever the compiler and its flags, the same bytes.
+# Checks that scenes and bakes have the same bytes for every compiler and set of flags.
 #
-# Usage: one_hash.sh                  every combination builds its own programs
-#        one_hash.sh small PROGRAMS   programs that exist already (as `make build` makes them)
-#                                     against one build without any optimisation
+# Usage: one_hash.sh                  builds the programs with every combination
+#        one_hash.sh small PROGRAMS   compares existing programs (as `make build` makes them)
+#                                     with one build without any optimisation
 # Bakes five scenes for both rules with each and compares the SHA-256 of scenes and results.
 set -euo pipefail
 shopt -s inherit_errexit  # a bake that fails ends $(...) too

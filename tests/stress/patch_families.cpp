@@ -1,5 +1,5 @@
-// Near-planar patches (builder/descend/patch.h): walls of many triangles that are one plane, or
-// almost, or that look so and are not.
+// Families of near-planar patches (builder/descend/patch.h): walls of many triangles that are one
+// plane, nearly one plane, or only similar to one.
 #include <cmath>
 
 #include "tests/stress/family.h"
@@ -13,7 +13,7 @@ struct Wall {
   int64_t step;     // of the lattice
   double slope[2];  // along u and v
   int64_t noise;    // of a height, lattice steps
-  int64_t at[3];    // where the wall passes
+  int64_t at[3];    // a point of the wall
 
   LatticePoint vertex(int64_t i, int64_t j, StressRandom* random, bool jitter) const {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -69,7 +69,7 @@ Soup walls(const Spot& spot, StressRandom* random) {
   return tessellated(draw_wall(spot, random), random);
 }
 
-// With triangles missing, repeated, or turned about an edge onto their neighbour.
+// Walls with triangles that are missing, repeated, or folded over an edge onto their neighbour.
 Soup damaged_walls(const Spot& spot, StressRandom* random) {
   Soup soup = walls(spot, random);
   for (int i = 0; i < 4; ++i) {
@@ -90,7 +90,8 @@ Soup damaged_walls(const Spot& spot, StressRandom* random) {
   return soup;
 }
 
-// Thin pairs that share their long diagonal: their boxes hold much that they do not touch.
+// Thin pairs that share their long diagonal: their boxes contain many voxels that they do not
+// touch.
 Soup rhombs(const Spot& spot, StressRandom* random) {
   Wall wall = draw_wall(spot, random);
   wall.step = random->log_between(4 * spot.voxel(), 12 * spot.voxel());
@@ -113,8 +114,8 @@ Soup rhombs(const Spot& spot, StressRandom* random) {
   return soup;
 }
 
-// Two large triangles that share an edge: the diagonal of a quad, exactly flat or nearly so, whole
-// or with the second one turned over.
+// Two large triangles that share an edge, the diagonal of a quad: exactly or nearly flat, or with
+// the second triangle folded over.
 Soup quads(const Spot& spot, StressRandom* random) {
   Wall wall = draw_wall(spot, random);
   wall.step = random->log_between(64 * spot.voxel(), int64_t(1) << 34);

@@ -1,5 +1,5 @@
-// Near-planar patches: no wrong voxel under the conditions of builder/descend/patch.h, and wrong
-// ones without any of them.
+// Near-planar patches: no wrong voxels with the conditions of builder/descend/patch.h, and wrong
+// ones if any condition is left out.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -19,7 +19,7 @@ uint64_t wrong_voxels(const PatchConditions& conditions, Rule rule, int windows)
   for (int i = 0; i < windows; ++i) {
     for (const Family& family : patch_families()) {
       const Grid grid = family.grid(10, &random);
-      const Spot spot = draw_spot(grid, int(random.below(6)), 32, Place::kAnywhere, &random);
+      const Spot spot = draw_spot(grid, int(random.below(6)), 32, SpotArea::kAnywhere, &random);
       const Soup soup = family.draw(spot, &random);
       DescentConfig config, reference = plain.config;
       config.rule = reference.rule = rule;

@@ -1,5 +1,5 @@
-// The ways through the descent that must give the same voxels: every kernel, every shortcut on its
-// own and all of them together.
+// Configurations of the descent that must give the same voxels: every kernel, every shortcut alone,
+// and all of them together.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace svdag {
 
 struct DescentPath {
   std::string name;
-  DescentConfig config;  // of any rule
+  DescentConfig config;  // its rule is set by the caller
 };
 
-// The first is the plain one: one triangle after the other, no shortcut.
+// The first path is the plain one: one triangle after the other, no shortcut.
 inline std::vector<DescentPath> descent_paths() {
   std::vector<DescentPath> paths;
   const DescentConfig best;

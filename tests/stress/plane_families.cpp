@@ -1,10 +1,10 @@
-// Ties: geometry exactly on the planes of the grid, and one lattice step beside them.
+// Families of ties: geometry exactly on the planes of the grid, and one lattice step off them.
 #include "tests/stress/family.h"
 
 namespace svdag {
 namespace {
 
-constexpr int64_t kLargest = int64_t(1) << 38;
+constexpr int64_t kMaxCoordinate = int64_t(1) << 38;
 
 // Rounds down to a whole voxel.
 LatticePoint whole(const LatticePoint& p, const Spot& spot) {
@@ -41,7 +41,7 @@ Soup faces_off_planes(const Spot& spot, StressRandom* random) {
 Soup giant_faces(const Spot& spot, StressRandom* random) {
   const int w = random->axis();
   const LatticePoint at = spot.corner(random);
-  LatticePoint a = random->point(kLargest), b = random->point(kLargest);
+  LatticePoint a = random->point(kMaxCoordinate), b = random->point(kMaxCoordinate);
   if (random->coin()) a = whole(a, spot), b = whole(b, spot);
   a[w] = b[w] = 0;
   return {around_centroid(at, at + a, at + b)};
@@ -60,12 +60,12 @@ Soup vertices_on_corners(const Spot& spot, StressRandom* random) {
 
 Soup giant_on_corners(const Spot& spot, StressRandom* random) {
   const LatticePoint at = spot.corner(random);
-  const LatticePoint a = whole(random->point(kLargest), spot);
-  const LatticePoint b = whole(random->point(kLargest), spot);
+  const LatticePoint a = whole(random->point(kMaxCoordinate), spot);
+  const LatticePoint b = whole(random->point(kMaxCoordinate), spot);
   return {around_centroid(at, at + a, at + b)};
 }
 
-// All vertices on centres of voxels: every tie of rule thin.
+// All vertices on centres of voxels: every tie of the thin rule.
 Soup vertices_on_centres(const Spot& spot, StressRandom* random) {
   Soup soup = vertices_on_corners(spot, random);
   for (LatticeTriangle& t : soup) {
@@ -91,11 +91,11 @@ Soup outer_faces(const Spot& spot, StressRandom* random) {
   return soup;
 }
 
-// Planes +-x +-y +-z = c through voxel corners, or one step beside them.
+// Planes +-x +-y +-z = c through voxel corners, or one step off them.
 Soup diagonal_plane(const Spot& spot, StressRandom* random) {
   const LatticePoint at = spot.corner(random);
   const int64_t sign[3] = {random->sign(), random->sign(), random->sign()};
-  const int64_t size = random->log_between(8 * spot.voxel(), kLargest / 4);
+  const int64_t size = random->log_between(8 * spot.voxel(), kMaxCoordinate / 4);
   const bool corners = random->coin();
   const int64_t nudge = random->around(1);
   const auto on_plane = [&] {
@@ -109,12 +109,12 @@ Soup diagonal_plane(const Spot& spot, StressRandom* random) {
   return {around_centroid(start, start + on_plane(), start + on_plane())};
 }
 
-// Giants that lean from a voxel plane by a few lattice steps over their whole length.
+// Giants that deviate from a voxel plane by a few lattice steps over their whole length.
 Soup near_axis_giant(const Spot& spot, StressRandom* random) {
   const int w = random->axis();
   LatticePoint at = spot.anchor(random);
   at[w] = spot.corner(random)[w];
-  LatticePoint a = random->point(kLargest), b = random->point(kLargest);
+  LatticePoint a = random->point(kMaxCoordinate), b = random->point(kMaxCoordinate);
   const int64_t lean = random->log_between(1, spot.voxel());
   a[w] = random->around(lean);
   b[w] = random->around(lean);
@@ -145,7 +145,7 @@ std::vector<Family> plane_families() {
           {"vertices_on_corners", vertices_on_corners},
           {"vertices_on_centres", vertices_on_centres},
           {"giant_on_corners", giant_on_corners},
-          {"outer_faces", outer_faces, Place::kBorder},
+          {"outer_faces", outer_faces, SpotArea::kBorder},
           {"diagonal_plane", diagonal_plane},
           {"near_axis_giant", near_axis_giant},
           {"tiny_on_borders", tiny_on_borders}};

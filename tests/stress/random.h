@@ -1,6 +1,6 @@
-// Random numbers of the stress suite: the same on every machine and for every standard library
-// (the distributions of <random> are not). Not those of verify/sample/random.h, with which
-// a user's seed draws samples: either may change without the other.
+// The random numbers of the stress suite: the same on every machine and with every standard library
+// (the distributions of <random> are not). Separate from verify/sample/random.h, which draws
+// samples from a user's seed, so that either can change without the other.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class StressRandom {
   }
   int64_t around(int64_t reach) { return between(-reach, reach); }
   double unit() { return double(bits_() >> 11) * 0x1p-53; }
-  // An integer whose logarithm is uniform: small and large ones equally often; low >= 1.
+  // An integer in low .. high with a uniform logarithm; low >= 1.
   int64_t log_between(int64_t low, int64_t high) {
     int bits = 0;
     while ((low << (bits + 1)) > 0 && (low << (bits + 1)) <= high) ++bits;

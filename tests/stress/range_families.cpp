@@ -1,4 +1,4 @@
-// The bit budget: |q| up to 2^41 - 1 fills __int128 to the last bit; beyond, 256 bits serve.
+// Families at the bit limits: |q| up to 2^41 - 1 uses all bits of __int128, beyond it 256 bits.
 #include "tests/stress/world.h"
 
 namespace svdag {
@@ -7,7 +7,7 @@ namespace {
 constexpr int64_t kLimit = (int64_t(1) << 41) - 1;
 
 // Two vertices at opposite ends of the range on every axis, the third so that the triangle passes
-// through the region: products of the exact tests come as near to 2^127 as they can.
+// through the region: products in the exact tests come as close to 2^127 as possible.
 Soup ends_of_int128(const Spot& spot, StressRandom* random) {
   const LatticePoint at = random->coin() ? spot.corner(random) : spot.anchor(random);
   LatticeTriangle t;
@@ -23,7 +23,7 @@ Soup ends_of_int128(const Spot& spot, StressRandom* random) {
   return {t};
 }
 
-// One vertex at 2^41 exactly or a step beside it: where the narrow path ends.
+// One vertex at exactly 2^41 or a step off it: where the narrow path ends.
 Soup at_the_switch(const Spot& spot, StressRandom* random) {
   Soup soup = ends_of_int128(spot, random);
   LatticePoint& p = soup[0].v[random->below(3)];
@@ -40,7 +40,7 @@ Soup beyond_int128(const Spot& spot, StressRandom* random) {
   return {{{at, at + random->point(size), at + random->point(size)}}};
 }
 
-// A clip box of 10^-6 of the scene: doubles of the world, snapped far outside of the grid.
+// A clip box of 10^-6 of the scene: world coordinates that snap far outside of the grid.
 Soup small_clip_box(const Spot& spot, StressRandom* random) {
   const Point at = to_world(spot.grid, anchor_in_voxels(spot, random));
   const double size = 1e6 * double(spot.grid.resolution()) * spot.grid.voxel_size;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The page of `svdag-verify report`, looked at in a real browser: Chromium without a window.
+"""Tests the page of `svdag-verify report` in a real browser, headless Chromium.
 
-At the width of a desk and of a phone, light and dark: no message on the console, no request to anywhere, nothing
-wider than the window, every picture decoded, and the colours are the requested ones. Pages with each of
-these faults must be found out, too. The screenshots stay in SHOTS, for people.
+At desktop and phone width, light and dark: no console message, no network request, nothing wider than the window,
+every picture decoded, and the colours of the requested scheme. Pages with each of these faults must fail. The
+screenshots stay in SHOTS, for inspection.
 
 Usage: report_shot.py PROGRAMS SHOTS
 """
@@ -24,8 +24,8 @@ WIDTHS = {"desk": 1280, "phone": 390}
 SCHEMES = {"dark": 0, "light": 1}  # as Blink numbers them
 LUMINANCE = {"dark": range(0, 96), "light": range(160, 256)}
 
-# The page is loaded unchanged in a frame of the requested width (a window of Chromium has 500 pixels at least), and
-# what the frame's owner sees of it is left in the document.
+# Shows the unchanged page in a frame of the given width (a Chromium window is at least 500 pixels wide), and
+# stores what the frame's owner observes in the document.
 FRAME = """<!doctype html><body style="margin:0"><iframe style="border:0;width:%dpx;height:4200px" srcdoc="%s"></iframe>
 <script>addEventListener('load', () => {
   const view = document.querySelector('iframe').contentWindow, page = view.document;
@@ -38,7 +38,7 @@ FRAME = """<!doctype html><body style="margin:0"><iframe style="border:0;width:%
 
 
 def chromium(page, width, scheme, *options):
-    """(what goes to stdout, the messages of the console)"""
+    """Returns (stdout, the console messages)."""
     with tempfile.TemporaryDirectory(prefix="svdag-chromium-") as profile:
         done = subprocess.run(
             [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
@@ -49,8 +49,8 @@ def chromium(page, width, scheme, *options):
     return done.stdout, [line for line in done.stderr.splitlines() if "CONSOLE" in line]
 
 
-def complaints(page, width, scheme, shot=None):
-    """What is wrong with a page, one word each."""
+def faults(page, width, scheme, shot=None):
+    """The faults of a page, one word each."""
     framed = page.with_name("framed-" + page.name)
     framed.write_text(FRAME % (width, html.escape(page.read_text())))
     dom, console = chromium(framed, width, scheme, "--dump-dom")
@@ -80,11 +80,11 @@ class ReportShot(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def test_is_right_at_both_widths_in_both_schemes(self):
+    def test_has_no_fault_at_both_widths_in_both_schemes(self):
         for name, width in WIDTHS.items():
             for scheme in SCHEMES:
                 shot = SHOTS / f"report-{name}-{scheme}.png"
-                self.assertEqual(complaints(self.page, width, scheme, shot), set(), f"{name}, {scheme}")
+                self.assertEqual(faults(self.page, width, scheme, shot), set(), f"{name}, {scheme}")
                 self.assertGreater(shot.stat().st_size, 20_000)
 
     def faulty(self, name, change):
@@ -93,31 +93,31 @@ class ReportShot(unittest.TestCase):
         changed = change(text)
         self.assertNotEqual(text, changed)
         page.write_text(changed)
-        return complaints(page, 390, "light")
+        return faults(page, 390, "light")
 
-    def test_would_find_a_table_that_is_too_wide(self):
+    def test_finds_a_table_that_is_too_wide(self):
         self.assertIn("width", self.faulty("wide", lambda t: t.replace("<h1>", '<div style="width:600px">x</div><h1>')))
 
-    def test_would_find_a_picture_that_is_damaged(self):
+    def test_finds_a_damaged_picture(self):
         self.assertIn("pictures", self.faulty("damaged", lambda t: t.replace("base64,iVBOR", "base64,AAAAA", 1)))
 
-    def test_would_find_a_picture_from_elsewhere(self):
+    def test_finds_a_picture_from_another_site(self):
         self.assertIn("console", self.faulty("elsewhere", lambda t: t.replace("<h1>", '<img src="http://example.invalid/x.png"><h1>')))
 
-    def test_would_find_a_request(self):
+    def test_finds_a_request(self):
         def change(text):
             text = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text)
             return text.replace("<h1>", '<img src="http://example.invalid/x.png"><h1>')
         self.assertIn("request", self.faulty("request", change))
 
-    def test_would_find_a_page_without_dark_colours(self):
+    def test_finds_a_page_without_dark_colours(self):
         page = self.root / "bright.html"
         page.write_text(self.page.read_text().replace("prefers-color-scheme: dark", "prefers-color-scheme: none"))
-        self.assertIn("colours", complaints(page, 1280, "dark"))
+        self.assertIn("colours", faults(page, 1280, "dark"))
 
 
 if __name__ == "__main__":
     if CHROMIUM is None:
-        print("report_shot: skipped, chromium is not installed")
+        print("report_shot: skipped, chromium is not on PATH")
         sys.exit(77)
     unittest.main()

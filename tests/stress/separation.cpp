@@ -45,7 +45,7 @@ bool is_closed(std::span<const LatticeTriangle> mesh) {
 VoxelRegion inside_of(std::span<const LatticeTriangle> mesh, const VoxelBox& box, int shift) {
   VoxelRegion inside(box);
   for (const LatticeTriangle& t : mesh) {
-    bool beside = false;  // cannot cross a centre line of the window, above its lowest centre
+    bool beside = false;  // cannot cross a centre line above the lowest centre of the window
     for (int a = 0; a < 3; ++a) {
       const auto [low, high] = std::minmax({t.v[0][a], t.v[1][a], t.v[2][a]});
       beside = beside || high < box.min[a] << shift || (a < 2 && low > box.max[a] << shift);

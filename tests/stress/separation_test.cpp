@@ -93,7 +93,7 @@ void expect_no_leaks(const char* name, const Mesh& mesh, int windows) {
   }
 }
 
-// An axis-aligned box [low, high], every wall on coordinates that the caller chooses.
+// Adds the axis-aligned box [low, high].
 void add_box(const Point& low, const Point& high, Mesh* mesh) {
   for (int w = 0; w < 3; ++w) {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -134,8 +134,8 @@ TEST(Separation, OfASphereATorusAndATetrahedron) {
       {{{p[0], p[1], p[2]}}, {{p[0], p[1], p[3]}}, {{p[0], p[2], p[3]}}, {{p[1], p[2], p[3]}}}, 20);
 }
 
-// Boxes whose walls lie on voxel planes, on centres and elsewhere at these grids, one in another,
-// and two that share a wall: every tie there is.
+// Nested boxes with walls on voxel planes, on centres and elsewhere in these grids, two of which
+// share a wall: every kind of tie.
 TEST(Separation, OfBoxesOnPlanesAndCentres) {
   Mesh mesh;
   add_box(Point(0), Point(1), &mesh);
@@ -145,7 +145,7 @@ TEST(Separation, OfBoxesOnPlanesAndCentres) {
   expect_no_leaks("boxes", mesh, 60);
 }
 
-// Thousands of needles and tiny tetrahedra: closed, and small against a voxel at 1K.
+// Thousands of closed tetrahedra, many of them needles or smaller than a voxel at 1K.
 TEST(Separation, OfTetrahedraOfEverySize) {
   Mesh mesh;
   StressRandom random(17);

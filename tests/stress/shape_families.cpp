@@ -1,4 +1,4 @@
-// Shapes of triangles, at any position.
+// Families of triangle shapes, at any position.
 #include <cmath>
 
 #include "io/float_rounding.h"
@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kLargest = int64_t(1) << 38;  // half sides of giants: |q| stays below 2^41
+constexpr int64_t kMaxCoordinate = int64_t(1) << 38;  // half size of giants: |q| stays below 2^41
 
 Soup eight_voxels(const Spot& spot, StressRandom* random) {
   Soup soup(6);
@@ -19,23 +19,23 @@ Soup eight_voxels(const Spot& spot, StressRandom* random) {
   return soup;
 }
 
-// Of any size from 16 voxels to many times the grid, passing through the region.
+// Triangles of 16 voxels to many times the grid that pass through the region.
 Soup giant(const Spot& spot, StressRandom* random) {
-  const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
+  const int64_t size = random->log_between(16 * spot.voxel(), kMaxCoordinate);
   const LatticePoint at = spot.anchor(random);
   return {around_centroid(at, at + random->point(size), at + random->point(size))};
 }
 
-// As above, with an edge or a vertex in the region instead of the middle.
+// The same, with an edge or a vertex in the region instead of the middle.
 Soup giant_border(const Spot& spot, StressRandom* random) {
-  const int64_t size = random->log_between(16 * spot.voxel(), kLargest);
+  const int64_t size = random->log_between(16 * spot.voxel(), kMaxCoordinate);
   const LatticePoint at = spot.anchor(random), d = random->point(size);
   const LatticePoint third = at + random->point(size);
   if (random->coin()) return {{{at, at + d, third}}};
   return {{{at + d, at - d + random->point(3), third}}};
 }
 
-// A sliver of the aspect given, made of doubles (or floats) of the world, then snapped.
+// A sliver with a given aspect ratio, of double (or float) world coordinates, then snapped.
 Family sliver(const char* name, double aspect, bool floats) {
   return {name, [=](const Spot& spot, StressRandom* random) {
             const Lattice lattice(spot.grid);
@@ -59,19 +59,19 @@ Family sliver(const char* name, double aspect, bool floats) {
           }};
 }
 
-// Exactly collinear: multiples of one vector, the third vertex inside or outside the other two.
+// Exactly collinear: multiples of one vector, the third vertex between the other two or not.
 Soup collinear(const Spot& spot, StressRandom* random) {
   Soup soup(3);
   for (LatticeTriangle& t : soup) {
     const LatticePoint at = spot.anchor(random);
-    LatticePoint d = random->point(random->log_between(1, kLargest / 16));
+    LatticePoint d = random->point(random->log_between(1, kMaxCoordinate / 16));
     if (random->coin()) d[random->axis()] = 0;
     for (LatticePoint& p : t.v) p = at + d * random->around(8);
   }
   return soup;
 }
 
-// Along axes and diagonals through voxel corners: every voxel that is touched is a tie.
+// Along axes and diagonals through voxel corners: every touched voxel is a tie.
 Soup collinear_on_corners(const Spot& spot, StressRandom* random) {
   Soup soup(2);
   for (LatticeTriangle& t : soup) {

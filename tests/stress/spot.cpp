@@ -6,11 +6,11 @@ namespace svdag {
 namespace {
 
 // A coordinate in 0 .. bound-1.
-int64_t draw_coordinate(int64_t bound, Place place, StressRandom* random) {
-  switch (place) {
-    case Place::kBorder:
+int64_t draw_coordinate(int64_t bound, SpotArea area, StressRandom* random) {
+  switch (area) {
+    case SpotArea::kBorder:
       return random->coin() ? 0 : bound - 1;
-    case Place::kMiddle:
+    case SpotArea::kMiddle:
       return std::clamp<int64_t>(bound / 2 - random->between(0, 1), 0, bound - 1);
     default:
       return random->between(0, bound - 1);
@@ -19,7 +19,7 @@ int64_t draw_coordinate(int64_t bound, Place place, StressRandom* random) {
 
 }  // namespace
 
-Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRandom* random) {
+Spot draw_spot(const Grid& grid, int depth, int64_t side, SpotArea area, StressRandom* random) {
   Spot spot;
   spot.grid = grid;
   spot.start.level = depth;
@@ -27,14 +27,14 @@ Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRan
   const int64_t region = std::min(side, cube);
   const int free_axis = random->axis();  // a border has faces, not only corners
   for (int a = 0; a < 3; ++a) {
-    const Place here = place == Place::kBorder && a == free_axis ? Place::kAnywhere : place;
+    const SpotArea here = area == SpotArea::kBorder && a == free_axis ? SpotArea::kAnywhere : area;
     spot.start.coordinate[a] = draw_coordinate(int64_t(1) << depth, here, random);
     const int64_t low = spot.start.coordinate[a] * cube, room = cube - region;
     int64_t at = random->between(0, room);
-    if (here == Place::kMiddle) at = grid.resolution() / 2 - region / 2 - low;
-    if (here == Place::kBorder) at = low == 0 ? 0 : room;
-    // A quarter of the regions hugs the border of the start's cube.
-    if (here == Place::kAnywhere && random->below(4) == 0) at = random->coin() ? 0 : room;
+    if (here == SpotArea::kMiddle) at = grid.resolution() / 2 - region / 2 - low;
+    if (here == SpotArea::kBorder) at = low == 0 ? 0 : room;
+    // A quarter of the regions are at a border of the start cube on this axis.
+    if (here == SpotArea::kAnywhere && random->below(4) == 0) at = random->coin() ? 0 : room;
     spot.region.min[a] = low + std::clamp<int64_t>(at, 0, room);
     spot.region.max[a] = spot.region.min[a] + region;
   }

@@ -1,11 +1,11 @@
-// A test position of the stress suite: a cube of the octree at which the descent starts, and a
-// small region of voxels in it that is compared.
+// A spot of the stress suite: an octree cube at which the descent starts, and a small region of
+// voxels in it that is compared.
 //
-// "At every cell depth": the descent starts at each level 0 .. L-2. A cube of a million voxels has
-// too many voxels to compare, so a deep descent computes the voxels of the region only, by
-// the grid's own selection (--bounds): the list of triangles is divided at every level from the
-// start down, exactly as in a whole bake, and only the subtrees beside the path are left out.
-// If the triangles are small, the whole cube is computed and the region compared.
+// The descent starts at each level 0 .. L-2. A cube with a million voxels a side has too many
+// voxels to compare, so a deep descent is restricted to the region by the grid's selection
+// (--bounds): the triangle list is divided at every level from the start down, exactly as in a
+// whole bake, and only the subtrees beside the path are left out. If the triangles are small, the
+// whole cube is voxelized and the region compared.
 #pragma once
 
 #include "builder/descend/window.h"
@@ -36,13 +36,13 @@ struct Spot {
   }
 };
 
-// Which part of the grid a family is about.
-enum class Place { kAnywhere, kBorder, kMiddle };
+// The area of the grid from which a spot is drawn.
+enum class SpotArea { kAnywhere, kBorder, kMiddle };
 
 // A spot whose descent starts at `depth`; the region is a cube of at most `side` voxels.
-Spot draw_spot(const Grid& grid, int depth, int64_t side, Place place, StressRandom* random);
+Spot draw_spot(const Grid& grid, int depth, int64_t side, SpotArea area, StressRandom* random);
 
-// A grid whose world and voxels are the same but for F: voxel size 1, corner at zero.
+// A grid whose world coordinates are voxel coordinates: voxel size 1, corner at zero.
 Grid unit_grid(int levels);
 
 }  // namespace svdag

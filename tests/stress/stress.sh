@@ -1,12 +1,12 @@
 #!/bin/sh
-# make stress: what takes too long for every change. Stages can be named (make stress STAGES="tsan packages"),
-# so that one can be repeated, or all run in pieces.
+# make stress: the tests that take too long to run for every change. Stages can be chosen, to repeat one or
+# to run them separately: make stress STAGES="tsan packages".
 set -eu
 cd "$(dirname "$0")/../.."
 all="tsan families properties one_hash completion faults report_shot packages fuzzers"
 skipped=
 
-may_skip() {  # COMMAND... : its exit code 77 says that it could not run here
+may_skip() {  # COMMAND... : its exit code 77 means that it cannot run here
   code=0
   "$@" || code=$?
   [ "$code" != 77 ] || { skipped="$skipped $stage"; return 0; }
@@ -35,11 +35,11 @@ properties() {  # 5000 inputs for each instead of 100
     -R '^(streaming|io|help|scene|farm|generator|verify|stress)_test$'
 }
 
-one_hash() {  # every compiler and flag gives the same bytes
+one_hash() {  # the same bytes with every compiler and flag
   bash tests/stress/one_hash.sh
 }
 
-completion() {  # by bash, fish and zsh
+completion() {  # in bash, fish and zsh
   release svdag_manuals
   ctest --test-dir build/release -R '^completion$' --output-on-failure --no-tests=error
 }
@@ -81,7 +81,7 @@ for stage in ${*:-$all}; do
   echo "$stage passed in $((($(date +%s) - began + 30) / 60)) min"
 done
 if [ -n "$skipped" ]; then
-  echo "Passed, but this could not run here:$skipped."
+  echo "Passed; skipped because they cannot run here:$skipped."
 else
-  echo "All of it passed."
+  echo "All stages passed."
 fi

@@ -1,5 +1,5 @@
-// The voxels of a box of at most 64^3 voxels as bits: what two voxelizers say is compared a row of
-// 64 voxels at a time.
+// The voxels of a box of at most 64^3 voxels as bits, so that two results are compared a row of 64
+// voxels at a time.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace svdag {
 
 class VoxelRegion {
  public:
-  // Every voxel of `box` (sides 1 .. 64) is clear.
+  // Begins with every voxel of `box` (sides 1 .. 64) clear.
   explicit VoxelRegion(const VoxelBox& box);
 
   const VoxelBox& box() const { return box_; }
@@ -23,12 +23,12 @@ class VoxelRegion {
   void set(const LatticePoint& voxel) {
     row(voxel.x, voxel.y) |= uint64_t(1) << (voxel.z - box_.min.z);
   }
-  // Sets the voxels of a brick (at `coordinate`, in bricks) that are in the box; returns how many
-  // of its voxels do not.
+  // Sets the voxels of a brick (at `coordinate`, in bricks) that are in the box; returns the number
+  // of those that are outside.
   uint64_t set_brick(const LatticePoint& coordinate, Brick brick);
 
   uint64_t count() const;
-  // How many voxels of this region `other`, of the same box, does not hold.
+  // Number of voxels of this region that are clear in `other`, which has the same box.
   uint64_t count_without(const VoxelRegion& other) const;
   // These voxels and their 26 neighbours, within the box.
   VoxelRegion dilated() const;

@@ -1,9 +1,9 @@
-// The whole bake, not only the predicate: far from zero, split into cells, for both rules.
+// Whole bakes, not only the predicate: far from zero, split into cells, for both rules.
 //
-// A scene on dyadic coordinates, baked on a lattice of dyadic voxels, is moved by 5,000,192 voxels
-// (4883 times 1024, so that the corner of the grid moves by the same): every level of the two files
-// has the same bytes, and only the place of the grid differs. Where arithmetic depends on the
-// distance from zero, or on the cells, it does not.
+// A scene with dyadic coordinates, baked on a lattice of dyadic voxels, is moved by 5,000,192
+// voxels (4883 times 1024, so that the corner of the grid moves by the same). Every level of the
+// two files then has the same bytes, and only the position of the grid differs. A computation that
+// depends on the distance from zero, or on the cells, would fail this.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr double kVoxel = 0.25;
 constexpr int64_t kShift = 4883 * 1024;  // voxels
 constexpr Rule kRules[2] = {Rule::kConservative, Rule::kThin};
 
-// Text, since the coordinates need more than a float: %.17g gives every double back.
+// As text, since the coordinates exceed float precision: %.17g is exact for every double.
 void write_off(const std::string& path, const std::vector<Triangle>& triangles) {
   std::ofstream out(path);
   out << "OFF\n" << 3 * triangles.size() << " " << triangles.size() << " 0\n";
@@ -38,7 +38,7 @@ void write_off(const std::string& path, const std::vector<Triangle>& triangles) 
     out << "3 " << 3 * i << " " << 3 * i + 1 << " " << 3 * i + 2 << "\n";
 }
 
-// Enlarged to 200 voxels, coordinates rounded to 2^-24; sums with the shift are exact.
+// Scales to 200 voxels and rounds to multiples of 2^-24, so that sums with the shift are exact.
 std::vector<Triangle> dyadic(std::vector<Triangle> triangles) {
   for (Triangle& t : triangles) {
     for (Point& p : t.v) {
@@ -60,24 +60,24 @@ std::vector<std::vector<Triangle>> scenes() {
           dyadic(boxes_and_quad(30, 22))};
 }
 
-struct Place {
+struct BakeSetup {
   int cell_level = 2;
   size_t threads = 2;
 };
 
-Grid bake(const std::string& scene, const std::string& output, Rule rule, const Place& place) {
+Grid bake(const std::string& scene, const std::string& output, Rule rule, const BakeSetup& setup) {
   BuildConfig config;
   config.scene.paths = {scene};
   config.output = output;
   config.voxel_size = kVoxel;
   config.descent.rule = rule;
-  config.cell_level = place.cell_level;
-  ParallelExecutor executor(place.threads);
+  config.cell_level = setup.cell_level;
+  ParallelExecutor executor(setup.threads);
   Progress progress;
   return build(config, &executor, &progress).grid;
 }
 
-// The bytes of all levels.
+// The bytes of all levels of a file.
 std::string dag_bytes(const std::string& path) {
   const DagFile file = DagFile::open(path);
   const std::string bytes = read_bytes(path);
@@ -136,14 +136,14 @@ TEST(WholePath, FarFromZeroOneFileForEveryCellSizeThreadCountAndOrder) {
       write_off(scene, triangles);
       bake(scene, output, rule, {0, 1});
       const std::string expected = read_bytes(output);
-      for (const Place& place : {Place{2, 3}, Place{4, 2}, Place{6, 1}}) {
+      for (const BakeSetup& setup : {BakeSetup{2, 3}, BakeSetup{4, 2}, BakeSetup{6, 1}}) {
         for (size_t i = triangles.size() - 1; i > 0; --i)
           std::swap(triangles[i], triangles[random.below(i + 1)]);
         write_off(scene, triangles);
-        bake(scene, output, rule, place);
+        bake(scene, output, rule, setup);
         EXPECT_TRUE(read_bytes(output) == expected)
-            << "rule " << int(rule) << ", cells " << place.cell_level << ", threads "
-            << place.threads;
+            << "rule " << int(rule) << ", cells " << setup.cell_level << ", threads "
+            << setup.threads;
       }
     }
   }

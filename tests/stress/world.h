@@ -1,4 +1,4 @@
-// From the lattice back to the world, for families that draw doubles.
+// Conversion from voxels to world coordinates, for families that draw doubles.
 #pragma once
 
 #include "io/lattice.h"

@@ -36,7 +36,7 @@ void load_index(const std::string& hash, Plan* plan) {
   RecordReader in(bytes, file.path(), ExitCode::kBadInput);
   uint64_t block_bytes = 0;
   in.get(&block_bytes);
-  in.require(Scratch::can_have_blocks_of(block_bytes), "impossible size of blocks");
+  in.require(Scratch::is_block_size(block_bytes), "impossible size of blocks");
   plan->block_bytes = size_t(block_bytes);
   plan->bins = get_bins(&in, plan->grid.levels);
   in.finish();

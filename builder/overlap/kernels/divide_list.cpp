@@ -7,7 +7,7 @@ namespace svdag {
 
 void divide_list(const TriangleList& list, const Cube& cube, int levels,
                  const OverlapConfig& config, std::array<TriangleList, 8>* children) {
-  constexpr size_t kBatch = 64;  // kernel results that fit in the first-level cache
+  constexpr size_t kBatch = 64;  // kernel results that fit in the L1 cache
   std::array<ChildOverlap, kBatch> overlaps;
   const LatticePoint corner = cube.corner(levels);
   const int64_t side = int64_t(1) << cube.side_log2(levels);

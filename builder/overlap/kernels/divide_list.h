@@ -1,6 +1,6 @@
-// Divides the triangle list of a cube among its eight children: one step of the octree descent.
+// Divides the triangle list of a cube among its eight children: one level of the octree descent.
 //
-// Shared by the split (large triangles are kept at inner nodes of the cell tree) and the descent.
+// Used by the split (large triangles stay at inner nodes of the cell tree) and by the descent.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace svdag {
 
-// Alternatives that give the same voxels; tests compare them.
+// Options that do not change the voxels; tests compare their results.
 struct OverlapConfig {
   const Kernels* kernels = &svdag::kernels();
   bool covering = true;  // switch the edges of a triangle off where it covers a cube
 };
 
-// Fills children[c] with the triangles of `list`, the list of `cube`, that child c may touch.
-// `levels`: L of the grid. Clears the children first.
+// Fills children[c], cleared first, with the triangles of `list` that may touch child c of `cube`.
+// `list` is the list of `cube`; `levels` is L of the grid.
 void divide_list(const TriangleList& list, const Cube& cube, int levels,
                  const OverlapConfig& config, std::array<TriangleList, 8>* children);
 

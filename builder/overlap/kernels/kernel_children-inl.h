@@ -1,4 +1,4 @@
-// Vector kernel: which of the 8 children a triangle may touch.
+// Vector kernel: which of the 8 children of a cube a triangle may touch.
 // Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
 #if defined(SVDAG_BUILDER_KERNEL_CHILDREN_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVDAG_BUILDER_KERNEL_CHILDREN_INL_H
@@ -21,16 +21,16 @@ HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
              nz = hn::Set(d, float(t.normal[2]));
   unsigned touched = 0;
   for (size_t i = 0; i < 8; i += kEight) {
-    const auto xy =
-        hn::Add(hn::Mul(hn::Load(d, kPlace[0] + i), nx), hn::Mul(hn::Load(d, kPlace[1] + i), ny));
-    const auto value = hn::Add(f, hn::Add(xy, hn::Mul(hn::Load(d, kPlace[2] + i), nz)));
+    const auto xy = hn::Add(hn::Mul(hn::Load(d, kCoordinates[0] + i), nx),
+                            hn::Mul(hn::Load(d, kCoordinates[1] + i), ny));
+    const auto value = hn::Add(f, hn::Add(xy, hn::Mul(hn::Load(d, kCoordinates[2] + i), nz)));
     touched |= bits(d, hn::Le(hn::Abs(value), limit)) << i;
   }
   return touched;
 }
 
-// Drops children outside the edges of the projection along W from *touched and switches edges off
-// where they hold.
+// Removes the children outside the edges of the projection along W from *touched, and switches an
+// edge off in the children where it holds everywhere.
 template <int W>
 HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, float error,
                                   unsigned* touched, ChildOverlap* out) noexcept {
@@ -44,8 +44,8 @@ HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, 
     const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
     unsigned outside = 0;
     for (size_t i = 0; i < 8; i += kEight) {
-      const auto u = hn::Mul(hn::Load(d, kPlace[(W + 1) % 3] + i), su);
-      const auto v = hn::Mul(hn::Load(d, kPlace[(W + 2) % 3] + i), sv);
+      const auto u = hn::Mul(hn::Load(d, kCoordinates[(W + 1) % 3] + i), su);
+      const auto v = hn::Mul(hn::Load(d, kCoordinates[(W + 2) % 3] + i), sv);
       const auto value = hn::Add(f, hn::Add(u, v));
       outside |= bits(d, hn::Lt(value, low)) << i;
       const auto holds =
@@ -67,8 +67,8 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
     unsigned touched = children_in_box(t.box, x, y, z);
     for (size_t i = 0; i < 8; i += kEight)
       hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
-    // A small triangle whose box is in one or two children touches these (a false touch at an edge
-    // of the parent costs time, but no voxel).
+    // A small triangle whose box meets one or two children touches these. (A triangle beside the
+    // parent may not; that costs time, but sets no wrong voxel.)
     const bool few = __builtin_popcount(touched) <= 2;
     if (!few || t.extent >= half) {
       const float error = error_of(t, 4 * half, c);

@@ -1,12 +1,13 @@
-// What the vector kernels share: lanes, coordinates, values at the first centre.
+// Shared code of the vector kernels: lanes, coordinates, function values at the first centre.
 //
-// Each separating function is taken at the centres of the children or voxels, in units of their
-// side: the coefficients add up to 1, so it reaches 1/2 to the farthest corner. At the first centre
-// it is computed in double, beside it in float. Error in these units: that of the double
-// (builder/overlap/triangle_setup.h), and kFloatError for the roundings to float of values below 8
-// and of at most three steps beside the first centre; beyond 8 no rounding can change a sign.
-// Unsure lanes are decided in integers, so float costs nothing but a few of these. Included once
-// per instruction set (builder/overlap/kernels/kernels_vector.cpp).
+// Each separating function is evaluated at the centres of the children or voxels, in units of their
+// side: the coefficients add up to 1, so it changes by at most 1/2 from a centre to a corner. The
+// value at the first centre is computed in double, the differences to the other centres in float.
+// The error in these units is that of the double value (builder/overlap/triangle_setup.h) plus
+// kFloatError, for rounding to float values below 8 and at most three steps from the first centre;
+// beyond 8 no rounding can change a sign. Unsure lanes are decided in integers, so float costs only
+// a few more of these. Included once per instruction set
+// (builder/overlap/kernels/kernels_vector.cpp).
 #if defined(SVDAG_BUILDER_KERNEL_COMMON_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVDAG_BUILDER_KERNEL_COMMON_INL_H
 #undef SVDAG_BUILDER_KERNEL_COMMON_INL_H
@@ -32,10 +33,11 @@ constexpr size_t kLongs = hn::MaxLanes(Longs());
 constexpr float kFloatError = 0x1p-18f;
 
 // Coordinates of the child c = 4x + 2y + z, and of the first 16 voxels of a brick (io/brick.h): two
-// blocks of 2x2x2, one beside the other along z.
-alignas(64) constexpr float kPlace[3][16] = {{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1},
-                                             {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
-                                             {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3}};
+// blocks of 2x2x2, adjacent along z.
+alignas(64) constexpr float kCoordinates[3][16] = {
+    {0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1},
+    {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
+    {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3}};
 // Row i and column j of the 16 columns 4i + j of a brick.
 alignas(64) constexpr float kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(64) constexpr float kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
@@ -49,7 +51,7 @@ HWY_INLINE unsigned bits(D d, Mask mask) noexcept {
 
 struct Corner {
   int64_t q[3];
-  double x[3];  // of the first centre: the corner plus half a side of child or voxel
+  double x[3];  // the first centre: the corner plus half a side of a child or voxel
   double per_side;
 };
 
@@ -58,7 +60,7 @@ HWY_INLINE Corner make_corner(const LatticePoint& p, double side) noexcept {
   return {{p.x, p.y, p.z}, {double(p.x) + half, double(p.y) + half, double(p.z) + half}, 1 / side};
 }
 
-// Values at the first centre, in sides.
+// Values at the first centre, in units of a side.
 HWY_INLINE float plane_at(const TriangleSetup& t, const Corner& c) noexcept {
   const double* v = t.vertex[0];
   return float(((t.normal[0] * (c.x[0] - v[0]) + t.normal[1] * (c.x[1] - v[1])) +

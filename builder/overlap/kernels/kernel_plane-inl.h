@@ -14,8 +14,8 @@ namespace svdag::HWY_NAMESPACE {
 namespace {
 
 PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
-  // In terms of the first offset f of a voxel: it is set iff high - span <= f <= low; missed above
-  // iff f > high, below iff f < low - span; anything else straddles.
+  // With f the first offset of a voxel: it is set iff high - span <= f <= low, and clear for every
+  // offset iff f > high or f < low - span; otherwise it straddles.
   const Longs d;
   using IntVec = hn::Vec<decltype(d)>;
   const IntVec set_from = hn::Set(d, high - p.span), set_to = hn::Set(d, low);

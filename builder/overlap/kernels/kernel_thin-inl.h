@@ -1,4 +1,4 @@
-// Vector kernel: the 64 voxels of a brick, rule thin (builder/overlap/brick_thin.cpp).
+// Vector kernel: the 64 voxels of a brick, thin rule (builder/overlap/brick_thin.cpp).
 // Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
 #if defined(SVDAG_BUILDER_KERNEL_THIN_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVDAG_BUILDER_KERNEL_THIN_INL_H
@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 namespace {
 
-// Those of `voxels` whose ends of the centre segment along w, on side `upper`, are above the plane.
-HWY_INLINE Brick ends_above(const TriangleSetup& t, const BrickPosition& p,
+// Those of `voxels` whose upper (or lower) end of the centre segment along w is above the plane.
+HWY_INLINE Brick ends_above(const TriangleSetup& t, const BrickPlacement& p,
                             const PlaneValues& values, float error, int w, bool upper,
                             Brick voxels) noexcept {
   const Sixteen d;
@@ -26,7 +26,7 @@ HWY_INLINE Brick ends_above(const TriangleSetup& t, const BrickPosition& p,
     above |= Brick(bits(d, hn::Gt(value, sure))) << shift;
     not_below |= Brick(bits(d, hn::Ge(value, maybe))) << shift;
   });
-  p.counts->evaluated += unsigned(__builtin_popcountll(voxels));
+  p.counts->total += unsigned(__builtin_popcountll(voxels));
   for (Brick left = voxels & not_below & ~above; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
     ++p.counts->exact;
@@ -35,13 +35,13 @@ HWY_INLINE Brick ends_above(const TriangleSetup& t, const BrickPosition& p,
   return above;
 }
 
-// Those of `near` with a crossing of the segment along W.
+// Those of `near` whose centre segment along W crosses the triangle.
 template <int W>
-HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const BrickPosition& p,
+HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const BrickPlacement& p,
                                const PlaneValues& values, float error, Brick near) noexcept {
   const TriangleSetup& t = *entry.triangle;
   if (t.normal[W] == 0 || near == 0) return 0;
-  p.counts->evaluated += 16 * unsigned(__builtin_popcount(entry.edges >> (3 * W) & 7));
+  p.counts->total += 16 * unsigned(__builtin_popcount(entry.edges >> (3 * W) & 7));
   const unsigned columns = columns_at_edges<W>(entry, p, 0, error, [&](int k, unsigned column) {
     return column_centre_holds(t, k, p.corner, p.fraction, column);
   });
@@ -51,12 +51,12 @@ HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const BrickPosition&
                    ends_above(t, p, values, error, W, true, inside));
 }
 
-HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const BrickPosition& p,
-                             Brick wanted) noexcept {
+HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const BrickPlacement& p,
+                             Brick candidates) noexcept {
   const TriangleSetup& t = *entry.triangle;
   const bool covering = covers(t, entry.edges);
-  // A set voxel is touched as well, so it is in the triangle's box.
-  const Brick near = covering ? wanted : wanted & voxels_in_box(t, p.c, p.fraction);
+  // A set voxel is also touched, so it meets the triangle's box.
+  const Brick near = covering ? candidates : candidates & voxels_in_box(t, p.c, p.fraction);
   if (near == 0 || t.cover == 0) return 0;
   const float error = error_of(t, 8 * p.side, p.c);
   PlaneValues values;
@@ -71,11 +71,11 @@ HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const BrickPosition& p
 }
 
 Brick thin(const ListedTriangle* entries, size_t count, const LatticePoint& corner, int fraction,
-           Brick wanted, DecisionCounts* counts) noexcept {
-  const BrickPosition p = make_place(corner, fraction, counts);
+           Brick candidates, DecisionCounts* counts) noexcept {
+  const BrickPlacement p = make_placement(corner, fraction, counts);
   Brick voxels = 0;
-  for (; count != 0 && voxels != wanted; --count, ++entries)
-    voxels |= thin_voxels(*entries, p, wanted & ~voxels);
+  for (; count != 0 && voxels != candidates; --count, ++entries)
+    voxels |= thin_voxels(*entries, p, candidates & ~voxels);
   return voxels;
 }
 

@@ -1,4 +1,4 @@
-// Vector kernel: the 64 voxels of a brick, rule conservative.
+// Vector kernel: the 64 voxels of a brick, conservative rule.
 // Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
 #if defined(SVDAG_BUILDER_KERNEL_VOXELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVDAG_BUILDER_KERNEL_VOXELS_INL_H
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 namespace {
 
-// The voxels that [min, max] touches on one axis.
+// The voxels of a brick that [min, max] touches on one axis.
 HWY_INLINE Brick slabs(int axis, int64_t min, int64_t max, int64_t corner, int fraction) noexcept {
   int64_t first = -((corner - min) >> fraction) - 1, last = (max - corner) >> fraction;
   if (first < 0) first = 0;
@@ -29,8 +29,8 @@ HWY_INLINE Brick voxels_in_box(const TriangleSetup& t, const Corner& c, int frac
          slabs(2, t.box.min.z, t.box.max.z, c.q[2], fraction);
 }
 
-// The brick that a kernel evaluates.
-struct BrickPosition {
+// The brick that a kernel works on: its corner, in several forms, and the counters.
+struct BrickPlacement {
   const LatticePoint& corner;
   int fraction;
   double side;  // of a voxel
@@ -38,16 +38,16 @@ struct BrickPosition {
   DecisionCounts* counts;
 };
 
-HWY_INLINE BrickPosition make_place(const LatticePoint& corner, int fraction,
-                                    DecisionCounts* counts) noexcept {
+HWY_INLINE BrickPlacement make_placement(const LatticePoint& corner, int fraction,
+                                         DecisionCounts* counts) noexcept {
   const double side = double(int64_t(1) << fraction);
   return {corner, fraction, side, make_corner(corner, side), counts};
 }
 
-// The columns 4i + j along W whose value of every undecided edge function, at their centre, is at
-// least -reach; where float cannot tell, decide(k, column) does.
+// The columns 4i + j along W at whose centre every undecided edge function is at least -reach.
+// Values that are unsure in float are decided by decide(k, column).
 template <int W, class Decide>
-HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const BrickPosition& p,
+HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const BrickPlacement& p,
                                      float reach, float error, const Decide& decide) noexcept {
   const Sixteen d;
   const TriangleSetup& t = *entry.triangle;
@@ -74,20 +74,20 @@ HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const BrickPos
   return columns;
 }
 
-// The plane's values at the centres of the 64 voxels are quarter[j] + first[i] for bit 16j + i.
+// Values of the plane at the centres of the 64 voxels: quarter[j] + first[i] for bit 16j + i.
 struct PlaneValues {
   alignas(64) float first[16];
   float quarter[4];
 };
 
-HWY_INLINE void plane_values(const TriangleSetup& t, const BrickPosition& p,
+HWY_INLINE void plane_values(const TriangleSetup& t, const BrickPlacement& p,
                              PlaneValues* out) noexcept {
   const Sixteen d;
   const float n[3] = {float(t.normal[0]), float(t.normal[1]), float(t.normal[2])};
   for (size_t i = 0; i < 16; i += kSixteen) {
-    const auto xy = hn::Add(hn::Mul(hn::Load(d, kPlace[0] + i), hn::Set(d, n[0])),
-                            hn::Mul(hn::Load(d, kPlace[1] + i), hn::Set(d, n[1])));
-    hn::Store(hn::Add(xy, hn::Mul(hn::Load(d, kPlace[2] + i), hn::Set(d, n[2]))), d,
+    const auto xy = hn::Add(hn::Mul(hn::Load(d, kCoordinates[0] + i), hn::Set(d, n[0])),
+                            hn::Mul(hn::Load(d, kCoordinates[1] + i), hn::Set(d, n[1])));
+    hn::Store(hn::Add(xy, hn::Mul(hn::Load(d, kCoordinates[2] + i), hn::Set(d, n[2]))), d,
               out->first + i);
   }
   const float f = plane_at(t, p.c);
@@ -97,18 +97,18 @@ HWY_INLINE void plane_values(const TriangleSetup& t, const BrickPosition& p,
   out->quarter[3] = f + (2 * n[0] + 2 * n[1]);
 }
 
-// Calls take(bit, values) with the values of voxels bit, bit + 1, ...
-template <class Take>
-HWY_INLINE void for_voxels(const PlaneValues& values, const Take& take) noexcept {
+// Calls use(bit, vector) with a vector of the values of voxels bit, bit + 1, ...
+template <class Use>
+HWY_INLINE void for_voxels(const PlaneValues& values, const Use& use) noexcept {
   const Sixteen d;
   for (size_t j = 0; j < 4; ++j) {
     const auto quarter = hn::Set(d, values.quarter[j]);
     for (size_t i = 0; i < 16; i += kSixteen)
-      take(16 * j + i, hn::Add(quarter, hn::Load(d, values.first + i)));
+      use(16 * j + i, hn::Add(quarter, hn::Load(d, values.first + i)));
   }
 }
 
-HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPosition& p, float error,
+HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPlacement& p, float error,
                                  Brick voxels) noexcept {
   const Sixteen d;
   PlaneValues values;
@@ -119,7 +119,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPosition& p,
     on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
     near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
   });
-  p.counts->evaluated += unsigned(__builtin_popcountll(voxels));
+  p.counts->total += unsigned(__builtin_popcountll(voxels));
   for (Brick left = voxels & near & ~on; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
     ++p.counts->exact;
@@ -129,7 +129,7 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPosition& p,
 }
 
 template <int W>
-HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const BrickPosition& p,
+HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const BrickPlacement& p,
                                  float error) noexcept {
   if ((entry.edges >> (3 * W) & 7) == 0) return ~Brick(0);
   const unsigned columns = columns_at_edges<W>(entry, p, 0.5f, error, [&](int k, unsigned column) {
@@ -138,13 +138,13 @@ HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const BrickPositio
   return expand_columns(W, columns);
 }
 
-HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPosition& p,
-                                Brick wanted) noexcept {
+HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPlacement& p,
+                                Brick candidates) noexcept {
   const TriangleSetup& t = *entry.triangle;
-  Brick voxels = wanted;
+  Brick voxels = candidates;
   if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
   const float error = error_of(t, 8 * p.side, p.c);
-  p.counts->evaluated += 16 * unsigned(__builtin_popcount(entry.edges));
+  p.counts->total += 16 * unsigned(__builtin_popcount(entry.edges));
   voxels &= reached_columns<0>(entry, p, error);
   voxels &= reached_columns<1>(entry, p, error);
   voxels &= reached_columns<2>(entry, p, error);
@@ -152,11 +152,11 @@ HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPosition
 }
 
 Brick conservative(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
-                   int fraction, Brick wanted, DecisionCounts* counts) noexcept {
-  const BrickPosition p = make_place(corner, fraction, counts);
+                   int fraction, Brick candidates, DecisionCounts* counts) noexcept {
+  const BrickPlacement p = make_placement(corner, fraction, counts);
   Brick voxels = 0;
-  for (; count != 0 && voxels != wanted; --count, ++entries)
-    voxels |= touched_voxels(*entries, p, wanted & ~voxels);
+  for (; count != 0 && voxels != candidates; --count, ++entries)
+    voxels |= touched_voxels(*entries, p, candidates & ~voxels);
   return voxels;
 }
 

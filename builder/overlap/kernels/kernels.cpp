@@ -9,9 +9,9 @@
 namespace svdag {
 namespace {
 
-// Vectors of 512 bits halve the steps of a brick and were slower all the same
+// Widest vectors that are chosen: 512 bits halve the steps of a brick but are slower
 // (docs/performance.md).
-constexpr int kWidest = 8;
+constexpr int kMaxLanes = 8;
 
 void plain_children(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                     int64_t side, ChildOverlap* out) noexcept {
@@ -21,10 +21,10 @@ void plain_children(const ListedTriangle* entries, size_t count, const LatticePo
 template <Brick (*overlap)(const ListedTriangle&, const LatticePoint&, int,
                            DecisionCounts*) noexcept>
 Brick plain_voxels(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
-                   int fraction, Brick wanted, DecisionCounts* counts) noexcept {
+                   int fraction, Brick candidates, DecisionCounts* counts) noexcept {
   Brick voxels = 0;
-  for (size_t i = 0; i < count && voxels != wanted; ++i)
-    voxels |= overlap(entries[i], corner, fraction, counts) & wanted;
+  for (size_t i = 0; i < count && voxels != candidates; ++i)
+    voxels |= overlap(entries[i], corner, fraction, counts) & candidates;
   return voxels;
 }
 
@@ -60,7 +60,7 @@ const Kernels& kernels() {
   static const Kernels kChosen = [] {
     const std::vector<Kernels> all = vector_kernels();
     for (const Kernels& k : all) {
-      if (k.lanes <= kWidest) return k;
+      if (k.lanes <= kMaxLanes) return k;
     }
     return all.front();
   }();
@@ -75,8 +75,8 @@ const Kernels& kernels_by_name(const std::string& name) {
     names += kernels.name + std::string(", ");
   }
   if (strcasecmp(plain_kernels().name, name.c_str()) == 0) return plain_kernels();
-  fail_usage("--vectors: this processor has no \"" + name + "\": choose one of " + names +
-             plain_kernels().name);
+  fail_usage("--vectors: \"" + name + "\" is not available on this processor: choose one of " +
+             names + plain_kernels().name);
 }
 
 }  // namespace svdag

@@ -1,13 +1,14 @@
-// The inner loops of the descent, for the widest vectors that the processor has.
+// The inner loops of the descent, one version per instruction set, chosen at run time.
 //
-// A kernel takes a whole list, so that the choice of the processor costs one indirect call per cube
-// and not per triangle. Vectors hold the 8 children of a cube or rows of the 64 voxels of a brick:
-// lanes are places, triangles come one after the other. Rejected: lanes as triangles (lists are
-// short near the bricks, and each triangle has other edges undecided).
+// A kernel takes a whole list, so the run-time choice costs one indirect call per cube, not per
+// triangle. A vector holds the 8 children of a cube or rows of the 64 voxels of a brick: lanes are
+// positions, and triangles are processed one after the other. Rejected: lanes as triangles (lists
+// are short near the bricks, and each triangle has other undecided edges).
 //
-// Same bits on every machine: a child may be reported touched though it is not (the safe side), but
-// every target computes the same numbers in the same order, without fused multiply-add; a voxel is
-// exact whatever computed it. The plain kernels (builder/overlap/overlap.h) are the reference.
+// The results are the same bits on every machine. A child may be reported as touched although it is
+// not (the safe side), but every vector target computes the same numbers in the same order, without
+// fused multiply-add. Voxels are exact on every target. The plain kernels
+// (builder/overlap/overlap.h) are the reference.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +27,8 @@ struct PlaneBrick {
   int64_t inner[8], outer[8];
   int64_t span;
 };
-// The voxels that are set for every offset of [low, high], and the largest range around it of which
-// the same is true. `straddles`: some voxel is set for a part of [low, high] only.
+// Result for offsets in [low, high]: the voxels that are set for all of them, and the largest range
+// around them with the same voxels. `straddles`: some voxel is set for only a part of [low, high].
 struct PlaneVoxels {
   Brick voxels;
   int64_t low, high;
@@ -37,32 +38,33 @@ struct PlaneVoxels {
 constexpr int64_t kFarOffset = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 
 struct Kernels {
-  // out[i] of `count` entries: the children of the cube at `corner` with side `side` (lattice
-  // units, a power of two) that the triangle may touch.
+  // Sets out[i], for each of `count` entries, to the children of a cube that the triangle may
+  // touch. The cube has the minimum corner `corner` and the side `side` (lattice units, a power of
+  // two).
   using Children = void (*)(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                             int64_t side, ChildOverlap* out) noexcept;
-  // The voxels of `wanted` that one of the entries sets, in the brick at `corner`.
+  // The voxels among `candidates` that any of the entries sets, in the brick at `corner`.
   using Voxels = Brick (*)(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
-                           int fraction, Brick wanted, DecisionCounts* counts) noexcept;
+                           int fraction, Brick candidates, DecisionCounts* counts) noexcept;
 
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
   const char* name;  // of the instruction set
-  int lanes;         // floats in a vector
+  int lanes;         // floats per vector
   Children children;
   Voxels conservative;
   Voxels thin;
   Plane plane;
 };
 
-// One triangle after the other, by builder/overlap/overlap.h.
+// The reference: one triangle after the other, by builder/overlap/overlap.h.
 const Kernels& plain_kernels();
-// The fastest of this processor.
+// The fastest kernels for this processor.
 const Kernels& kernels();
-// Every vector width that was compiled and that this processor has, best first.
+// The vector kernels of every compiled instruction set that this processor has, best first.
 std::vector<Kernels> vector_kernels();
-// Those of one name, "plain" included, in whatever case; a name that is unknown or that this
-// processor lacks is an Error (kUsage).
+// Kernels by the name of their instruction set or "plain", ignoring case; Error (kUsage) if the
+// name is unknown or this processor lacks the instruction set.
 const Kernels& kernels_by_name(const std::string& name);
 
 }  // namespace svdag

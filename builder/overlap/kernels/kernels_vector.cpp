@@ -1,5 +1,5 @@
-// The vector kernels, compiled once per instruction set by Highway (see
-// builder/overlap/kernels/kernels.h).
+// The vector kernels (builder/overlap/kernels/kernels.h), compiled once per instruction set by
+// Highway.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "builder/overlap/kernels/kernels_vector.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h

@@ -258,7 +258,7 @@ TEST(TriangleBins, GiveBackWhatTheyGotAndNothingStandsBesideTheirCubes) {
     return around + int64_t(random() % uint64_t(2 * spread)) - spread;
   };
   const int64_t side = int64_t(1) << (grid.levels + grid.fraction());
-  for (int depth = 1; depth <= TriangleBins::kDeepest; ++depth) {
+  for (int depth = 1; depth <= TriangleBins::kMaxDepth; ++depth) {
     TriangleBins bins(grid, Cube(), depth, scratch.triangles(), &scratch);
     std::vector<LatticeTriangle> all;
     for (int i = 0; i < 2000; ++i) {

@@ -1,5 +1,5 @@
-// A cache of cells decides nothing but time: the same bytes with it, without it, and with what is
-// left of it.
+// The cell cache affects only the time: a bake gives the same bytes with it, without it, and with a
+// damaged one.
 #include "builder/cache/cell_cache.h"
 
 #include <fcntl.h>
@@ -76,7 +76,7 @@ TEST_F(Cache, ASecondBakeTakesEveryCell) {
   EXPECT_GT(second.cells, 100U);
   EXPECT_EQ(second.cache_hits, second.cells);
   EXPECT_EQ(second.voxels, first.voxels);
-  EXPECT_EQ(second.decisions.evaluated, 0U);
+  EXPECT_EQ(second.decisions.total, 0U);
 }
 
 TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
@@ -98,7 +98,7 @@ TEST_F(Cache, EveryBudgetGivesTheSameBytes) {
   EXPECT_TRUE(spilled);
 }
 
-TEST_F(Cache, APartOfACellIsNoCell) {
+TEST_F(Cache, APartOfACellIsNotStored) {
   BuildConfig config = prepare(random_soup(500, 0.2, 4), 7);
   config.part = CellRange{5, 0, 20'000};  // ends in the middle of a cell of level 3
   config.output = folder_.file("part.run");
@@ -108,7 +108,7 @@ TEST_F(Cache, APartOfACellIsNoCell) {
   bake_as_expected(config);
 }
 
-TEST_F(Cache, WhatIsDamagedIsBakedAgain) {
+TEST_F(Cache, CellsOfDamagedPacksAreBakedAgain) {
   const BuildConfig config = prepare(random_soup(300, 0.1, 5), 6);
   bake_as_expected(config);
   std::string whole = read_bytes(packs().at(0));
@@ -129,20 +129,20 @@ TEST_F(Cache, WhatIsDamagedIsBakedAgain) {
   }
 }
 
-// A cache is a folder that may hold more than its packs, such as notes with an ending of ours.
-TEST_F(Cache, LeavesTheFilesOfOthersAlone) {
+// The folder may hold other files, some with the extension of packs.
+TEST_F(Cache, LeavesOtherFilesAlone) {
   const BuildConfig config = prepare(random_soup(300, 0.1, 5), 6);
   fs::create_directories(cache_.folder);
   for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
     std::ofstream(fs::path(cache_.folder) / name) << name;
-  cache_.most_packs = 1;
-  cache_.most_bytes = 1;
+  cache_.max_packs = 1;
+  cache_.max_bytes = 1;
   bake_as_expected(config);
   for (const char* name : {"report.cells", "0123456789abcdeg.cells", ".cells", "0123456789abcdef"})
     EXPECT_TRUE(fs::exists(fs::path(cache_.folder) / name)) << name;
 }
 
-// As long as it lives, the process can open nothing.
+// While this object exists, the process cannot open files.
 class NoDescriptorLeft {
  public:
   NoDescriptorLeft() {
@@ -162,7 +162,7 @@ class NoDescriptorLeft {
   std::vector<int> taken_;
 };
 
-TEST_F(Cache, APackThatCannotBeOpenedJustNowStays) {
+TEST_F(Cache, APackThatCannotBeOpenedIsKept) {
   bake_as_expected(prepare(random_soup(300, 0.1, 13), 6));
   const std::vector<fs::path> before = packs();
   MemoryBudget budget(uint64_t(1) << 30);
@@ -177,7 +177,7 @@ TEST_F(Cache, APackThatCannotBeOpenedJustNowStays) {
   EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}));
 }
 
-TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
+TEST_F(Cache, TheNumberOfOpenPacksIsLimited) {
   std::vector<Triangle> all;
   for (int slice = 0; slice < 5; ++slice) {  // each adds a pack
     const std::vector<Triangle> more = random_soup(200, 0.05, unsigned(30 + slice));
@@ -186,7 +186,7 @@ TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
   }
   // The cells of all packs, in one bake that may open two of them.
   MemoryBudget budget(uint64_t(1) << 30);
-  cache_.most_open = 2;
+  cache_.max_open = 2;
   CellCache cache(cache_, grid_of(7), Rule::kConservative, &budget);
   std::set<fs::path> used;
   for (const fs::path& path : packs()) {
@@ -198,8 +198,8 @@ TEST_F(Cache, OnlySoManyPacksAreOpenAtOnce) {
   EXPECT_EQ(packs().size(), 5U);
 }
 
-// A pack of `count` cells without voxels that no bake looks up.
-void write_strange_pack(const std::string& path, size_t count) {
+// A pack of `count` empty cells that no bake looks up.
+void write_unused_pack(const std::string& path, size_t count) {
   static std::mt19937_64 random(14);
   BakedRun baked;
   baked.run.nodes.resize(4);
@@ -209,19 +209,19 @@ void write_strange_pack(const std::string& path, size_t count) {
   write_pack(path, baked, 6, nullptr, &budget);
 }
 
-TEST_F(Cache, ThatHasGrownFitsIntoLittleMemory) {
+TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
   BuildConfig config = prepare(random_soup(20'000, 0.1, 3), 8);
   config.memory = uint64_t(9) << 20;
   const BuildReport alone = bake_as_expected(config, 2);
   EXPECT_EQ(alone.cache_ignored, 0U);
   const std::vector<fs::path> own = packs();
-  for (int i = 0; i < 30; ++i)  // whose entries take more than twice the budget
-    write_strange_pack(cache_.folder + "/" + std::to_string(1000000000000000 + i) + ".cells",
-                       16'000);
+  for (int i = 0; i < 30; ++i)  // the entries take more than twice the budget
+    write_unused_pack(cache_.folder + "/" + std::to_string(1000000000000000 + i) + ".cells",
+                      16'000);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
   const BuildReport newest = bake_as_expected(config, 2);
-  EXPECT_GT(newest.cache_hits, newest.cells - 20) << "what was used last is looked at first";
+  EXPECT_GT(newest.cache_hits, newest.cells - 20) << "the most recently used packs are read first";
   EXPECT_GE(newest.cache_ignored, 25U);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
@@ -244,7 +244,7 @@ TEST_F(Cache, ManyBakesShareAFolder) {
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST_F(Cache, TheLeastUsedPacksGoFirst) {
+TEST_F(Cache, TheLeastRecentlyUsedPacksAreRemovedFirst) {
   BuildConfig config = prepare(random_soup(500, 0.1, 8), 6);
   bake_as_expected(config);
   const fs::path first = packs().at(0);
@@ -252,21 +252,21 @@ TEST_F(Cache, TheLeastUsedPacksGoFirst) {
   prepare(random_soup(500, 0.1, 9), 6);
   bake_as_expected(config);
   ASSERT_EQ(packs().size(), 2U);
-  cache_.most_bytes = 2 * fs::file_size(first);
+  cache_.max_bytes = 2 * fs::file_size(first);
   prepare(random_soup(500, 0.1, 10), 6);
   bake_as_expected(config);
   EXPECT_FALSE(fs::exists(first));
   EXPECT_EQ(packs().size(), 2U);
 }
 
-TEST_F(Cache, TooManyPacksGoAsTooLargeOnesDo) {
-  cache_.most_packs = 3;
+TEST_F(Cache, PacksBeyondTheLimitAreRemoved) {
+  cache_.max_packs = 3;
   fs::create_directory(cache_.folder);
   std::vector<fs::path> before;
   for (unsigned seed = 20; seed < 26; ++seed) {
     before = packs();
     bake_as_expected(prepare(random_soup(200, 0.1, seed), 6));
-    for (const fs::path& pack : packs()) {  // older by an hour than what the next bake leaves
+    for (const fs::path& pack : packs()) {  // an hour older than those of the next bake
       const auto used = fs::last_write_time(pack);
       fs::last_write_time(pack, used - std::chrono::hours(1));
     }
@@ -275,7 +275,7 @@ TEST_F(Cache, TooManyPacksGoAsTooLargeOnesDo) {
   EXPECT_NE(packs(), before) << "the newest stay";
 }
 
-TEST_F(Cache, AFolderThatCannotBeWrittenIsNoFailure) {
+TEST_F(Cache, AFolderThatCannotBeWrittenDoesNotFailTheBake) {
   BuildConfig config = prepare(random_soup(500, 0.1, 11), 6);
   const auto open = config.open_store;
   config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
@@ -288,7 +288,7 @@ TEST_F(Cache, AFolderThatCannotBeWrittenIsNoFailure) {
   EXPECT_NE(report.cache_complaint, "");
 }
 
-// The key of a cube of 2^5 voxels with these triangles, of a grid.
+// The key of a cube of 32^3 voxels with `triangles`.
 CellKey key_of(const Grid& grid, Rule rule, const LatticePoint& cube,
                const std::vector<LatticeTriangle>& triangles) {
   std::vector<TriangleSetup> setups;
@@ -298,7 +298,7 @@ CellKey key_of(const Grid& grid, Rule rule, const LatticePoint& cube,
   return cell_key(grid, rule, {grid.levels - 5, cube}, list);
 }
 
-TEST(CellKey, IsThatOfTheContentAndNotOfThePlace) {
+TEST(CellKey, DependsOnTheContentAndNotOnThePosition) {
   const Grid grid = grid_of(10);
   const LatticeTriangle a{{LatticePoint(1, 2, 3), {400, 500, 600}, {7000, 8, 9}}};
   const LatticeTriangle b{{LatticePoint(5, 5, 5), {900, 5, 77}, {3, 3000, 4}}};

@@ -1,4 +1,4 @@
-// The plane memo against the plain descent, cube by cube, and what it saves.
+// The plane memo against the plain descent, cube by cube; number of nodes that it computes.
 #include "builder/descend/plane_memo.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ Bricks bricks_of(const DescentConfig& config, const Cube& window, const LatticeT
   return bricks;
 }
 
-// A triangle that covers the cube at voxel `corner`; its plane passes a voxel corner near by if
-// `tie`, and its normal is a small whole one if `whole`.
+// A triangle that covers the cube at lattice point `corner`. Its plane passes through a nearby
+// voxel corner if `tie`, and its normal has small integer components if `whole`.
 LatticeTriangle covering(std::mt19937_64& random, const LatticePoint& corner, bool tie,
                          bool whole) {
   const int64_t voxel = int64_t(1) << fraction_bits(kLevels);
@@ -100,18 +100,18 @@ TEST(PlaneMemo, AdmitsATessellatedWallOnceItsTrianglesRepeat) {
   NodeTable table(kLevels, &budget);
   PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table);
   const int64_t voxel = int64_t(1) << fraction_bits(kLevels);
-  int refused = 0;
+  int rejected = 0;
   for (int i = 0; i < 1000; ++i) {  // triangles of 20 voxels on one tilted plane
     const LatticePoint at(i * 20 * voxel, 0, i * 7 * voxel);
     const LatticePoint a(20 * voxel, 0, 7 * voxel), b(0, 20 * voxel, 3 * voxel);
-    refused += !memo.admit(make_setup({{at, at + a, at + b}}), 4096).has_value();
+    rejected += !memo.admit(make_setup({{at, at + a, at + b}}), 4096).has_value();
   }
-  EXPECT_GT(refused, 5);
-  EXPECT_LT(refused, 500);
+  EXPECT_GT(rejected, 5);
+  EXPECT_LT(rejected, 500);
 }
 
-// Otherwise a survey would say something else of the same scene each time.
-TEST(PlaneMemo, ComputesTheSameWhereverItsTrianglesStandInMemory) {
+// Otherwise surveys of the same scene would differ between runs.
+TEST(PlaneMemo, ComputesTheSameForAnyMemoryAddressesOfItsTriangles) {
   std::mt19937_64 random(3);
   const LatticePoint middle(int64_t(1) << (kLevels + fraction_bits(kLevels) - 1));
   const int64_t voxel = int64_t(1) << fraction_bits(kLevels);

@@ -1,4 +1,4 @@
-// The self-test: right for every kernel, wrong for one that errs in one voxel.
+// The self-test passes for every kernel and fails for a kernel with one wrong voxel.
 #include "builder/descend/self_test.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr Rule kRules[] = {Rule::kConservative, Rule::kThin};
 
-TEST(SelfTest, AsksEveryKernelAHundredThousandQuestions) {
+TEST(SelfTest, ComparesAHundredThousandVoxelsWithEveryKernel) {
   std::vector<Kernels> all = vector_kernels();
   all.push_back(plain_kernels());
   for (const Rule rule : kRules) {
@@ -26,13 +26,13 @@ TEST(SelfTest, AsksEveryKernelAHundredThousandQuestions) {
   }
 }
 
-int answers = 0;  // that are right before one is wrong
+int correct_calls = 0;  // calls left before the wrong one
 
 template <Kernels::Voxels Kernels::*kVoxels>
 Brick err_once(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                int fraction, Brick wanted, DecisionCounts* counts) noexcept {
   const Brick brick = (plain_kernels().*kVoxels)(entries, count, corner, fraction, wanted, counts);
-  return answers-- == 0 ? brick ^ (wanted & -wanted) : brick;
+  return correct_calls-- == 0 ? brick ^ (wanted & -wanted) : brick;
 }
 
 TEST(SelfTest, FindsOneWrongVoxel) {
@@ -40,13 +40,13 @@ TEST(SelfTest, FindsOneWrongVoxel) {
   kernels.conservative = err_once<&Kernels::conservative>;
   kernels.thin = err_once<&Kernels::thin>;
   for (const Rule rule : kRules) {
-    for (const int right : {0, 10, 100}) {
-      answers = right;
+    for (const int correct : {0, 10, 100}) {
+      correct_calls = correct;
       DescentConfig config;
       config.rule = rule;
       config.kernels = &kernels;
-      EXPECT_SVDAG_ERROR(self_test(config), ExitCode::kInternal, "computes other voxels");
-      EXPECT_LT(answers, 0);
+      EXPECT_SVDAG_ERROR(self_test(config), ExitCode::kInternal, "computes wrong voxels");
+      EXPECT_LT(correct_calls, 0);
     }
   }
 }

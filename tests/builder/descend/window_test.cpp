@@ -1,5 +1,5 @@
-// The voxelizer through its window interface, against closed forms and against the judge of
-// verify/, which clips triangles instead of separating them.
+// The voxelizer, through its window interface, against closed forms and against the clipping judge
+// of verify/.
 #include "builder/descend/window.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(Window, APointSetsTheVoxelsThatItTouches) {
   EXPECT_EQ(point(5.5, 5, 5.25), 2U);
   EXPECT_EQ(point(5.5, 5.75, 5.25), 1U);
   EXPECT_EQ(point(0, 0, 0), 1U);     // corner of the grid
-  EXPECT_EQ(point(64, 64, 64), 1U);  // its opposite corner is closed as well
+  EXPECT_EQ(point(64, 64, 64), 1U);  // the opposite corner is closed too
 }
 
 TEST(Window, ABoxOnVoxelPlanesHasWallsOfTwoVoxels) {
@@ -177,8 +177,8 @@ TEST_P(WindowAgainstJudge, GivesTheSameVoxelsAtEveryDepth) {
       const LatticePoint centre = window.corner(levels) + LatticePoint(16 * kVoxel);
       std::vector<LatticeTriangle> triangles(20);
       for (LatticeTriangle& t : triangles) {
-        // Two corners around a point near the window, the third opposite, so that even giant
-        // triangles pass through it.
+        // Two corners around a point near the window and the third opposite, so that even giant
+        // triangles meet the window.
         for (int a = 0; a < 3; ++a) {
           const int64_t at = centre[a] + draw(18 * kVoxel);
           const int64_t d0 = draw(family.extent), d1 = draw(family.extent);
@@ -190,7 +190,7 @@ TEST_P(WindowAgainstJudge, GivesTheSameVoxelsAtEveryDepth) {
       bricks += expect_same(grid, window, triangles, family.name);
     }
   }
-  EXPECT_GT(bricks, 1000U);  // the family did reach the windows
+  EXPECT_GT(bricks, 1000U);  // the triangles do meet the windows
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, WindowAgainstJudge,

@@ -132,7 +132,7 @@ TEST(ImportVoxels, MoreVoxelsThanTheDiskCanSortAreRefusedBeforeTheFirst) {
     return {};
   };
   EXPECT_SVDAG_ERROR(import_voxels(never, config, &executor, uint64_t(1) << 60), ExitCode::kOutput,
-                     "spilling the voxels takes about");
+                     "spilling the voxels needs about");
   EXPECT_EQ(folder.entries(), 0U);
   const VoxelSource one = [](const VoxelSink& sink, const FullCubeSink&) {
     sink(std::vector<Voxel>{{1, 2, 3}});

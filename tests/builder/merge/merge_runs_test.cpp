@@ -1,4 +1,5 @@
-// Parts baked apart and merged in any tree are the bake of the whole, byte for byte.
+// Parts that are baked separately and merged in any tree equal the bake of the whole, byte for
+// byte.
 #include "builder/merge/merge_runs.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +85,7 @@ class MergeRuns : public ::testing::Test {
     scratch_written_ += report.scratch_written;
   }
 
-  // Joins random groups until few are left.
+  // Merges random groups until few runs are left.
   std::vector<std::string> merge_some(std::vector<std::string> runs, std::mt19937_64* random) {
     for (int made = 0; runs.size() > 4; ++made) {
       std::shuffle(runs.begin(), runs.end(), *random);
@@ -119,7 +120,7 @@ TEST_F(MergeRuns, AnyTreeOfAnyPartsGivesTheBytesOfTheWholeBake) {
   }
 }
 
-// Does something before the tasks are run for the second time: a merge has checked its runs then.
+// Calls a function before the second for_each(): a merge has then checked its runs.
 class ActBeforeMerging : public SequentialExecutor {
  public:
   explicit ActBeforeMerging(std::function<void()> act) : act_(std::move(act)) {}
@@ -133,8 +134,9 @@ class ActBeforeMerging : public SequentialExecutor {
   int calls_ = 0;
 };
 
-// As by cp: the labels of its blocks are those of any run of the same part of the same grid.
-TEST_F(MergeRuns, NothingIsKeptOfARunThatWasCopiedOverMeanwhile) {
+// Overwriting a run, as cp does, keeps valid blocks: all runs of one part of one grid have the same
+// labels in their blocks.
+TEST_F(MergeRuns, FailsIfARunIsOverwrittenMeanwhile) {
   const auto bake_run = [&](const std::vector<Triangle>& triangles, const std::string& name) {
     write_stl(path("scene.stl"), triangles);
     BuildConfig config = config_for(path("scene.stl"), path(name), 8);
@@ -161,7 +163,7 @@ TEST_F(MergeRuns, NothingIsKeptOfARunThatWasCopiedOverMeanwhile) {
   }
 }
 
-TEST_F(MergeRuns, ARunOfAPartDoesNotTellHowItWasMade) {
+TEST_F(MergeRuns, ARunOfAPartDoesNotDependOnHowItWasBaked) {
   BuildConfig config = prepare(cases().front());
   for (const CellRange& cells : {CellRange{2, 3, 41}, CellRange{1, 2, 3}, CellRange{3, 100, 101}}) {
     config.part = cells;
@@ -176,7 +178,7 @@ TEST_F(MergeRuns, ARunOfAPartDoesNotTellHowItWasMade) {
       bake(config, 3);
       EXPECT_TRUE(read_bytes(config.output) == once);
     }
-    // Three pieces of it, which do not end where its tops do.
+    // Split it into three at cuts that are not borders of its tops.
     const int finer = cells.level + 1;
     const uint64_t begin = 8 * cells.begin, end = 8 * cells.end;
     const uint64_t cuts[4] = {begin, begin + 3, end - 2, end};
@@ -228,7 +230,7 @@ TEST_F(MergeRuns, LevelsAndMapsLargerThanMemoryAreStreamed) {
     merge_to(path("merged.svdag"), runs, memory, threads);
     EXPECT_TRUE(read_bytes(path("merged.svdag")) == read_bytes(path("whole.svdag")));
   }
-  // One run, of which no map fits either.
+  // A single run whose maps do not fit either.
   merge_to(path("same.run"), {path("whole.run")}, memory, 1);
   EXPECT_TRUE(read_bytes(path("same.run")) == read_bytes(path("whole.run")));
 }
@@ -247,10 +249,10 @@ TEST_F(MergeRuns, AnEmptyPartIsARunWithoutNodes) {
   EXPECT_TRUE(read_bytes(path("merged.run")) == read_bytes(path("whole.run")));
 }
 
-TEST_F(MergeRuns, OnlyTheSelectionMustBeThere) {
+TEST_F(MergeRuns, OnlyTheSelectionMustBeCovered) {
   BuildConfig config = prepare(cases()[1]);
   const Grid grid = bake(config).grid;
-  std::vector<std::string> wanted;
+  std::vector<std::string> needed_runs;
   size_t left_out = 0;
   for (uint64_t i = 1; i <= 64; ++i) {
     const std::string run = bake_part(config, i, 64);
@@ -265,23 +267,24 @@ TEST_F(MergeRuns, OnlyTheSelectionMustBeThere) {
                 ((top.coordinate[a] + 1) << shift) > grid.selection.min[a];
       needed = needed || meets;
     }
-    needed ? wanted.push_back(run) : void(++left_out);
+    needed ? needed_runs.push_back(run) : void(++left_out);
   }
   ASSERT_GT(left_out, 0U);
-  merge_to(path("merged.svdag"), wanted);
+  merge_to(path("merged.svdag"), needed_runs);
   EXPECT_TRUE(read_bytes(path("merged.svdag")) == read_bytes(path("whole.svdag")));
-  wanted.pop_back();
-  EXPECT_SVDAG_ERROR(merge_to(path("x.svdag"), wanted), ExitCode::kUsage,
-                     "a part of the grid is in none of the runs");
+  needed_runs.pop_back();
+  EXPECT_SVDAG_ERROR(merge_to(path("x.svdag"), needed_runs), ExitCode::kUsage,
+                     "the runs do not cover the grid");
 }
 
-TEST_F(MergeRuns, TellsWhatDoesNotBelongTogether) {
+TEST_F(MergeRuns, RejectsRunsThatDoNotBelongTogether) {
   BuildConfig config = prepare(cases()[0]);
   config.part = GridPart::share(1, 2);
   config.output = path("a.run");
   bake(config);
   config.part = GridPart::share(2, 2);
-  const auto refused = [&](const char* sentence, const std::function<void(BuildConfig*)>& change) {
+  const auto expect_rejected = [&](const char* sentence,
+                                   const std::function<void(BuildConfig*)>& change) {
     BuildConfig other = config;
     other.output = path("b.run");
     change(&other);
@@ -290,13 +293,14 @@ TEST_F(MergeRuns, TellsWhatDoesNotBelongTogether) {
                        sentence);
     EXPECT_FALSE(std::filesystem::exists(path("x.run")));
   };
-  refused("the resolution differs", [](BuildConfig* c) { c->levels = 8; });
-  refused("the rule differs", [](BuildConfig* c) { c->descent.rule = Rule::kThin; });
-  refused("one grid divides its scene, the other is a lattice", [](BuildConfig* c) {
-    c->levels = 0;
-    c->voxel_size = 0.01;
-  });
-  refused("the bounds differ", [](BuildConfig* c) {
+  expect_rejected("the resolution differs", [](BuildConfig* c) { c->levels = 8; });
+  expect_rejected("the rule differs", [](BuildConfig* c) { c->descent.rule = Rule::kThin; });
+  expect_rejected("one was baked with --resolution, the other with --voxel-size",
+                  [](BuildConfig* c) {
+                    c->levels = 0;
+                    c->voxel_size = 0.01;
+                  });
+  expect_rejected("the bounds differ", [](BuildConfig* c) {
     c->levels = 0;
     c->voxel_size = 0.01;
     c->bounds = Box{{0, 0, 0}, {0.5, 0.5, 0.5}};
@@ -306,7 +310,7 @@ TEST_F(MergeRuns, TellsWhatDoesNotBelongTogether) {
     first.bounds = Box{{0, 0, 0}, {0.5, 0.5, 0.6}};
     bake(first);
   });
-  refused("overlap: both hold voxel (0, 0, 0)", [&](BuildConfig* c) {
+  expect_rejected("overlap: both hold voxel (0, 0, 0)", [&](BuildConfig* c) {
     c->part.reset();
     c->output = path("a.run");
     bake(*c);

@@ -1,4 +1,4 @@
-// Parts of the grid: their tops, their rest, what meets them.
+// Grid parts: their tops, the rest of the grid, boxes that meet them.
 #include "builder/octree/grid_part.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(GridPart, TopsAreTheMaximalCubesAndFillIt) {
   }
 }
 
-TEST(GridPart, AndItsRestAreTheGrid) {
+TEST(GridPart, AndItsRestMakeUpTheGrid) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 200; ++i) {
     const GridPart part = random_part(&random), rest = part.rest();
@@ -53,11 +53,11 @@ TEST(GridPart, AndItsRestAreTheGrid) {
   EXPECT_TRUE(GridPart::whole(kLevels).rest().ranges().empty());
 }
 
-// The largest snap of a run rests on this.
-TEST(GridPart, WhatMeetsTwoPartsTogetherMeetsOneOfThem) {
+// The largest snap move of a run relies on this.
+TEST(GridPart, ABoxMeetsTheUnionOfTwoPartsIfItMeetsOneOfThem) {
   std::mt19937_64 random(3);
   const int f = fraction_bits(kLevels);
-  const auto place = [&] {  // on voxel planes, too
+  const auto coordinate = [&] {  // half of them on voxel planes
     const int64_t whole = int64_t(random() % 40) - 4;
     return (whole << f) + (random() % 2 ? 0 : int64_t(random() % (1 << f)));
   };
@@ -66,7 +66,8 @@ TEST(GridPart, WhatMeetsTwoPartsTogetherMeetsOneOfThem) {
     const GridPart a = random_part(&random), b = random_part(&random);
     std::vector<MortonRange> both = a.ranges();
     both.insert(both.end(), b.ranges().begin(), b.ranges().end());
-    const LatticePoint p(place(), place(), place()), q(place(), place(), place());
+    const LatticePoint p(coordinate(), coordinate(), coordinate()),
+        q(coordinate(), coordinate(), coordinate());
     const LatticePoint low = glm::min(p, q), high = glm::max(p, q);
     const bool together = GridPart(both, kLevels).meets({low, high});
     EXPECT_EQ(together, a.meets({low, high}) || b.meets({low, high}));
@@ -78,20 +79,22 @@ TEST(GridPart, WhatMeetsTwoPartsTogetherMeetsOneOfThem) {
 
 TEST(GridPart, SharesAreDisjointAndFillTheGrid) {
   for (const uint64_t count : {1, 2, 3, 7, 8, 9, 64, 1000}) {
-    uint64_t at = 0, least = UINT64_MAX, most = 0;
+    uint64_t at = 0, min_cells = UINT64_MAX, max_cells = 0;
     for (uint64_t i = 1; i <= count; ++i) {
       const CellRange cells = GridPart::share(i, count);
       EXPECT_EQ(cells.begin, at);
       at = cells.end;
-      least = std::min(least, cells.end - cells.begin);
-      most = std::max(most, cells.end - cells.begin);
+      min_cells = std::min(min_cells, cells.end - cells.begin);
+      max_cells = std::max(max_cells, cells.end - cells.begin);
     }
     EXPECT_EQ(at, uint64_t(1) << 3 * GridPart::share(1, count).level);
-    EXPECT_LE(most, least + 1);
-    EXPECT_GE(least, 8U);
+    EXPECT_LE(max_cells, min_cells + 1);
+    EXPECT_GE(min_cells, 8U);
   }
-  EXPECT_SVDAG_ERROR(GridPart::share(0, 3), ExitCode::kUsage, "--part 0/3: parts are numbered");
-  EXPECT_SVDAG_ERROR(GridPart::share(4, 3), ExitCode::kUsage, "--part 4/3: parts are numbered");
+  EXPECT_SVDAG_ERROR(GridPart::share(0, 3), ExitCode::kUsage,
+                     "--part 0/3: parts are numbered from 1");
+  EXPECT_SVDAG_ERROR(GridPart::share(4, 3), ExitCode::kUsage,
+                     "--part 4/3: parts are numbered from 1");
   EXPECT_SVDAG_ERROR(GridPart::of_cells(GridPart::share(1, 64), 4), ExitCode::kUsage,
                      "16^3 voxels");
 }

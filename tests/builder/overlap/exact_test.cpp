@@ -50,7 +50,7 @@ TEST(Exact, TheBitBudgetHoldsAtTheCornersOfTheRange) {
   }
 }
 
-TEST(Exact, OneStepBesideAPlaneIsSeen) {
+TEST(Exact, OneStepOffAPlaneIsDecided) {
   const int64_t s = (int64_t(1) << 40) + 12345;
   const TriangleSetup t =
       make_setup({{LatticePoint(s, 0, 0), LatticePoint(0, s, 0), LatticePoint(0, 0, s)}});
@@ -60,7 +60,7 @@ TEST(Exact, OneStepBesideAPlaneIsSeen) {
   EXPECT_EQ(exact_plane_sign(t, on - LatticePoint(0, 0, 1)), -1);
 }
 
-TEST(TriangleSetup, KnowsSegmentsAndPoints) {
+TEST(TriangleSetup, HandlesSegmentsAndPoints) {
   const LatticePoint a(1, 2, 3), b(10, 20, 30), middle(4, 8, 12);
   EXPECT_EQ(make_setup({{a, a, a}}).edges, 0);
   EXPECT_EQ(make_setup({{a, b, a}}).edges, 0b011011011);

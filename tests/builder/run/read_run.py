@@ -1,6 +1,6 @@
-"""A reader of `.run` files, written from docs/run-format.md alone.
+"""An independent reader of `.run` files, written from docs/run-format.md alone.
 
-It checks what that page promises and lists the set voxels. For small grids: it holds all of them.
+It checks every property that the page states and lists the set voxels. It holds all voxels in memory: for small grids.
 """
 import struct
 
@@ -10,13 +10,13 @@ HEADER = struct.Struct("<8s6I4d3q8I3Qd21Q2Q")
 BLOCK, FRAME = 65536, 64
 
 
-class Broken(Exception):
+class DamagedRun(Exception):
     pass
 
 
-def demand(condition, sentence):
+def require(condition, sentence):
     if not condition:
-        raise Broken(sentence)
+        raise DamagedRun(sentence)
 
 
 def low_word(data):
@@ -25,7 +25,7 @@ def low_word(data):
 
 class Run:
     def __init__(self, data):
-        demand(len(data) >= 1024, "shorter than a header")
+        require(len(data) >= 1024, "shorter than a header")
         self.data = data
         self.read_header()
         self.read_blocks()
@@ -38,53 +38,53 @@ class Run:
         block, self.range_count, self.number, self.voxel_count = fields[15], *fields[22:25]
         self.root_count, self.counts = fields[26], fields[27:46]
         file_size, self.content_hash = fields[46], fields[47:49]
-        demand(magic == b"\x89SVRUN\r\n" and (version, size, block) == (1, 1024, BLOCK), "magic, version or sizes")
-        demand(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
+        require(magic == b"\x89SVRUN\r\n" and (version, size, block) == (1, 1024, BLOCK), "magic, version or sizes")
+        require(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
                "header checksum")
-        demand(3 <= self.L <= 20 and F == min(23, 39 - self.L) and rule in (0, 1) and kind in (0, 1), "grid")
-        demand(not any(self.counts[self.L - 1:]) and not any(self.data[336:1016]), "unused fields")
-        demand(file_size == len(self.data), "size of the file")
+        require(3 <= self.L <= 20 and F == min(23, 39 - self.L) and rule in (0, 1) and kind in (0, 1), "grid")
+        require(not any(self.counts[self.L - 1:]) and not any(self.data[336:1016]), "unused fields")
+        require(file_size == len(self.data), "size of the file")
 
     def read_blocks(self):
-        """The payloads in one piece; their frames and the hash of all."""
+        """Concatenates the payloads; checks the frames and the content hash."""
         self.payload, sums = b"", b""
         for i, at in enumerate(range(1024, len(self.data), BLOCK)):
             block = self.data[at:at + BLOCK]
             magic, length, number, index, checksum = struct.unpack_from("<4sI3Q", block)
-            demand(magic == b"SVSP" and (number, index) == (self.number, i), "frame of a block")
-            demand(length == len(block) - FRAME and not any(block[32:64]), "length of a block")
-            demand(xxhash.xxh3_64_intdigest(block[:24] + bytes(8) + block[32:]) == checksum, "checksum of a block")
+            require(magic == b"SVSP" and (number, index) == (self.number, i), "frame of a block")
+            require(length == len(block) - FRAME and not any(block[32:64]), "length of a block")
+            require(xxhash.xxh3_64_intdigest(block[:24] + bytes(8) + block[32:]) == checksum, "checksum of a block")
             self.payload += block[FRAME:]
             sums += block[24:32]
         blank = self.data[:320] + bytes(16) + self.data[336:1016] + bytes(8)
         digest = xxhash.xxh3_128_intdigest(sums + blank)
-        demand(self.content_hash == (digest & (2**64 - 1), digest >> 64), "content hash")
+        require(self.content_hash == (digest & (2**64 - 1), digest >> 64), "content hash")
 
     def take(self, count, item):
         at = (self.at + 63) // 64 * 64
-        demand(not any(self.payload[self.at:at]), "a gap that is not zero")
+        require(not any(self.payload[self.at:at]), "a gap that is not zero")
         self.at = at + count * struct.calcsize(item)
-        demand(self.at <= len(self.payload), "a section ends after the payload")
+        require(self.at <= len(self.payload), "a section ends after the payload")
         return list(struct.iter_unpack(item, self.payload[at:self.at]))
 
     def read_sections(self):
         self.at, self.levels = 0, {}
         for k in range(self.L - 2, -1, -1):
             keys = self.levels[k] = self.take(self.counts[k], "<Q" if k == self.L - 2 else "<8I")
-            demand(all(a < b for a, b in zip(keys, keys[1:])) and all(map(any, keys)), f"order of level {k}")
+            require(all(a < b for a, b in zip(keys, keys[1:])) and all(map(any, keys)), f"order of level {k}")
         self.roots = self.take(self.root_count, "<QII")
         begin = (self.at + 63) // 64 * 64
         self.ranges = self.take(self.range_count, "<QQ")
-        demand(self.at == len(self.payload), "bytes after the ranges")
-        demand(low_word(self.data[:128] + self.payload[begin:]) == self.number, "number of the run")
+        require(self.at == len(self.payload), "bytes after the ranges")
+        require(low_word(self.data[:128] + self.payload[begin:]) == self.number, "number of the run")
         for k in range(self.L - 1):
             used = {rank for _, level, rank in self.roots if level == k}
             if k > 0:
                 used |= {child - 1 for key in self.levels[k - 1] for child in key if child}
-            demand(used == set(range(self.counts[k])), f"nodes of level {k} that are reached")
+            require(used == set(range(self.counts[k])), f"nodes of level {k} that are reached")
 
     def tops(self, level=0, code=0):
-        """(code, level) of the maximal cubes in the ranges, along the curve."""
+        """(code, level) of the maximal cubes in the ranges, in Morton order."""
         size = 8 ** (self.L - level)
         begin, end = code * size, (code + 1) * size
         if any(b <= begin and end <= e for b, e in self.ranges):
@@ -96,10 +96,10 @@ class Run:
     def check_tops(self):
         tops = list(self.tops())
         named = [(code, level) for code, level, _ in self.roots]
-        demand(named == [top for top in tops if top in set(named)], "roots are tops, in order")
+        require(named == [top for top in tops if top in set(named)], "roots are tops, in order")
 
     def codes(self):
-        """The Morton codes of the set voxels, ascending. A brick's bit is 8 c1 + c2: a code itself."""
+        """The Morton codes of the set voxels, ascending. The bit number in a brick, 8 c1 + c2, is a Morton code."""
         found = []
 
         def descend(level, rank, code):
@@ -113,5 +113,5 @@ class Run:
 
         for code, level, rank in self.roots:
             descend(level, rank, code)
-        demand(len(found) == self.voxel_count and found == sorted(set(found)), "number of voxels")
+        require(len(found) == self.voxel_count and found == sorted(set(found)), "number of voxels")
         return found

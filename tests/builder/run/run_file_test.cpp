@@ -1,4 +1,4 @@
-// A run file is what it was made from, or it is refused: every bit of it counts.
+// A run file is read back as it was written; any other file is rejected.
 #include "builder/run/run_file.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ void write_small(const std::string& path) {
   writer.finish(std::vector<SubDagRoot>{{4, 1, 0, 0}, {1, 1, 0, 1}}, 8, 0.125);
 }
 
-// As a merge would.
+// Reads a run as a merge does.
 void read_all(const std::string& path, uint64_t bitmap_bytes = 1 << 20) {
   MemoryBudget budget(1 << 22);
   const RunFile run = RunFile::open(path, &budget);
@@ -98,7 +98,7 @@ TEST(RunFile, LevelsOfManyBlocksBeginAndEndWithinThem) {
   ASSERT_EQ(read_nodes.size(), nodes);
   for (uint32_t i = 0; i < nodes; ++i) ASSERT_EQ(read_nodes[i][0], i);
   EXPECT_EQ(keys_of<NodeKey>(run, 0, &budget).front()[2], nodes);
-  // Not every brick has a parent: that is seen, also a window of marks at a time.
+  // Not every brick has a parent: an error, also with a bitmap smaller than the level.
   for (const uint64_t bytes : {1 << 20, 100, 1})
     EXPECT_SVDAG_ERROR(read_all(path, bytes), ExitCode::kBadInput, "not reached from any root");
 }
@@ -135,7 +135,7 @@ TEST(RunFile, EveryOtherLengthIsFound) {
                      "its size");
 }
 
-// Writes the small run after `change`, with checksums as a hostile writer would make them.
+// A small run that a test changes, with checksums recomputed as a hostile writer would.
 class Hostile {
  public:
   explicit Hostile(const TempFolder& folder) : path_(folder.file("h.run")) {
@@ -177,7 +177,7 @@ class Hostile {
   std::optional<RunLayout> layout_;
 };
 
-TEST(RunFile, AHostileWriterIsToldWhatIsWrong) {
+TEST(RunFile, AHostileFileIsRejectedWithItsFault) {
   const TempFolder folder;
   read_all(Hostile(folder).repaired());
   using Change = std::function<void(Hostile*)>;
@@ -196,7 +196,7 @@ TEST(RunFile, AHostileWriterIsToldWhatIsWrong) {
       {"impossible number of voxels", [](Hostile* h) { h->header()->voxels = 1 << 20; }},
       {"impossible snap move", [](Hostile* h) { h->header()->largest_snap = -1; }},
       {"impossible number of nodes", [](Hostile* h) { h->header()->keys[1] = 0xfffffff0; }},
-      {"its size is not that of its counts", [](Hostile* h) { h->header()->keys[1] = 3; }},
+      {"the file size does not match the counts", [](Hostile* h) { h->header()->keys[1] = 3; }},
       {"unused level", [](Hostile* h) { h->header()->keys[7] = 1; }},
       {"impossible number of ranges", [](Hostile* h) { h->header()->ranges = 1ULL << 60; }},
       {"impossible number of roots", [](Hostile* h) { h->header()->roots = 1ULL << 60; }},
@@ -207,16 +207,16 @@ TEST(RunFile, AHostileWriterIsToldWhatIsWrong) {
        [](Hostile* h) { h->at<StoredRange>(h->layout().ranges)->end = 1 << 20; }},
       {"impossible range",
        [](Hostile* h) { h->at<StoredRange>(h->layout().ranges)->begin = 4096; }},
-      {"a root is not where it belongs",
+      {"a root is not a top of the part",
        [](Hostile* h) { h->at<StoredRange>(h->layout().ranges)->begin = 0x440; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->rank = 2; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->level = 3; }},
       {"impossible root",
        [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->level = UINT32_MAX; }},
       {"impossible root", [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->code = 8; }},
-      {"a root is not where it belongs",
+      {"a root is not a top of the part",
        [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->code = 5; }},
-      {"a root is not where it belongs",
+      {"a root is not a top of the part",
        [](Hostile* h) { h->at<StoredRoot>(h->layout().roots)->code = 4; }},
       {"do not ascend", [](Hostile* h) { *h->at<Brick>(h->layout().levels[2]) = 9; }},
       {"do not ascend", [](Hostile* h) { *h->at<Brick>(h->layout().levels[2]) = 0; }},
@@ -234,14 +234,14 @@ TEST(RunFile, AHostileWriterIsToldWhatIsWrong) {
   }
 }
 
-TEST(RunFile, WhatIsNoRunIsSaidToBeNone) {
+TEST(RunFile, OtherFilesAreRejected) {
   const TempFolder folder;
   for (const std::string& bytes :
        {std::string(), std::string(5000, 'x'), std::string("\x89SVDAG\r\n")})
     EXPECT_SVDAG_ERROR(read_all(folder.write("x.run", bytes)), ExitCode::kBadInput, "is not a run");
 }
 
-TEST(RunFile, ALevelThatIsDamagedLaterIsFoundByItsReader) {
+TEST(RunFile, DamageAfterOpeningIsFoundByTheReader) {
   const TempFolder folder;
   write_small(folder.file("a.run"));
   MemoryBudget budget;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Python reader, written from docs/run-format.md, finds in runs what the whole bake holds."""
+"""The independent Python reader finds in the runs of all parts the voxels of the whole bake."""
 import pathlib
 import random
 import subprocess
@@ -40,8 +40,8 @@ class Reader(unittest.TestCase):
         for kind, count, grid in [("scan", 1000, ["-r", "64"]), ("city", 1200, ["-r", "128", "--rule", "thin"]),
                                   ("terrain", 2000, ["--voxel-size", "1.5"]), ("hairball", 5000, ["-r", "128"])]:
             dag = read_svdag.Svdag(self.bake("whole.svdag", kind, count, *grid))
-            wanted = sorted(morton(voxel, dag.L) for voxel in dag.voxels())
-            self.assertGreater(len(wanted), 20)
+            expected = sorted(morton(voxel, dag.L) for voxel in dag.voxels())
+            self.assertGreater(len(expected), 20)
             found = []
             for i in range(1, 6):
                 part = read_run.Run(self.bake("part.run", kind, count, *grid, "--part", f"{i}/5"))
@@ -49,16 +49,16 @@ class Reader(unittest.TestCase):
                 codes = part.codes()
                 self.assertTrue(all(any(b <= code < e for b, e in part.ranges) for code in codes))
                 found += codes
-            self.assertEqual(found, wanted, kind)
-            self.assertEqual(read_run.Run(self.bake("whole.run", kind, count, *grid)).codes(), wanted, kind)
+            self.assertEqual(found, expected, kind)
+            self.assertEqual(read_run.Run(self.bake("whole.run", kind, count, *grid)).codes(), expected, kind)
 
-    def test_a_flipped_bit_is_seen_by_both(self):
+    def test_both_readers_detect_a_flipped_bit(self):
         good = self.bake("a.run", "rectangle", 2, "-r", "32")
-        chance = random.Random(1)
+        rng = random.Random(1)
         for _ in range(60):
             damaged = bytearray(good)
-            damaged[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
-            with self.assertRaises(read_run.Broken):
+            damaged[rng.randrange(len(good))] ^= 1 << rng.randrange(8)
+            with self.assertRaises(read_run.DamagedRun):
                 read_run.Run(bytes(damaged))
             (self.folder / "a.run").write_bytes(damaged)
             self.assertEqual(run("svdag", "info", self.folder / "a.run").returncode, 3)

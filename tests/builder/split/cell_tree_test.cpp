@@ -1,4 +1,4 @@
-// What CellTree says that it takes, against what the lists of a descent hold.
+// The memory that CellTree::bytes() reports, against the lists that a descent holds.
 #include "builder/split/cell_tree.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 namespace svdag {
 namespace {
 
-// Entries of the list of `cube` and of all below it that hold all of its triangles: those of one
-// way down to bricks, with the lists of the children beside it.
-uint64_t entries_on_the_way(const TriangleList& list, const Cube& cube, int levels) {
+// Number of list entries on one path from `cube` down to a brick, through the children with most
+// triangles, including the lists of the siblings on the way.
+uint64_t entries_on_path(const TriangleList& list, const Cube& cube, int levels) {
   if (cube.level == levels - 2) return list.size();
   std::array<TriangleList, 8> children;
   divide_list(list, cube, levels, {}, &children);
@@ -21,12 +21,11 @@ uint64_t entries_on_the_way(const TriangleList& list, const Cube& cube, int leve
       next = c;
     }
   }
-  return sum + (deepest == 0
-                    ? 0
-                    : entries_on_the_way(children[next], cube.child(next), levels) - deepest);
+  return sum +
+         (deepest == 0 ? 0 : entries_on_path(children[next], cube.child(next), levels) - deepest);
 }
 
-// Sheets through the whole grid, one on the other: what a worker must hold at every level.
+// Stacked sheets through the whole grid: a worker holds them at every level.
 TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
   Grid grid;
   grid.levels = 12;
@@ -43,8 +42,8 @@ TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
   }
   TriangleList all;
   for (const TriangleSetup& t : setups) all.push_back({&t, t.edges});
-  const uint64_t held = entries_on_the_way(all, Cube(), grid.levels) * sizeof(ListedTriangle);
-  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they are on every level
+  const uint64_t held = entries_on_path(all, Cube(), grid.levels) * sizeof(ListedTriangle);
+  ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they are in lists of every level
   EXPECT_GE(tree.bytes(1) - tree.bytes(0), held);
   EXPECT_EQ(tree.bytes(9) - tree.bytes(8), tree.bytes(1) - tree.bytes(0));
 }

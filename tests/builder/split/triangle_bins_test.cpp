@@ -1,4 +1,4 @@
-// Triangles in bins come back as they were, however far they reach; others are never believed.
+// Triangles of bins are read back exactly, up to the largest coordinates; others are rejected.
 #include "builder/split/triangle_bins.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 class TriangleBinsTest : public testing::Test {
  protected:
-  // As TriangleBins stores it, but in wrapping numbers.
+  // Stores a triangle as TriangleBins does, with wrapping arithmetic.
   TriangleBin bin_of(const LatticeTriangle& triangle) {
     TriangleBin bin;
     SpillWriter writer(scratch_.triangles(), scratch_.new_streams(), &budget_);
@@ -50,7 +50,7 @@ class TriangleBinsTest : public testing::Test {
 };
 
 // The snap accepts a vertex at nearly 2^62 steps from zero, and shifts it by nearly 2^61 more.
-TEST_F(TriangleBinsTest, TheFarthestVertexThatTheSnapAcceptsComesBack) {
+TEST_F(TriangleBinsTest, TheFarthestVertexThatTheSnapAcceptsIsReadBack) {
   const double far = 0x1p38 - 4096;
   for (const double side : {1.0, -1.0}) {
     Box box;
@@ -71,13 +71,13 @@ TEST_F(TriangleBinsTest, TheFarthestVertexThatTheSnapAcceptsComesBack) {
   }
 }
 
-TEST_F(TriangleBinsTest, VerticesThatNoSnapGivesAreAsADamagedBlock) {
+TEST_F(TriangleBinsTest, VerticesThatTheSnapCannotProduceAreReportedAsDamage) {
   constexpr int64_t kFar = (int64_t(1) << 62) + (int64_t(1) << 61);
   const LatticePoint zero(0), far(kFar, 0, 0), too_far(kFar + (int64_t(1) << 34), 0, 0);
   EXPECT_EQ(read(bin_of({{zero, far, zero}})).size(), 1U);
   EXPECT_SVDAG_ERROR(read(bin_of({{too_far, zero, zero}})), ExitCode::kOutput, "damaged");
   EXPECT_SVDAG_ERROR(read(bin_of({{zero, zero, -too_far}})), ExitCode::kOutput, "damaged");
-  // Each may be, but the way from one to the other does not fit.
+  // Each is valid alone, but their difference overflows.
   EXPECT_SVDAG_ERROR(read(bin_of({{far, -far, zero}})), ExitCode::kOutput, "damaged");
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kF = 23;
 constexpr int64_t kVoxel = int64_t(1) << kF;
 
-// Triangles about a brick at the origin: of all sizes, on and off lattice planes, degenerate,
+// Draws triangles near a brick at the origin: of all sizes, on and off voxel planes, degenerate,
 // giant.
 class Draw {
  public:
@@ -73,17 +73,18 @@ TEST(Kernels, SetTheVoxelsOfThePlainOnes) {
       if (setups.back().box.meets({LatticePoint(0), LatticePoint(4 * kVoxel)}))
         list.push_back({&setups.back(), setups.back().edges});
     }
-    const Brick wanted = draw.bits() % 4 == 0 ? draw.bits() : ~Brick(0);
+    const Brick candidates = draw.bits() % 4 == 0 ? draw.bits() : ~Brick(0);
     DecisionCounts counts;
     const Kernels& plain = plain_kernels();
     const Brick conservative =
-        plain.conservative(list.data(), list.size(), LatticePoint(0), kF, wanted, &counts);
-    const Brick thin = plain.thin(list.data(), list.size(), LatticePoint(0), kF, wanted, &counts);
+        plain.conservative(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
+    const Brick thin =
+        plain.thin(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
     for (const Kernels& k : all) {
-      ASSERT_EQ(k.conservative(list.data(), list.size(), LatticePoint(0), kF, wanted, &counts),
+      ASSERT_EQ(k.conservative(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
                 conservative)
           << k.name;
-      ASSERT_EQ(k.thin(list.data(), list.size(), LatticePoint(0), kF, wanted, &counts), thin)
+      ASSERT_EQ(k.thin(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts), thin)
           << k.name;
     }
   }
@@ -108,8 +109,8 @@ TEST(Kernels, GiveTheSameChildrenOnEveryInstructionSet) {
   }
 }
 
-// A child that is left out, or an edge that is switched off, is certain: the voxels below say so.
-TEST(Kernels, LeaveOutNoChildThatIsTouched) {
+// A child that is left out, or an edge that is switched off, must be so for all voxels below.
+TEST(Kernels, LeaveOutNoTouchedChild) {
   Draw draw(3);
   DecisionCounts counts;
   for (int i = 0; i < 30'000; ++i) {
@@ -135,7 +136,7 @@ TEST(Kernels, AgreeOnAPlaneAndABrickAtEveryTie) {
   std::mt19937_64 random(4);
   const std::vector<Kernels> all = vector_kernels();
   for (int i = 0; i < 100'000; ++i) {
-    // Small numbers, so that ends of intervals meet often.
+    // Every second round with small numbers, so that ends of intervals often coincide.
     PlaneBrick plane;
     const int64_t scale = i % 2 == 0 ? 7 : int64_t(1) << 58;
     const auto draw = [&] { return int64_t(random() % uint64_t(2 * scale)) - scale; };
