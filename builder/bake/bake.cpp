@@ -157,7 +157,7 @@ std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPa
 
 void report_resources(const Tools& tools, const BakeOutput& output, BuildReport* report) {
   const Scratch& scratch = *tools.workspace->scratch();
-  report->nodes = output.keys();
+  report->nodes = output.key_counts();
   report->file_bytes = output.file_bytes();
   report->content_hash = output.content_hash();
   report->scratch = {tools.disk_need->estimate(), scratch.peak_bytes(), scratch.written_bytes(),
@@ -274,46 +274,6 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
     if (!checkpoint.has_saved_work() || !is_lack_of_memory(error)) throw;
     throw Error(ExitCode::kMemory, kNoMemory + hint);
   }
-}
-
-BuildReport Bake::run() {
-  LapTimer total;
-  report_.rule = config_.descent.rule;
-  if (config_.part && !names_run(config_.output))
-    fail_usage(config_.output + ": a part of a grid is a run: choose an output that ends in .run");
-  find_unfinished();
-  report_.resumed = saved_.has_value();
-  if (config_.ready == nullptr) description_.watch()->begin();
-  choose_grid();
-  // The output is opened before the work begins: an unwritable folder is known at once.
-  const auto output = open_output(config_.output, report_.grid, report_.rule, *part_);
-  if (config_.open_store) store_ = config_.open_store(report_.grid, report_.rule, &budget_);
-  split();
-  // At once: they must stay as they are until then.
-  if (config_.name_files) report_.files = description_.files();
-  phase_.lap();
-  voxelize();
-  const std::vector<SubDagRoot> tops = merge(output.get());
-  phase_.lap();
-  progress_->phase("write", 0);
-  output->finish(tops, report_.voxels, report_.split.largest_snap);
-  saves_ = false;
-  folder_.keep(false);
-  checkpoint_.discard();
-  end_phase(&report_.seconds.write, &report_.phase_peaks.write);
-  progress_->finish();
-
-  report_.nodes = output->key_counts();
-  report_.file_bytes = output->file_bytes();
-  report_.content_hash = output->content_hash();
-  report_.scratch = {disk_need_.estimate(), scratch_.peak_bytes(), scratch_.written_bytes(),
-                     scratch_.read_bytes()};
-  report_.threads = executor_->workers();
-  report_.seconds.total = total.lap();
-  report_.seconds.cpu = cpu_seconds();
-  report_.peak_counted = budget_.peak();
-  report_.peak_resident = peak_resident_bytes();
-  return std::move(report_);
 }
 
 }  // namespace

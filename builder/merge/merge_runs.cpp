@@ -41,24 +41,6 @@ Run run_of(const RunFile& file) {
   return run;
 }
 
-// Runs `merge` on checked run files. If another program wrote to one of them meanwhile, the check
-// is invalid: this is then the reported error, whatever the merge failed with.
-std::vector<SubDagRoot> merge_proven(const std::vector<RunFile>& files,
-                                     const std::function<std::vector<SubDagRoot>()>& merge) {
-  const auto require_unchanged = [&] {
-    for (const RunFile& file : files) file.require_unchanged();
-  };
-  std::vector<SubDagRoot> tops;
-  try {
-    tops = merge();
-  } catch (const std::exception&) {
-    require_unchanged();
-    throw;
-  }
-  require_unchanged();
-  return tops;
-}
-
 }  // namespace
 
 GridPart joined_part(const std::vector<RunFile>& runs) {

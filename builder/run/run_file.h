@@ -39,8 +39,6 @@ class RunFile {
   uint64_t key_count(int level) const { return header_.keys[level]; }
   // Streams the keys of `level` as bytes. The run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
-  // Error if the file was written since open(): the result of check_run() is then invalid.
-  void require_unchanged() const { svdag::require_unchanged(file_, before_); }
 
  private:
   RunFile(File file, const RunHeader& header, MemoryBudget* budget);

@@ -67,7 +67,7 @@ std::string reduce(int levels, uint64_t table_bytes, size_t* runs, const Fill& f
   config.budget = &budget;
   config.scratch = set.spilled ? &scratch : nullptr;
   config.map_bytes = uint64_t(1) << 20;
-  config.sources = 4;
+  config.max_sources = 4;
   SequentialExecutor executor;
   output.finish(merge(set.runs, set.roots, GridPart::whole(levels), config, &output, &executor),
                 set.voxels, 0);
