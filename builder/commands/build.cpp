@@ -194,7 +194,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   ParallelExecutor executor(threads_or_all(command.threads));
   Progress progress(command.output.mode());
   BuildConfig build_config = command.build;
-  build_config.name_files = in_a_batch || report_file;
+  const bool wants_report = in_a_batch || report_file;
+  build_config.name_files = wants_report;
   if (!command.cache.folder.empty())
     build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
       return std::make_unique<CellCache>(command.cache, grid, rule, budget);
@@ -202,7 +203,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   const BuildReport report = build(build_config, &executor, &progress);
   if (!report.cache_complaint.empty())
     std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
-  const std::string json = report_json(command, report);
+  // Only on demand: nlohmann's destructors allocate, which ends the program where memory is short.
+  const std::string json = wants_report ? report_json(command, report) : "";
   if (report_file) {
     report_file->append(json);
     report_file->commit();

@@ -137,7 +137,7 @@ int run(const InfoCommand& command);
 constexpr const char* kResumeForRestart =
     "stopped; the same command with --resume in place of --restart continues";
 
-// Bakes one scene; returns its report as JSON.
+// Bakes one scene. Returns its report as JSON in a batch, or if a report was requested.
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);
 // Predicts one bake.
 int predict(const DryRunCommand& command);

@@ -135,11 +135,11 @@ TEST(SentCubes, PlacesWhereNoCubeCanBeAreRefused) {
        {leaf({4, 0, 0}), leaf({0, 0, -7}), leaf({last, 0, 0}), leaf({0, 0, 0}, 0),
         tile({64, 0, 0}, 128), tile({128, 0, 0}, 4096), tile({0, 0, 0}, 0), tile({0, 0, 0}, 1),
         tile({0, 0, 0}, 16), tile({0, 0, 0}, 1U << 31)}) {
-    EXPECT_SVDAG_ERROR(received({wrong}), ExitCode::kBadInput, "where there can be none");
+    EXPECT_SVDAG_ERROR(received({wrong}), ExitCode::kBadInput, "impossible position");
   }
   SentCubes cut("x.vdb", kMuch);
   cut.take(head_block(head(), "name"));
-  EXPECT_SVDAG_ERROR(cut.take(Bytes(sizeof(CubeRecord) + 1)), ExitCode::kBadInput, "no grid");
+  EXPECT_SVDAG_ERROR(cut.take(Bytes(sizeof(CubeRecord) + 1)), ExitCode::kBadInput, "invalid grid");
 }
 
 TEST(SentCubes, VoxelsThatComeTwiceAreRefused) {

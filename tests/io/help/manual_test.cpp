@@ -70,7 +70,7 @@ RC_GTEST_PROP(Manual, ComesOutOfATableAsItWentIn, ()) {
 
 TEST(Manual, ATableOfAnotherShapeIsRefused) {
   EXPECT_SVDAG_ERROR(from_table("option\t-x\n"), ExitCode::kUsage, "begin with a program");
-  EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\noption\t-x\n"), ExitCode::kUsage, "no option");
+  EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\noption\t-x\n"), ExitCode::kUsage, "not an option");
   EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\npicture\tx\n"), ExitCode::kUsage, "picture");
 }
 

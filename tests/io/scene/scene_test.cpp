@@ -89,7 +89,7 @@ TEST_F(SceneFiles, ASceneWithoutTrianglesHasNoBounds) {
 }
 
 TEST_F(SceneFiles, UnknownAndMissingFilesAreRefused) {
-  EXPECT_NE(refusal({{write("a.txt", "hello")}, {}, false}).find("no scene file"),
+  EXPECT_NE(refusal({{write("a.txt", "hello")}, {}, false}).find("not a supported scene file"),
             std::string::npos);
   EXPECT_NE(refusal({{folder_.file("none.ply")}, {}, false}).find("no such file"),
             std::string::npos);

@@ -65,7 +65,7 @@ TEST(SharedFolder, IsRefusedAndLeftAsItIsWhereEverybodyMayWrite) {
   for (const mode_t mode : {0777U, 01777U}) {
     ASSERT_EQ(chmod(temp.file("s").c_str(), mode), 0);
     EXPECT_SVDAG_ERROR(Folder::open_shared(temp.file("s")), ExitCode::kUsage,
-                       "s: everybody may write in this folder");
+                       "s: this folder is world-writable");
     EXPECT_EQ(mode_of(temp.file("s")), mode);
   }
 }

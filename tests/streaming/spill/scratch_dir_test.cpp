@@ -179,7 +179,7 @@ TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
   std::filesystem::create_directory(path);
   folder.write("s/thesis.txt", "years");
   folder.write("s/probe-7.csv", "precious");
-  EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "no scratch folder");
+  EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "not a scratch folder");
   EXPECT_EQ(folder.read("s/thesis.txt"), "years");
 }
 
