@@ -1,7 +1,7 @@
 // Set voxels of another program, one by one or as cubes.
 //
 // A file that lists voxels (npz, binvox, vox) hands them to a sink in batches, in its own order,
-// repetitions included; where they stand is known when it is through. A sparse volume (vdb) has
+// repetitions included; their placement is known at the end. A sparse volume (vdb) has
 // cubes besides that are set as a whole.
 #pragma once
 

@@ -150,7 +150,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
     std::printf("; %s of its packs ignored, for which --memory is too small",
                 format_count(r.cache_ignored).c_str());
   std::printf("\n");
-  std::printf("  planes: %s cubes put to the memo, %s answered; %s nodes computed for it\n",
+  std::printf("  planes: %s cubes looked up in the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.queries).c_str(), format_count(r.memo.answered).c_str(),
               format_count(r.memo.computed).c_str());
   std::printf(

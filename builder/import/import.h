@@ -35,7 +35,7 @@ struct ImportReport {
   int spilled = 0;           // files that what memory did not hold was sorted in
 };
 
-// Hands all voxels to the sinks and says where they stand.
+// Passes all voxels to the sinks and returns their placement.
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 
 ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);

@@ -48,7 +48,7 @@ void check_fields(const File& file, const Header& h) {
     require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }
 
-// The parts stand one behind the other exactly as the format says, so no byte is unaccounted for.
+// The parts follow each other exactly as the format defines, so every byte is accounted for.
 void check_layout(const File& file, const Header& h) {
   uint64_t end = sizeof(Header);
   const uint64_t size = file.size();

@@ -19,7 +19,7 @@ class NodeGraph {
  public:
   virtual ~NodeGraph() = default;
 
-  // Where the voxels stand. Its levels are those of the graph: the root is at level 0.
+  // The grid of the voxels. Its levels are those of the graph: the root is at level 0.
   virtual Grid grid() const = 0;
   virtual uint32_t root() const { return 0; }
   // The children of node `id` of `level`, 0 .. L-3, or kNoChild. What the file cannot mean is an

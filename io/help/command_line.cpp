@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kChoices = "choices ";
 constexpr const char* kEndings = "endings ";
 
-constexpr uint64_t kLeastMemory = 1 << 20;  // with less not even small scenes can be read
+constexpr uint64_t kMinMemory = 1 << 20;  // with less not even small scenes can be read
 
 CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words,
                   CLI::Validator validator = CLI::Validator("")) {
@@ -227,7 +227,7 @@ CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
 void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& text) {
   const auto read = [bytes](const std::string& value) {
     *bytes = parse_count(value, "--memory");
-    if (*bytes < kLeastMemory)
+    if (*bytes < kMinMemory)
       fail_usage("--memory: " + value + " is less than 1M: give a size such as 512M or 4G");
   };
   command

@@ -40,7 +40,7 @@ class File {
 
   // Fills `out` from byte `offset`; an end of file before that is an error.
   void read_at(uint64_t offset, std::span<std::byte> out) const;
-  // As read_at, but returns the bytes read, fewer than asked only at the end of the file.
+  // As read_at, but returns the number of bytes read, fewer than requested only at the end of file.
   size_t read_some_at(uint64_t offset, std::span<std::byte> out) const;
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   void truncate(uint64_t size);

@@ -46,7 +46,7 @@ class MemoryBudget {
   uint64_t limit() const { return limit_; }
   uint64_t used() const { return used_.load(std::memory_order_relaxed); }
   uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }
-  // The most that was used at once since this was last asked: the peak of a phase.
+  // Peak usage since the previous call, in bytes.
   uint64_t lap_peak() { return lap_peak_.exchange(used(), std::memory_order_relaxed); }
 
  private:

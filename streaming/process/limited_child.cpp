@@ -164,7 +164,7 @@ class Child {
     if (!WIFSIGNALED(status)) return "it ended without a result";
     switch (WTERMSIG(status)) {
       case SIGSYS:
-        return "it asked the system for what no decoder needs";
+        return "it made a system call that no decoder needs";
       case SIGXCPU:
         return "it took more than " + std::to_string(limits.seconds) + " s of processor time";
       case SIGKILL:

@@ -19,8 +19,8 @@ size_t columns_of(std::FILE* stream) {
 }  // namespace
 
 size_t text_width(std::FILE* stream) {
-  const char* asked = std::getenv("COLUMNS");
-  size_t columns = asked == nullptr ? 0 : std::strtoul(asked, nullptr, 10);
+  const char* columns_set = std::getenv("COLUMNS");
+  size_t columns = columns_set == nullptr ? 0 : std::strtoul(columns_set, nullptr, 10);
   if (columns == 0) columns = columns_of(stream);
   if (columns == 0) columns = 80;
   return std::clamp<size_t>(columns, 40, 100);

@@ -1,6 +1,6 @@
 // A file of framed blocks: where a bake puts what does not fit in memory.
 //
-// A *stream* is a sequence of bytes with a number of its own. Its blocks stand anywhere in the
+// A *stream* is a sequence of bytes with a number of its own. Its blocks are anywhere in the
 // file, so hundreds of streams grow at once in one file, and the blocks of a stream that was freed
 // are used again. Every block has the same size and begins with
 //
@@ -31,7 +31,7 @@ namespace svdag {
 struct SpillStream {
   uint64_t number = 0;           // never used twice in one scratch folder
   uint64_t bytes = 0;            // payload
-  std::vector<uint32_t> blocks;  // where the blocks stand, in order
+  std::vector<uint32_t> blocks;  // positions of the blocks, in order
 };
 
 class SpillFile {

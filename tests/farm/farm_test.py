@@ -3,7 +3,7 @@
 
 The generated atrium, cut into 16 shards, is baked
   by Slurm on four nodes, in two arrays of shards (MaxArraySize is 11), one node dying with its job in the middle;
-  by `svdag run -j 2`, which is ended in the middle and asked again;
+  by `svdag run -j 2`, which is ended in the middle and restarted;
   by the reference runner of Open Job Description (PyPI openjd-cli).
 Where SVDAG_SCENES is set, Crytek Sponza as well, on Slurm. --only ENGINE runs a part.
 """
@@ -169,7 +169,7 @@ def by_run(farm, name, resolution):
     require(done < SHARDS, "svdag run went on after the interrupt")
     (plan / "runs" / "shard-1.run").write_bytes(b"not a run")
     farm.call("run", plan, "-j", "2")
-    say(f"  ended after {done} steps, one of them damaged, and asked again")
+    say(f"  ended after {done} steps, one of them damaged, and restarted")
     farm.judge(name, resolution, plan)
 
 
@@ -210,7 +210,7 @@ def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
     farm = Farm(options.programs.resolve())
     tests = {"slurm": ("Slurm, a node dies", lambda: by_slurm(farm, "atrium", "16K", True)),
-             "run": ("svdag run, ended and asked again", lambda: by_run(farm, "atrium", "4K")),
+             "run": ("svdag run, ended and restarted", lambda: by_run(farm, "atrium", "4K")),
              "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium", "4K"))}
     if os.environ.get("SVDAG_SCENES") and farm.scene("sponza").exists():
         tests["sponza"] = ("Slurm, Crytek Sponza", lambda: by_slurm(farm, "sponza", "4K", False))

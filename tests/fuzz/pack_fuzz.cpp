@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kMostTaken = 64;
+constexpr size_t kMaxTaken = 64;
 
 void try_pack(const std::string& bytes) {
   expect_only_errors([&] {
@@ -16,7 +16,7 @@ void try_pack(const std::string& bytes) {
     Pack pack(memory.file().path());
     pack.read_entries(&budget);
     pack.prove();
-    for (size_t i = 0; i < std::min(pack.entries().size(), kMostTaken); ++i) {
+    for (size_t i = 0; i < std::min(pack.entries().size(), kMaxTaken); ++i) {
       const PackEntry& entry = pack.entries()[i];
       const int levels = entry.rank == kNoNode ? 3 : std::max(3, int(entry.height));
       if (levels > kMaxLevels) continue;

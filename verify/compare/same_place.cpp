@@ -10,7 +10,7 @@ namespace svdag {
 namespace {
 
 constexpr double kExact = 1e-6;
-constexpr double kFloatStep = 0x1p-23, kMostOfFloats = 1.0 / 8;
+constexpr double kFloatStep = 0x1p-23, kMaxOfFloats = 1.0 / 8;
 
 // A grid in units of a length, which keeps sums of huge and of tiny worlds finite.
 struct Placed {
@@ -60,7 +60,7 @@ bool same_place(const Grid& a, const Grid& b) {
   const double reach = std::max(in_a.reach, in_b.reach);
   double tolerance = kExact + std::min(kRoundings * reach, kMostOfRoundings);
   if (may_be_of_floats(a) || may_be_of_floats(b))
-    tolerance = std::max(tolerance, std::min(kFloatStep * reach, kMostOfFloats));
+    tolerance = std::max(tolerance, std::min(kFloatStep * reach, kMaxOfFloats));
   for (const Ends& ends : kWays) {
     const bool possible = !ends.kind || (a.kind == *ends.kind && b.kind == *ends.kind);
     if (possible && agree(in_a, in_b, ends, tolerance)) return true;

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostRows = 20;
+constexpr size_t kMaxRows = 20;
 
 double seconds(Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -69,7 +69,7 @@ void LiveTable::draw(const std::vector<StepRow>& rows) {
     done += rows[i].state == StepState::kDone;
     failed += rows[i].state == StepState::kFailed;
     if (rows[i].state == StepState::kDone) planned_done += plan_.steps[i].predicted.cpu;
-    if (rows[i].state != StepState::kRunning || lines_ >= kMostRows) continue;
+    if (rows[i].state != StepState::kRunning || lines_ >= kMaxRows) continue;
     line("  %-12s %8.1f s of %.1f s", plan_.steps[i].name.c_str(),
          seconds(Clock::now() - rows[i].begin), plan_.steps[i].predicted.seconds);
   }

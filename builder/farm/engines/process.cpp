@@ -156,9 +156,9 @@ std::string from_anywhere(const std::string& path) {
   return error ? path : absolute.string();
 }
 
-std::string program_on_hosts(const std::string& asked) {
-  if (asked.empty()) return own_program();
-  return asked.find('/') == std::string::npos ? asked : from_anywhere(asked);
+std::string program_on_hosts(const std::string& program) {
+  if (program.empty()) return own_program();
+  return program.find('/') == std::string::npos ? program : from_anywhere(program);
 }
 
 }  // namespace svdag

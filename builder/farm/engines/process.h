@@ -36,8 +36,8 @@ std::string own_image();
 // `path` as an absolute path. Links are resolved on the host, so they are kept, and so is "..".
 std::string from_anywhere(const std::string& path);
 
-// What hosts start for `asked`: a name without a folder is looked up on their PATH; empty: this
+// What hosts start for `program`: a name without a folder is looked up on their PATH; empty: this
 // program.
-std::string program_on_hosts(const std::string& asked);
+std::string program_on_hosts(const std::string& program);
 
 }  // namespace svdag

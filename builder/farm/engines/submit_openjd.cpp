@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
-constexpr int kLeastSeconds = 600;
+constexpr int kMinSeconds = 600;
 constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the step that a task does
 
 // Open Job Description wants relative defaults of paths.
@@ -88,7 +88,7 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
              {{"onRun",
                {{"command", "{{Param.Svdag}}"},
                 {"args", arguments},
-                {"timeout", std::max(kLeastSeconds, int(kTimeFactor * seconds))}}}}}}}};
+                {"timeout", std::max(kMinSeconds, int(kTimeFactor * seconds))}}}}}}}};
 }
 
 }  // namespace

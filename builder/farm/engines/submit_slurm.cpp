@@ -21,7 +21,7 @@ namespace {
 constexpr size_t kUsualArray = 1000;     // tasks, where Slurm does not say how many it allows
 constexpr size_t kLargestArray = 10000;  // a list of more would be too long for a command line
 constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
-constexpr uint64_t kLeastMinutes = 10;
+constexpr uint64_t kMinMinutes = 10;
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 constexpr auto kPoll = std::chrono::milliseconds(500);
 constexpr int kPatience = 120;  // polls that squeue may fail for in a row
@@ -224,7 +224,7 @@ void Submission::submit(Job* job) {
   file.append(script_of(*job));
   file.commit();
   const bool array = is_array(*job);
-  const uint64_t minutes = std::max(kLeastMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
+  const uint64_t minutes = std::max(kMinMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
   std::vector<std::string> command = {
       "sbatch",
       "--parsable",

@@ -7,8 +7,8 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kBatch = 4096;      // triangles read at once
-constexpr uint64_t kMostCopies = 3;  // of a triangle, on average, by one dealing
+constexpr size_t kBatch = 4096;     // triangles read at once
+constexpr uint64_t kMaxCopies = 3;  // of a triangle, on average, by one dealing
 
 class Dealer {
  public:
@@ -65,7 +65,7 @@ class Dealer {
     }
     uint64_t copies = 0;
     for (const TriangleBin& part : parts) copies += part.triangles;
-    if (copies <= kMostCopies * bin.triangles) return place_all(parts);
+    if (copies <= kMaxCopies * bin.triangles) return place_all(parts);
     for (const TriangleBin& part : parts) scratch_->passing()->free(part.stream);
     copy(from, bin);
   }

@@ -15,7 +15,7 @@ constexpr int kFinestPilot = 14;    // finer levels are estimated from the sampl
 constexpr int kCellLevel = 6;       // as builder/bake/bake.cpp
 constexpr int kDeepestCells = 8;
 constexpr double kSampleShare = 0.03;  // of the coarse cost
-constexpr size_t kMostSamples = 512, kFewestSamples = 8;
+constexpr size_t kMaxSamples = 512, kFewestSamples = 8;
 constexpr int kPart = 4;  // one drawn cell in so many is in the smaller sample, too
 // Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
 constexpr double kUnsurveyed = 7.05e-6;
@@ -61,7 +61,7 @@ std::map<uint64_t, int> draw(const Coarse& coarse) {
   double all = 0;
   for (const auto& [cell, work] : coarse.cells) all += cpu_of(work);
   const size_t count =
-      std::clamp(size_t(kSampleShare * double(coarse.cells.size())), kFewestSamples, kMostSamples);
+      std::clamp(size_t(kSampleShare * double(coarse.cells.size())), kFewestSamples, kMaxSamples);
   std::map<uint64_t, int> drawn;
   double before = 0, next = 0.5;
   for (const auto& [cell, work] : coarse.cells) {

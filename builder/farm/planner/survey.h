@@ -54,7 +54,7 @@ class Survey {
   class Baker;
 
   Grid fine_;
-  Grid grid_;  // `fine_` as coarse as asked
+  Grid grid_;  // `fine_` at the survey's level
   SurveyConfig config_;
   MemoryBudget* budget_;
   std::unique_ptr<Baker> baker_;
@@ -62,7 +62,7 @@ class Survey {
   Wanted wanted_by_part_;
 };
 
-// `grid` with voxels of octree level `level`: cubes stand where they stood.
+// `grid` with voxels of octree level `level`; cubes keep their positions.
 Grid coarser_grid(const Grid& grid, int level);
 
 }  // namespace svdag

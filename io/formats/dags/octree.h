@@ -1,7 +1,7 @@
 // Octrees of ooc_svo_builder: X.octree (a text header), X.octreenodes, X.octreedata.
 //
 // A node is 24 bytes: u64 data (0 none, 1 the voxel of all binary octrees), u64 base, 8 x i8
-// offset; child x + 2y + 4z is node base + offset, or none if that is -1. Children stand before
+// offset; child x + 2y + 4z is node base + offset, or none if that is -1. Children come before
 // parents and the root is last. The children of a node must be neighbours, but nothing forbids that
 // two nodes have the same: written are the children of every *unique* node, once, so the file has
 // the size of the DAG and opens as an octree. All voxels are node 0. Rejected: the octree itself

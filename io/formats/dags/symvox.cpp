@@ -91,7 +91,7 @@ std::array<uint32_t, 256> place_blocks(const LevelDag& dag, uint64_t first, uint
   return word;
 }
 
-// The nodes of bricks and the blocks in them; `blocks` says where those stand.
+// The nodes of bricks and the blocks in them; `blocks` holds the positions of the blocks.
 void put_bricks(const LevelDag& dag, const std::array<uint32_t, 256>& blocks, Output* out) {
   dag.for_each_brick([&](Brick brick) {
     out->put(brick_octants(brick));

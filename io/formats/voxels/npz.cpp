@@ -122,7 +122,7 @@ uint64_t read_integer(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
-// In Fortran order, which numpy.argwhere() gives, all x stand before all y and z: a stream for
+// In Fortran order, which numpy.argwhere() gives, all x precede all y and z: a stream for
 // each.
 void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
   const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
@@ -189,7 +189,7 @@ bool says_place(std::string_view name) {
   return name == "corner" || name == "resolution" || name == "voxel_size";
 }
 
-// The arrays that say where the voxels stand. What is there is read or refused, never passed over.
+// The arrays that place the voxels. Each is read or rejected, never ignored.
 void read_place(const File& file, std::string_view name, const Array& array, GridPlacement* place) {
   const uint64_t count = name == "corner" ? 3 : 1;
   if (!says_place(name)) return;

@@ -116,7 +116,7 @@ class VoxReader {
 
  private:
   // A small file may repeat its parts without end.
-  static constexpr size_t kMostVisits = size_t(1) << 20;
+  static constexpr size_t kMaxVisits = size_t(1) << 20;
   static constexpr uint64_t kMostVoxels = uint64_t(1) << 32;
   static constexpr int kDeepest = 64;
 
@@ -203,7 +203,7 @@ class VoxReader {
     size_t visits = 1;
     for (const uint32_t child : node.children) {
       visits += count_visits(child, depth + 1);
-      if (visits > kMostVisits) fail_graph();
+      if (visits > kMaxVisits) fail_graph();
     }
     return node.visits = visits;
   }
@@ -230,7 +230,7 @@ class VoxReader {
   void place_model(uint32_t model, const Offset& middle) {
     if (model >= models_.size()) fail_graph();
     voxels_ += models_[model].count;
-    if (placed_.size() >= kMostVisits || voxels_ > kMostVoxels)
+    if (placed_.size() >= kMaxVisits || voxels_ > kMostVoxels)
       fail_input(file_.path(), "repeats its models too often");
     Offset corner = middle_of(model);
     for (size_t a = 0; a < 3; ++a) corner[a] = middle[a] - corner[a];

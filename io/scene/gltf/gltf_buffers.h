@@ -96,7 +96,7 @@ class GltfBuffers {
     const Blob* blob;
     uint64_t begin;
     uint64_t size;
-    uint64_t stride;  // 0: elements stand side by side
+    uint64_t stride;  // 0: elements are contiguous
   };
   View view(uint64_t index);
   const Blob& blob(uint64_t index);

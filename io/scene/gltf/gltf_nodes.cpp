@@ -81,7 +81,7 @@ class Walk {
     if (depth > kMaxDepth) fail(index, "is too deep in the hierarchy");
     reached_[size_t(index)] = true;
     const std::string& name = object.text("name");
-    const bool included = options_.names->includes(name);  // asked in any case (mesh_reader.h)
+    const bool included = options_.names->includes(name);  // called in any case (mesh_reader.h)
     if (options_.names->excludes(name)) {
       ++excluded_;
       return;

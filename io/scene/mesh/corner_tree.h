@@ -58,7 +58,7 @@ class CornerTree {
   void build(std::span<const glm::dvec2> points, const Range& range);
 
   std::vector<Node> nodes_;
-  std::vector<uint32_t> order_;  // those of a leaf stand together, what is left of it in front
+  std::vector<uint32_t> order_;  // corners of a leaf are consecutive, remaining ones first
   std::vector<uint32_t> place_;  // [corner]: its index in order_
 };
 

@@ -83,7 +83,7 @@ struct ReadOptions {
 
   // Whether a part called `name` inside the file is wanted.
   bool wants(const std::string& name) const {
-    const bool included = names->includes(name);  // asked in any case: a pattern that matches
+    const bool included = names->includes(name);  // called in any case: a pattern that matches
     return !names->excludes(name) && (file_included || included);
   }
 };

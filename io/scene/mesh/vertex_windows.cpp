@@ -89,11 +89,12 @@ void VertexWindows::join() {
   const auto loaded = std::make_unique_for_overwrite<std::byte[]>(size_t(bytes));
   answers_.resize(positions_.size());
   for (size_t w = 0; w < positions_.size(); ++w) {
-    const OwnedStream positions = std::move(positions_[w]), asked = std::move(references[w]);
-    if (asked.empty()) continue;
+    const OwnedStream positions = std::move(positions_[w]),
+                      references_of_window = std::move(references[w]);
+    if (references_of_window.empty()) continue;
     load(positions, loaded.get());
-    answers_[w] =
-        single_ ? answer<float>(asked, loaded.get()) : answer<double>(asked, loaded.get());
+    answers_[w] = single_ ? answer<float>(references_of_window, loaded.get())
+                          : answer<double>(references_of_window, loaded.get());
   }
 }
 
@@ -111,12 +112,13 @@ OwnedStream VertexWindows::answer(const OwnedStream& references, const std::byte
   SpillWriter writer = new_stream();
   for (auto block = reader.next(); !block.empty(); block = reader.next()) {
     check_interrupt();
-    const std::span<const uint32_t> asked(reinterpret_cast<const uint32_t*>(block.data()),
-                                          block.size() / sizeof(uint32_t));
-    for (size_t done = 0; done < asked.size();) {
-      const size_t n = std::min(batch.size(), asked.size() - done);
+    const std::span<const uint32_t> references_of_window(
+        reinterpret_cast<const uint32_t*>(block.data()), block.size() / sizeof(uint32_t));
+    for (size_t done = 0; done < references_of_window.size();) {
+      const size_t n = std::min(batch.size(), references_of_window.size() - done);
       for (size_t k = 0; k < n; ++k)
-        std::memcpy(&batch[k], positions + asked[done + k] * sizeof(Position), sizeof(Position));
+        std::memcpy(&batch[k], positions + references_of_window[done + k] * sizeof(Position),
+                    sizeof(Position));
       writer.append(std::as_bytes(std::span(batch).first(n)));
       done += n;
     }

@@ -1,6 +1,6 @@
 // Wavefront OBJ: polygons and groups, in one pass if the positions fit in memory.
 //
-// A face may use the vertices that stand before it, counted from 1, or backwards from -1. Texture
+// A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
 // coordinates, normals and materials are skipped; free-form surfaces are refused, for they would be
 // missing from the scene. A face belongs to the last `o` and to all names of the last `g`: it is
 // wanted if none of these names is excluded and one of them is included.
@@ -151,7 +151,7 @@ class ObjLines {
     const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
     if (i >= count)
       scanner_.fail("has a face with vertex " + std::to_string(index) + ", but " +
-                    std::to_string(count) + " vertices stand before it");
+                    std::to_string(count) + " vertices precede it");
     return positions_[i];
   }
 

@@ -11,7 +11,7 @@ namespace svdag {
 namespace {
 
 // Longer headers are hostile; the parsed form of a shorter one stays below a few MiB.
-constexpr uint64_t kMostLines = 1 << 14;
+constexpr uint64_t kMaxLines = 1 << 14;
 constexpr size_t kLongestLine = 1 << 14;
 
 struct TypeName {
@@ -65,7 +65,7 @@ class HeaderParser {
 
  private:
   std::vector<std::string> next_line() {
-    if (++header_.lines > kMostLines) fail("has a header that is too long");
+    if (++header_.lines > kMaxLines) fail("has a header that is too long");
     auto line = stream_->line(kLongestLine);
     if (!line) fail("ends within the header");
     if (header_.lines == 1 && line->starts_with(kByteOrderMark))

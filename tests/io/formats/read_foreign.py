@@ -263,7 +263,7 @@ def read_vox(path):
             voxels.append(found - [s // 2 for s in sizes[model]] + offset)
 
     place(0, [0, 0, 0])
-    demand(not nodes, "nodes that stand nowhere")
+    demand(not nodes, "nodes without a position")
     return Found(None, ordered(numpy.concatenate(voxels)))
 
 

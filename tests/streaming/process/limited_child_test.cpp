@@ -94,7 +94,7 @@ TEST(LimitedChild, MayNotSpin) {
 }
 
 TEST(LimitedChild, OpensNothingStartsNothingAndReachesNobody) {
-  const char* reason = "it asked the system for what no decoder needs";
+  const char* reason = "it made a system call that no decoder needs";
   expect_stopped([](const BlockSink&) { ::open("/etc/passwd", O_RDONLY); }, reason);
   expect_stopped([](const BlockSink&) { ::unlink("/tmp/nothing-of-this-name"); }, reason);
   expect_stopped([](const BlockSink&) { ::socket(AF_INET, SOCK_STREAM, 0); }, reason);

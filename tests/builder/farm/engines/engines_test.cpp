@@ -1,4 +1,4 @@
-// The engines, asked with programs that only pretend: what is run, when, and what of failures.
+// The engines with fake programs: what is run, when, and how failures are handled.
 #include <gtest/gtest.h>
 
 #include <chrono>

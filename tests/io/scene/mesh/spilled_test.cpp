@@ -10,10 +10,10 @@ namespace {
 
 using Random = std::mt19937_64;
 
-constexpr uint64_t kLeastShare = 16 * 4096;
+constexpr uint64_t kMinShare = 16 * 4096;
 
 uint64_t random_share(Random& random) {
-  return kLeastShare + random() % (3 * kLeastShare);
+  return kMinShare + random() % (3 * kMinShare);
 }
 
 // Vertices that share^2 / 8b bytes hold, and fewer.
@@ -125,7 +125,7 @@ TEST(Spilled, GltfWithInstancesAndEveryMode) {
       gltf.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
       gltf.scene({gltf.append("nodes", {{"name", "one"}, {"mesh", shape}, {"scale", {3, 0.3, 1}}}),
                   gltf.append("nodes", {{"mesh", shape}, {"extensions", instancing}})});
-      const Outcome outcome = expect_same_when_spilled(read_gltf, gltf.glb(), kLeastShare, 1 << 20);
+      const Outcome outcome = expect_same_when_spilled(read_gltf, gltf.glb(), kMinShare, 1 << 20);
       EXPECT_EQ(outcome.error.empty(), !broken);
       EXPECT_GE(outcome.triangles.size() / 11, broken ? 4096U : 60000U);
     }
@@ -138,7 +138,7 @@ TEST(Spilled, TheBlocksOfAMeshAreFreeForTheNext) {
   const MemoryFile whole(mesh.obj(random)), broken(mesh.obj(random) + "f 1 2 x\n");
   for (const MemoryFile* memory : {&whole, &broken}) {
     MemoryBudget budget;
-    TestSpill spill(kLeastShare);
+    TestSpill spill(kMinShare);
     outcome_of(read_obj, memory->file(), &budget, spill.space());
     const uint64_t peak = spill.file()->peak_bytes();
     outcome_of(read_obj, memory->file(), &budget, spill.space());
@@ -156,7 +156,7 @@ std::string tall_off(uint64_t vertices) {
 TEST(Spilled, MoreVerticesThanTheShareCanJoinAreAMemoryErrorThatSaysSo) {
   const MemoryFile memory(tall_off(100000));
   MemoryBudget budget;
-  TestSpill spill(kLeastShare);
+  TestSpill spill(kMinShare);
   const Outcome outcome = outcome_of(read_off, memory.file(), &budget, spill.space());
   EXPECT_EQ(outcome.code, ExitCode::kMemory);
   EXPECT_NE(outcome.error.find("give more with --memory"), std::string::npos) << outcome.error;
@@ -165,7 +165,7 @@ TEST(Spilled, MoreVerticesThanTheShareCanJoinAreAMemoryErrorThatSaysSo) {
 
 TEST(Spilled, WithoutASpillFileItIsAMemoryErrorAsBefore) {
   const MemoryFile memory(tall_off(100000));
-  MemoryBudget budget(kLeastShare);
+  MemoryBudget budget(kMinShare);
   EXPECT_EQ(outcome_of(read_off, memory.file(), &budget).code, ExitCode::kMemory);
 }
 
