@@ -1,23 +1,23 @@
 // Beams: one coarse traversal bounds the times at which a whole bundle of rays can hit anything.
 //
-// Idea: Laine and Karras 2010; Kaempe, Sintorn, Assarsson 2013. A beam holds rays whose origins are
-// in a box O and whose directions are in a box D. At time t they are all in the box O + t D, so a
-// cube can be met only while
+// Idea: Laine and Karras 2010; Kaempe, Sintorn, Assarsson 2013. A beam contains rays whose origins
+// are in a box O and whose directions are in a box D. At time t they are all in the box O + t D, so
+// a cube can be met only while
 //
 //   O.low + t D.low <= cube.high  and  cube.low <= O.high + t D.high        on each axis
 //
-// six inequalities that are linear in t: an interval. The descent follows occupied cubes that have
-// one, down to cubes no larger than the beam is wide there; the result is the union's begin and
-// end. A tile of a picture is a beam with one origin (kTile x kTile pixels); the shadow rays from a
-// tile's surface to a light are one with t = 1 at the light, and its end counts, too: beams work
-// from both sides.
+// These six inequalities are linear in t, so their solution is an interval. The descent follows
+// occupied cubes with a non-empty interval, down to cubes no larger than the beam's width there.
+// The result spans all their intervals. A tile of a picture (kTile x kTile pixels) is a beam with
+// one origin. The shadow rays from a tile's surface to a light are a beam with t = 1 at the light;
+// for them the end of the span matters as well as its begin.
 //
 // Conservative: cubes are grown by slack = 2^-38 * (|O| + N), a thousand times the rounding of
-// ray.h (a plane is where it is to within 2^-48 * (|O| + N), replaced slopes included), and the
-// result is widened by 2^-40 of itself. A ray that meets a solid cube is inside one of the visited
-// ones then, or met one that its cut made solid, where the descent stops as well. So tracing with
-// the beam's span gives the same hit, bit by bit. Rejected: a pyramid's planes (tighter by up to
-// sqrt(3), but only for rays with one origin); an image of coarse hits (not conservative).
+// ray.h (which places a plane to within 2^-48 * (|O| + N), replaced slopes included), and the
+// result is widened by 2^-40 of itself. At the time of its hit, a ray is therefore inside a visited
+// cube, or has met a cube that its cut makes solid, where the descent stops as well. So tracing
+// with the beam's span gives the same hit, bit by bit. Rejected: the planes of a pyramid (tighter
+// by up to sqrt(3), but only for rays with one origin); an image of coarse hits (not conservative).
 //
 // For host and CUDA.
 #pragma once
@@ -26,11 +26,11 @@
 
 namespace svdag {
 
-constexpr uint32_t kTile = 8;  // pixels a side
+constexpr uint32_t kTile = 8;  // side of a tile, in pixels
 
 class Beam {
  public:
-  // Takes in a ray. Directions may have any length, but the same t means the same thing to all.
+  // Adds a ray. Directions may have any length, but t must have the same meaning for all rays.
   SVDAG_HD void add(const Ray& ray) {
     for (int a = 0; a < 3; ++a) {
       grow(ray.origin[a], &from_.min[a], &from_.max[a]);
@@ -42,8 +42,8 @@ class Beam {
   }
   SVDAG_HD bool empty() const { return !any_; }
 
-  // The part of `span` outside which none of the rays meets a solid cube; begin >= end if none
-  // does. Unless `both`, only its begin is looked for, which takes less time.
+  // The part of `span` outside which no ray of the beam meets a solid cube; begin >= end if none
+  // does. If !both, only the begin is narrowed, which is faster.
   SVDAG_HD Span reach(const DagView& dag, const Span& span, const Cut& cut, bool both) const;
 
  private:
@@ -62,7 +62,7 @@ class Beam {
   bool any_ = false;
 };
 
-// A descent, nearest children first, that skips cubes inside the span found so far.
+// A descent, nearest children first, that skips cubes whose span is inside the one found so far.
 class Beam::Walk {
  public:
   SVDAG_HD Walk(const Beam& beam, const DagView& dag, const Span& span, const Cut& cut, bool both)
@@ -76,9 +76,9 @@ class Beam::Walk {
       const double low = beam.from_.min[a], high = beam.from_.max[a];
       const double reach = high > -low ? high : -low;
       slack_ = reach + dag.resolution() > slack_ ? reach + dag.resolution() : slack_;
-      wide_ = high - low > wide_ ? high - low : wide_;
+      width_ = high - low > width_ ? high - low : width_;
       const double spread = beam.along_.max[a] - beam.along_.min[a];
-      widen_ = spread > widen_ ? spread : widen_;
+      width_per_t_ = spread > width_per_t_ ? spread : width_per_t_;
       near_child_ |= unsigned(beam.along_.min[a] + beam.along_.max[a] < 0) << (2 - a);
     }
     slack_ *= 0x1p-38;
@@ -88,7 +88,7 @@ class Beam::Walk {
   SVDAG_HD Span run() {
     if (!dag_.empty()) visit(0, 0, Corner{{0, 0, 0}});
     while (depth_ > 0) {
-      const Entry entry = stack_[--depth_];
+      const BeamEntry entry = stack_[--depth_];
       if (entry.met.begin < found_.begin || entry.met.end > found_.end)
         open(entry.level, entry.node, entry.corner);
     }
@@ -101,13 +101,13 @@ class Beam::Walk {
   struct Corner {
     uint32_t v[3];
   };
-  struct Entry {
+  struct BeamEntry {
     uint32_t level, node;
     Corner corner;
     Span met;
   };
 
-  // Narrows `met` to where low <= value + t * slope, for rays of which some do.
+  // Narrows `met` to the times at which low <= value + t * slope.
   SVDAG_HD static void narrow(double low, double value, double slope, Span* met) {
     if (slope == 0) {
       if (value < low) met->end = -1;
@@ -131,7 +131,7 @@ class Beam::Walk {
     }
     if (!(met.begin <= met.end) || (met.begin >= found_.begin && met.end <= found_.end)) return;
     if (level == dag_.brick_level() || level >= cut_.level || side <= cone_ * met.end ||
-        side <= wide_ + widen_ * met.begin) {
+        side <= width_ + width_per_t_ * met.begin) {
       any_ = true;
       found_.begin = met.begin < found_.begin ? met.begin : found_.begin;
       found_.end = met.end > found_.end ? met.end : found_.end;
@@ -140,7 +140,7 @@ class Beam::Walk {
     }
   }
 
-  // The children, farthest first, so that the nearest comes off the stack first.
+  // Visits the children, farthest first, so that the nearest is popped first.
   SVDAG_HD void open(uint32_t level, uint32_t node, const Corner& corner) {
     const uint32_t half = 1U << (dag_.levels - 1 - level);
     for (unsigned i = 0; i < 8; ++i) {
@@ -159,10 +159,10 @@ class Beam::Walk {
   const Cut cut_;
   Span found_;
   bool any_ = false;
-  double slack_, wide_ = 0, widen_ = 0, cone_;
-  unsigned near_child_ = 0;  // the child nearest to the rays' origins
+  double slack_, width_ = 0, width_per_t_ = 0, cone_;
+  unsigned near_child_ = 0;  // number of the child nearest to the origins
   uint32_t depth_ = 0;
-  Entry stack_[7 * kMaxSections + 1];
+  BeamEntry stack_[7 * kMaxSections + 1];
 };
 
 SVDAG_HD inline Span Beam::reach(const DagView& dag, const Span& span, const Cut& cut,

@@ -13,7 +13,7 @@ double slope_of(double fov) {
   return std::tan(fov * 3.14159265358979323846 / 360);
 }
 
-// Grows `box` over the node's occupied descendants of kBoundsLevel; cubes inside it add nothing.
+// Grows `box` around the node's descendants of level kBoundsLevel; skips cubes inside `box`.
 void grow(const DagView& dag, uint32_t level, uint32_t node, const Vec3& corner, VoxelBounds* box) {
   const double side = double(1U << (dag.levels - level));
   bool inside = box->min[0] < box->max[0];
@@ -63,7 +63,7 @@ Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, dou
 Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect) {
   const Vec3 center = (box.min + box.max) * 0.5;
   Camera camera = look_at(center + towards, center, up, fov, aspect);
-  // Far enough that every corner of the box projects into the image.
+  // The smallest distance at which every corner of the box projects into the image.
   double distance = 0;
   for (const Vec3& corner : corners_of(box)) {
     const Vec3 d = corner - center;

@@ -33,11 +33,11 @@ struct Camera {
 // From `position` towards `target`; `up` is an axis (0 .. 2) of the world.
 Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, double aspect);
 
-// A view on the middle of `box`, from the direction `towards`, that just holds it.
+// Looks at the middle of `box` from the direction `towards`, just far enough to see all of it.
 Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect);
 
-// The box of what is set, to within 1/256 of the grid, or to bricks of 4 voxels where those are
-// larger: good enough to frame a picture.
+// Bounds of the set voxels, rounded outwards to 1/256 of the grid or to bricks, whichever is
+// larger: precise enough to frame a picture.
 VoxelBounds occupied_bounds(const DagView& dag);
 
 }  // namespace svdag

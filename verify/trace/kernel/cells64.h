@@ -1,26 +1,26 @@
 // Computes which of a node's 64 cells a ray meets, all at once, without stepping from cell to cell.
 //
 // Idea: a cell is met if the latest of begin and its three near planes comes before the earliest of
-// end and its three far planes (ray.h). A node has five planes per axis, so fifteen times say it
-// for all 64 cells. They are compared as bytes, 64 in two vectors:
+// end and its three far planes (ray.h). A node has five planes per axis, so fifteen times decide
+// all 64 cells. They are compared as bytes, 64 in two vectors:
 //
 //   byte(t) = 0 .. 254, the whole part of (t - enter) * scale + 1
 //
 // where `enter` is the time at which the node is entered.
 //
 // Invariant: no met cell is lost. Rounding is monotone, in the times as in their bytes, so near <
-// far gives byte(near) <= byte(far); the byte of any time after `enter` is 1 or more. The test is
-// less sharp: a cell that is missed by less than a 63rd of a step may be reported. Its own cells
-// will not be, or the voxel is tested exactly (Walk64::find); so results do not depend on scale, on
-// the order of operations here, or on fused ones.
+// far gives byte(near) <= byte(far); the byte of any time after `enter` is 1 or more. False
+// positives are possible: a cell that is missed by less than 1/63 of a cell's crossing time may be
+// reported. Then its own cells are not reported, or the voxel is tested exactly (Walk64::find_hit).
+// So hits do not depend on scale, on the order of operations here, or on fused operations.
 //
 // scale = 63 / (time to cross a cell along the steepest axis): a node is left within 252 units.
 //
-// Rejected: cell after cell by the earliest far plane (each waits for the one before, and the
-// processor guesses which it will be); all comparisons in double (twice as many vectors); times in
-// float from the node's entry (no faster, and needs bounds on what it loses).
+// Rejected: stepping from cell to cell by the earliest far plane (each step depends on the previous
+// one through an unpredictable branch); all comparisons in double (twice as many vectors); times in
+// float relative to the node's entry (no faster, and needs error bounds).
 //
-// For host and CUDA; cells64_avx2.h is the same in vectors.
+// For host and CUDA; cells64_avx2.h is the vectorized version.
 #pragma once
 
 #include "verify/trace/kernel/ray.h"
@@ -28,39 +28,39 @@
 
 namespace svdag {
 
-// A ray as its nodes ask for it. The fourth of each four is 0.
+// The terms of a ray's plane times. The fourth element of each array is 0.
 struct alignas(32) RayTimes {
   double origin[4], inverse[4];
   double begin, end, scale;  // scale: for cells of side 1
-  uint32_t flip;             // of a cell's number in a node: 9 * that of a child
+  uint32_t flip;             // XORed to cell numbers to mirror them: 9 * MirroredRay::flip
 
   RayTimes() = default;
   SVDAG_HD RayTimes(const MirroredRay& ray, const Span& span)
       : begin(span.begin), end(span.end), flip(9 * ray.flip) {
-    double least = ray.inverse[0];
+    double min_inverse = ray.inverse[0];
     for (int a = 0; a < 3; ++a) {
       origin[a] = ray.origin[a];
       inverse[a] = ray.inverse[a];
-      least = inverse[a] < least ? inverse[a] : least;
+      min_inverse = inverse[a] < min_inverse ? inverse[a] : min_inverse;
     }
     origin[3] = inverse[3] = 0;
-    scale = 63 / least;
+    scale = 63 / min_inverse;
   }
 };
 
-// A node, or brick, that a ray enters: cell `cell` of the node whose corner is `parent`. Of the
-// root itself, cell 0 at 0.
+// A node or brick that a ray enters: cell number `cell` of the node with corner `parent`. The root
+// is cell 0 of a parent at the origin.
 struct Visit {
-  const double* parent;  // aligned corners, mirrored; the fourth of each four is 0
-  double* corner;        // its own: to be filled in
+  const double* parent;  // corner of the parent: aligned, mirrored, the fourth element is 0
+  double* corner;        // corner of this node, in the same form; output of of()
   const uint64_t* node;  // its mask
   uint32_t cell;
   uint32_t depth;
 };
 
-// One number after the other: for CUDA, and what the vectors are tested beside.
+// The scalar version, for CUDA and as the reference for the vectorized one.
 struct PlainCells {
-  // What is set and perhaps met. Fills in the corner.
+  // The cells that are set and possibly met, in mirrored coordinates. Writes visit.corner.
   SVDAG_HD static uint64_t of(const Tree64View& tree, const RayTimes& ray, const Visit& visit) {
     const double side = tree.side[visit.depth];
     for (int a = 0; a < 3; ++a)
@@ -69,8 +69,8 @@ struct PlainCells {
     return mirrored(ray, *visit.node) & met(ray, visit.corner, side, tree.per_side[visit.depth]);
   }
 
-  // The cells that are met, and perhaps some more, of the node at `corner` (mirrored) whose cells
-  // have side `side`, a power of two; per_side = 1 / side.
+  // A superset of the met cells of the node at `corner` (mirrored) with cells of side `side`, a
+  // power of two; per_side = 1 / side.
   SVDAG_HD static uint64_t met(const RayTimes& ray, const double corner[4], double side,
                                double per_side) {
     double enter = ray.begin;
@@ -103,7 +103,7 @@ struct PlainCells {
     return cells;
   }
 
-  // `cells` of a node as in the tree, in mirrored coordinates.
+  // Converts a mask of cells from tree coordinates to mirrored ones.
   SVDAG_HD static uint64_t mirrored(const RayTimes& ray, uint64_t cells) {
     for (int a = 0; a < 3; ++a) {
       if (!(ray.flip >> (2 - a) & 1U)) continue;

@@ -1,7 +1,7 @@
-// cells64.h in vectors of 256 bits, for processors with AVX2 and FMA.
+// The vectorized cells64.h: vectors of 256 bits, for processors with AVX2 and FMA.
 //
-// Every function names its instructions, so a file that includes this one stays compiled for the
-// plain processor; callers ask first (processor.h).
+// The target attribute is on each function, so the rest of a file that includes this one is
+// compiled for the baseline processor. Callers check has_fast_target() (processor.h) first.
 #pragma once
 
 #if defined(__x86_64__)
@@ -17,22 +17,22 @@
 
 namespace svdag {
 
-// Shuffles and places by cell, permutations by mirroring.
+// Byte shuffles and coordinates per cell, bit permutations per mirroring.
 struct Cells64Tables {
-  alignas(64) uint8_t low[3][64];   // of a cell's near plane on an axis: its byte
-  alignas(64) uint8_t high[3][64];  // of its far plane
-  alignas(32) double place[64][4];  // a cell's coordinates
+  alignas(64) uint8_t low[3][64];      // [axis][cell]: index of the byte of the near plane
+  alignas(64) uint8_t high[3][64];     // the same for the far plane
+  alignas(32) double position[64][4];  // a cell's coordinates in its node
   struct {
-    alignas(16) uint8_t bytes[16];       // byte of a mask -> byte
-    alignas(16) uint8_t nibbles[2][16];  // lower, upper half of a byte -> byte
+    alignas(16) uint8_t bytes[16];       // permutes the bytes of a mask
+    alignas(16) uint8_t nibbles[2][16];  // lower, upper half of a byte -> mirrored bits
   } mirror[8];
 
-  constexpr Cells64Tables() : low{}, high{}, place{}, mirror{} {
+  constexpr Cells64Tables() : low{}, high{}, position{}, mirror{} {
     for (unsigned cell = 0; cell < 64; ++cell) {
       for (unsigned a = 0; a < 3; ++a) {
         const unsigned at = (cell >> (5 - a) & 1U) << 1 | (cell >> (2 - a) & 1U);
         low[a][cell] = uint8_t(4 * a + at);
-        place[cell][a] = at;
+        position[cell][a] = at;
         high[a][cell] = uint8_t(at < 3 ? 4 * a + at + 1 : 12 + a);
       }
     }
@@ -56,13 +56,13 @@ struct Avx2Cells {
     const __m256d wide = _mm256_mul_pd(side, _mm256_set1_pd(4));
     const __m256d corner =
         _mm256_add_pd(_mm256_load_pd(visit.parent),
-                      _mm256_mul_pd(_mm256_load_pd(kCells64.place[visit.cell]), wide));
+                      _mm256_mul_pd(_mm256_load_pd(kCells64.position[visit.cell]), wide));
     _mm256_store_pd(visit.corner, corner);
     return mirrored(ray, *visit.node) &
            met(ray, corner, side, wide, ray.scale * tree.per_side[visit.depth]);
   }
 
-  // The lanes of a vector are planes 0 .. 3 of one axis, or planes 4 of all axes and the end.
+  // The four lanes of a vector are planes 0 .. 3 of one axis, or plane 4 of each axis and the end.
   SVDAG_AVX2 static uint64_t met(const RayTimes& ray, __m256d corner, __m256d side, __m256d wide,
                                  double scale_of_side) {
     const __m256d origin = _mm256_load_pd(ray.origin), inverse = _mm256_load_pd(ray.inverse);
@@ -98,7 +98,7 @@ struct Avx2Cells {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(from));
   }
 
-  // The latest of the three near planes and the begin, in all lanes.
+  // The latest of the three near planes' times and the begin, in all lanes.
   SVDAG_AVX2 static __m256d entered(const RayTimes& ray, __m256d near) {
     __m256d latest = _mm256_blend_pd(near, _mm256_set1_pd(ray.begin), 8);
     latest = _mm256_max_pd(latest, _mm256_permute2f128_pd(latest, latest, 1));
@@ -112,7 +112,7 @@ struct Avx2Cells {
                          _mm256_broadcast_sd(ray.inverse + kAxis));
   }
 
-  // What is far before becomes negative, and then byte 0.
+  // Times long before `enter` become negative; packing saturates them to byte 0.
   SVDAG_AVX2 static __m128i units(__m256d times, __m256d enter, __m256d scale) {
     const __m256d since = _mm256_sub_pd(times, enter);
     const __m256d raised = _mm256_fmadd_pd(since, scale, _mm256_set1_pd(1));

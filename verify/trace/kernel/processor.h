@@ -1,10 +1,10 @@
-// Runs a loop with the instructions that this processor has.
+// Runs a loop compiled for the instruction sets that this processor has.
 //
-// The traversal is bits and counts: compiled for x86-64 as of 2003 every popcount is a call and
-// every shift needs one certain register. Compiled for AVX2 and BMI (2013) it is 1.5 times as fast.
-// The attributes make a second copy of the loop and of all it calls; nothing else changes, and
-// contraction is off (-ffp-contract=off), so the copies compute the same bits. Rejected: lanes as
-// rays (docs/tracing.md).
+// Traversal is mostly shifts and popcounts. Compiled for baseline x86-64 (2003) every popcount is a
+// call and every variable shift needs register cl; compiled for AVX2 and BMI (2013) it is 1.5 times
+// as fast. The attributes create a second copy of the loop and of everything it calls. Contraction
+// is off (-ffp-contract=off), so both copies compute the same bits. Rejected: a ray per vector lane
+// (docs/tracing.md).
 #pragma once
 
 #if defined(__x86_64__)
@@ -16,8 +16,8 @@ namespace svdag {
 #if defined(__x86_64__)
 #define SVDAG_FAST_TARGET "avx2,fma,bmi,bmi2,lzcnt,popcnt"
 
-// Not every compiler's __builtin_cpu_supports knows it; without it the instruction is another one,
-// which counts from the other end.
+// Not every compiler's __builtin_cpu_supports accepts "lzcnt". Processors without it execute the
+// instruction as bsr, which counts from the other end.
 inline bool has_lzcnt() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid(0x80000001, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;

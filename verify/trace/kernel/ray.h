@@ -4,20 +4,19 @@
 // a is flipped (x -> N - x) where the direction is negative. The planes x = i, y = j, z = k cut it
 // at the times
 //
-//   time(a, i) = (i - origin[a]) * inverse[a]         one subtraction, one multiplication, in
-//   double
+//   time(a, i) = (i - origin[a]) * inverse[a]      in double: one subtraction, one multiplication
 //
 // and these alone define its position: at time t it is in the cell of the last planes that it has
 // passed (time <= t). A cube is entered at enter = max(begin, its three near planes), left at
-// exit = min(end, its three far planes), and met if enter < exit. Of the solid cubes that are met
-// the one entered first is the hit. So the hit is a function of ray and voxels, not of how a
-// traversal walks: every one (plain, fast, in vectors, on a GPU) gives the same bits.
+// exit = min(end, its three far planes), and met if enter < exit. The hit is the solid cube met
+// first. So the hit depends on ray and voxels only, not on the traversal: all of them (plain, fast,
+// vectorized, on a GPU) give the same bits.
 //
-// Exactness: planes are integers, times are never stepped, so errors do not add up: at 1M^3 a ray
-// is at its exact position to within 2^-32 voxel. Rounding is monotone, so times ascend with their
-// planes; no cell between is skipped and none is visited twice. Rejected: floats in [1, 2) (23 bits
-// are too few beyond 8K^3); sums of increments (they drift); origin * inverse taken out of the
-// parentheses (cancels, and is no faster without fused operations, which differ between machines).
+// Exactness: planes are integers and times are never accumulated, so errors do not add up: at 1M^3
+// positions are exact to within 2^-32 voxel. Rounding is monotone, so times ascend with their
+// planes; no cell is skipped and none is visited twice. Rejected: floats in [1, 2) (23 bits are too
+// few beyond 8K^3); adding increments (they drift); i * inverse - origin * inverse (cancellation,
+// and not faster without fused operations, which differ between machines).
 //
 // Depends on dag_view.h alone, for host and CUDA.
 #pragma once
@@ -26,7 +25,7 @@
 
 namespace svdag {
 
-// Rounded correctly, like + - * /, so host and device compute the same bits.
+// Correctly rounded, like + - * /, so host and device compute the same bits.
 SVDAG_HD inline double square_root(double v) {
 #if defined(__CUDA_ARCH__)
   return __dsqrt_rn(v);
@@ -52,20 +51,20 @@ struct Vec3 {
 
 struct Ray {
   Vec3 origin;     // in voxels
-  Vec3 direction;  // of length 1e-100 to 1e100; t is measured in it
+  Vec3 direction;  // length 1e-100 to 1e100, the unit of t
 };
 
-// The part of a ray that counts: begin <= t < end.
+// The part of a ray that is traced: begin <= t < end.
 struct Span {
   double begin = 0;  // not negative
   double end = 1e300;
 };
 
-// When a cube counts as solid before its voxels are reached.
+// Which cubes count as solid although they are larger than a voxel.
 struct Cut {
-  uint32_t level = 0xffffffffU;  // cubes of this level do; default: only voxels
-  // A cube counts as solid if it is not larger than spread * t * |direction| where it is entered:
-  // the width of a cone, in units per unit of length (2 * tangent of half its angle). 0: no cone.
+  uint32_t level = 0xffffffffU;  // cubes of this level are solid; default: only voxels
+  // Width of a cone around the ray per unit of length (2 * tangent of half its angle); 0: no cone.
+  // A cube is solid if its side is at most spread * t * |direction| at the t where it is entered.
   double spread = 0;
 
   SVDAG_HD bool cuts(uint32_t levels) const { return level < levels || spread > 0; }
@@ -76,13 +75,13 @@ struct Hit {
   double t = 0;            // where the ray enters the cube (begin if it starts inside)
   uint32_t voxel[3] = {};  // the cube's corner; the voxel itself unless the ray was cut
   uint32_t level = 0;      // of the cube; the DAG's `levels` for a voxel
-  int axis = 0;            // the cube's face that was entered is across this axis
-  uint32_t steps = 0;      // cubes left behind on the way, for pictures of the work; no part of
-                           // the answer: each traversal has its own
+  int axis = 0;            // normal of the face through which the cube is entered
+  uint32_t steps = 0;      // steps of the traversal, for pictures of the work; not part of the
+                           // result: traversals differ in it
 };
 
-// A component of the direction that is (nearly) zero is replaced by this fraction of the largest:
-// over the diagonal of 1M^3 voxels the ray then moves by 2^-40 voxel, and no time is infinite.
+// Components of the direction smaller than this fraction of the largest are replaced by it. Over
+// the diagonal of 1M^3 voxels this moves the ray by 2^-40 voxel, and no time is infinite.
 constexpr double kTinySlope = 0x1p-61;
 
 // A ray in mirrored coordinates.
@@ -90,7 +89,7 @@ struct MirroredRay {
   double origin[3];
   double slope[3];    // the direction, positive
   double inverse[3];  // 1 / slope
-  unsigned flip = 0;  // child number (4x + 2y + z) of the axes that are flipped
+  unsigned flip = 0;  // flipped axes, as a child number (4x + 2y + z)
 
   MirroredRay() = default;
   SVDAG_HD MirroredRay(const Ray& ray, uint32_t resolution) {
@@ -114,7 +113,7 @@ struct MirroredRay {
     return (double(plane) - origin[axis]) * inverse[axis];
   }
 
-  // Cuts `span` to the grid; false if nothing is left.
+  // Clips `span` to the grid; false if nothing is left.
   SVDAG_HD bool clip(uint32_t resolution, Span* span) const {
     for (int a = 0; a < 3; ++a) {
       const double in = time(a, 0), out = time(a, resolution);
@@ -144,10 +143,10 @@ struct MirroredRay {
   }
 };
 
-// `cut` for one ray: cube sides and times instead of levels and lengths.
+// A Cut for one ray: in times instead of lengths.
 struct CutOfRay {
   uint32_t level;  // cubes of this level are solid
-  double widen;    // a cube of side <= widen * (time of entry) is, too
+  double widen;    // and cubes of side <= widen * (time of entry)
 
   SVDAG_HD CutOfRay(const Cut& cut, const Ray& ray, uint32_t levels)
       : level(cut.level < levels ? cut.level : levels), widen(0) {

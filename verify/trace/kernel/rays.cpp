@@ -9,16 +9,16 @@
 namespace svdag {
 namespace {
 
-// Rays that take turns. While one waits for memory the others go on; more than 8 gain little.
+// Number of interleaved rays: while one waits for memory, the others proceed. More gain little.
 constexpr int kInFlight = 8;
 
-// Walks that are on their way, and the rays that have not started.
+// The walks in progress, and the rays that have not started. Calls done(i, walk) when ray i ends.
 template <class Done>
 class Walks {
  public:
   Walks(const Tree64View& tree, const Ray* rays, size_t count, const Span& span, const Done& done)
       : tree_(tree), rays_(rays), count_(count), span_(span), done_(done) {
-    for (int i = 0; i < kInFlight; ++i) walks_[i] = &room_[i];
+    for (int i = 0; i < kInFlight; ++i) walks_[i] = &storage_[i];
     while (active_ < kInFlight && fill(active_)) ++active_;
   }
 
@@ -26,8 +26,8 @@ class Walks {
 
   const Walk64& walk(int i) const { return walks_[i]->walk; }
 
-  // Walk i's step; at its end another ray takes its place. False if none is left, and walk i is
-  // another one.
+  // Steps walk i. If it ends, the next ray replaces it; if no ray is left, the last active walk
+  // becomes walk i and the result is false.
   bool step(int i, uint64_t cells) {
     if (walks_[i]->walk.step(tree_, cells)) [[likely]]
       return true;
@@ -38,7 +38,7 @@ class Walks {
   }
 
  private:
-  struct Numbered {
+  struct RayWalk {
     Walk64 walk;
     size_t ray;
   };
@@ -62,12 +62,12 @@ class Walks {
   const Done& done_;
   size_t next_ = 0;
   int active_ = 0;
-  Numbered* walks_[kInFlight];
-  Numbered room_[kInFlight];
+  RayWalk* walks_[kInFlight];
+  RayWalk storage_[kInFlight];
 };
 
-// done(i, walk) for each ray, once its walk is at its end. False where the processor has no vectors
-// for it: one number after the other the tree is slower than the file.
+// Walks all rays through the tree and calls done(i, walk) for each. Returns false, without having
+// walked, on processors without AVX2: there the scalar walk is slower than tracing the file.
 #if defined(__x86_64__)
 template <class Done>
 [[gnu::target(SVDAG_FAST_TARGET), gnu::flatten]] void walk_with_avx2(const Tree64View& tree,

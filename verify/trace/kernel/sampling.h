@@ -1,17 +1,17 @@
-// Where the rays of soft shadows and ambient occlusion go: the same on every machine.
+// Directions of the rays of soft shadows and ambient occlusion, the same on every machine.
 //
-// Numbers come from hashing (pixel, ray), not from a generator with a state, so threads and GPUs
-// need not agree on an order. n rays are stratified in an s x s grid, s = floor(sqrt(n)), plus a
-// rest without strata. A square is mapped to a disk by Shirley and Chiu's concentric map; a disk
-// lifted to the hemisphere is cosine-weighted (Malley). Sine and cosine are polynomials here:
-// those of libraries differ in the last bit between host and device.
+// Random numbers are hashes of (pixel, ray) instead of a generator with a state, so they do not
+// depend on the order of threads. n rays are stratified in an s x s grid, s = floor(sqrt(n)); the
+// rest are not stratified. The square is mapped to a disk by Shirley and Chiu's concentric map; the
+// disk lifted to the hemisphere is cosine-weighted (Malley). Sine and cosine are polynomials,
+// because those of libraries differ in the last bit between host and device.
 #pragma once
 
 #include "verify/trace/kernel/vector.h"
 
 namespace svdag {
 
-// A bijection of u64 that leaves no pattern (the finalizer of SplitMix64; Steele et al. 2014).
+// A bijective hash of u64 (the finalizer of SplitMix64; Steele et al. 2014).
 SVDAG_HD inline uint64_t mix(uint64_t v) {
   v = (v ^ v >> 30) * 0xbf58476d1ce4e5b9U;
   v = (v ^ v >> 27) * 0x94d049bb133111ebU;
@@ -31,7 +31,7 @@ SVDAG_HD inline Point2 square_point(uint64_t pixel, uint32_t index, uint32_t cou
   return {(double(index % side) + x) / side, (double(index / side) + y) / side};
 }
 
-// Sine and cosine of a quarter turn times v, |v| <= 1/2; off by less than 1e-8.
+// {cosine, sine} of v quarter turns, |v| <= 1/2, with an error below 1e-8.
 SVDAG_HD inline Point2 quarter_turns(double v) {
   const double a = v * 1.5707963267948966, s = a * a;
   const double sine = a * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
@@ -39,7 +39,7 @@ SVDAG_HD inline Point2 quarter_turns(double v) {
   return {cosine, sine};
 }
 
-// The unit square onto the unit disk, areas kept.
+// Maps the unit square to the unit disk, preserving areas.
 SVDAG_HD inline Point2 disk_point(const Point2& square) {
   const double x = 2 * square.x - 1, y = 2 * square.y - 1;
   if (x == 0 && y == 0) return {0, 0};
@@ -52,7 +52,7 @@ SVDAG_HD inline Point2 disk_point(const Point2& square) {
   return {y * turn.y, y * turn.x};
 }
 
-// Two unit vectors that with the unit vector n are orthonormal (Duff et al. 2017).
+// Completes the unit vector n to an orthonormal basis (Duff et al. 2017).
 SVDAG_HD inline void make_basis(const Vec3& n, Vec3* u, Vec3* v) {
   const double sign = n[2] < 0 ? -1 : 1;
   const double a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
@@ -60,7 +60,7 @@ SVDAG_HD inline void make_basis(const Vec3& n, Vec3* u, Vec3* v) {
   *v = {{b, sign + n[1] * n[1] * a, -n[1]}};
 }
 
-// A direction of length 1 around the unit vector n, drawn with density cosine / pi.
+// A unit vector around the unit vector n, with density cosine / pi.
 SVDAG_HD inline Vec3 cosine_direction(const Vec3& n, const Point2& square) {
   const Point2 d = disk_point(square);
   const double up = 1 - d.x * d.x - d.y * d.y;
@@ -69,14 +69,14 @@ SVDAG_HD inline Vec3 cosine_direction(const Vec3& n, const Point2& square) {
   return u * d.x + v * d.y + n * square_root(up > 0 ? up : 0);
 }
 
-// From one point to another. Where they are one, a direction that no rounding and no answer
-// notices: a light within a surface's own point is not hidden from it.
+// The vector from one point to another. If they coincide, a negligible vector instead of zero,
+// because rays need a direction.
 SVDAG_HD inline Vec3 towards(const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  return length(way) > 1e-90 ? way : Vec3{{1e-90, 0, 0}};
+  const Vec3 difference = to - from;
+  return length(difference) > 1e-90 ? difference : Vec3{{1e-90, 0, 0}};
 }
 
-// A point of the ball's outline around `centre`, as seen from `from`.
+// A point of the disk that is the ball's outline as seen from `from`.
 SVDAG_HD inline Vec3 light_point(const Vec3& centre, double radius, const Vec3& from,
                                  const Point2& square) {
   const Point2 d = disk_point(square);

@@ -1,15 +1,15 @@
-// The normal of a surface that is known by its voxels only, for host and CUDA.
+// Estimates the normal of a surface from its voxels, for host and CUDA.
 //
-// Idea: Hoppe et al. 1992. The set voxels near a hit are samples of the surface; the direction in
-// which their covariance is smallest is its normal. Where the voxels form no sheet (a wire, a
-// single voxel) the face that the ray entered serves.
+// Idea: Hoppe et al. 1992. The set voxels near a hit are samples of the surface; the direction of
+// their smallest covariance is its normal. Where the voxels do not form a sheet (a wire, a single
+// voxel), the normal is that of the face that the ray entered.
 #pragma once
 
 #include "verify/trace/kernel/vector.h"
 
 namespace svdag {
 
-constexpr int kNormalRadius = 4;  // voxels; the hit's brick and the 26 around it hold all of them
+constexpr int kNormalRadius = 4;  // voxels: reaches only into the 26 bricks around the hit's
 
 // Sums of 1, p and p p^T over the set voxels within kNormalRadius of the hit, p relative to it.
 struct Moments {
@@ -33,17 +33,18 @@ struct Moments {
   }
 };
 
-// The way down to the last brick looked up: the next one is looked up from their common ancestor.
+// Looks up bricks, each from its common ancestor with the previous one.
 class BrickPath {
  public:
   SVDAG_HD explicit BrickPath(const DagView& dag) : dag_(dag) {}
   explicit BrickPath(DagView&&) = delete;
 
-  // As dag_brick.
+  // Same result as dag_brick().
   SVDAG_HD uint64_t brick(uint32_t x, uint32_t y, uint32_t z) {
     const uint32_t bricks = dag_.brick_level();
-    uint32_t level = 0;  // the deepest that both ways share
-    while (level < known_ && !(((x ^ x_) | (y ^ y_) | (z ^ z_)) >> (bricks - 1 - level))) ++level;
+    uint32_t level = 0;  // of the deepest valid node that both paths share
+    while (level < valid_level_ && !(((x ^ x_) | (y ^ y_) | (z ^ z_)) >> (bricks - 1 - level)))
+      ++level;
     x_ = x, y_ = y, z_ = z;
     for (; level < bricks; ++level) {
       const uint32_t shift = bricks - 1 - level;
@@ -51,18 +52,18 @@ class BrickPath {
       nodes_[level + 1] = dag_child(dag_, level, nodes_[level], c);
       if (nodes_[level + 1] == kNoChild) break;
     }
-    known_ = level;
+    valid_level_ = level;
     return level == bricks ? dag_.bricks[nodes_[bricks]] : 0;
   }
 
  private:
   const DagView& dag_;
   uint32_t x_ = 0, y_ = 0, z_ = 0;
-  uint32_t known_ = 0;  // nodes_[0 .. known_] lie on the way to brick (x_, y_, z_)
+  uint32_t valid_level_ = 0;  // nodes_[0 .. valid_level_] are the path to brick (x_, y_, z_)
   uint32_t nodes_[kMaxSections] = {};
 };
 
-// Adds the voxels of the brick at (x, y, z), relative to the hit.
+// Adds the voxels of the brick with corner (x, y, z), relative to the hit.
 SVDAG_HD inline void add_brick(uint64_t brick, int x, int y, int z, Moments* moments) {
   for (int bit = 0; brick != 0; ++bit, brick >>= 1) {
     if (brick & 1U)
@@ -81,7 +82,7 @@ SVDAG_HD inline Moments moments_around(const DagView& dag, const uint32_t voxel[
     const int step[3] = {i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
     bool inside = true;
     for (int a = 0; a < 3; ++a) {
-      at[a] = voxel[a] / 4 + uint32_t(step[a]);  // wraps below 0, and is outside then
+      at[a] = voxel[a] / 4 + uint32_t(step[a]);  // below 0 it wraps, and is outside
       corner[a] = int(4 * at[a]) - int(voxel[a]);
       inside = inside && at[a] < bricks;
     }
@@ -116,8 +117,8 @@ SVDAG_HD inline void diagonalize(double m[3][3], double axes[3][3]) {
   }
 }
 
-// Unit normal at the hit, turned towards where the ray came from. Where the ray was cut above the
-// voxels it is that of the face.
+// Unit normal at the hit, facing the ray's origin. If a cut ended the ray above the voxels, the
+// normal is that of the entered face.
 SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Vec3& direction) {
   Vec3 normal{};
   normal[hit.axis] = direction[hit.axis] < 0 ? 1 : -1;
@@ -126,13 +127,13 @@ SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Ve
   double m[3][3], axes[3][3];
   for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = moments.covariance(i / 3, i % 3);
   diagonalize(m, axes);
-  int least = 0;
-  for (int a = 1; a < 3; ++a) least = m[a][a] < m[least][least] ? a : least;
-  const int one = (least + 1) % 3, two = (least + 2) % 3;
+  int thinnest = 0;
+  for (int a = 1; a < 3; ++a) thinnest = m[a][a] < m[thinnest][thinnest] ? a : thinnest;
+  const int one = (thinnest + 1) % 3, two = (thinnest + 2) % 3;
   const double middle = m[one][one] < m[two][two] ? m[one][one] : m[two][two];
   // A sheet: thin in one direction, wide in the two others.
-  if (!(m[least][least] < 0.7 * middle)) return normal;
-  normal = {{axes[0][least], axes[1][least], axes[2][least]}};
+  if (!(m[thinnest][thinnest] < 0.7 * middle)) return normal;
+  normal = {{axes[0][thinnest], axes[1][thinnest], axes[2][thinnest]}};
   return dot(normal, direction) > 0 ? normal * -1 : normal;
 }
 

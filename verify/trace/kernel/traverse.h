@@ -1,33 +1,35 @@
-// The one traversal kernel: the closest solid cube along a ray, front to back through the DAG.
+// The traversal of the DAG: finds the closest solid cube along a ray, front to back.
 //
-// verify/trace/kernel/ray.h defines the result. Idea: the ray's cell is kept as integers, one voxel
+// verify/trace/kernel/ray.h defines the result. Idea: the ray's cell is stored as one integer voxel
 // coordinate per axis, whose bits are the path down from the root (Laine and Karras 2010).
-// Down: one bit per axis and level chooses the child, no arithmetic on times. On: three far planes,
-// the first one is the exit; the new cell is origin + slope * t, rounded down. Up: the highest bit
-// in which old and new cell differ is the level of their common ancestor, so the walk resumes there
-// at once (no popping), also between rays, whose paths share most of the way when they start close
-// together.
 //
-// The octant ahead: a ray only moves up along the (mirrored) axes, so of a node only the children
-// at or above its cell on all axes can still be met. If the mask holds none of those, the whole
-// node is left at once; bricks are tested in the same way as 64-bit and as 8-bit masks.
+//   descend  one bit per axis and level selects the child, without arithmetic on times
+//   advance  the first of the three far planes is the exit; the new cell is origin + slope * t,
+//            rounded down
+//   ascend   the highest bit in which old and new cell differ gives the level of their common
+//            ancestor, where the walk resumes at once, without popping. The same holds from ray to
+//            ray: rays that start close together share most of their first path.
 //
-// Exactness: origin + slope * t is off by rounding, at most 6 * 2^-53 * (|origin| + N) on each side
-// of the comparison with time(a, plane) that decides. Farther than margin = 2^-50 * (|origin| + N)
-// from a plane the rounded cell is therefore the right one; nearer, that plane's time decides. An
-// axis whose far plane is the exit needs neither: it is at that plane. For origins farther than
-// 2^40 voxels away, where neighbouring planes can have the same time, the cell is found by
-// bisection over the times of each axis. Rejected: times of middle planes on the way down (three
-// per level).
+// The octant ahead: coordinates only increase along a mirrored ray, so only the children at or
+// above its cell on all axes can still be met. If none of them is in the node's mask, the whole
+// node is left at once. Bricks are tested in the same way, as 64-bit and as 8-bit masks.
 //
-// Depends on ray.h alone, for host and CUDA. Pointers are trusted: DagFile::open proved them.
+// Exactness: comparing time(a, plane) decides the cell. The rounding error of origin + slope * t is
+// at most 6 * 2^-53 * (|origin| + N), and so is that of the comparison. Farther than margin =
+// 2^-50 * (|origin| + N) from a plane, the rounded cell is therefore the right one; nearer, the
+// plane's time is compared. The axis of the exit needs neither: its cell is at that plane. For
+// origins more than 2^40 voxels away, neighbouring planes can have the same time, and the cell is
+// found by bisection over the times of each axis. Rejected: times of middle planes during the
+// descent (three per level).
+//
+// Depends on ray.h alone, for host and CUDA. Pointers are trusted: DagFile::open validated them.
 #pragma once
 
 #include "verify/trace/kernel/ray.h"
 
 namespace svdag {
 
-// The masks of an octant: which children, or voxels of a brick, lie at or above a cell on all axes.
+// Masks of the octant ahead: the children, or voxels of a brick, at or above a cell on all axes.
 class Ahead {
  public:
   SVDAG_HD explicit Ahead(unsigned flip) {
@@ -38,12 +40,13 @@ class Ahead {
       const uint64_t turn = flip >> (2 - a) & 1U ? ~uint64_t(0) : 0;
       low_[a] = low[a] ^ turn;
       high_[a] = high[a] ^ turn;
-      children_ &= low_[a] | ~high_[a];  // byte c: the children ahead of child c
+      children_ &= low_[a] | ~high_[a];
     }
   }
-  // Of the node's children, those ahead of child c (c and the mask as in the file).
+  // The children ahead of child c, itself included (c and the mask in file coordinates).
   SVDAG_HD unsigned children(unsigned c) const { return unsigned(children_ >> (8 * c)) & 0xffU; }
-  // Of a brick's voxels, those ahead of the voxel at (x, y, z) & 3 in mirrored coordinates.
+  // The voxels of a brick ahead of the one at (x, y, z) & 3, itself included. `at` is mirrored; the
+  // mask is in file coordinates.
   SVDAG_HD uint64_t voxels(const uint32_t at[3]) const {
     return from(0, at[0]) & from(1, at[1]) & from(2, at[2]);
   }
@@ -54,15 +57,15 @@ class Ahead {
     const uint64_t odd = k & 2U ? high_[a] & low_[a] : high_[a] | low_[a];
     return k & 1U ? odd : even;
   }
-  uint64_t low_[3], high_[3];  // voxels of a brick with an odd coordinate, with one above 1
-  uint64_t children_;
+  uint64_t low_[3], high_[3];  // voxels of a brick whose mirrored coordinate is odd; is 2 or 3
+  uint64_t children_;          // byte c: the children ahead of child c
 };
 
-// Traces rays through one DAG, one after the other.
+// Traces rays through one DAG, one after the other. Consecutive rays share the path of nodes.
 class Tracer {
  public:
   SVDAG_HD explicit Tracer(const DagView& dag) : dag_(dag) { path_[0] = 0; }
-  explicit Tracer(DagView&&) = delete;  // would be gone before the first ray
+  explicit Tracer(DagView&&) = delete;  // the view must outlive this
 
   // The first solid cube that the ray meets within `span`.
   SVDAG_HD Hit closest(const Ray& ray, const Span& span = {}, const Cut& cut = {});
@@ -72,12 +75,12 @@ class Tracer {
   class Walk;
 
   const DagView& dag_;
-  uint32_t cell_[3] = {};  // of the last ray, as in the file
-  uint32_t known_ = 0;     // path_[0 .. known_] lie on the way to cell_
+  uint32_t cell_[3] = {};     // last cell of the previous ray, in file coordinates
+  uint32_t valid_level_ = 0;  // path_[0 .. valid_level_] are the path to cell_
   uint32_t path_[kMaxSections];
 };
 
-// One ray's walk. Coordinates are mirrored; those in Tracer are not.
+// The walk of one ray. Coordinates are mirrored; those of Tracer are not.
 template <bool kCut>
 class Tracer::Walk {
  public:
@@ -114,7 +117,7 @@ class Tracer::Walk {
         break;
       }
     } while (advance(&level));
-    leave(level);
+    save_path(level);
     hit.steps = steps_;
     return hit;
   }
@@ -122,8 +125,8 @@ class Tracer::Walk {
  private:
   static constexpr uint32_t kNone = 0xffffffffU;
 
-  // Goes down from path_[level] along the cell's bits. Returns the level of the solid cube it comes
-  // to, or kNone with side_ = that of the empty cube to leave.
+  // Descends from path_[level] along the cell's bits. Returns the level of the solid cube that it
+  // reaches, or kNone with side_ = side of the cube to leave, with nothing ahead in it.
   SVDAG_HD uint32_t descend(uint32_t* level) {
     const uint32_t bricks = dag_.brick_level();
     uint32_t node = tracer_.path_[*level];
@@ -151,17 +154,18 @@ class Tracer::Walk {
     return in_brick(dag_.bricks[node]);
   }
 
-  // The same in a brick, where blocks of 2^3 are the bytes and voxels the bits.
+  // The same in a brick, whose bytes are blocks of 2^3 voxels.
   SVDAG_HD uint32_t in_brick(uint64_t brick) {
     const unsigned block = child_at(1) ^ ray_.flip, voxel = child_at(0) ^ ray_.flip;
     const unsigned byte = unsigned(brick >> (8 * block)) & 0xffU;
-    // A block is tested where it is entered, not again at each of its voxels.
-    if (kCut && byte != 0 && up_ > 0 && cut_.solid(dag_.levels - 1, 2, t_)) return dag_.levels - 1;
+    // A block is tested against the cut where it is entered, not again at each of its voxels.
+    if (kCut && byte != 0 && changed_bit_ > 0 && cut_.solid(dag_.levels - 1, 2, t_))
+      return dag_.levels - 1;
     if (byte >> voxel & 1U) return dag_.levels;
     if ((byte & ahead_.children(voxel)) != 0) {
       side_ = 1;
     } else if (kCut || (brick & ahead_.voxels(cell_)) != 0) {
-      side_ = 2;  // with a cut, blocks may be solid of which no voxel is ahead
+      side_ = 2;  // with a cut, a later block may be solid although none of its voxels is ahead
     } else {
       side_ = alone_[dag_.brick_level()];
     }
@@ -172,7 +176,7 @@ class Tracer::Walk {
     return (cell_[0] >> shift & 1U) << 2 | (cell_[1] >> shift & 1U) << 1 | (cell_[2] >> shift & 1U);
   }
 
-  // Leaves the cube of side side_ around the cell. False at the end of the ray.
+  // Leaves the cube of side side_ that contains the cell. False at the end of the ray.
   SVDAG_HD bool advance(uint32_t* level) {
     uint32_t far[3];
     double times[3];
@@ -186,20 +190,20 @@ class Tracer::Walk {
     ++steps_;
     const uint32_t x = cell_[0], y = cell_[1], z = cell_[2];
     locate(far, times);
-    up_ = highest_bit((x ^ cell_[0]) | (y ^ cell_[1]) | (z ^ cell_[2]));
-    const uint32_t common = dag_.levels - 1 - up_;
+    changed_bit_ = highest_bit((x ^ cell_[0]) | (y ^ cell_[1]) | (z ^ cell_[2]));
+    const uint32_t common = dag_.levels - 1 - changed_bit_;
     *level = common < dag_.brick_level() ? common : dag_.brick_level();
     return true;
   }
 
-  // Sets the cell at time t_, where the planes far[a] are crossed at times[a] >= t_.
+  // Sets cell_ to the cell at time t_, given that the planes far[a] are crossed at times[a] >= t_.
   SVDAG_HD void locate(const uint32_t far[3], const double times[3]) {
     if (margin_ >= 0.5) return bisect();
     bool unsure = false;
     for (int a = 0; a < 3; ++a) {
-      const double place = ray_.origin[a] + ray_.slope[a] * t_;
-      const uint32_t below = uint32_t(int32_t(place));
-      const double off = place - double(int32_t(below)) - 0.5;
+      const double position = ray_.origin[a] + ray_.slope[a] * t_;
+      const uint32_t below = uint32_t(int32_t(position));
+      const double off = position - double(int32_t(below)) - 0.5;
       const bool crossed = times[a] <= t_;
       unsure |= !crossed & ((off < 0 ? -off : off) > 0.5 - margin_);
       cell_[a] = crossed ? far[a] : below;
@@ -216,7 +220,7 @@ class Tracer::Walk {
 
   SVDAG_HD void bisect() {
     for (int a = 0; a < 3; ++a) {
-      uint32_t passed = 0;  // the last plane that has been
+      uint32_t passed = 0;  // the last plane with time <= t_
       for (uint32_t step = dag_.resolution() / 2; step > 0; step /= 2) {
         if (ray_.time(a, passed + step) <= t_) passed += step;
       }
@@ -224,24 +228,24 @@ class Tracer::Walk {
     }
   }
 
-  // The deepest node of the last ray's path that this ray's first cell shares.
+  // The level of the deepest node that the previous ray's path shares with that of the first cell.
   SVDAG_HD uint32_t resume() {
     alone_[0] = dag_.resolution();
-    if (kCut) return 0;  // the cubes on the way may be solid
+    if (kCut) return 0;  // cubes of the shared path may be solid
     uint32_t differ = 0;
-    for (int a = 0; a < 3; ++a) differ |= as_in_file(a) ^ tracer_.cell_[a];
+    for (int a = 0; a < 3; ++a) differ |= file_coordinate(a) ^ tracer_.cell_[a];
     const uint32_t common = differ == 0 ? kNone : dag_.levels - 1 - highest_bit(differ);
-    const uint32_t level = common < tracer_.known_ ? common : tracer_.known_;
+    const uint32_t level = common < tracer_.valid_level_ ? common : tracer_.valid_level_;
     for (uint32_t k = 0; k < level; ++k) alone_[k + 1] = dag_.resolution() >> (k + 1);
     return level;
   }
 
-  SVDAG_HD void leave(uint32_t level) {
-    for (int a = 0; a < 3; ++a) tracer_.cell_[a] = as_in_file(a);
-    tracer_.known_ = level;
+  SVDAG_HD void save_path(uint32_t level) {
+    for (int a = 0; a < 3; ++a) tracer_.cell_[a] = file_coordinate(a);
+    tracer_.valid_level_ = level;
   }
 
-  SVDAG_HD uint32_t as_in_file(int a) const {
+  SVDAG_HD uint32_t file_coordinate(int a) const {
     return ray_.flip >> (2 - a) & 1U ? dag_.resolution() - 1 - cell_[a] : cell_[a];
   }
 
@@ -252,9 +256,9 @@ class Tracer::Walk {
   const Ahead ahead_;
   double margin_, t_ = 0, end_ = 0;
   uint32_t cell_[3], side_ = 0, steps_ = 0;
-  uint32_t up_ = 31;              // the highest bit of the cell that the last step changed
-  uint32_t alone_[kMaxSections];  // the side of the largest cube around path_[k] with nothing else
-                                  // ahead
+  uint32_t changed_bit_ = 31;  // the highest bit of cell_ that the last step changed
+  // alone_[k]: side of the largest cube that contains path_[k] and nothing else ahead.
+  uint32_t alone_[kMaxSections];
 };
 
 SVDAG_HD inline Hit Tracer::closest(const Ray& ray, const Span& span, const Cut& cut) {
@@ -267,7 +271,7 @@ SVDAG_HD inline Hit trace_closest(const DagView& dag, const Ray& ray, const Span
   return Tracer(dag).closest(ray, span, cut);
 }
 
-// Whether there is one.
+// True if the ray meets a solid cube within `span`.
 SVDAG_HD inline bool trace_any(const DagView& dag, const Ray& ray, const Span& span = {},
                                const Cut& cut = {}) {
   return Tracer(dag).closest(ray, span, cut).found;

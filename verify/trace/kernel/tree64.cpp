@@ -8,10 +8,10 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kRaysPerNode = 8;  // from here on time is gained, and not all rays hit
-constexpr uint64_t kMostBytes = sizeof(uint64_t) << 32;  // places are u32
+constexpr uint64_t kMinRaysPerNode = 8;  // the tree gains more time than it takes to build
+constexpr uint64_t kMaxBytes = sizeof(uint64_t) << 32;  // indices are u32
 
-// A node's cells: the DAG's node (or brick) in each, or kNoChild.
+// The cells of a tree node: the DAG's node or brick in each, or kNoChild.
 struct Cells {
   uint32_t child[64];
 };
@@ -20,12 +20,12 @@ uint32_t depth_of(const DagView& dag) {
   return (dag.levels - 1) / 2;
 }
 
-// Whether nodes of the DAG's level are nodes of the tree, too.
-bool kept(const DagView& dag, uint32_t level) {
+// Whether nodes of this level of the DAG are also nodes of the tree.
+bool is_tree_level(const DagView& dag, uint32_t level) {
   return (dag.brick_level() - level) % 2 == 0;
 }
 
-// The number of words of a node whose cells are of the DAG's `level`.
+// Size in words of a tree node whose cells are at the DAG's `level`.
 uint64_t words_of(const DagView& dag, uint32_t level, uint32_t cells) {
   return 1 + (level == dag.brick_level() ? cells : (cells + 1) / 2);
 }
@@ -48,8 +48,8 @@ Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   return cells;
 }
 
-// Those of the root, and their level. With an odd number of levels they are of level 1.
-Cells of_root(const DagView& dag, uint32_t* level) {
+// The cells of the root, and their level: 1 if the DAG's number of levels is odd, else 2.
+Cells root_cells(const DagView& dag, uint32_t* level) {
   *level = 2 - dag.levels % 2;
   if (*level == 2) return two_levels(dag, 0, 0);
   Cells cells;
@@ -57,14 +57,14 @@ Cells of_root(const DagView& dag, uint32_t* level) {
   return cells;
 }
 
-uint32_t present(const Cells& cells) {
+uint32_t count_present(const Cells& cells) {
   return uint32_t(64 - std::count(cells.child, cells.child + 64, kNoChild));
 }
 
-// The words of all nodes of the tree: those of the root, and one node per node of each kept level.
+// Size of the tree in words: the root, and one node per DAG node of each tree level.
 uint64_t count_words(const DagView& dag) {
   uint32_t level = 0;
-  const uint32_t cells = present(of_root(dag, &level));
+  const uint32_t cells = count_present(root_cells(dag, &level));
   uint64_t words = words_of(dag, level, cells);
   for (; level < dag.brick_level(); level += 2) {
     for (uint64_t node = 0; node < dag.word_count[level];) {
@@ -82,22 +82,22 @@ uint64_t count_words(const DagView& dag) {
 
 }  // namespace
 
-class Tree64::Maker {
+class Tree64::Builder {
  public:
-  Maker(const DagView& dag, HugeVector<uint64_t>* words) : dag_(dag), words_(*words) {
+  Builder(const DagView& dag, HugeVector<uint64_t>* words) : dag_(dag), words_(*words) {
     for (uint32_t level = 1; level < dag.brick_level(); ++level) {
-      if (kept(dag, level)) places_[level].assign(dag.word_count[level], kNoChild);
+      if (is_tree_level(dag, level)) indices_[level].assign(dag.word_count[level], kNoChild);
     }
   }
 
   void run() {
     uint32_t level = 0;
-    const Cells cells = of_root(dag_, &level);
+    const Cells cells = root_cells(dag_, &level);
     add(level, cells);
   }
 
  private:
-  // Adds a node whose cells are of `level`, and all below it; returns its place.
+  // Adds a node whose cells are at `level`, and all nodes below it; returns its index.
   uint32_t add(uint32_t level, const Cells& cells) {
     const uint64_t at = words_.size();
     uint64_t mask = 0;
@@ -110,23 +110,23 @@ class Tree64::Maker {
       if (bricks) {
         words_[at + 1 + i] = dag_.bricks[child];
       } else {
-        const uint64_t place = place_of(level, child);
+        const uint64_t index = index_of(level, child);
         uint64_t& pair = words_[at + 1 + i / 2];
-        pair = i % 2 == 0 ? place : pair | place << 32;
+        pair = i % 2 == 0 ? index : pair | index << 32;
       }
     }
     return uint32_t(at);
   }
 
-  uint32_t place_of(uint32_t level, uint32_t node) {
-    uint32_t& place = places_[level][node];
-    if (place == kNoChild) place = add(level + 2, two_levels(dag_, level, node));
-    return place;
+  uint32_t index_of(uint32_t level, uint32_t node) {
+    uint32_t& index = indices_[level][node];
+    if (index == kNoChild) index = add(level + 2, two_levels(dag_, level, node));
+    return index;
   }
 
   const DagView& dag_;
   HugeVector<uint64_t>& words_;
-  HugeVector<uint32_t> places_[kMaxSections];  // [level][node]: kNoChild until it has one
+  HugeVector<uint32_t> indices_[kMaxSections];  // [level][node] -> index; kNoChild: not added yet
 };
 
 uint64_t Tree64::bytes(const DagView& dag) {
@@ -139,7 +139,7 @@ Tree64::Tree64(const DagView& dag, uint64_t bytes) {
   view_.levels = dag.levels;
   if (dag.empty()) return;
   words_.reserve(as_u32(bytes / sizeof(uint64_t), "words of a 64-tree"));
-  Maker(dag, &words_).run();
+  Builder(dag, &words_).run();
   view_.depth = depth_of(dag);
   view_.words = words_.data();
   for (uint32_t d = 0; d <= view_.depth; ++d) {
@@ -151,13 +151,13 @@ Tree64::Tree64(const DagView& dag, uint64_t bytes) {
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
   uint64_t nodes = dag.brick_count;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
-  if (!has_fast_target() || rays / kRaysPerNode <= nodes) return {};
-  uint64_t room = 0;  // of the maker
+  if (!has_fast_target() || rays / kMinRaysPerNode <= nodes) return {};
+  uint64_t builder_bytes = 0;
   for (uint32_t level = 1; level < dag.brick_level(); ++level) {
-    if (kept(dag, level)) room += dag.word_count[level] * sizeof(uint32_t);
+    if (is_tree_level(dag, level)) builder_bytes += dag.word_count[level] * sizeof(uint32_t);
   }
   const uint64_t bytes = Tree64::bytes(dag);
-  return bytes + room <= memory && bytes <= kMostBytes ? Tree64(dag, bytes) : Tree64();
+  return bytes + builder_bytes <= memory && bytes <= kMaxBytes ? Tree64(dag, bytes) : Tree64();
 }
 
 }  // namespace svdag

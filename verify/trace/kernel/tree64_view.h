@@ -8,14 +8,13 @@
 // `depth` are the bricks, whose cells are voxels. Cell 8b + c is child c of child b, as the bits of
 // a brick, on all depths. A node is a u64 mask of its cells, followed by
 //
-//   d + 1 < depth   per present cell, ascending, a u32: the child's place in `words`
-//   d + 1 = depth   per present cell the brick itself: no pointer, and no memory to wait for but
-//                   that of the nodes
+//   d + 1 < depth   per present cell, ascending, a u32: the child's index in `words`
+//   d + 1 = depth   per present cell the brick itself, which saves a pointer and a cache miss
 //
 // If the DAG has an odd number of levels, the root's cube is twice as wide as the grid and repeats
 // it, so that mirroring (ray.h) needs no exception; clipped rays end before they reach the copy.
 //
-// Depends on dag_view.h alone, for host and CUDA. verify/trace/kernel/tree64.h makes it.
+// Depends on dag_view.h alone, for host and CUDA. verify/trace/kernel/tree64.h builds it.
 #pragma once
 
 #include "io/dag/dag_view.h"
@@ -25,10 +24,10 @@ namespace svdag {
 constexpr uint32_t kMaxDepth = (kMaxSections + 1) / 2;
 
 struct Tree64View {
-  const uint64_t* words = nullptr;  // the root is at 0
+  const uint64_t* words = nullptr;  // the root is at index 0; null: an empty tree
   uint32_t levels = 0;              // of the DAG
   uint32_t depth = 0;
-  double side[kMaxDepth + 1] = {};      // of the cells of a depth's nodes
+  double side[kMaxDepth + 1] = {};      // [d]: of the cells of nodes of depth d
   double per_side[kMaxDepth + 1] = {};  // 1 / side
 
   SVDAG_HD bool empty() const { return words == nullptr; }
@@ -52,7 +51,7 @@ SVDAG_HD inline uint32_t lowest_bit64(uint64_t v) {
 #endif
 }
 
-// The cells of a node with coordinate `at` (0 .. 3) on an axis.
+// Mask of the cells of a node with coordinate `at` (0 .. 3) on an axis.
 SVDAG_HD inline uint64_t slab64(int axis, unsigned at) {
   const uint64_t odd = axis == 0   ? 0xf0f0f0f0f0f0f0f0U
                        : axis == 1 ? 0xccccccccccccccccU

@@ -1,4 +1,4 @@
-// The few operations on Vec3 that cameras, sampling and shading need, for host and CUDA.
+// Operations on Vec3 for cameras, sampling and shading, for host and CUDA.
 #pragma once
 
 #include "verify/trace/kernel/traverse.h"

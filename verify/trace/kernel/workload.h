@@ -1,13 +1,13 @@
-// The rays of the measured workloads, one by one, for host and CUDA.
+// The rays of the four measured workloads, for host and CUDA.
 //
 //   primary   a closest hit per pixel
-//   shadow    from what a pixel shows to a point light
-//   soft      the same to `samples` points of a ball that shines
+//   shadow    from the surface of a pixel to a point light
+//   soft      from there to `samples` points of a spherical light
 //   ao        ambient occlusion: `samples` cosine-weighted rays of at most `reach` voxels
 //
-// Rays are functions of (pixel, number), so the same ones can be given to another tracer. Rays from
-// a surface start kLift voxels above it along its normal: a sheet of voxels is up to sqrt(3) thick,
-// and must not shade itself.
+// Rays are functions of (pixel, number), so another tracer can be given the same rays. Rays from a
+// surface start kLift voxels above it along its normal, because a sheet of voxels is up to sqrt(3)
+// thick and must not shadow itself.
 #pragma once
 
 #include "verify/trace/kernel/beam.h"
@@ -16,9 +16,9 @@
 
 namespace svdag {
 
-constexpr double kLift = 2.5;
+constexpr double kLift = 2.5;  // voxels
 
-// What a pixel shows, and where its secondary rays start.
+// The surface that a pixel shows; its secondary rays start at `point`.
 struct Surfel {
   bool found = false;
   Vec3 point{};
@@ -32,14 +32,14 @@ struct Light {
 
 struct Secondary {
   uint32_t samples = 64;  // rays per pixel
-  double reach = 1e300;   // ambient occlusion: of a ray, in voxels
-  Cut cut;                // of secondary rays; none by default, so that answers are exact
+  double reach = 1e300;   // length of ambient occlusion rays, in voxels
+  Cut cut;                // none by default, so that results are exact
 };
 
 struct Picture {
   Camera camera;
   uint32_t width, height;
-  // Through the middle of pixel (x, y), from the upper left.
+  // The ray through the middle of pixel (x, y), counted from the upper left.
   SVDAG_HD Ray ray(uint32_t x, uint32_t y) const {
     return camera.ray((x + 0.5) / width, (y + 0.5) / height);
   }
