@@ -8,14 +8,14 @@
 namespace svdag {
 namespace {
 
-// Rays to the light, or the sky, from what a camera ray shows.
+// Number of rays to the light or the sky for each camera ray that hits.
 uint32_t secondary_per_ray(const Shading& shading) {
   if (shading.mode == ShadeMode::kShadow) return 1;
   const bool many = shading.mode == ShadeMode::kSoft || shading.mode == ShadeMode::kAo;
   return many ? shading.secondary.samples : 0;
 }
 
-// The rays of one tile; the room is used again for the next.
+// Renders tiles. The memory of a tile's rays is reused for the next one.
 class Tile {
  public:
   Tile(const DagView& dag, const Tree64View& tree, const Camera& camera, const Shading& shading,
@@ -26,17 +26,17 @@ class Tile {
     left_ = left, top_ = top;
     width_ = std::min(int(kTile), config_.width - left);
     height_ = std::min(int(kTile), config_.height - top);
-    aim();
-    look();
-    ask_light();
+    make_camera_rays();
+    trace_camera_rays();
+    trace_secondary_rays();
     paint(image);
   }
 
  private:
   int per_pixel() const { return config_.supersample * config_.supersample; }
 
-  // Camera rays, pixel by pixel.
-  void aim() {
+  // Pixel by pixel.
+  void make_camera_rays() {
     rays_.clear();
     const int n = config_.supersample;
     for (int p = 0; p < width_ * height_; ++p) {
@@ -48,35 +48,37 @@ class Tile {
     }
   }
 
-  void look() {
+  void trace_camera_rays() {
     hits_.resize(rays_.size());
-    const Span span = config_.beams ? reach(rays_, {}, shading_.primary, false) : Span{};
+    const Span span = config_.beams ? beam_span(rays_, {}, shading_.primary, false) : Span{};
     trace_closest(dag_, tree_, rays_.data(), rays_.size(), span, shading_.primary, hits_.data());
     surfels_.clear();
-    const bool wanted = shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
+    const bool needs_surfels =
+        shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
     for (size_t i = 0; i < rays_.size(); ++i)
-      surfels_.push_back(wanted ? make_surfel(dag_, rays_[i], hits_[i]) : Surfel{});
+      surfels_.push_back(needs_surfels ? make_surfel(dag_, rays_[i], hits_[i]) : Surfel{});
   }
 
-  Span reach(const std::vector<Ray>& rays, const Span& span, const Cut& cut, bool both) const {
+  Span beam_span(const std::vector<Ray>& rays, const Span& span, const Cut& cut, bool both) const {
     Beam beam;
     for (const Ray& ray : rays) beam.add(ray);
     return beam.reach(dag_, span, cut, both);
   }
 
-  // How much of the light, or the sky, each surfel sees.
-  void ask_light() {
-    seen_.assign(rays_.size(), 1);
+  // Computes the part of the light, or of the sky, that is visible from each surfel.
+  void trace_secondary_rays() {
+    visibility_.assign(rays_.size(), 1);
     const bool ao = shading_.mode == ShadeMode::kAo;
     const uint32_t n = secondary_per_ray(shading_);
     if (n == 0) return;
     secondary_.clear();
     for (size_t i = 0; i < rays_.size(); ++i) {
-      for (uint32_t k = 0; surfels_[i].found && k < n; ++k) secondary_.push_back(ray(i, k, n));
+      for (uint32_t k = 0; surfels_[i].found && k < n; ++k)
+        secondary_.push_back(secondary_ray(i, k, n));
     }
     Span span{0, ao ? shading_.secondary.reach : 1};
     if (!ao && config_.beams && !secondary_.empty())
-      span = reach(secondary_, span, shading_.secondary.cut, true);
+      span = beam_span(secondary_, span, shading_.secondary.cut, true);
     blocked_.resize(secondary_.size());
     trace_any(dag_, tree_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
               blocked_.data());
@@ -85,12 +87,12 @@ class Tile {
       if (!surfels_[i].found) continue;
       const auto first = blocked_.begin() + std::ptrdiff_t(at);
       const auto blocked = std::count(first, first + n, uint8_t(1));
-      seen_[i] = 1 - double(blocked) / n;
+      visibility_[i] = 1 - double(blocked) / n;
       at += n;
     }
   }
 
-  Ray ray(size_t i, uint32_t k, uint32_t n) const {
+  Ray secondary_ray(size_t i, uint32_t k, uint32_t n) const {
     const int pixel = int(i) / per_pixel();
     const uint64_t x = uint64_t(left_ + pixel % width_), y = uint64_t(top_ + pixel / width_);
     const uint64_t number = (y << 32 | x) << 8 | (i % size_t(per_pixel()));
@@ -104,7 +106,7 @@ class Tile {
     for (int p = 0; p < width_ * height_; ++p) {
       Vec3 sum{};
       for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
-        sum = sum + shade(shading_, rays_[i], hits_[i], surfels_[i], seen_[i]);
+        sum = sum + shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i]);
       const Vec3 colour = sum * (1.0 / n);
       const int x = left_ + p % width_, y = top_ + p / width_;
       shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);
@@ -121,7 +123,7 @@ class Tile {
   std::vector<Hit> hits_;
   std::vector<Surfel> surfels_;
   std::vector<uint8_t> blocked_;
-  std::vector<double> seen_;
+  std::vector<double> visibility_;
 };
 
 }  // namespace

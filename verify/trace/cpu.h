@@ -1,4 +1,4 @@
-// Renders a picture on the processor, a row of tiles per task.
+// Renders pictures on the processor, a row of tiles per task.
 #pragma once
 
 #include "streaming/process/executor.h"
@@ -16,10 +16,10 @@ struct RenderConfig {
   bool beams = true;    // false: every ray starts at the camera (same picture)
 };
 
-// The rays of a picture that no cut ends, at most: what a 64-tree can trace.
+// Upper bound of the rays of a picture that have no cut: those that a 64-tree can trace.
 uint64_t uncut_rays(const DagView& dag, const Shading& shading, const RenderConfig& config);
 
-// `tree`: of the DAG, or of nothing; the picture is the same.
+// `tree`: the 64-tree of the DAG, or an empty one; the picture is the same.
 Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,
              const Shading& shading, const RenderConfig& config, Executor& executor,
              Progress& progress);

@@ -6,7 +6,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 
-// The only file that sees stb; its code is not held to our warnings.
+// The only file that includes stb, whose code does not compile without these warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"

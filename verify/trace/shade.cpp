@@ -11,22 +11,23 @@ const Vec3 kSun{{1.15, 1.06, 0.92}};
 const Vec3 kSky{{0.42, 0.50, 0.62}};
 const Vec3 kGround{{0.24, 0.21, 0.19}};
 
-// Light paper, a little darker downwards.
+// A light grey, a little darker downwards.
 Vec3 background(const Shading& shading, const Vec3& direction) {
   const double h = 0.5 + 0.5 * dot(direction, shading.up);
   return Vec3{{0.62, 0.66, 0.71}} * (1 - h) + Vec3{{0.86, 0.89, 0.93}} * h;
 }
 
-// Lambert under one sun, `seen` of it, and a sky that is bright above and dim below.
-Vec3 clay(const Shading& shading, const Surfel& surfel, double seen) {
+// Lambert shading by a sun, of which the part `visibility` is visible, and by a sky that is bright
+// above and dim below.
+Vec3 clay(const Shading& shading, const Surfel& surfel, double visibility) {
   const Vec3 to_light = normalized(shading.light.centre - surfel.point);
-  const double sun = seen * std::max(0.0, dot(surfel.normal, to_light));
+  const double sun = visibility * std::max(0.0, dot(surfel.normal, to_light));
   const double sky = 0.5 + 0.5 * dot(surfel.normal, shading.up);
   const Vec3 light = kSun * sun + kSky * sky + kGround * (1 - sky);
   return {{kClay[0] * light[0], kClay[1] * light[1], kClay[2] * light[2]}};
 }
 
-// A colour of `stops` (evenly spaced) at v = 0 .. 1.
+// Interpolates between evenly spaced colours at v = 0 .. 1.
 template <size_t n>
 Vec3 ramp(const Vec3 (&stops)[n], double v) {
   const double at = std::clamp(v, 0.0, 1.0) * double(n - 1);
@@ -34,18 +35,19 @@ Vec3 ramp(const Vec3 (&stops)[n], double v) {
   return stops[i] * (double(i) + 1 - at) + stops[i + 1] * (at - double(i));
 }
 
-// Work as heat: black body colours.
+// The colours of a glowing black body.
 Vec3 heat(double v) {
   const Vec3 stops[] = {{{0, 0, 0}},   {{0.35, 0, 0.1}}, {{0.8, 0.1, 0}},
                         {{1, 0.6, 0}}, {{1, 0.95, 0.4}}, {{1, 1, 1}}};
   return ramp(stops, v);
 }
 
-// Levels from the coarsest, blue, to voxels, red; darker where the surface turns away.
+// From blue for the coarsest level to red for voxels; darker where the surface is visibility at an
+// angle.
 Vec3 level_colour(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel) {
   const Vec3 stops[] = {{{0.19, 0.07, 0.55}}, {{0.13, 0.4, 0.85}},  {{0.1, 0.7, 0.6}},
                         {{0.55, 0.8, 0.2}},   {{0.98, 0.75, 0.15}}, {{0.85, 0.15, 0.1}}};
-  constexpr double kShown = 10;  // levels above the voxels that the colours tell apart
+  constexpr double kShown = 10;  // levels above the voxels with different colours
   const double facing = std::abs(dot(surfel.normal, ray.direction));
   const double below = double(shading.levels - hit.level);
   return ramp(stops, 1 - below / kShown) * (0.55 + 0.45 * facing);
@@ -57,7 +59,7 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   Shading shading;
   shading.mode = mode;
   shading.up[up] = 1;
-  Vec3 nearest{};  // of the box; mostly inside a face, nearer than every corner
+  Vec3 nearest{};  // point of the box; usually inside a face, nearer than every corner
   for (int a = 0; a < 3; ++a) nearest[a] = std::clamp(camera.position[a], box.min[a], box.max[a]);
   shading.near = length(nearest - camera.position);
   shading.far = 0;
@@ -70,8 +72,8 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
 }
 
 Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel,
-           double seen) {
-  if (shading.mode == ShadeMode::kSteps) return heat(double(hit.steps) / shading.most_steps);
+           double visibility) {
+  if (shading.mode == ShadeMode::kSteps) return heat(double(hit.steps) / shading.max_steps);
   if (!hit.found)
     return shading.mode == ShadeMode::kDepth ? Vec3{} : background(shading, ray.direction);
   switch (shading.mode) {
@@ -85,9 +87,9 @@ Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel&
     case ShadeMode::kLevel:
       return level_colour(shading, ray, hit, surfel);
     case ShadeMode::kAo:
-      return Vec3{{0.85, 0.85, 0.85}} * seen;
+      return Vec3{{0.85, 0.85, 0.85}} * visibility;
     default:
-      return clay(shading, surfel, seen);
+      return clay(shading, surfel, visibility);
   }
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr uint64_t kBytesPerTriangle =
     sizeof(VoxelTriangle) + 9 * sizeof(float) + 3 * sizeof(uint32_t);
 
-// Books what Embree allocates; what the budget refuses ends the build with an error code.
+// Reserves what Embree allocates. If the budget rejects an allocation, the build fails and
+// rethrow() throws the budget's Error.
 class MemoryMonitor {
  public:
   explicit MemoryMonitor(MemoryBudget* budget) : reservation_(budget->reserve(0, kPurpose)) {}
@@ -23,7 +24,7 @@ class MemoryMonitor {
     return static_cast<MemoryMonitor*>(self)->count(bytes);
   }
   void rethrow() const {
-    if (refusal_) throw Error(*refusal_);
+    if (error_) throw Error(*error_);
   }
 
  private:
@@ -35,7 +36,7 @@ class MemoryMonitor {
     try {
       reservation_.resize(uint64_t(std::max<int64_t>(held_, 0)), kPurpose);
     } catch (const Error& error) {
-      if (!refusal_) refusal_.emplace(error);
+      if (!error_) error_.emplace(error);
       return false;
     }
     return true;
@@ -44,7 +45,7 @@ class MemoryMonitor {
   std::mutex mutex_;
   int64_t held_ = 0;
   MemoryBudget::Reservation reservation_;
-  std::optional<Error> refusal_;
+  std::optional<Error> error_;
 };
 
 [[noreturn]] void fail_embree(RTCError code) {
@@ -52,8 +53,8 @@ class MemoryMonitor {
   throw Error(ExitCode::kInternal, "Embree failed with code " + std::to_string(int(code)));
 }
 
-// What the filter needs to ask a proposed hit again.
-struct Question {
+// A ray query. The context comes first: Embree passes its address to the filter.
+struct RayQuery {
   RTCIntersectContext context;
   const TriangleTracer* tracer;
   const Ray* ray;
@@ -61,37 +62,37 @@ struct Question {
   TriangleHit best;
 };
 
-TriangleHit hit_of(const Question& question, uint32_t triangle, const Crossing& crossing) {
+TriangleHit hit_of(const RayQuery& query, uint32_t triangle, const Crossing& crossing) {
   const bool doubtful =
-      crossing.inside < question.tracer->doubt() || crossing.cosine < TriangleTracer::kGrazing;
+      crossing.inside < query.tracer->doubt() || crossing.cosine < TriangleTracer::kGrazing;
   return {triangle, crossing.t, crossing.cosine, doubtful};
 }
 
-// Embree drops a proposed hit whose valid[0] is cleared and searches on.
-void ask_again(const RTCFilterFunctionNArguments* arguments) {
-  Question& question = *reinterpret_cast<Question*>(arguments->context);
+// Rechecks a proposed hit in double. Embree discards it and continues if valid[0] is cleared.
+void recheck_hit(const RTCFilterFunctionNArguments* arguments) {
+  RayQuery& query = *reinterpret_cast<RayQuery*>(arguments->context);
   const uint32_t id = RTCHitN_primID(arguments->hit, 1, 0);
-  const Crossing crossing = cross_plane(*question.ray, question.tracer->triangles()[id]);
-  const double doubt = question.tracer->doubt();
-  if (!crossing.found || crossing.inside < -doubt || crossing.t < question.begin ||
-      crossing.t > question.end) {
+  const Crossing crossing = cross_plane(*query.ray, query.tracer->triangles()[id]);
+  const double doubt = query.tracer->doubt();
+  if (!crossing.found || crossing.inside < -doubt || crossing.t < query.begin ||
+      crossing.t > query.end) {
     arguments->valid[0] = 0;
     return;
   }
-  if (crossing.t < question.best.t) question.best = hit_of(question, id, crossing);
+  if (crossing.t < query.best.t) query.best = hit_of(query, id, crossing);
 }
 
-struct Nearest {
+struct PointQuery {
   const TriangleTracer* tracer;
   Vec3 point;
-  double least;
+  double distance;  // of the nearest triangle so far
 };
 
-bool come_nearer(RTCPointQueryFunctionArguments* arguments) {
-  Nearest& nearest = *static_cast<Nearest*>(arguments->userPtr);
+bool update_nearest(RTCPointQueryFunctionArguments* arguments) {
+  PointQuery& nearest = *static_cast<PointQuery*>(arguments->userPtr);
   const double d = distance(nearest.point, nearest.tracer->triangles()[arguments->primID]);
-  if (d >= nearest.least) return false;
-  nearest.least = d;
+  if (d >= nearest.distance) return false;
+  nearest.distance = d;
   const float radius = float(d + nearest.tracer->float_error());
   if (radius >= arguments->query->radius) return false;
   arguments->query->radius = radius;
@@ -121,19 +122,19 @@ struct TriangleTracer::Scene {
   MemoryMonitor monitor;
   RTCDevice device;
   RTCScene scene = nullptr;
-  std::vector<float> vertices;  // three a triangle, and one float that Embree reads past the end
+  std::vector<float> vertices;  // three per triangle, and one float that Embree reads past the end
   std::vector<uint32_t> corners;
 };
 
-TriangleTracer::TriangleTracer(const Vec3& middle, uint64_t most, size_t threads,
+TriangleTracer::TriangleTracer(const Vec3& middle, uint64_t max_triangles, size_t threads,
                                MemoryBudget* budget)
     : middle_(middle) {
-  if (most > UINT32_MAX / 3)
+  if (max_triangles > UINT32_MAX / 3)
     fail_usage("the scene has more than 2^32 / 3 triangles, whose corners Embree cannot number");
-  reservation_ = budget->reserve(most * kBytesPerTriangle, "triangles for Embree");
+  reservation_ = budget->reserve(max_triangles * kBytesPerTriangle, "triangles for Embree");
   scene_ = std::make_unique<Scene>(threads, budget);
-  triangles_.reserve(most);
-  scene_->vertices.reserve(9 * most + 1);
+  triangles_.reserve(max_triangles);
+  scene_->vertices.reserve(9 * max_triangles + 1);
 }
 
 TriangleTracer::~TriangleTracer() = default;
@@ -161,7 +162,7 @@ void TriangleTracer::build() {
                              scene_->vertices.data(), 0, 3 * sizeof(float), 3 * count);
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              scene_->corners.data(), 0, 3 * sizeof(uint32_t), count);
-  rtcSetGeometryIntersectFilterFunction(mesh, &ask_again);
+  rtcSetGeometryIntersectFilterFunction(mesh, &recheck_hit);
   rtcCommitGeometry(mesh);
   rtcAttachGeometry(scene_->scene, mesh);
   rtcReleaseGeometry(mesh);
@@ -170,34 +171,34 @@ void TriangleTracer::build() {
 }
 
 std::optional<TriangleHit> TriangleTracer::closest(const Ray& ray, double begin, double end) const {
-  Question question{{}, this, &ray, begin, end, {}};
-  question.best.t = std::numeric_limits<double>::infinity();
-  rtcInitIntersectContext(&question.context);
-  RTCRayHit query{};
+  RayQuery query{{}, this, &ray, begin, end, {}};
+  query.best.t = std::numeric_limits<double>::infinity();
+  rtcInitIntersectContext(&query.context);
+  RTCRayHit embree_ray{};
   const Vec3 origin = ray.origin - middle_;
-  query.ray.org_x = float(origin[0]);
-  query.ray.org_y = float(origin[1]);
-  query.ray.org_z = float(origin[2]);
-  query.ray.dir_x = float(ray.direction[0]);
-  query.ray.dir_y = float(ray.direction[1]);
-  query.ray.dir_z = float(ray.direction[2]);
-  query.ray.tnear = std::max(0.0F, float(begin - float_error()));
-  query.ray.tfar = float(end + float_error());
-  query.ray.mask = ~0U;
-  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_->scene, &question.context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return question.best;
+  embree_ray.ray.org_x = float(origin[0]);
+  embree_ray.ray.org_y = float(origin[1]);
+  embree_ray.ray.org_z = float(origin[2]);
+  embree_ray.ray.dir_x = float(ray.direction[0]);
+  embree_ray.ray.dir_y = float(ray.direction[1]);
+  embree_ray.ray.dir_z = float(ray.direction[2]);
+  embree_ray.ray.tnear = std::max(0.0F, float(begin - float_error()));
+  embree_ray.ray.tfar = float(end + float_error());
+  embree_ray.ray.mask = ~0U;
+  embree_ray.hit.geomID = embree_ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_->scene, &query.context, &embree_ray);
+  if (embree_ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return query.best;
 }
 
 double TriangleTracer::distance_to(const Vec3& point, double within) const {
-  Nearest nearest{this, point, within};
+  PointQuery nearest{this, point, within};
   const Vec3 p = point - middle_;
   RTCPointQuery query{float(p[0]), float(p[1]), float(p[2]), 0, float(within + float_error())};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_->scene, &query, &context, &come_nearer, &nearest);
-  return nearest.least < within ? nearest.least : std::numeric_limits<double>::infinity();
+  rtcPointQuery(scene_->scene, &query, &context, &update_nearest, &nearest);
+  return nearest.distance < within ? nearest.distance : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace svdag

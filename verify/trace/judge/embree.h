@@ -1,17 +1,16 @@
-// Rays against the triangles themselves, by Embree: the judge of what the DAG's rays hit.
+// Traces rays against the triangles, by Embree: the judge of the hits in the DAG.
 //
 // Embree (Wald et al. 2014) finds which triangle a ray meets, and which are near a point, in
-// floats. It gets the coordinates that lose least: voxels relative to a point in their middle, so
-// that a vertex moves by 2^-25 of the extent at most, and rays that floats hold exactly
-// (`float_ray`). Every hit it proposes is tested again in double against the snapped triangle
-// (triangle.h), before it can count or hide another: a filter inside the search, so coincident
-// triangles are not lost. Distances are of the snapped triangles in double; Embree only lists the
-// candidates.
+// floats. Coordinates are passed so that floats lose little: voxels relative to the middle of the
+// scene, so that a vertex moves by at most 2^-25 of the extent, and rays that floats represent
+// exactly (float_ray). A filter inside the search rechecks every proposed hit in double against the
+// snapped triangle (triangle.h), before it can hide another; so coincident triangles are not lost.
+// Distances are computed in double from the snapped triangles; Embree only lists the candidates.
 //
 // Hits that Embree's floats miss stay missed: near a silhouette, within float_error() of an edge. A
 // judge without misses would need a traversal of our own, which is what is being judged.
 //
-// This is the only part of svdag that knows Embree; it needs all triangles in memory.
+// This is the only part of svdag that uses Embree. It needs all triangles in memory.
 #pragma once
 
 #include <memory>
@@ -28,41 +27,40 @@ struct TriangleHit {
   uint32_t triangle = 0;
   double t = 0;           // in lengths of the ray's direction
   double cosine = 0;      // of the angle between ray and normal
-  bool doubtful = false;  // within doubt() of an edge, or along the plane: it may pass beside
+  bool doubtful = false;  // within doubt() of an edge, or grazing: the ray may miss the triangle
 };
 
 class TriangleTracer {
  public:
-  static constexpr double kGrazing = 0x1p-20;  // cosines below it say nothing about t
+  static constexpr double kGrazing = 0x1p-20;  // below this cosine, t is too inexact
 
-  // Room for `most` triangles. `middle` is where coordinates are best: whole numbers of voxels. An
-  // Error (kUsage) where svdag was built without Embree, or (kMemory) beyond the budget.
-  TriangleTracer(const Vec3& middle, uint64_t most, size_t threads, MemoryBudget* budget);
+  // Reserves memory for `max_triangles`. `middle` is the origin of the float coordinates, in whole
+  // voxels. Error: kUsage if svdag was built without Embree, kMemory beyond the budget.
+  TriangleTracer(const Vec3& middle, uint64_t max_triangles, size_t threads, MemoryBudget* budget);
   ~TriangleTracer();
   TriangleTracer(const TriangleTracer&) = delete;
 
   void add(std::span<const LatticeTriangle> triangles, int fraction);
-  // After the last add(), before the first question.
+  // Builds Embree's tree: after the last add(), before the first query. Error: kMemory.
   void build();
 
   std::span<const VoxelTriangle> triangles() const { return triangles_; }
   const Vec3& middle() const { return middle_; }
-  // How far Embree's floats may be off, in voxels: 2^-20 of the extent.
+  // Error bound of Embree's floats, in voxels: 2^-20 of the extent.
   double float_error() const { return 0x1p-19 * reach_; }
-  // How far the doubles may be off, in voxels.
+  // Error bound of the doubles, in voxels.
   double doubt() const { return 0x1p-39 * reach_; }
 
-  // The first triangle that the ray crosses at begin <= t <= end. Safe from many threads, like all
-  // below.
+  // The first triangle that the ray crosses at begin <= t <= end. Thread-safe, like distance_to().
   std::optional<TriangleHit> closest(const Ray& ray, double begin, double end) const;
-  // From a point to the nearest triangle; infinity if that is further than `within`.
+  // Distance from a point to the nearest triangle; infinity if it is `within` or more.
   double distance_to(const Vec3& point, double within) const;
 
  private:
   struct Scene;
 
   Vec3 middle_;
-  double reach_ = 1;  // the largest coordinate from the middle
+  double reach_ = 1;  // largest coordinate relative to the middle
   MemoryBudget::Reservation reservation_;
   std::vector<VoxelTriangle> triangles_;
   std::unique_ptr<Scene> scene_;

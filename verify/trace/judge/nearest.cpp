@@ -9,17 +9,17 @@ namespace {
 class Search {
  public:
   Search(const DagView& dag, const Vec3& point, double within)
-      : dag_(dag), point_(point), least_(within * within) {}
+      : dag_(dag), point_(point), best_square_(within * within) {}
 
   NearestVoxel run() {
     const uint32_t corner[3] = {0, 0, 0};
     if (!dag_.empty()) visit(0, 0, corner);
-    best_.distance = std::sqrt(least_);
+    best_.distance = std::sqrt(best_square_);
     return best_;
   }
 
  private:
-  // Square of the distance to the box of the centres of a cube's voxels.
+  // Squared distance to the box of the centres of a cube's voxels.
   double square_to(const uint32_t corner[3], uint32_t side) const {
     double sum = 0;
     for (int a = 0; a < 3; ++a) {
@@ -30,21 +30,21 @@ class Search {
     return sum;
   }
 
-  // `node` is a word index; at the brick level the brick, below it one byte of the brick.
+  // `node` is a word index; at the brick level it is the brick, below it one byte of the brick.
   void visit(uint32_t level, uint64_t node, const uint32_t corner[3]) {
     const uint32_t side = 1U << (dag_.levels - level);
-    if (square_to(corner, side) >= least_) return;
+    if (square_to(corner, side) >= best_square_) return;
     if (side == 1) {
       best_.found = true;
-      least_ = square_to(corner, 1);
+      best_square_ = square_to(corner, 1);
       std::copy(corner, corner + 3, best_.voxel);
       return;
     }
     const uint32_t half = side / 2;
-    unsigned own = 0;  // the child on whose side the point is
-    for (int a = 0; a < 3; ++a) own = own << 1 | unsigned(point_[a] >= corner[a] + half);
+    unsigned nearest = 0;  // the child nearest to the point
+    for (int a = 0; a < 3; ++a) nearest = nearest << 1 | unsigned(point_[a] >= corner[a] + half);
     for (unsigned i = 0; i < 8; ++i) {
-      const unsigned c = own ^ i;
+      const unsigned c = nearest ^ i;
       uint64_t child = 0;
       if (!child_of(level, node, c, &child)) continue;
       const uint32_t at[3] = {corner[0] + (c >> 2) * half, corner[1] + (c >> 1 & 1) * half,
@@ -66,7 +66,7 @@ class Search {
 
   const DagView& dag_;
   Vec3 point_;
-  double least_;
+  double best_square_;  // squared distance of the nearest centre so far
   NearestVoxel best_;
 };
 

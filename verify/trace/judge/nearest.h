@@ -1,8 +1,8 @@
-// The set voxel nearest to a point.
+// Finds the set voxel nearest to a point.
 //
-// Branch and bound (Roussopoulos et al. 1995): a node is left out when the box of its voxels'
-// centres is further away than the best voxel so far; children are visited from the point's own
-// octant outwards, so the best is good from the start.
+// Branch and bound (Roussopoulos et al. 1995): a node is skipped if the box of its voxels' centres
+// is further away than the best voxel so far. Children are visited from the point's own octant
+// outwards, so a good candidate is found early.
 #pragma once
 
 #include "verify/trace/kernel/traverse.h"

@@ -7,11 +7,11 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kChunk = 4096;  // rays, voxels or points of one task
-constexpr uint64_t kRound = 4096;  // tasks whose results are held at once
+constexpr uint64_t kChunk = 4096;        // rays, voxels or points per task
+constexpr uint64_t kTasksAtOnce = 4096;  // limits the memory of their results
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Where all triangles and voxels are: rays are drawn around it.
+// Bounds of the triangles in the selection and of the voxels; rays are drawn around it.
 VoxelBounds scene_box(const DagView& dag, std::span<const VoxelTriangle> triangles,
                       const VoxelBox& selection) {
   Box box;
@@ -33,7 +33,7 @@ VoxelBounds scene_box(const DagView& dag, std::span<const VoxelTriangle> triangl
   return {{{box.min.x, box.min.y, box.min.z}}, {{box.max.x, box.max.y, box.max.z}}};
 }
 
-// The part of the ray in the selection, less `margin` voxels at either end; empty if begin > end.
+// The part of the ray at least `margin` voxels inside the selection; empty if begin > end.
 std::pair<double, double> inside(const VoxelBox& selection, const Ray& ray, double margin) {
   double begin = 0, end = kInfinite;
   for (int a = 0; a < 3; ++a) {
@@ -47,7 +47,7 @@ std::pair<double, double> inside(const VoxelBox& selection, const Ray& ray, doub
   return {begin, end};
 }
 
-// Whether the point is in the closed selection, `margin` voxels or more from its border.
+// Whether the point is in the closed selection, at least `margin` voxels from its border.
 bool is_inside(const VoxelBox& selection, const Vec3& point, double margin) {
   for (int a = 0; a < 3; ++a) {
     if (point[a] < double(selection.min[a]) + margin ||
@@ -57,25 +57,25 @@ bool is_inside(const VoxelBox& selection, const Vec3& point, double margin) {
   return true;
 }
 
-// Runs `judge(index, &result)` for every index, chunk by chunk; offenders stay in order.
+// Calls judge_one(index, &result) for every index, in parallel; offenders stay in order.
 template <class JudgeOne>
 RayJudgement judge_all(uint64_t count, Executor& executor, Progress& progress,
                        const JudgeOne& judge_one) {
   const uint64_t tasks = count / kChunk + (count % kChunk != 0);
   RayJudgement all;
-  for (uint64_t first = 0; first < tasks; first += kRound) {
-    std::vector<RayJudgement> parts(std::min(kRound, tasks - first));
-    executor.for_each(parts.size(), [&](size_t, size_t part) {
-      const uint64_t begin = (first + part) * kChunk, end = std::min(count, begin + kChunk);
-      for (uint64_t i = begin; i < end; ++i) judge_one(i, &parts[part]);
+  for (uint64_t first = 0; first < tasks; first += kTasksAtOnce) {
+    std::vector<RayJudgement> results(std::min(kTasksAtOnce, tasks - first));
+    executor.for_each(results.size(), [&](size_t, size_t task) {
+      const uint64_t begin = (first + task) * kChunk, end = std::min(count, begin + kChunk);
+      for (uint64_t i = begin; i < end; ++i) judge_one(i, &results[task]);
       progress.advance(end - begin);
     });
-    for (const RayJudgement& part : parts) all.append(part);
+    for (const RayJudgement& result : results) all.append(result);
   }
   return all;
 }
 
-void show(RayJudgement* result, const RayOffender& offender) {
+void add_offender(RayJudgement* result, const RayOffender& offender) {
   if (result->first.size() < RayJudgement::kShown) result->first.push_back(offender);
 }
 
@@ -100,7 +100,7 @@ void RayJudgement::append(const RayJudgement& later) {
   for (size_t i = 0; i < depth.size(); ++i) depth[i] += later.depth[i];
   voxels_to_scene = std::max(voxels_to_scene, later.voxels_to_scene);
   scene_to_voxels = std::max(scene_to_voxels, later.scene_to_voxels);
-  for (const RayOffender& offender : later.first) show(this, offender);
+  for (const RayOffender& offender : later.first) add_offender(this, offender);
 }
 
 RayJudge::RayJudge(const DagView& dag, const TriangleTracer& tracer, const RayJudgeConfig& config,
@@ -177,22 +177,22 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
   if (nearer >= -tracer_.doubt() / triangle->cosine) return;
   ++(triangle->doubtful ? result->doubtful : result->late);
   if (!triangle->doubtful)
-    show(result,
-         {RayOffender::What::kLate, index, ray.origin + ray.direction * triangle->t, -nearer});
+    add_offender(result, {RayOffender::What::kLate, index, ray.origin + ray.direction * triangle->t,
+                          -nearer});
 }
 
 void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const {
   ++result->voxels;
   if (!is_inside(config_.selection, centre, 0)) {
     ++result->outside;
-    return show(result, {RayOffender::What::kOutside, number, centre, 0});
+    return add_offender(result, {RayOffender::What::kOutside, number, centre, 0});
   }
   double d = tracer_.distance_to(centre, largest_distance() + 1);
-  if (d == kInfinite) d = tracer_.distance_to(centre, kInfinite);  // rare: how far is it really?
+  if (d == kInfinite) d = tracer_.distance_to(centre, kInfinite);  // rare: measure it
   result->voxels_to_scene = std::max(result->voxels_to_scene, d);
   if (d <= largest_distance()) return;
   ++result->far;
-  show(result, {RayOffender::What::kFar, number, centre, d});
+  add_offender(result, {RayOffender::What::kFar, number, centre, d});
 }
 
 void RayJudge::judge_point(uint64_t number, const Vec3& point, RayJudgement* result) const {
@@ -203,7 +203,7 @@ void RayJudge::judge_point(uint64_t number, const Vec3& point, RayJudgement* res
   ++result->points_judged;
   if (d <= largest_distance()) return;
   ++result->uncovered;
-  show(result, {RayOffender::What::kUncovered, number, point, d});
+  add_offender(result, {RayOffender::What::kUncovered, number, point, d});
 }
 
 }  // namespace svdag

@@ -9,7 +9,7 @@ namespace svdag {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kUp = 1;  // of the camera; any axis serves
+constexpr int kUp = 1;  // of the camera; any axis would do
 constexpr Vec3 kTowards{{-0.6, -0.5, -0.7}};
 
 Vec3 random_direction(RayRandom& random) {
@@ -39,9 +39,9 @@ TriangleSampler::TriangleSampler(std::span<const VoxelTriangle> triangles, Memor
 
 TriangleSampler::Sample TriangleSampler::draw(RayRandom& random) const {
   const bool by_area = random.unit() < 0.5;
-  const double place = random.unit();
-  const auto at = by_area ? std::upper_bound(areas_.begin(), areas_.end(), place * areas_.back())
-                          : areas_.begin() + ptrdiff_t(place * double(areas_.size()));
+  const double position = random.unit();
+  const auto at = by_area ? std::upper_bound(areas_.begin(), areas_.end(), position * areas_.back())
+                          : areas_.begin() + ptrdiff_t(position * double(areas_.size()));
   const size_t index = std::min(size_t(at - areas_.begin()), areas_.size() - 1);
   const VoxelTriangle& t = triangles_[index];
   double u = random.unit(), v = random.unit();
@@ -89,7 +89,7 @@ Ray TestRays::ray(uint64_t index) const {
 
 Ray TestRays::chord(RayRandom& random) const {
   const Vec3 middle = (box_.min + box_.max) * 0.5, half = (box_.max - box_.min) * 0.5;
-  const double radius = std::max(length(half), 1.0);  // a ray needs a direction around a point, too
+  const double radius = std::max(length(half), 1.0);  // also for a scene that is a point
   const Vec3 from = middle + random_direction(random) * radius;
   const Vec3 to = middle + random_direction(random) * radius;
   return {from, to - from};

@@ -1,15 +1,14 @@
-// The rays that a DAG and its triangles are both asked: a fifth of each kind.
+// The rays that are traced through both the DAG and its triangles: a fifth of each kind.
 //
-//   camera    through a framed picture: what a user sees first
-//   chord     between two points on the sphere around the scene: every place, every direction
-//   inside    from anywhere in the scene's box: most begin in empty space, some in a voxel
+//   camera    through a picture that frames the scene: what a user sees first
+//   chord     between two points on the sphere around the scene: all positions and directions
+//   inside    from a point in the scene's box: most start in empty space, some in a voxel
 //   axis      along an axis through centres of voxels, half of them near a point of a triangle
-//   surface   from a point of a triangle, cosine-distributed on either side: away from it,
-//   beginning
-//             two voxels off, or towards it, from further away. What is aimed at cannot be missed.
+//   surface   from a point of a triangle, cosine-distributed on either side: away from it, starting
+//             two voxels off, or towards it from further away, which always hits
 //
-// Ray i depends on the seed and on i alone, so any number of threads ask the same rays. All are
-// rounded to what floats hold (float_ray), so both sides get the very same ray.
+// Ray i depends only on the seed and i, so the rays are the same with any number of threads. All
+// are rounded to floats (float_ray), so both sides trace exactly the same ray.
 #pragma once
 
 #include "verify/trace/judge/embree.h"
@@ -21,7 +20,7 @@ enum class RayKind { kCamera, kChord, kInside, kAxis, kSurface };
 constexpr int kRayKinds = 5;
 constexpr const char* kRayKindNames[kRayKinds] = {"camera", "chord", "inside", "axis", "surface"};
 
-// SplitMix64 (Steele et al. 2014): good numbers from any seed, so each ray can have its own.
+// SplitMix64 (Steele et al. 2014): good numbers from any seed, so each ray can have its own state.
 class RayRandom {
  public:
   RayRandom(uint64_t seed, uint64_t index) : state_(seed * 0x9e3779b97f4a7c15U) {
@@ -40,28 +39,28 @@ class RayRandom {
   uint64_t state_;
 };
 
-// Points on triangles, half of them drawn by area and half by triangle, so small ones count too.
+// Draws points on triangles: half of them by area, half by triangle, so that small ones count too.
 class TriangleSampler {
  public:
   struct Sample {
     Vec3 point;
-    Vec3 normal;  // of length 1; an axis where the triangle has no area
+    Vec3 normal;  // unit length; an axis if the triangle has no area
   };
 
   TriangleSampler(std::span<const VoxelTriangle> triangles, MemoryBudget* budget);
   bool empty() const { return areas_.empty(); }
-  // There must be a triangle.
+  // Requires !empty().
   Sample draw(RayRandom& random) const;
 
  private:
   std::span<const VoxelTriangle> triangles_;
   MemoryBudget::Reservation reservation_;
-  std::vector<double> areas_;  // of triangles 0 .. i, together
+  std::vector<double> areas_;  // [i]: double the area of triangles 0 .. i together
 };
 
 class TestRays {
  public:
-  // Around `box`; the tracer and the sampler must outlive this.
+  // Rays around `box`. The tracer and the sampler must outlive this.
   TestRays(const VoxelBounds& box, const TriangleTracer& tracer, const TriangleSampler& sampler,
            uint64_t seed);
 

@@ -44,7 +44,7 @@ Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle) {
   result.inside = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3 &from = w[i], &to = w[(i + 1) % 3];
-    const double spread = length(cross(d, to - from));  // 0: the edge is seen as a point
+    const double spread = length(cross(d, to - from));  // 0: the edge is parallel to the ray
     if (spread == 0) continue;
     const double volume = dot(d, cross(from, to));
     result.inside = std::min(result.inside, (facing < 0 ? -volume : volume) / spread);
@@ -63,16 +63,16 @@ Ray float_ray(const Ray& ray, const Vec3& middle) {
 }
 
 double distance(const Vec3& point, const VoxelTriangle& triangle) {
-  double least = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i)
-    least = std::min(least, distance_to_segment(point, triangle.v[i], triangle.v[(i + 1) % 3]));
-  // Over the inside of the triangle the plane is nearer than the edges.
+    nearest = std::min(nearest, distance_to_segment(point, triangle.v[i], triangle.v[(i + 1) % 3]));
+  // If the point projects into the triangle, the plane is nearer than the edges.
   const Vec3 normal = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
   const double size = length(normal);
-  if (size == 0) return least;
+  if (size == 0) return nearest;
   const Crossing crossing = cross_plane({point, normal * (1 / size)}, triangle);
-  if (crossing.found && crossing.inside >= 0) least = std::min(least, std::abs(crossing.t));
-  return least;
+  if (crossing.found && crossing.inside >= 0) nearest = std::min(nearest, std::abs(crossing.t));
+  return nearest;
 }
 
 }  // namespace svdag

@@ -1,8 +1,9 @@
-// One triangle against a ray or a point, in double: the answer where Embree's floats leave doubt.
+// Intersects one triangle with a ray or a point in double, to recheck Embree's floats.
 //
-// Coordinates are voxels. A lattice coordinate below 2^53 steps is exact in them, so the triangle
-// is the snapped one itself. The ray is first moved along itself to where it passes the triangle,
-// so what cancels is of the size of the triangle, and the errors are a few 2^-52 of the distance.
+// Coordinates are in voxels. Lattice coordinates below 2^53 steps are exact in double, so the
+// triangle is the snapped one itself. The ray's origin is first moved along the ray to the
+// triangle, so that cancelling terms have the size of the triangle; errors are a few 2^-52 of the
+// distance.
 #pragma once
 
 #include "io/triangle.h"
@@ -16,20 +17,19 @@ struct VoxelTriangle {
 
 VoxelTriangle in_voxels(const LatticeTriangle& triangle, int fraction);
 
-// Where a ray crosses the plane of a triangle.
+// The point where a ray crosses the plane of a triangle.
 struct Crossing {
   bool found = false;  // false: the ray is parallel to it, or the triangle has no area
   double t = 0;        // in lengths of the ray's direction
-  double inside = 0;  // voxels from the ray to the line of the nearest edge; < 0: it passes outside
-  double cosine = 0;  // of the angle between ray and normal, > 0
+  double inside = 0;   // voxels from the ray to the line of the nearest edge; < 0: outside
+  double cosine = 0;   // of the angle between ray and normal, > 0
 };
 Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle);
 
-// From a point to the closed triangle, which may be a segment or a point.
+// Distance from a point to the closed triangle, which may be a segment or a point.
 double distance(const Vec3& point, const VoxelTriangle& triangle);
 
-// The ray nearest to `ray` that floats relative to `middle` hold; its direction has length 1,
-// nearly.
+// `ray` rounded to floats relative to `middle`. The length of the direction is 1 but for rounding.
 Ray float_ray(const Ray& ray, const Vec3& middle);
 
 }  // namespace svdag
