@@ -1,4 +1,4 @@
-# More answers than half of the memory are refused before there is work to lose (on a machine of 80 GB there is room).
+# More results than fit in half of the memory are rejected before tracing (on a machine of 80 GB there is room).
 [ "$(getconf _PHYS_PAGES)" -gt 20000000 ] && cat "$(dirname "$0")/trace_too_many_pixels.stderr" >&2 && exit 5
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 16 -o a.svdag -q

@@ -1,5 +1,5 @@
-// Arbitrary bytes as a command line of svdag-trace, a word per line: rays that can be traced, or an
-// Error (usage).
+// Arbitrary bytes as a command line of svdag-trace, one word per line: the result is a workload of
+// finite rays, or an Error (usage).
 #include <cmath>
 #include <cstdlib>
 
@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kMostWords = 64;
+constexpr size_t kWordLimit = 64;
 
 PlainFile small_file() {
   const RawFile raw(raw_dag(test_grid(4), {{1, 2, 3}, {9, 10, 11}, {15, 15, 0}}));
@@ -61,7 +61,7 @@ void try_words(std::vector<std::string> words) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace svdag;
   std::vector<std::string> words = {"svdag-trace"};
-  for (size_t i = 0; i < size && words.size() < kMostWords; ++i) {
+  for (size_t i = 0; i < size && words.size() < kWordLimit; ++i) {
     if (i == 0 || data[i] == '\n') words.emplace_back();
     if (data[i] != '\n' && data[i] != 0) words.back() += char(data[i]);
   }

@@ -28,7 +28,7 @@ void print_text(const DagFile& file, const IntegrityReport& report) {
   uint64_t nodes = 0;
   for (const uint64_t n : report.nodes) nodes += n;
   std::printf("grid    %s\n", describe_grid(file).c_str());
-  std::printf("bytes   %s in %s blocks, every checksum right\n",
+  std::printf("bytes   %s in %s blocks, all checksums match\n",
               format_count(file.header().file_bytes).c_str(),
               format_count(file.header().checksum_bytes / 8).c_str());
   std::printf("nodes   %s on %zu levels, %s of them bricks\n", format_count(nodes).c_str(),

@@ -1,4 +1,4 @@
-// svdag-verify check FILE: every checksum and pointer, order, minimality, counts, metadata.
+// svdag-verify check FILE: tests all checksums and pointers, order, minimality, counts, metadata.
 #pragma once
 
 #include "verify/commands/common.h"
@@ -10,7 +10,7 @@ struct CheckConfig {
   std::string file;
 };
 
-// kOk, or kDiffers if the bytes are sound but not the canonical minimal DAG. Damage is an Error.
+// Returns kOk, or kDiffers if the file is intact but not the canonical minimal DAG. Error: damage.
 int run(const CheckConfig& config);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// What the commands share: how they talk, and the shape of each one's configuration.
+// Options and output that several commands share.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 namespace svdag {
 
 struct CommonConfig {
-  bool quiet = false;    // results on stdout only as an exit code
-  bool verbose = false;  // seconds and memory on stderr
-  bool json = false;     // results as one JSON object
+  bool quiet = false;    // print errors only
+  bool verbose = false;  // print seconds and memory on stderr
+  bool json = false;     // print results as one JSON object
   Progress::Mode progress = Progress::Mode::kAuto;
-  uint64_t threads = 0;  // 0: all processors
+  uint64_t threads = 0;  // 0: one per processor
 };
 
 // Prints seconds and peak memory on stderr when destroyed, if enabled.
@@ -29,7 +29,7 @@ class Stopwatch {
   LapTimer timer_;
 };
 
-// "1,024^3 box, voxel size 0.5, corner (0, 0, 0), conservative", for people.
+// "1K^3 box, voxel size 0.5, corner (0, 0, 0), rule conservative".
 class DagFile;
 std::string describe_grid(const DagFile& file);
 

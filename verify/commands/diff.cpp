@@ -17,54 +17,54 @@
 namespace svdag {
 namespace {
 
-struct Offender {
+struct DifferingVoxel {
   LatticePoint voxel;
   bool in_a;
 };
 
-void refuse_other_places(const DagFile& a, const DagFile& b) {
+void require_same_place(const DagFile& a, const DagFile& b) {
   if (!same_place(a.grid(), b.grid()))
     fail_usage(a.path() + " and " + b.path() +
                " have grids in different places: to compare them by voxel index add --by-index");
 }
 
-std::vector<Offender> first_offenders(DagDiff* diff, uint64_t most) {
-  std::vector<Offender> offenders;
-  if (most == 0) return offenders;
+std::vector<DifferingVoxel> first_differing(DagDiff* diff, uint64_t max) {
+  std::vector<DifferingVoxel> voxels;
+  if (max == 0) return voxels;
   diff->visit([&](const std::array<uint32_t, 3>& at, uint64_t a, uint64_t b) {
-    for (unsigned bit = 0; bit < 64 && offenders.size() < most; ++bit) {
+    for (unsigned bit = 0; bit < 64 && voxels.size() < max; ++bit) {
       if (((a ^ b) >> bit & 1) == 0) continue;
       const auto [x, y, z] = brick_voxel(bit);
-      offenders.push_back(
+      voxels.push_back(
           {LatticePoint(4 * at[0] + x, 4 * at[1] + y, 4 * at[2] + z), (a >> bit & 1) != 0});
     }
-    return offenders.size() < most;
+    return voxels.size() < max;
   });
-  return offenders;
+  return voxels;
 }
 
 void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
-                const std::vector<Offender>& offenders) {
+                const std::vector<DifferingVoxel>& voxels) {
   nlohmann::json json = {{"command", "diff"},       {"a", config.a},
                          {"b", config.b},           {"same", counts.same()},
                          {"both", counts.both},     {"only_a", counts.only_a},
                          {"only_b", counts.only_b}, {"resolution", uint64_t(1) << diff.levels()},
                          {"pairs", counts.pairs}};
   json["first"] = nlohmann::json::array();
-  for (const Offender& o : offenders)
+  for (const DifferingVoxel& o : voxels)
     json["first"].push_back(
         {{"voxel", {o.voxel.x, o.voxel.y, o.voxel.z}}, {"in", o.in_a ? "a" : "b"}});
   std::printf("%s\n", json_text(json).c_str());
 }
 
 void print_text(const DagDiff& diff, const DiffCounts& counts,
-                const std::vector<Offender>& offenders) {
+                const std::vector<DifferingVoxel>& voxels) {
   std::printf("compared at %s^3, %s pairs of nodes\n",
               format_resolution(uint64_t(1) << diff.levels()).c_str(),
               format_count(counts.pairs).c_str());
   std::printf("both    %s voxels\nonly A  %s\nonly B  %s\n", format_count(counts.both).c_str(),
               format_count(counts.only_a).c_str(), format_count(counts.only_b).c_str());
-  for (const Offender& o : offenders)
+  for (const DifferingVoxel& o : voxels)
     std::printf("only %c  voxel (%lld, %lld, %lld)\n", o.in_a ? 'A' : 'B',
                 static_cast<long long>(o.voxel.x), static_cast<long long>(o.voxel.y),
                 static_cast<long long>(o.voxel.z));
@@ -83,18 +83,18 @@ int run(const DiffConfig& config) {
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);
-  if (!config.by_index) refuse_other_places(a, b);
+  if (!config.by_index) require_same_place(a, b);
   progress.phase("compare", 0);
   DagDiff diff(a.view(), b.view());
   const DiffCounts counts = diff.count();
   if (!config.write_diff.empty())
     write_difference(&diff, counts, a.grid(), config.write_diff, config.write_most);
-  const auto offenders = first_offenders(&diff, counts.same() ? 0 : config.show);
+  const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();
   if (config.common.json) {
-    print_json(config, diff, counts, offenders);
+    print_json(config, diff, counts, voxels);
   } else if (!config.common.quiet) {
-    print_text(diff, counts, offenders);
+    print_text(diff, counts, voxels);
   }
   return int(counts.same() ? ExitCode::kOk : ExitCode::kDiffers);
 }

@@ -1,4 +1,5 @@
-// svdag-verify mesh --judge openvdb: our voxels between two bounds on OpenVDB's distances.
+// svdag-verify mesh --judge openvdb: tests that voxels are between two bounds by OpenVDB's
+// distances.
 #include "verify/compare/distance_bounds.h"
 
 #include <cstdio>
@@ -18,13 +19,13 @@ namespace svdag {
 namespace {
 
 struct Judgement : SceneFacts {
-  Sandwich sandwich;
-  bool both_empty = false;  // sampled, and there is nothing to draw from
+  Sandwich bounds;
+  bool both_empty = false;  // sampled, but file and scene are empty in the selection
 
-  bool ok() const { return grid.defects.empty() && sandwich.holds(); }
+  bool ok() const { return grid.defects.empty() && bounds.holds(); }
 };
 
-// The windows of bricks drawn from the file and from the scene, as for a sample of bricks.
+// The windows that contain bricks drawn from the file and the scene (verify/sample/sample.h).
 Windows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
                      Judgement* result) {
   const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), *config.sample, config.seed);
@@ -35,7 +36,7 @@ Windows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile
   return Windows(file.grid(), voxels);
 }
 
-// The snapped triangles near any of the windows; all of them where the windows are the grid.
+// Loads the snapped triangles near any of the windows, or all of them if `all`.
 std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid, const Windows& windows,
                                        bool all, MemoryBudget::Reservation* held,
                                        SnapCounts* snapped) {
@@ -74,16 +75,16 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   const size_t threads = threads_or_all(config.common.threads);
   progress.phase("comparing windows", windows.size());
   for (uint64_t i = 0; i < windows.size(); ++i) {
-    result.sandwich.append(judge_window(&walk, grid, file.rule(), windows[i], triangles, threads));
+    result.bounds.append(judge_window(&walk, grid, file.rule(), windows[i], triangles, threads));
     progress.advance(1);
   }
-  if (!config.sample) judge_header(file, result.sandwich.file_voxels, snapped, &result.grid);
+  if (!config.sample) judge_header(file, result.bounds.file_voxels, snapped, &result.grid);
   progress.finish();
   return result;
 }
 
 void print_text(const DagFile& file, const Judgement& j, bool sampled) {
-  const Sandwich& s = j.sandwich;
+  const Sandwich& s = j.bounds;
   const bool thin = file.rule() == Rule::kThin;
   print_facts(file, j,
               std::string("openvdb: distances of its mesh-to-volume, ") +
@@ -96,7 +97,7 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
   std::printf("exact      %s on a bound within the error of a float, decided in integers\n",
               format_count(s.exact).c_str());
   if (s.vdb_errors > 0)
-    std::printf("openvdb    %s distances of its own were too large, proven in integers\n",
+    std::printf("openvdb    %s of its distances were too large, as integers prove\n",
                 format_count(s.vdb_errors).c_str());
   std::printf("%s\n", !j.ok()        ? "not ok: file and scene differ"
                       : j.both_empty ? kNothingToJudge
@@ -104,7 +105,7 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
 }
 
 void print_json(const DagFile& file, const Judgement& j, bool sampled) {
-  const Sandwich& s = j.sandwich;
+  const Sandwich& s = j.bounds;
   nlohmann::json wrong = nlohmann::json::array();
   for (const WrongVoxel& w : s.first)
     wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
@@ -135,7 +136,7 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
 
 }  // namespace
 
-int run_sandwich(const MeshConfig& config, const DagFile& file) {
+int run_distance_bounds(const MeshConfig& config, const DagFile& file) {
   const Judgement judgement = judge(config, file);
   if (config.common.json) {
     print_json(file, judgement, config.sample.has_value());

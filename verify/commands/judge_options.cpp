@@ -25,14 +25,14 @@ void add_mesh(CLI::App* app, VerifyCommand* parsed) {
   add_scene(command, &config->scene);
   one_of(command->add_option(
              "--judge", config->judge,
-             "Who decides: integer (our exact clipping, the default), cgal (CGAL's exact "
+             "The judge: integer (our exact clipping, the default), cgal (CGAL's exact "
              "kernel; slow) or openvdb (two bounds by its distances)"),
          {"integer", "cgal", "openvdb"})
       ->type_name("JUDGE");
   add_count(command, "--sample", &config->sample,
             "Compare N bricks drawn from file and scene instead of all, and bound what share of "
             "either is wrong (openvdb: the windows of 512^3 voxels that hold them)");
-  takes_whole_number(command->add_option("--seed", config->seed, "Seed of the drawing (default 1)"))
+  takes_whole_number(command->add_option("--seed", config->seed, "Seed of the sample (default 1)"))
       ->type_name("N");
   add_memory(command, &config->memory);
   add_threads(command, &config->common);
@@ -47,9 +47,10 @@ void add_diff(CLI::App* app, VerifyCommand* parsed) {
   CLI::App* command =
       app->add_subcommand("diff", "Count and list the voxels that only one DAG has");
   takes_files(command->add_option("A", config->a, "A .svdag file"), {".svdag"})->required();
-  takes_files(command->add_option("B", config->b,
-                                  "Another; one of other resolution is compared at the coarser"),
-              {".svdag"})
+  takes_files(
+      command->add_option("B", config->b,
+                          "Another .svdag file; if resolutions differ, the coarser is compared"),
+      {".svdag"})
       ->required();
   takes_whole_number(
       command->add_option("--show", config->show, "How many differing voxels to list (default 10)"))
@@ -90,8 +91,9 @@ void add_vdb(CLI::App* app, VerifyCommand* parsed) {
   takes_whole_number(command->add_option("--show", config->show,
                                          "Differing voxels to list of each kind (default 10)"))
       ->type_name("N");
-  takes_files(command->add_option("--write-diff", config->write_diff,
-                                  "Write two mask grids, missing and extra, in the place of GRID"),
+  takes_files(command->add_option(
+                  "--write-diff", config->write_diff,
+                  "Write two mask grids, missing and extra, with the position and axes of GRID"),
               {".vdb"})
       ->type_name("X.vdb");
   add_count(command, "--write-most", &config->write_most,

@@ -19,17 +19,17 @@ JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::M
 
 void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_scene,
                   GridJudgement* grid) {
-  const uint64_t said = file.header().voxels;
-  if (voxels != said)
-    grid->defects.push_back("the header counts " + format_count(said) + " voxels, the file holds " +
-                            format_count(voxels));
+  const uint64_t header_voxels = file.header().voxels;
+  if (voxels != header_voxels)
+    grid->defects.push_back("the header counts " + format_count(header_voxels) +
+                            " voxels, the file has " + format_count(voxels));
   const std::string defect = snap_defect(file.header().largest_snap, whole_scene);
   if (!defect.empty()) grid->defects.push_back(defect);
 }
 
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge) {
   std::printf("grid       %s%s\n", describe_grid(file).c_str(),
-              facts.grid.recomputed ? ", as the scene's bounds give it" : "");
+              facts.grid.recomputed ? ", matches the scene's bounds" : "");
   for (const std::string& defect : facts.grid.defects)
     std::printf("defect     %s\n", defect.c_str());
   std::printf("judge      %s\n", judge.c_str());
@@ -47,9 +47,9 @@ std::array<int64_t, 6> selection_of(const DagFile& file) {
 }
 
 void require_count(const char* option, uint64_t count) {
-  constexpr uint64_t kMost = uint64_t(1) << 40;
+  constexpr uint64_t kMax = uint64_t(1) << 40;
   if (count == 0) fail_usage(std::string(option) + ": give at least one");
-  if (count > kMost) fail_usage(std::string(option) + ": give at most " + format_count(kMost));
+  if (count > kMax) fail_usage(std::string(option) + ": give at most " + format_count(kMax));
 }
 
 void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,

@@ -1,4 +1,4 @@
-// Common parts of judging a file by its scene: reading it, and the lines that all judges print.
+// Shared by the commands that judge a file by its scene: reads the scene, prints common results.
 #pragma once
 
 #include <array>
@@ -12,14 +12,13 @@
 
 namespace svdag {
 
-// What every judgement says of a scene.
+// The facts about a scene that every judgement reports.
 struct SceneFacts {
   GridJudgement grid;
   SceneCounts counts;
 };
 
-// The scene that the file is judged by: opened, with its bounds read and the grid held against
-// them.
+// The scene of the file: opened, with its bounds read and compared with the grid.
 struct JudgedScene {
   JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode, const Grid& grid);
 
@@ -29,26 +28,26 @@ struct JudgedScene {
   SceneFacts facts;
 };
 
-// Holds what the header says of the whole file against what a comparison of all of it counted.
+// Compares counts in the header with those of a comparison of the whole file; adds defects.
 void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_scene,
                   GridJudgement* grid);
 
-// Grid and its defects, who judges ("integer: exact clipping"), the triangles, and what --include
-// and --exclude named in vain.
+// Prints the grid and its defects, the judge ("integer: exact clipping"), the triangles, and
+// patterns of --include and --exclude without a match.
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
 
-// Where --bounds were given, the voxels in them: first x, y, z and behind the last.
+// The voxels of the file's selection: first x, y, z, then one past the last x, y, z.
 std::array<int64_t, 6> selection_of(const DagFile& file);
 
-// The verdict where there was nothing to judge.
+// The verdict if there was nothing to judge.
 constexpr const char* kNothingToJudge =
     "ok: the file has no voxel, and no triangle meets its selection";
 
-// Draws, or rays: as many as a person can want, and nothing that is computed from them overflows.
-// More is an Error (kUsage), and so is 0.
+// Error (kUsage) if `count`, of draws or rays, is 0 or exceeds 2^40, so that nothing computed from
+// it overflows.
 void require_count(const char* option, uint64_t count);
 
-// How many voxels are wrong, and the first of them.
+// Prints how many voxels are wrong, and the first of them.
 void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,
                         const std::vector<WrongVoxel>& first);
 

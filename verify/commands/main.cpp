@@ -29,6 +29,6 @@ int run_judge(int argc, char** argv) {
 }  // namespace svdag
 
 int main(int argc, char** argv) {
-  return svdag::run_program({"svdag-verify", "this machine has too little memory for that"},
+  return svdag::run_program({"svdag-verify", "not enough memory on this machine"},
                             [&] { return svdag::run_judge(argc, argv); });
 }

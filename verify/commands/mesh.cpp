@@ -65,7 +65,8 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   return result;
 }
 
-// What each kind of draw found, and what that bounds: the share of what it draws from uniformly.
+// Prints what each kind of draw found, and the bound that follows for the share of the population
+// from which it draws uniformly.
 void print_draws(const SampleComparison& sample) {
   const auto print = [](const char* name, const DrawnBricks& d, const char* what, const char* wrong,
                         const char* bounded) {
@@ -80,7 +81,7 @@ void print_draws(const SampleComparison& sample) {
   print("drawn", sample.file, "bricks of the file", "wrong", "its bricks are");
   print("", area, "points by area", kInside, "the area is");
   print("", edge, "points by longest edge", kInside, "that length is");
-  print("", triangle, "places beside triangles", kInside, nullptr);
+  print("", triangle, "points beside triangles", kInside, nullptr);
   std::printf("bounds     each at 95 %% confidence; the number of missing bricks is not bounded\n");
 }
 
@@ -104,7 +105,7 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   std::printf("%s\n", verdict(j));
 }
 
-// Without draws, and for draws beside triangles, there is no bound.
+// There is no bound without draws, and none for draws beside triangles.
 nlohmann::json draws_json(const SampleComparison& sample) {
   const auto one = [](const DrawnBricks& d, const char* bounded) {
     nlohmann::json json = {{"draws", d.draws}, {"wrong", d.wrong}};
@@ -153,9 +154,9 @@ int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.sample) require_count("--sample", *config.sample);
   const DagFile file = DagFile::open(config.file);
-  if (config.judge == "openvdb") return run_sandwich(config, file);
+  if (config.judge == "openvdb") return run_distance_bounds(config, file);
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};
-  make_judge(choice);  // a judge that this build lacks is refused before the scene is read
+  make_judge(choice);  // rejects a judge that is not in this build before reading the scene
   const Judgement judgement = judge(config, choice, file);
   if (config.common.json) {
     print_json(file, choice, judgement);

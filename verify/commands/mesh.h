@@ -1,4 +1,4 @@
-// svdag-verify mesh FILE SCENE...: voxelizes the scene again and compares the occupancy.
+// svdag-verify mesh FILE SCENE...: voxelizes the scene again and compares all voxels.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,18 @@ struct MeshConfig {
   std::string file;
   SceneConfig scene;
   std::string judge = "integer";   // or "cgal", "openvdb"
-  std::optional<uint64_t> sample;  // bricks (openvdb: windows) to draw; none: compare all
+  std::optional<uint64_t> sample;  // number of bricks to draw; none: compare all
   uint64_t seed = 1;
-  uint64_t memory = 0;  // 0: half of what the machine allows
+  uint64_t memory = 0;  // budget in bytes; 0: half of the machine's
 };
 
-// kOk, or kDiffers if a voxel is missing or extra, or the grid does not hold the scene. An Error
-// (kUsage) if a sample could draw nothing, though there may be something.
+// Returns kOk, or kDiffers if a voxel is missing or extra, or the grid does not match the scene.
+// Error: kUsage if a sample drew nothing although the scene may have voxels.
 int run(const MeshConfig& config);
 
-// The same by OpenVDB, which gives two bounds and no exact set (verify/compare/distance_bounds.h).
+// The same with OpenVDB, which gives two bounds instead of an exact set
+// (verify/compare/distance_bounds.h).
 class DagFile;
-int run_sandwich(const MeshConfig& config, const DagFile& file);
+int run_distance_bounds(const MeshConfig& config, const DagFile& file);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// The commands that show: render and report.
+// The commands that make pictures: render and report.
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
@@ -11,7 +11,7 @@ void add_light(CLI::App* command, RenderCommandConfig* config) {
   command
       ->add_option(
           "--light", config->light,
-          "Where the light is, and how large, in scene units (default: over the left shoulder)")
+          "Position and radius of the light in scene units (default: over the left shoulder)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("x,y,z[,radius]");
@@ -21,12 +21,12 @@ void add_light(CLI::App* command, RenderCommandConfig* config) {
       ->type_name("N");
   command
       ->add_option("--reach", config->reach,
-                   "ao: how far they reach, in scene units (default: a twentieth of the scene's "
+                   "ao: length of the rays in scene units (default: a twentieth of the scene's "
                    "diagonal)")
       ->type_name("LENGTH");
   command
       ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle, from 0 and below 45, of the cone in which they end "
+                   "soft, ao: half the angle, from 0 and below 45, of the cone in which rays end "
                    "early (default: ao 9, "
                    "soft 0, which is exact)")
       ->type_name("DEGREES");
@@ -70,7 +70,7 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
       ->type_name("K");
   command
       ->add_option("--fly", config->fly,
-                   "N frames of a turn, 1 to 9999, into X_0001.png, X_0002.png, ...")
+                   "Render N frames of a full turn, 1 to 9999, as X_0001.png, X_0002.png, ...")
       ->type_name("N");
   suggests(
       command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
@@ -91,9 +91,9 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
 void add_report(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<ReportConfig>();
   CLI::App* command = app->add_subcommand(
-      "report", "Make a page of HTML of a bake: pictures, verdicts, levels, times");
+      "report", "Make an HTML page about a bake: pictures, verdicts, levels, times");
   add_file(command, &config->file);
-  takes_files(command->add_option("REPORT", config->bake, "What svdag build --report wrote of it"),
+  takes_files(command->add_option("REPORT", config->bake, "The file of svdag build --report"),
               {".json"})
       ->required();
   takes_files(command->add_option("-o,--output", config->output, "The page to write"), {".html"})

@@ -27,7 +27,7 @@ ShadeMode parse_mode(const std::string& mode) {
              "\" is not primary, shadow, soft, ao, normal, depth, level or steps");
 }
 
-// The world's point (c[0], c[1], c[2]) in voxels.
+// Converts the point (c[0], c[1], c[2]) from scene units to voxels.
 Vec3 in_voxels(const double* c, const Grid& grid) {
   const Point corner = grid.corner();
   Vec3 point;
@@ -35,7 +35,7 @@ Vec3 in_voxels(const double* c, const Grid& grid) {
   return point;
 }
 
-// The camera of --camera, given in the world, or one that frames everything.
+// The camera of --camera, or that of --preset.
 Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int up, double aspect,
                    const VoxelBounds& box) {
   const std::vector<double>& c = config.camera;
@@ -54,7 +54,7 @@ Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int u
   return look_at(position, target, up, fov, aspect);
 }
 
-// What --light, --samples, --reach, --cone and --level say.
+// Applies --light, --samples, --reach, --cone and --level.
 void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& camera,
            const VoxelBounds& box, int height, Shading* shading) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
@@ -66,7 +66,7 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
                       config.light.size() == 4 ? config.light[3] / grid.voxel_size : 0};
     const double far = length(shading->light.centre);
     if (!(far < 1e100) || !(shading->light.radius >= 0 && shading->light.radius < 1e100))
-      fail_usage("--light: the light must be at a finite place, with a radius of 0 or more");
+      fail_usage("--light: the position must be finite, the radius 0 or more");
   }
   if (config.samples < 1 || config.samples > 4096)
     fail_usage("--samples: give 1 to 4096 rays to the light for each camera ray");
@@ -87,15 +87,15 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 
-// The output, or for --fly with "fly.png" and 6 "fly_0007.png".
+// The output, or with --fly that of a frame: "fly_0007.png" for "fly.png" and frame 6.
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
   if (!config.fly) return path;
   const size_t dot = path.rfind(".png");
-  const bool named = dot != std::string::npos && dot + 4 == path.size();
+  const bool has_ending = dot != std::string::npos && dot + 4 == path.size();
   char number[16];
   std::snprintf(number, sizeof number, "_%04d", frame + 1);
-  return (named ? path.substr(0, dot) : path) + number + ".png";
+  return (has_ending ? path.substr(0, dot) : path) + number + ".png";
 }
 
 }  // namespace
@@ -124,21 +124,21 @@ int run(const RenderCommandConfig& config) {
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   const ShadeMode mode = parse_mode(config.mode);
-  picture.beams = mode != ShadeMode::kSteps;  // they would hide the steps
+  picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
   for (int frame = 0; frame < frames; ++frame) {
     const std::string name = picture_name(config, frame);
     if (same_file(config.file, name))
       fail_usage(name + ": is the input; choose another name for the picture");
-    refuse_other_pictures(name, ".png", "pictures are PNG: choose a name in .png");
+    reject_other_picture_format(name, ".png", "pictures are PNG: choose a name in .png");
     AtomicFile::check(name);
   }
 
   const DagFile file = DagFile::open(config.file);
-  if (file.view().empty()) fail_usage(file.path() + ": has no voxel to look at");
+  if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   const VoxelBounds box = occupied_bounds(file.view());
   const double aspect = double(picture.width) / picture.height;
   const Camera first = make_camera(config, file, int(up), aspect, box);
-  // It stays where it is while the camera moves.
+  // The light does not move with the camera.
   const Light light = make_shading(mode, first, int(up), box).light;
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
@@ -148,7 +148,7 @@ int run(const RenderCommandConfig& config) {
     Shading shading = make_shading(mode, camera, int(up), box);
     shading.light = light;
     apply(config, file.grid(), camera, box, picture.height, &shading);
-    if (frame == 0 && mode != ShadeMode::kSteps)  // those of the DAG are to be seen
+    if (frame == 0 && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
       tree = tree_if_it_pays(
           file.view(),
           uncut_rays(file.view(), shading, picture) * uint64_t(frames) / executor.workers(),

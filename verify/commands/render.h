@@ -1,4 +1,4 @@
-// svdag-verify render FILE -o X.png: a picture of the voxels by ray tracing the DAG.
+// svdag-verify render FILE -o X.png: makes a picture of the voxels by tracing rays through the DAG.
 #pragma once
 
 #include <optional>
@@ -16,22 +16,23 @@ struct RenderCommandConfig {
   std::string output;
   std::string mode = "primary";  // a ShadeMode
   std::string size = "1280x720";
-  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in the world; empty: framed
+  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in scene units; empty: the preset
   std::string preset = "iso";  // of preset_camera
   std::string up = "y";
   int supersample = 2;
-  std::vector<double> light;   // x,y,z[,radius] in the world; empty: over the left shoulder
-  uint64_t samples = 16;       // rays to the light or the sky for each camera ray
-  double reach = 0;            // of ambient occlusion, in world units; 0: a twentieth of the scene
-  std::optional<double> cone;  // half the angle of such a ray's cone, in degrees; 0: exact;
-                               // none: 9 for ao, 0 for soft
+  std::vector<double> light;  // x,y,z[,radius] in scene units; empty: over the left shoulder
+  uint64_t samples = 16;      // rays to the light or the sky for each camera ray
+  double reach = 0;           // length of ambient occlusion rays, in scene units; 0: a twentieth of
+                              // the scene's diagonal
+  std::optional<double> cone;  // half the angle of the rays' cones, in degrees; 0: exact; none: 9
+                               // for ao, 0 for soft
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
-  std::optional<int> fly;         // frames of a turn; none: one picture
+  std::optional<int> fly;         // number of frames of a full turn; none: one picture
 };
 
 int run(const RenderCommandConfig& config);
 
-// "1280x720" into a RenderConfig; anything else is an Error (kUsage).
+// Parses "1280x720" into a RenderConfig. Error: kUsage.
 RenderConfig parse_size(const std::string& size);
 
 }  // namespace svdag

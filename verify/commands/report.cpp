@@ -13,23 +13,23 @@ namespace svdag {
 namespace {
 
 std::string read_text(const std::string& path) {
-  constexpr uint64_t kMost = uint64_t(16) << 20;
+  constexpr uint64_t kMaxBytes = uint64_t(16) << 20;
   const File file = File::open_read(path);
-  if (file.size() > kMost) fail_input(path, "is too large for the report of a bake");
+  if (file.size() > kMaxBytes) fail_input(path, "is too large for a report of svdag build");
   std::string text(file.size(), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   return text;
 }
 
 std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFile& file) {
-  struct Wanted {
+  struct View {
     const char *caption, *preset;
     ShadeMode mode;
   };
-  constexpr Wanted kWanted[] = {{"From above, with soft shadows", "iso", ShadeMode::kSoft},
-                                {"From inside, ambient occlusion", "inside", ShadeMode::kAo},
-                                {"The level at which rays end", "inside", ShadeMode::kLevel},
-                                {"Directions of the surface", "iso", ShadeMode::kNormal}};
+  constexpr View kViews[] = {{"From above, with soft shadows", "iso", ShadeMode::kSoft},
+                             {"From inside, ambient occlusion", "inside", ShadeMode::kAo},
+                             {"The level at which rays end", "inside", ShadeMode::kLevel},
+                             {"Directions of the surface", "iso", ShadeMode::kNormal}};
   std::vector<ReportPicture> pictures;
   const DagView& dag = file.view();
   if (dag.empty()) return pictures;
@@ -39,16 +39,15 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   const double aspect = double(picture.width) / picture.height;
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
-  for (const Wanted& wanted : kWanted) {
-    const Camera camera = preset_camera(wanted.preset, dag, box, up, Camera::kDefaultFov, aspect);
-    Shading shading = make_shading(wanted.mode, camera, up, box);
+  for (const View& view : kViews) {
+    const Camera camera = preset_camera(view.preset, dag, box, up, Camera::kDefaultFov, aspect);
+    Shading shading = make_shading(view.mode, camera, up, box);
     shading.levels = dag.levels;
     shading.secondary.samples = 4;  // for each of four rays per pixel
     shading.secondary.reach = 0.05 * length(box.max - box.min);
-    if (wanted.mode == ShadeMode::kLevel)
-      shading.primary.spread = 2 * camera.slope / picture.height;
+    if (view.mode == ShadeMode::kLevel) shading.primary.spread = 2 * camera.slope / picture.height;
     const Image image = render(dag, {}, camera, shading, picture, executor, progress);
-    pictures.push_back({wanted.caption, encode_png(image, config.output)});
+    pictures.push_back({view.caption, encode_png(image, config.output)});
   }
   return pictures;
 }
@@ -63,12 +62,14 @@ int run(const ReportConfig& config) {
     if (same_file(input, config.output))
       fail_usage(config.output + ": is an input; choose another name for the page");
   }
-  AtomicFile output(config.output);  // opened before there is work to lose
+  AtomicFile output(
+      config.output);  // opened first, so that no work is lost if it cannot be written
   const DagFile file = DagFile::open(config.file);
   const std::string bake = read_text(config.bake);
   const IntegrityReport integrity = inspect(file.header(), file.view(), file.metadata());
   const DagStats stats = compute_stats(file);
-  report_html(bake, config.bake, file, stats, integrity, {});  // refuses before there are pictures
+  report_html(bake, config.bake, file, stats, integrity,
+              {});  // rejects a wrong report before rendering
   const std::string page =
       report_html(bake, config.bake, file, stats, integrity, make_pictures(config, file));
   output.append(page);

@@ -1,4 +1,4 @@
-// svdag-verify report FILE R.json -o R.html: a bake's report, checked and with pictures.
+// svdag-verify report FILE R.json -o R.html: makes a page about a bake, with checks and pictures.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace svdag {
 struct ReportConfig {
   CommonConfig common;
   std::string file;
-  std::string bake;  // what `svdag build --report` wrote
+  std::string bake;  // the file of svdag build --report
   std::string output;
   std::string up = "y";
   std::string size = "960x540";  // of a picture
 };
 
-// kOk, or kDiffers if the file is not sound; the page is written in both cases.
+// Returns kOk, or kDiffers if the file is not sound; writes the page in both cases.
 int run(const ReportConfig& config);
 
 }  // namespace svdag

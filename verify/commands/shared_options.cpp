@@ -1,4 +1,4 @@
-// What several commands understand.
+// Options of several commands.
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
@@ -24,7 +24,7 @@ void add_count_to(CLI::App* command, const std::string& option, Count* count, co
 }  // namespace
 
 void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
-  command->add_flag("-q,--quiet", config->quiet, "Print nothing but errors");
+  command->add_flag("-q,--quiet", config->quiet, "Print errors only");
   command->add_flag("-v,--verbose", config->verbose, "Also print seconds and memory");
   if (with_json) command->add_flag("--json", config->json, "Print the result as one JSON object");
   command->add_flag_callback(

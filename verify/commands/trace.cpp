@@ -16,13 +16,13 @@
 namespace svdag {
 namespace {
 
-// Beside the rays: points of the surface, and voxels drawn from the DAG, that are judged.
+// For every 10 rays, one point of the surface and one voxel drawn from the DAG are judged, too.
 constexpr uint64_t kRaysPerPoint = 10;
-constexpr uint64_t kDrawnAtOnce = uint64_t(1) << 20;  // voxels
+constexpr uint64_t kVoxelsPerBatch = uint64_t(1) << 20;
 
-struct Traced : SceneFacts {
-  uint64_t triangles = 0;  // that meet the grid
-  uint64_t near = 0;       // of these, whose boxes meet the selection
+struct TraceJudgement : SceneFacts {
+  uint64_t triangles = 0;  // number of triangles that meet the grid
+  uint64_t near = 0;       // of these, triangles whose boxes meet the selection
   double float_error = 0, doubt = 0, largest_distance = 0;
   RayJudgement result{};
 
@@ -35,7 +35,7 @@ Vec3 middle_of(const VoxelBox& box) {
   return middle;
 }
 
-// A set voxel of each of `count` drawn bricks.
+// Draws `count` bricks of the DAG, and a set voxel of each.
 std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, Random& random) {
   std::vector<LatticePoint> voxels;
   for (const uint64_t code : sample_dag(dag, count, random)) {
@@ -49,8 +49,9 @@ std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, Random
   return voxels;
 }
 
-// The snapped triangles into the tracer, which then has its tree; returns how many are near.
-uint64_t fill(TriangleTracer* tracer, JudgedScene* judged, const Grid& grid) {
+// Loads the snapped triangles into the tracer and builds its tree. Returns how many meet the
+// selection.
+uint64_t load_triangles(TriangleTracer* tracer, JudgedScene* judged, const Grid& grid) {
   const LatticeBox selection = grid.closed(grid.selection);
   uint64_t near = 0;
   judged->progress.phase("reading the scene", 0);
@@ -68,8 +69,8 @@ RayJudgement judge_all(const RayJudge& judge, const TraceConfig& config, const D
   const uint64_t points = config.rays / kRaysPerPoint + (config.rays % kRaysPerPoint != 0);
   RayJudgement result = judge.judge_rays(executor, progress);
   Random random(config.seed);
-  for (uint64_t drawn = 0; drawn < points && !dag.empty(); drawn += kDrawnAtOnce) {
-    const uint64_t count = std::min(kDrawnAtOnce, points - drawn);
+  for (uint64_t drawn = 0; drawn < points && !dag.empty(); drawn += kVoxelsPerBatch) {
+    const uint64_t count = std::min(kVoxelsPerBatch, points - drawn);
     result.append(judge.judge_voxels(draw_voxels(dag, count, random), executor, progress));
   }
   result.append(judge.judge_surface(points, executor, progress));
@@ -79,27 +80,27 @@ RayJudgement judge_all(const RayJudge& judge, const TraceConfig& config, const D
 [[noreturn]] void fail_nothing_judged() {
   fail_usage(
       "--rays: nothing was judged: no ray hit a triangle that must have a voxel, and the file has "
-      "no voxel; give more, or compare every voxel with svdag-verify mesh");
+      "no voxel: give more rays, or compare every voxel with svdag-verify mesh");
 }
 
-Traced trace(const TraceConfig& config, const DagFile& file) {
+TraceJudgement trace(const TraceConfig& config, const DagFile& file) {
   const Grid grid = file.grid();
   JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
   ParallelExecutor executor(threads_or_all(config.common.threads));
-  Traced traced{judged.facts};
-  TriangleTracer tracer(middle_of(grid.selection), traced.counts.triangles, executor.workers(),
+  TraceJudgement judgement{judged.facts};
+  TriangleTracer tracer(middle_of(grid.selection), judgement.counts.triangles, executor.workers(),
                         &judged.budget);
-  traced.near = fill(&tracer, &judged, grid);
-  traced.triangles = tracer.triangles().size();
+  judgement.near = load_triangles(&tracer, &judged, grid);
+  judgement.triangles = tracer.triangles().size();
   const RayJudge judge(file.view(), tracer, {file.rule(), grid.selection, config.rays, config.seed},
                        &judged.budget);
-  traced.result = judge_all(judge, config, file.view(), executor, judged.progress);
+  judgement.result = judge_all(judge, config, file.view(), executor, judged.progress);
   judged.progress.finish();
-  if (traced.near > 0 && traced.ok() && !traced.result.tested()) fail_nothing_judged();
-  traced.float_error = tracer.float_error();
-  traced.doubt = tracer.doubt();
-  traced.largest_distance = judge.largest_distance();
-  return traced;
+  if (judgement.near > 0 && judgement.ok() && !judgement.result.tested()) fail_nothing_judged();
+  judgement.float_error = tracer.float_error();
+  judgement.doubt = tracer.doubt();
+  judgement.largest_distance = judge.largest_distance();
+  return judgement;
 }
 
 double per_million(uint64_t count, uint64_t of) {
@@ -127,7 +128,7 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
     return;
   }
   if (offender.what == RayOffender::What::kOutside) {
-    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is outside of the bounds\n",
+    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is outside the bounds\n",
                 std::floor(offender.point[0]), std::floor(offender.point[1]),
                 std::floor(offender.point[2]), world(0), world(1), world(2));
     return;
@@ -150,10 +151,10 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
   }
 }
 
-void print_text(const DagFile& file, const TraceConfig& config, const Traced& t) {
+void print_text(const DagFile& file, const TraceConfig& config, const TraceJudgement& t) {
   const RayJudgement& r = t.result;
   const auto count = [](uint64_t n) { return format_count(n); };
-  print_facts(file, t, "embree: its hits and distances, asked again in double");
+  print_facts(file, t, "embree: its hits and distances, rechecked in double");
   std::printf("in grid    %s triangles\n", count(t.triangles).c_str());
   std::printf("rays       %s: %s hit both, %s neither, %s only triangles, %s only voxels\n",
               count(r.rays).c_str(), count(r.both).c_str(), count(r.neither).c_str(),
@@ -171,7 +172,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
   std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
               count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
   if (file.grid().bounded)
-    std::printf("outside    %s of %s voxels are outside of the bounds\n", count(r.outside).c_str(),
+    std::printf("outside    %s of %s voxels are outside the bounds\n", count(r.outside).c_str(),
                 count(r.voxels).c_str());
   if (file.rule() == Rule::kConservative)
     std::printf(
@@ -186,8 +187,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const Traced& t)
       " %s points, %s voxels)\n",
       r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
   if (t.ok()) {
-    std::printf("%s\n", r.tested() ? "ok: voxels and triangles agree in all that was judged"
-                                   : kNothingToJudge);
+    std::printf("%s\n", r.tested() ? "ok: all judged voxels and triangles agree" : kNothingToJudge);
   } else {
     std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
                 static_cast<unsigned long long>(config.seed));
@@ -206,7 +206,7 @@ nlohmann::json first_json(const RayJudgement& result) {
   return first;
 }
 
-void print_json(const DagFile& file, const TraceConfig& config, const Traced& t) {
+void print_json(const DagFile& file, const TraceConfig& config, const TraceJudgement& t) {
   const RayJudgement& r = t.result;
   nlohmann::json depth = nlohmann::json::object();
   for (size_t bin = 0; bin < r.depth.size(); ++bin) depth[bin_name(bin)] = r.depth[bin];
@@ -260,13 +260,13 @@ int run(const TraceConfig& config) {
   const Stopwatch stopwatch(config.common);
   require_count("--rays", config.rays);
   const DagFile file = DagFile::open(config.file);
-  const Traced traced = trace(config, file);
+  const TraceJudgement judgement = trace(config, file);
   if (config.common.json) {
-    print_json(file, config, traced);
+    print_json(file, config, judgement);
   } else if (!config.common.quiet) {
-    print_text(file, config, traced);
+    print_text(file, config, judgement);
   }
-  return int(traced.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+  return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
 }  // namespace svdag

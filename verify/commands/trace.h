@@ -1,4 +1,4 @@
-// svdag-verify trace FILE SCENE...: rays through the DAG against rays through the triangles.
+// svdag-verify trace FILE SCENE...: compares rays through the DAG with rays through the triangles.
 #pragma once
 
 #include "io/scene/scene.h"
@@ -12,11 +12,11 @@ struct TraceConfig {
   SceneConfig scene;
   uint64_t rays = 1'000'000;
   uint64_t seed = 1;
-  uint64_t memory = 0;  // 0: half of what the machine allows
+  uint64_t memory = 0;  // budget in bytes; 0: half of the machine's
 };
 
-// kOk, or kDiffers if a claim of verify/trace/judge/ray_judge.h does not hold, or the grid does not
-// hold the scene. An Error (kUsage) if nothing was judged, though there may be something.
+// Returns kOk, or kDiffers if a claim of verify/trace/judge/ray_judge.h is violated, or the grid
+// does not match the scene. Error: kUsage if nothing was judged although the scene may have voxels.
 int run(const TraceConfig& config);
 
 }  // namespace svdag

@@ -87,10 +87,10 @@ int run(const VdbConfig& config) {
   refuse_needless_range(*theirs, config.iso);
   const GridFit fit = fit_grid(*theirs, file.grid(), config.vdb);
   const Grid grid = level_grid(file.grid(), fit.levels);
-  VoxelBox window;  // also beyond the grid, where the other may have voxels
+  VoxelBox window;  // may extend beyond our grid, where theirs may have voxels
   if (config.bounds) window = voxels_in(grid, *config.bounds);
   if (config.bounds && !window.meets(grid.whole()))
-    fail_usage("--bounds: no voxel of the grid is in them");
+    fail_usage("--bounds: the box contains no voxel of the grid");
   CubeWalk walk(file.view(), uint32_t(fit.levels));
   progress.phase("comparing", 0);
   VdbComparer comparer(*theirs, &walk, fit.map, config.bounds ? &window : nullptr);

@@ -1,4 +1,4 @@
-// svdag-verify vdb FILE GRID.vdb: voxel by voxel, what only one of the two has.
+// svdag-verify vdb FILE GRID.vdb: compares every voxel with an OpenVDB grid.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@ struct VdbConfig {
   CommonConfig common;
   std::string file, vdb;
   std::string grid;                  // name of the grid; empty: the only one
-  std::optional<ValueRange> iso;     // values of a float grid that are set
+  std::optional<ValueRange> iso;     // values of a float grid that count as set
   bool sandbox = false;              // OpenVDB runs in a process that can only compute
-  std::optional<Box> bounds;         // compare this part alone
+  std::optional<Box> bounds;         // compare only this part
   uint64_t show = 10;                // differing voxels to list, of each kind
-  std::string write_diff;            // a .vdb with the grids "missing" and "extra"; empty: none
-  uint64_t write_most = 10'000'000;  // voxels that only the file has, in that .vdb
+  std::string write_diff;            // output: a .vdb with grids missing and extra; empty: none
+  uint64_t write_most = 10'000'000;  // limit of the voxels of the grid extra
 };
 
-// kOk if both hold the same voxels, else kDiffers.
+// Returns kOk if both have the same voxels, else kDiffers.
 int run(const VdbConfig& config);
 
 }  // namespace svdag

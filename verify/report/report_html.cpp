@@ -24,7 +24,7 @@ std::string percent(double share) {
   return formatted("%.3g", 100 * share) + " %";
 }
 
-// The page from top to bottom; one function per section, in the order of make().
+// Writes the page from top to bottom: one function per section, in the order of make().
 class Page {
  public:
   Page(const Json& bake, const DagFile& file, const DagStats& stats,
@@ -34,7 +34,7 @@ class Page {
   std::string make(const std::vector<ReportPicture>& pictures) {
     const std::string output = bake_.at("output").get<std::string>();
     const std::string name = escaped(output.substr(output.find_last_of('/') + 1));
-    // The policy makes a browser refuse whatever would come from elsewhere.
+    // The policy prevents the browser from loading anything from elsewhere.
     out_ =
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><meta "
@@ -62,7 +62,7 @@ class Page {
  private:
   uint64_t count(const char* key) const { return whole_number<uint64_t>(bake_.at(key)); }
   double number(const char* key) const { return bake_.at(key).get<double>(); }
-  // What the file says itself is never taken from the bake's report.
+  // From the file, not from the bake's report, like all that the file contains.
   double bits_per_voxel() const {
     return stats_.voxels == 0 ? 0 : 8 * double(file_.header().file_bytes) / double(stats_.voxels);
   }
@@ -124,15 +124,15 @@ class Page {
       box("note", format_count(count("triangles_undeformed")) +
                       " triangles were baked as stored: skins and morph targets are not applied.");
     if (count("triangles_outside") + count("triangles_clipped") > 0)
-      box("note", format_count(count("triangles_outside")) +
-                      " triangles lie outside of the grid, " +
-                      format_count(count("triangles_clipped")) + " reach out of it.");
+      box("note", format_count(count("triangles_outside")) + " triangles are outside the grid, " +
+                      format_count(count("triangles_clipped")) + " extend beyond it.");
     if (number("quantisation_voxels") > 0.5)
       box("note", "The scene's positions are quantised in steps of " +
                       formatted("%.3g", number("quantisation_voxels")) + " voxels.");
     if (stats_.voxels == 0) box("note", "No voxel is set.");
     if (bake_.at("resumed").get<bool>())
-      box("note", "The bake was resumed: times, memory and skips are those of its last process.");
+      box("note",
+          "The bake was resumed: times, memory and skipped work are those of its last process.");
   }
 
   void show(const std::vector<ReportPicture>& pictures) {
@@ -219,7 +219,7 @@ class Page {
     out_ += "<p class=\"dim\">The last level holds bricks of 4&times;4&times;4 voxels.</p>\n";
   }
 
-  // Seconds and memory of the phases.
+  // Time and memory per phase.
   void work() {
     const Json& seconds = bake_.at("seconds");
     const Json& memory = bake_.at("memory");
@@ -233,15 +233,15 @@ class Page {
     }
     out_ += "<h2>Time and memory</h2>\n<div class=\"plots\">\n" +
             plot_bars("Seconds per phase", times, total, "one") +
-            plot_bars("Most memory per phase", peaks, double(counted), "two") + "</div>\n";
-    out_ +=
-        "<p class=\"dim\">" + formatted("%.2f", total) + " seconds in all, " +
-        formatted("%.2f", seconds.at("cpu").get<double>()) + " of processors, on " +
-        std::to_string(count("threads")) + " threads with " +
-        escaped(bake_.at("vectors").get<std::string>()) + ". Memory: " + format_bytes(counted) +
-        " counted at most, " + format_bytes(whole_number<uint64_t>(memory.at("peak_resident"))) +
-        " resident. Scratch on disk: " +
-        format_bytes(whole_number<uint64_t>(bake_.at("scratch").at("peak"))) + " at most.</p>\n";
+            plot_bars("Peak memory per phase", peaks, double(counted), "two") + "</div>\n";
+    out_ += "<p class=\"dim\">" + formatted("%.2f", total) + " seconds in all, " +
+            formatted("%.2f", seconds.at("cpu").get<double>()) + " of processor time, on " +
+            std::to_string(count("threads")) + " threads with " +
+            escaped(bake_.at("vectors").get<std::string>()) + ". Memory: " + format_bytes(counted) +
+            " peak counted, " + format_bytes(whole_number<uint64_t>(memory.at("peak_resident"))) +
+            " resident. Scratch on disk: " +
+            format_bytes(whole_number<uint64_t>(bake_.at("scratch").at("peak"))) +
+            " at most.</p>\n";
   }
 
   void skipped() {
@@ -255,18 +255,18 @@ class Page {
       octree += stats_.levels[k].svo_nodes;
       divided += work[k];
     }
-    const double empty = 1 - share_of(cells, grid_cells), spared = 1 - share_of(divided, octree);
-    std::vector<PlotBar> bars = {
-        {"cells without a triangle", empty, percent(empty)},
-        {"octree nodes never divided", octree == 0 ? 0 : spared, percent(octree == 0 ? 0 : spared)},
-        {"cubes on one plane, not descended", share_of(answered, queries),
-         percent(share_of(answered, queries))}};
+    const double empty = 1 - share_of(cells, grid_cells), undivided = 1 - share_of(divided, octree);
+    std::vector<PlotBar> bars = {{"cells without a triangle", empty, percent(empty)},
+                                 {"octree nodes never divided", octree == 0 ? 0 : undivided,
+                                  percent(octree == 0 ? 0 : undivided)},
+                                 {"cubes on one plane, not descended", share_of(answered, queries),
+                                  percent(share_of(answered, queries))}};
     if (count("cache_hits") > 0)
       bars.push_back({"cells from the cache", share_of(count("cache_hits"), cells),
                       percent(share_of(count("cache_hits"), cells))});
-    out_ += "<h2>What did not need to be done</h2>\n" + plot_bars("Skipped", bars, 1, "three");
+    out_ += "<h2>Skipped work</h2>\n" + plot_bars("Skipped", bars, 1, "three");
     out_ += "<p class=\"dim\">Of " + format_count(grid_cells) + " cells, " + format_count(cells) +
-            " were visited. Inside of them the octree has " + format_count(octree) +
+            " were visited. Inside them the octree has " + format_count(octree) +
             " nodes above the bricks, and the bake divided " + format_count(divided) + " cubes. " +
             format_count(queries) + " cubes were looked up in the plane memo, which answered " +
             format_count(answered) + " and computed " +

@@ -1,5 +1,5 @@
-// A bake as one page of HTML: what was baked from what, how it looks, what it holds, what it took,
-// and whether it is sound. Nothing is loaded from elsewhere, so the page can be mailed and kept.
+// Makes an HTML page about a bake: its scene, pictures, contents, resources, and whether the file
+// is sound. The page is self-contained, so it can be mailed and archived.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,9 @@ struct ReportPicture {
   std::vector<std::byte> png;
 };
 
-// `bake` is the JSON that `svdag build --report` wrote of `file`. An Error naming `path` if it is
-// none, or lacks something (kBadInput), or if it is that of another file (kUsage).
+// `bake` is the JSON that `svdag build --report` wrote for `file`, read from `path`. Error, with
+// `path`: kBadInput if it is not such a report or is incomplete, kUsage if it is that of another
+// file.
 std::string report_html(const std::string& bake, const std::string& path, const DagFile& file,
                         const DagStats& stats, const IntegrityReport& integrity,
                         const std::vector<ReportPicture>& pictures);

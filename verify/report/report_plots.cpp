@@ -31,7 +31,7 @@ std::string begin(const std::string& title) {
          formatted("%.0f", kHeight) + "\" role=\"img\" aria-label=\"" + escaped(title) + "\">\n";
 }
 
-// Position of level k of `levels`: the middle of its share of the width.
+// x coordinate of level k of `levels`: the middle of its share of the width.
 double across(size_t k, size_t levels) {
   return kLeft + (kWidth - kLeft - kRight) * (double(k) + 0.5) / double(levels);
 }
@@ -43,7 +43,7 @@ std::string level_axis(size_t levels) {
   return out + text((kLeft + kWidth - kRight) / 2, kHeight - 4, "middle", "level") + "\n";
 }
 
-// The points of a line, and the strokes between neighbours that both have one.
+// Draws the points of a line, and strokes between neighbouring points.
 std::string draw(const PlotLine& series, double decades) {
   const size_t levels = series.values.size();
   const auto height = [&](uint64_t value) {
@@ -67,11 +67,11 @@ std::string draw(const PlotLine& series, double decades) {
 }  // namespace
 
 std::string plot_lines(const std::string& title, const std::vector<PlotLine>& lines) {
-  uint64_t most = 10;
+  uint64_t max = 10;
   for (const PlotLine& series : lines) {
-    for (const uint64_t value : series.values) most = std::max(most, value);
+    for (const uint64_t value : series.values) max = std::max(max, value);
   }
-  const double decades = std::ceil(std::log10(double(most)));
+  const double decades = std::ceil(std::log10(double(max)));
   std::string out = begin(title);
   const int step = decades > 6 ? 3 : 1;
   uint64_t power = 1;
@@ -90,18 +90,18 @@ std::string plot_lines(const std::string& title, const std::vector<PlotLine>& li
 }
 
 std::string plot_columns(const std::string& title, const std::vector<PlotColumn>& columns) {
-  double most = 1;
-  for (const PlotColumn& column : columns) most = std::max(most, column.value);
+  double max = 1;
+  for (const PlotColumn& column : columns) max = std::max(max, column.value);
   const double width =
       0.7 * (kWidth - kLeft - kRight) / double(std::max<size_t>(columns.size(), 1));
   std::string out = begin(title) + level_axis(columns.size());
   for (size_t k = 0; k < columns.size(); ++k) {
-    const double height = (kHeight - kTop - kBottom) * columns[k].value / most;
+    const double height = (kHeight - kTop - kBottom) * columns[k].value / max;
     const double x = across(k, columns.size()), y = kHeight - kBottom - height;
     out += "<rect class=\"column\" x=\"" + number(x - width / 2) + "\" y=\"" + number(y) +
            "\" width=\"" + number(width) + "\" height=\"" + number(height) + "\"><title>level " +
            std::to_string(k) + ": " + escaped(columns[k].label) + "</title></rect>";
-    if (columns[k].value > 0.02 * most) out += text(x, y - 4, "middle", columns[k].label);
+    if (columns[k].value > 0.02 * max) out += text(x, y - 4, "middle", columns[k].label);
   }
   return out + "</svg></figure>\n";
 }

@@ -1,5 +1,5 @@
-// The style sheet of the report's page: one column on a phone, two beside each other on a desk, and
-// the colours of the reader's system, light or dark.
+// The style sheet of the report's page: one column on narrow screens, two on wide ones, and light
+// or dark colours as the reader's system prefers.
 #pragma once
 
 namespace svdag {

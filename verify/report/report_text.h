@@ -1,4 +1,4 @@
-// Text of the report's page, escaped for HTML.
+// Formats text for the report's page.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace svdag {
 
-// With & < > and " as entities.
+// Replaces & < > and " by HTML entities.
 std::string escaped(const std::string& text);
 std::string base64(const std::vector<std::byte>& bytes);
-// One number through a printf pattern.
+// Formats a number by a printf pattern.
 std::string formatted(const char* pattern, double value);
 // 104807909 -> "105 M": K, M, G and T are powers of 1000.
 std::string short_count(uint64_t count);

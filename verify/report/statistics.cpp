@@ -5,8 +5,8 @@
 namespace svdag {
 namespace {
 
-// P(X <= k) for X binomial (n, p), k/n <= p < 1: from there down the terms only fall, so the sum
-// starts with the largest.
+// P(X <= k) for X binomial (n, p), k/n <= p < 1. Terms decrease from k down, so the sum starts with
+// the largest.
 double lower_tail(uint64_t k, uint64_t n, double p) {
   const double nn = double(n), kk = double(k);
   double term = std::exp(std::lgamma(nn + 1) - std::lgamma(kk + 1) - std::lgamma(nn - kk + 1) +

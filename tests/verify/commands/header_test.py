@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a header says and only a judge can know: files that say too much, with checksums made right, are not ok.
+"""Wrong counts in a header, with repaired checksums, are detected by comparing the file with its scene.
 
 Usage: header_test.py BUILD"""
 import pathlib
@@ -14,21 +14,21 @@ VOXELS, LARGEST_SNAP = 120, 128  # docs/format.md, "Header"
 
 
 def run(program, *arguments):
-    """The exit code, and what was printed."""
+    """The exit code and the output."""
     done = subprocess.run([PROGRAMS / program, *map(str, arguments)], capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
 
 
 class Headers(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = pathlib.Path(place.name)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
         self.scene, self.file = self.folder / "a.ply", self.folder / "a.svdag"
         self.assertEqual(run("svdag-scene", "city", "-n", "1K", "-q", "-o", self.scene)[0], 0)
         self.assertEqual(run("svdag", "build", self.scene, "-r", "64", "-o", self.file, "-q")[0], 0)
 
-    def say(self, at, form, change):
+    def change_field(self, at, form, change):
         data = bytearray(self.file.read_bytes())
         struct.pack_into(form, data, at, change(struct.unpack_from(form, data, at)[0]))
         self.file.write_bytes(data)
@@ -51,11 +51,11 @@ class Headers(unittest.TestCase):
         self.expect(0, "ok")
 
     def test_the_number_of_voxels(self):
-        self.say(VOXELS, "<Q", lambda voxels: voxels + 1)
+        self.change_field(VOXELS, "<Q", lambda voxels: voxels + 1)
         self.expect(1, "the header counts")
 
     def test_the_largest_snap(self):
-        self.say(LARGEST_SNAP, "<d", lambda snap: snap / 2)
+        self.change_field(LARGEST_SNAP, "<d", lambda snap: snap / 2)
         self.expect(1, "the snap moved", check=False)
 
 

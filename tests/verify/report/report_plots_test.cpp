@@ -22,7 +22,7 @@ std::vector<double> numbers(const std::string& text, const std::string& attribut
   return found;
 }
 
-TEST(ReportPlots, ALogarithmicLineRisesByTheSameForEveryDecade) {
+TEST(ReportPlots, EveryDecadeHasTheSameHeight) {
   const std::string plot = plot_lines("nodes", {{"a", "one", {1, 10, 100, 1000}}});
   const auto heights = numbers(plot, "cy=\"");
   ASSERT_EQ(heights.size(), 4U);
@@ -31,7 +31,7 @@ TEST(ReportPlots, ALogarithmicLineRisesByTheSameForEveryDecade) {
   EXPECT_LT(heights[1], heights[0]);  // y points down
 }
 
-TEST(ReportPlots, AValueOfZeroHasNoPointAndInterruptsTheLine) {
+TEST(ReportPlots, ZeroInterruptsTheLine) {
   const std::string plot = plot_lines("nodes", {{"a", "one", {0, 5, 0, 7, 9}}});
   EXPECT_EQ(count(plot, "<circle"), 3U);
   const std::string path = plot.substr(plot.find(" d=\""), 60);
@@ -39,7 +39,7 @@ TEST(ReportPlots, AValueOfZeroHasNoPointAndInterruptsTheLine) {
   EXPECT_EQ(count(path, "L"), 1U);
 }
 
-TEST(ReportPlots, NoLinesAndNoLevelsAreAnEmptyPlot) {
+TEST(ReportPlots, WithoutLinesOrLevelsThePlotIsEmpty) {
   EXPECT_EQ(count(plot_lines("nodes", {}), "<circle"), 0U);
   EXPECT_EQ(count(plot_lines("nodes", {{"a", "one", {0, 0}}}), "<circle"), 0U);
   EXPECT_EQ(count(plot_columns("bytes", {}), "<rect"), 0U);

@@ -11,7 +11,7 @@ std::string base64_of(const std::string& text) {
   return base64(bytes);
 }
 
-TEST(ReportText, Base64IsThatOfRfc4648) {
+TEST(ReportText, Base64MatchesRfc4648) {
   EXPECT_EQ(base64_of(""), "");
   EXPECT_EQ(base64_of("f"), "Zg==");
   EXPECT_EQ(base64_of("fo"), "Zm8=");
@@ -22,7 +22,7 @@ TEST(ReportText, Base64IsThatOfRfc4648) {
   EXPECT_EQ(base64_of("\xff\xfe\xfd"), "//79");
 }
 
-TEST(ReportText, TheNameOfASceneCannotBecomeMarkup) {
+TEST(ReportText, MarkupIsEscaped) {
   EXPECT_EQ(escaped("<script>\"a\" & b</script>"),
             "&lt;script&gt;&quot;a&quot; &amp; b&lt;/script&gt;");
 }

@@ -12,7 +12,7 @@ TEST(Statistics, NothingWrongGivesTheRuleOfThree) {
   EXPECT_NEAR(rate_upper_bound(0, 100000), 2.9957e-5, 1e-9);
 }
 
-// Closed forms: n = 1 and k = n-1 give P(X <= k) = 1 - p^n.
+// Closed form: k = n - 1 gives P(X <= k) = 1 - p^n.
 TEST(Statistics, LastTrialHasAClosedForm) {
   for (const uint64_t n : {1U, 2U, 5U, 40U})
     EXPECT_NEAR(rate_upper_bound(n - 1, n), std::pow(0.95, 1 / double(n)), 1e-9) << n;
@@ -39,7 +39,7 @@ TEST(Statistics, BoundIsWhereTheTailMeetsAlpha) {
   }
 }
 
-TEST(Statistics, NoTestsBoundNothing) {
+TEST(Statistics, WithoutTrialsTheBoundIsOne) {
   EXPECT_EQ(rate_upper_bound(0, 0), 1);
   EXPECT_EQ(rate_upper_bound(7, 7), 1);
 }

@@ -1,4 +1,4 @@
-// Whole pictures: the same whatever the threads and with beams or without.
+// Pictures are the same with any number of threads, and with or without beams.
 #include <gtest/gtest.h>
 
 #include "tests/verify/trace/ray_families.h"
@@ -10,7 +10,7 @@ namespace {
 
 class PictureOf : public ::testing::TestWithParam<ShadeMode> {};
 
-TEST_P(PictureOf, NeitherBeamsNorThreadsShow) {
+TEST_P(PictureOf, DoesNotDependOnBeamsOrThreads) {
   VoxelSet voxels = clustered_voxels(8, 4, 60);
   for (int64_t i = 0; i < 256 * 256; ++i) voxels.emplace(i / 256, 20, i % 256);  // a floor
   const RawFile file(raw_dag(test_grid(8), voxels));
@@ -24,7 +24,7 @@ TEST_P(PictureOf, NeitherBeamsNorThreadsShow) {
   if (GetParam() == ShadeMode::kAo) shading.secondary.cut.spread = 0.3;
   if (GetParam() == ShadeMode::kLevel) shading.primary.spread = 2 * camera.slope / 50;
   Progress progress(Progress::Mode::kOff);
-  RenderConfig config{83, 50, 2, true};  // tiles are cut at the right and below
+  RenderConfig config{83, 50, 2, true};  // with partial tiles at the right and below
   ParallelExecutor one(1), two(2);
   const Image with = render(dag, {}, camera, shading, config, one, progress);
   const Image parallel = render(dag, {}, camera, shading, config, two, progress);

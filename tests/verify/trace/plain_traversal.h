@@ -1,5 +1,5 @@
-// The plain traversal, the reference of verify/trace/kernel/traverse.h: a frame per level, one cube
-// at a time, children by the planes in their middle, and no position but what the planes say.
+// The plain traversal, the reference for verify/trace/kernel/traverse.h: a stack frame per level,
+// one cube per step, and children found by comparing times with those of the middle planes only.
 #pragma once
 
 #include <cstring>
@@ -21,7 +21,7 @@ class PlainTraversal {
     uint32_t level = 0;
     if (cut_.solid(0, dag_.resolution(), t_)) return ray_.hit(dag_.levels, 0, stack_[0].corner, t_);
     for (;; ++none.steps) {
-      const Step step = next_child(level);
+      const ChildStep step = next_child(level);
       uint64_t child;
       if (child_of(level, step.child, &child)) {
         if (cut_.solid(level + 1, double(1U << (dag_.levels - 1 - level)), t_)) {
@@ -42,21 +42,21 @@ class PlainTraversal {
 
  private:
   struct Frame {
-    uint64_t node;  // word index; at the brick level the brick, below it one byte of the brick
+    uint64_t node;  // word index; at the brick level it is the brick, below it a byte of the brick
     double exit;
     uint32_t corner[3];
   };
-  struct Step {
+  struct ChildStep {
     unsigned child;
     double exit;
     uint32_t corner[3];
   };
 
-  // The child of the top frame in which the ray is just after time t_, and when it leaves that.
-  Step next_child(uint32_t level) const {
+  // The child of the top frame that contains the ray just after t_, and the time of its exit.
+  ChildStep next_child(uint32_t level) const {
     const Frame& frame = stack_[level];
     const uint32_t half = 1U << (dag_.levels - 1 - level);
-    Step step{0, frame.exit, {}};
+    ChildStep step{0, frame.exit, {}};
     for (int a = 0; a < 3; ++a) {
       const uint32_t middle = frame.corner[a] + half;
       const double t = ray_.time(a, middle);
@@ -69,7 +69,7 @@ class PlainTraversal {
     return step;
   }
 
-  // Whether child c is there. A byte of a brick is a node of 2^3; a set bit in it is a voxel.
+  // Whether child c is occupied. A byte of a brick is a node of 2^3 voxels, its bits.
   bool child_of(uint32_t level, unsigned c, uint64_t* child) const {
     const uint64_t node = stack_[level].node;
     if (level >= dag_.brick_level()) {
@@ -82,7 +82,7 @@ class PlainTraversal {
     return true;
   }
 
-  void push(uint32_t level, uint64_t node, const Step& step) {
+  void push(uint32_t level, uint64_t node, const ChildStep& step) {
     Frame& frame = stack_[level];
     frame.node = node;
     frame.exit = step.exit;
@@ -102,7 +102,7 @@ inline Hit plain_closest(const DagView& dag, const Ray& ray, const Span& span = 
   return PlainTraversal(dag, ray, cut).closest(span);
 }
 
-// Bit by bit, but for the steps.
+// Bitwise equality, except for the steps.
 inline bool same(const Hit& a, const Hit& b) {
   bool equal = a.found == b.found && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
                a.level == b.level && a.axis == b.axis;

@@ -1,4 +1,4 @@
-// Rays that are hard for a traversal: each family has its own way to hit planes, edges and corners.
+// Families of rays that are hard for a traversal: each hits planes, edges and corners differently.
 #pragma once
 
 #include <cstdlib>
@@ -23,12 +23,12 @@ class RayFamilies {
   double unit() { return double(random_() >> 11) * 0x1p-53; }
   double corner() { return std::floor(unit() * n_); }
 
-  // `near`: a place where something is.
+  // `near`: a point near occupied voxels.
   Ray ray(int family, const Vec3& near) {
     Ray ray;
     for (int a = 0; a < 3; ++a) {
       ray.origin[a] = (3 * unit() - 1) * n_;
-      ray.direction[a] = near[a] + 8 * unit() - 4 - ray.origin[a];  // towards it
+      ray.direction[a] = near[a] + 8 * unit() - 4 - ray.origin[a];  // towards `near`
     }
     const int axis = int(random_() % 3);
     switch (family) {
@@ -70,9 +70,9 @@ class RayFamilies {
         const double size = std::ldexp(1 + unit(), int(random_() % 120) - 60);
         for (int a = 0; a < 3; ++a) ray.direction[a] *= size;
     }
-    bool still = true;
-    for (int a = 0; a < 3; ++a) still = still && ray.direction[a] == 0;
-    if (still) ray.direction[axis] = 1;
+    bool is_zero = true;
+    for (int a = 0; a < 3; ++a) is_zero = is_zero && ray.direction[a] == 0;
+    if (is_zero) ray.direction[axis] = 1;
     return ray;
   }
 
@@ -81,7 +81,7 @@ class RayFamilies {
     if (kind == 0) return {unit(), 0.5 + unit()};
     return kind == 1 ? Span{0, unit()} : Span{};
   }
-  // Most often none.
+  // Usually no cut.
   Cut cut(uint32_t levels) {
     Cut cut;
     const uint64_t kind = random_() % 8;

@@ -1,5 +1,4 @@
-// Colours that tell numbers: depth is white at the nearest point of the scene's box, black at the
-// farthest.
+// Depth as grey: white at the nearest point of the scene's box, black at the farthest.
 #include "verify/trace/shade.h"
 
 #include <gtest/gtest.h>

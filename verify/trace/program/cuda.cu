@@ -1,6 +1,6 @@
 // The workloads on an NVIDIA GPU: a thread per tile for beams, per pixel for primary and shadow
 // rays, per ray for the others. The kernels call the same functions as the processor does;
-// --fmad=false keeps every operation its own, so the answers agree bit by bit.
+// --fmad=false prevents fused operations, so the results are equal bit by bit.
 #include <algorithm>
 #include <string>
 
@@ -20,16 +20,16 @@ void check(cudaError_t status, const char* doing) {
   throw Error(ExitCode::kInternal, "the GPU failed while " + why);
 }
 
-// Memory on the device, of `count` values.
+// An array of `count` values in device memory.
 template <typename T>
 class DeviceArray {
  public:
   explicit DeviceArray(size_t count) : count_(count) {
-    check(cudaMalloc(&data_, std::max<size_t>(count, 1) * sizeof(T)), "taking GPU memory");
+    check(cudaMalloc(&data_, std::max<size_t>(count, 1) * sizeof(T)), "allocating GPU memory");
   }
   DeviceArray(const DeviceArray&) = delete;
   DeviceArray& operator=(const DeviceArray&) = delete;
-  ~DeviceArray() { cudaFree(data_); }  // nothing is left to do where this fails
+  ~DeviceArray() { cudaFree(data_); }  // a failure is ignored
 
   T* data() const { return data_; }
   void clear() const { check(cudaMemset(data_, 0, count_ * sizeof(T)), "clearing GPU memory"); }
@@ -56,7 +56,7 @@ __global__ void beam_kernel(const __grid_constant__ DagView dag,
   spans[tile] = tile_span(dag, work.picture, tile % columns * kTile, tile / columns * kTile);
 }
 
-// A block is a tile.
+// One block per tile.
 __global__ void primary_kernel(const __grid_constant__ DagView dag,
                                const __grid_constant__ Workload work, uint32_t columns,
                                const Span* spans, Hit* hits) {
@@ -76,7 +76,7 @@ __global__ void surfel_kernel(const __grid_constant__ DagView dag,
   surfels[pixel] = make_surfel(dag, work.picture.ray(x, y), hits[pixel]);
 }
 
-// A thread per ray; those of one pixel are neighbours.
+// One thread per ray; the rays of a pixel are adjacent.
 __global__ void secondary_kernel(const __grid_constant__ DagView dag,
                                  const __grid_constant__ Workload work, int kind,
                                  uint32_t per_pixel, const Surfel* surfels, uint32_t* blocked) {
@@ -85,8 +85,8 @@ __global__ void secondary_kernel(const __grid_constant__ DagView dag,
   if (pixel >= uint64_t(work.picture.width) * work.picture.height) return;
   if (!surfels[pixel].found) return;
   Tracer tracer(dag);
-  const Ray asked = secondary_ray(work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel));
-  if (tracer.closest(asked, secondary_span(work, kind), secondary_cut(work, kind)).found)
+  const Ray secondary = secondary_ray(work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel));
+  if (tracer.closest(secondary, secondary_span(work, kind), secondary_cut(work, kind)).found)
     atomicAdd(&blocked[pixel], 1U);
 }
 
@@ -94,9 +94,9 @@ unsigned blocks_for(uint64_t threads) {
   return unsigned((threads + kBlock - 1) / kBlock);
 }
 
-// The least time of `rounds` runs.
+// The shortest time of `rounds` launches, in seconds.
 template <typename Launch>
-double least(uint32_t rounds, const Launch& launch) {
+double min_seconds(uint32_t rounds, const Launch& launch) {
   struct Events {
     cudaEvent_t from = nullptr, to = nullptr;
     ~Events() {
@@ -104,8 +104,8 @@ double least(uint32_t rounds, const Launch& launch) {
       if (to != nullptr) cudaEventDestroy(to);
     }
   } events;
-  check(cudaEventCreate(&events.from), "making a timer");
-  check(cudaEventCreate(&events.to), "making a timer");
+  check(cudaEventCreate(&events.from), "creating a timer");
+  check(cudaEventCreate(&events.to), "creating a timer");
   float best = 1e30F;
   for (uint32_t round = 0; round < rounds; ++round) {
     check(cudaEventRecord(events.from), "starting a timer");
@@ -120,23 +120,23 @@ double least(uint32_t rounds, const Launch& launch) {
   return 1e-3 * double(best);
 }
 
-std::string name_of_device() {
+std::string device_name() {
   int count = 0;
   const cudaError_t status = cudaGetDeviceCount(&count);
   if (status != cudaSuccess || count == 0)
-    fail_usage(std::string("--device cuda: this machine has no NVIDIA GPU that works (") +
+    fail_usage(std::string("--device cuda: no usable NVIDIA GPU (") +
                cudaGetErrorString(status == cudaSuccess ? cudaErrorNoDevice : status) + ")");
   cudaDeviceProp properties;
-  check(cudaGetDeviceProperties(&properties, 0), "asking for the device");
+  check(cudaGetDeviceProperties(&properties, 0), "querying the device");
   return properties.name;
 }
 
-void require_room(uint64_t bytes) {
+void require_free_memory(uint64_t bytes) {
   size_t free = 0, total = 0;
-  check(cudaMemGetInfo(&free, &total), "asking for free memory");
+  check(cudaMemGetInfo(&free, &total), "querying free memory");
   if (bytes <= free) return;
   throw Error(ExitCode::kMemory, "the DAG and the picture need " + std::to_string(bytes >> 20) +
-                                     " MiB of GPU memory, and " + std::to_string(free >> 20) +
+                                     " MiB of GPU memory, " + std::to_string(free >> 20) +
                                      " MiB are free: choose a coarser DAG or a smaller --size");
 }
 
@@ -154,17 +154,17 @@ DagView view_on_device(const PlainFile& file, const uint64_t* copy) {
 
 }  // namespace
 
-Answers trace_on_cuda(const PlainFile& file, const Workload& work) {
-  Answers answers;
-  answers.device = name_of_device();
+TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
+  TraceResults results;
+  results.device = device_name();
   const Picture& picture = work.picture;
   const size_t pixels = size_t(picture.width) * picture.height;
   const uint32_t columns = (picture.width + kTile - 1) / kTile;
   const uint32_t tiles = columns * ((picture.height + kTile - 1) / kTile);
   if (pixels * work.secondary.samples / kBlock >= 0x7fffffffU)
-    fail_usage("--size and --samples: too many rays for one launch on a GPU");
-  require_room(file.words.size() * 8 + tiles * sizeof(Span) +
-               pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
+    fail_usage("--size, --samples: too many rays for a GPU: choose fewer");
+  require_free_memory(file.words.size() * 8 + tiles * sizeof(Span) +
+                      pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const DeviceArray<uint64_t> copy(file.words.size());
   copy.upload(file.words.data());
   const DagView dag = view_on_device(file, copy.data());
@@ -172,29 +172,29 @@ Answers trace_on_cuda(const PlainFile& file, const Workload& work) {
   const DeviceArray<Hit> hits(pixels);
   const DeviceArray<Surfel> surfels(pixels);
   const DeviceArray<uint32_t> blocked(pixels);
-  answers.rays[kPrimaryRays] = pixels;
-  answers.seconds[kPrimaryRays] = least(work.rounds, [&] {
+  results.rays[kPrimaryRays] = pixels;
+  results.seconds[kPrimaryRays] = min_seconds(work.rounds, [&] {
     if (work.beams)
       beam_kernel<<<blocks_for(tiles), kBlock>>>(dag, work, columns, tiles, spans.data());
     primary_kernel<<<tiles, kBlock>>>(dag, work, columns, spans.data(), hits.data());
   });
   surfel_kernel<<<blocks_for(pixels), kBlock>>>(dag, work, hits.data(), surfels.data());
   check(cudaGetLastError(), "starting a kernel");
-  hits.download(&answers.hits);
-  surfels.download(&answers.surfels);
-  const auto found = uint64_t(std::count_if(answers.hits.begin(), answers.hits.end(),
+  hits.download(&results.hits);
+  surfels.download(&results.surfels);
+  const auto found = uint64_t(std::count_if(results.hits.begin(), results.hits.end(),
                                             [](const Hit& hit) { return hit.found; }));
   for (int kind = kShadowRays; kind < kWorkloads; ++kind) {
     const uint32_t per_pixel = rays_per_pixel(work, kind);
-    answers.rays[kind] = found * per_pixel;
-    answers.seconds[kind] = least(work.rounds, [&] {
+    results.rays[kind] = found * per_pixel;
+    results.seconds[kind] = min_seconds(work.rounds, [&] {
       blocked.clear();
       secondary_kernel<<<blocks_for(pixels * per_pixel), kBlock>>>(dag, work, kind, per_pixel,
                                                                    surfels.data(), blocked.data());
     });
-    blocked.download(&answers.blocked[kind]);
+    blocked.download(&results.blocked[kind]);
   }
-  return answers;
+  return results;
 }
 
 }  // namespace svdag

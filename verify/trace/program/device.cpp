@@ -12,16 +12,16 @@
 namespace svdag {
 namespace {
 
-// body(row) for every row of tiles.
+// Calls body(row) for every row of tiles, in parallel.
 template <typename Body>
 void for_each_row(Executor& executor, const Picture& picture, const Body& body) {
   executor.for_each((picture.height + kTile - 1) / kTile,
                     [&](size_t, size_t row) { body(uint32_t(row)); });
 }
 
-// The least time of `rounds` runs.
+// The shortest time of `rounds` runs, in seconds.
 template <typename Run>
-double least(uint32_t rounds, const Run& run) {
+double min_seconds(uint32_t rounds, const Run& run) {
   double best = 1e300;
   for (uint32_t round = 0; round < rounds; ++round) {
     LapTimer seconds;
@@ -47,21 +47,22 @@ void trace_tile(const DagView& dag, const Tree64View& tree, const Workload& work
   }
 }
 
-// One of the secondary workloads, for the pixels of one row of tiles; some hundred rays at once.
+// Traces a secondary workload for the pixels of one row of tiles, in batches of several hundred
+// rays.
 void trace_row(const DagView& dag, const Tree64View& tree, const Workload& work, int kind,
                uint32_t row, const std::vector<Surfel>& surfels, std::vector<uint32_t>* blocked) {
-  constexpr size_t kEnough = 512;
+  constexpr size_t kBatch = 512;
   const size_t width = work.picture.width;
   const size_t end = std::min<size_t>((row + 1) * kTile, work.picture.height) * width;
   std::vector<Ray> rays;
-  std::vector<size_t> pixels;  // of the rays
+  std::vector<size_t> pixels;  // [i]: the pixel of rays[i]
   std::vector<uint8_t> found;
   for (size_t pixel = row * kTile * width; pixel < end; ++pixel) {
     for (uint32_t i = 0; surfels[pixel].found && i < rays_per_pixel(work, kind); ++i) {
       rays.push_back(secondary_ray(work, kind, surfels[pixel], pixel, i));
       pixels.push_back(pixel);
     }
-    if (rays.size() < kEnough && pixel + 1 < end) continue;
+    if (rays.size() < kBatch && pixel + 1 < end) continue;
     found.resize(rays.size());
     trace_any(dag, tree, rays.data(), rays.size(), secondary_span(work, kind),
               secondary_cut(work, kind), found.data());
@@ -71,13 +72,14 @@ void trace_row(const DagView& dag, const Tree64View& tree, const Workload& work,
   }
 }
 
-// What is left of the memory beside the file and the answers.
-uint64_t room_beside(const PlainFile& file, size_t pixels) {
-  const uint64_t taken = file.bytes() + pixels * kAnswerBytes, room = default_memory_limit();
-  return taken < room ? room - taken : 0;
+// Memory for the 64-tree: what the file and the results leave of the limit.
+uint64_t memory_left(const PlainFile& file, size_t pixels) {
+  const uint64_t used = file.bytes() + pixels * kResultBytesPerPixel;
+  const uint64_t limit = default_memory_limit();
+  return used < limit ? limit - used : 0;
 }
 
-// Those that no cut ends, at most.
+// Upper bound of the number of rays without a cut.
 uint64_t uncut_rays(const DagView& dag, const Workload& work) {
   uint64_t per_pixel = 0;
   for (int kind = 0; kind < kWorkloads; ++kind) {
@@ -88,42 +90,42 @@ uint64_t uncut_rays(const DagView& dag, const Workload& work) {
 
 }  // namespace
 
-Answers trace_on_cpu(const PlainFile& file, const Workload& work) {
+TraceResults trace_on_cpu(const PlainFile& file, const Workload& work) {
   ParallelExecutor executor(threads_or_all(work.threads));
   const size_t threads = executor.workers();
   const DagView& dag = file.view;
   const Picture& picture = work.picture;
   const size_t pixels = size_t(picture.width) * picture.height;
-  Answers answers;
-  answers.device = "CPU, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-  const Tree64 made =
-      tree_if_it_pays(dag, uncut_rays(dag, work) / threads, room_beside(file, pixels));
-  const Tree64View& tree = made.view();
-  answers.hits.resize(pixels);
-  answers.surfels.resize(pixels);
-  answers.rays[kPrimaryRays] = pixels;
-  answers.seconds[kPrimaryRays] = least(work.rounds, [&] {
+  TraceResults results;
+  results.device = "CPU, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  const Tree64 built =
+      tree_if_it_pays(dag, uncut_rays(dag, work) / threads, memory_left(file, pixels));
+  const Tree64View& tree = built.view();
+  results.hits.resize(pixels);
+  results.surfels.resize(pixels);
+  results.rays[kPrimaryRays] = pixels;
+  results.seconds[kPrimaryRays] = min_seconds(work.rounds, [&] {
     for_each_row(executor, picture, [&](uint32_t row) {
       for (uint32_t x = 0; x < picture.width; x += kTile)
-        trace_tile(dag, tree, work, x, row * kTile, &answers.hits);
+        trace_tile(dag, tree, work, x, row * kTile, &results.hits);
     });
   });
   uint64_t found = 0;
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t x = uint32_t(i % picture.width), y = uint32_t(i / picture.width);
-    answers.surfels[i] = make_surfel(dag, picture.ray(x, y), answers.hits[i]);
-    found += answers.hits[i].found;
+    results.surfels[i] = make_surfel(dag, picture.ray(x, y), results.hits[i]);
+    found += results.hits[i].found;
   }
   for (int kind = kShadowRays; kind < kWorkloads; ++kind) {
-    answers.rays[kind] = found * rays_per_pixel(work, kind);
-    answers.seconds[kind] = least(work.rounds, [&] {
-      answers.blocked[kind].assign(pixels, 0);
+    results.rays[kind] = found * rays_per_pixel(work, kind);
+    results.seconds[kind] = min_seconds(work.rounds, [&] {
+      results.blocked[kind].assign(pixels, 0);
       for_each_row(executor, picture, [&](uint32_t row) {
-        trace_row(dag, tree, work, kind, row, answers.surfels, &answers.blocked[kind]);
+        trace_row(dag, tree, work, kind, row, results.surfels, &results.blocked[kind]);
       });
     });
   }
-  return answers;
+  return results;
 }
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// The four measured workloads, on the processor or on a GPU: same rays, same answers.
+// Traces the four measured workloads on the processor or on a GPU: same rays, same results.
 #pragma once
 
 #include <string>
@@ -13,34 +13,35 @@ struct Workload {
   Picture picture;
   Light light;
   Secondary secondary;
-  bool beams = true;     // primary rays start where their tile's beam ends
-  uint32_t rounds = 3;   // each is traced so often; the least time counts
-  unsigned threads = 0;  // of the processor; 0: all
+  bool beams = true;     // primary rays start where the beam of their tile first meets a cube
+  uint32_t rounds = 3;   // repetitions; the shortest time counts
+  unsigned threads = 0;  // on the processor; 0: one per processor
 };
 
 enum WorkloadKind { kPrimaryRays, kShadowRays, kSoftRays, kOcclusionRays, kWorkloads };
 
 constexpr const char* kWorkloadNames[kWorkloads] = {"primary", "shadow", "soft", "ao"};
 
-// Pixel by pixel, row after row.
-struct Answers {
-  std::string device;     // in words
+// Vectors are indexed by pixel, row by row from the top.
+struct TraceResults {
+  std::string device;     // for people
   std::vector<Hit> hits;  // of the primary rays
   std::vector<Surfel> surfels;
-  std::vector<uint32_t> blocked[kWorkloads];  // secondary rays that meet something
+  std::vector<uint32_t> blocked[kWorkloads];  // number of secondary rays that hit something
   double seconds[kWorkloads] = {};
   uint64_t rays[kWorkloads] = {};
 };
 
-// Of a pixel.
-constexpr uint64_t kAnswerBytes = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t);
+// Memory of the results of a pixel.
+constexpr uint64_t kResultBytesPerPixel = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t);
 
-Answers trace_on_cpu(const PlainFile& file, const Workload& work);
+TraceResults trace_on_cpu(const PlainFile& file, const Workload& work);
 
-// No device, a program without CUDA, or too little memory there is an Error.
-Answers trace_on_cuda(const PlainFile& file, const Workload& work);
+// Error: kUsage without a device or in a build without CUDA; kMemory if the device's memory does
+// not suffice.
+TraceResults trace_on_cuda(const PlainFile& file, const Workload& work);
 
-// Secondary ray i of `kind` from a surfel, ...
+// Secondary ray i of workload `kind` from a surfel, ...
 SVDAG_HD inline Ray secondary_ray(const Workload& work, int kind, const Surfel& surfel,
                                   uint64_t pixel, uint32_t i) {
   const uint32_t n = work.secondary.samples;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs nvcc from pinned wheels into the folder $1, unless it is there, and prints its path.
+# Installs nvcc from pinned wheels into the folder $1, unless it is there already, and prints its path.
 set -eu
 folder=$1
 nvcc=$(ls "$folder"/lib/python3*/site-packages/nvidia/cu13/bin/nvcc 2>/dev/null || true)

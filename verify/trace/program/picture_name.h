@@ -1,4 +1,4 @@
-// The name of a picture says its format; no other format is written under it.
+// Rejects names of pictures whose ending is that of another format.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace svdag {
 
-// A usage Error with `sentence` if `name` ends as pictures of another format than `written`
-// (".png") do, in whatever case.
-inline void refuse_other_pictures(const std::string& name, const std::string& written,
-                                  const std::string& sentence) {
+// Error (kUsage) with `sentence` if `name` has the ending of a picture format other than `written`
+// (".png"), in upper or lower case.
+inline void reject_other_picture_format(const std::string& name, const std::string& written,
+                                        const std::string& sentence) {
   for (const char* ending : {".png", ".ppm", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif",
                              ".tiff", ".exr", ".hdr", ".tga"}) {
     if (ending != written && has_ending(name, ending)) fail_usage(name + ": " + sentence);

@@ -15,7 +15,7 @@ void require(bool condition, const std::string& path, const char* sentence) {
   if (!condition) fail_input(path, std::string("damaged file: ") + sentence);
 }
 
-// Asked before anything else is read: of another file no other word means what it would in ours.
+// Checked first, because the other fields have no meaning in files of another format.
 void check_magic(const File& file, uint64_t size) {
   unsigned char magic[sizeof kMagic];
   if (size < sizeof magic) fail_input(file.path(), "is not a svdag file (it is too short)");
@@ -24,8 +24,8 @@ void check_magic(const File& file, uint64_t size) {
     fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
 }
 
-// Its size is held against its header before so much memory is taken.
-std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
+// Checks the size in the header before allocating the memory.
+std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
   const File file = File::open_read(path);
   InputWatch inputs;
   inputs.add(file);
@@ -35,10 +35,9 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t room) {
   Header header;
   file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
   require(header.file_bytes == size, path, "its size is not the one in its header");
-  if (size > room)
+  if (size > max_bytes)
     throw Error(ExitCode::kMemory,
-                "is larger than this machine's memory; svdag-verify render traces it where it is",
-                path);
+                "does not fit in memory: use svdag-verify render, which maps the file", path);
   std::vector<uint64_t> words((size + 7) / 8);
   file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
   inputs.check();
@@ -74,8 +73,8 @@ void check_bricks(const DagView& view, const std::string& path) {
     require(view.bricks[i] != 0, path, "an empty brick");
 }
 
-// From the deepest inner level up: each node's children must be the first words of nodes of the
-// level below, found in the step before.
+// From the deepest inner level up: each child pointer must be the index of a brick, or of the first
+// word of a node of the level below, as found in the previous iteration.
 void check_pointers(const DagView& view, const std::string& path) {
   std::vector<bool> below;
   for (uint32_t level = view.brick_level(); level-- > 0;) {
@@ -90,9 +89,9 @@ void check_pointers(const DagView& view, const std::string& path) {
       starts[at++] = true;
       for (int child = popcount8(mask); child > 0; --child, ++at) {
         require(at < count, path, "the last node of a level is cut off");
-        const bool good = above_bricks ? words[at] < view.brick_count
-                                       : words[at] < below.size() && below[words[at]];
-        require(good, path, "a pointer leads nowhere");
+        const bool valid = above_bricks ? words[at] < view.brick_count
+                                        : words[at] < below.size() && below[words[at]];
+        require(valid, path, "a pointer leads nowhere");
       }
     }
     require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "it has not one root");
@@ -102,9 +101,9 @@ void check_pointers(const DagView& view, const std::string& path) {
 
 }  // namespace
 
-PlainFile read_plain_file(const std::string& path, uint64_t room) {
+PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
   PlainFile file;
-  file.words = read_whole(path, room);
+  file.words = read_whole(path, max_bytes);
   check_header(file.header(), path);
   file.view = dag_view(file.words.data());
   check_bricks(file.view, path);

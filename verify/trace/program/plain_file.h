@@ -1,9 +1,8 @@
-// A `.svdag` in memory, read without any third-party library.
+// A .svdag file in memory, read without any third-party library, for svdag-trace.
 //
-// For svdag-trace alone. Sizes and every pointer are proven in one pass over the sections, as
-// docs/format.md says them, so a tracer may trust the view; checksums are not looked at (they need
-// xxHash; svdag-verify check proves them), so a file that was written meanwhile is known by its
-// time.
+// Sizes and all pointers are validated in one pass over the sections (docs/format.md), so a tracer
+// may trust the view. Checksums are ignored, because they need xxHash; svdag-verify check tests
+// them. A file that is written while it is read is therefore detected by its time of modification.
 #pragma once
 
 #include <string>
@@ -14,15 +13,15 @@
 namespace svdag {
 
 struct PlainFile {
-  std::vector<uint64_t> words;  // the file
+  std::vector<uint64_t> words;  // the bytes of the file, aligned
   DagView view;
 
   const Header& header() const { return *reinterpret_cast<const Header*>(words.data()); }
   uint64_t bytes() const { return header().file_bytes; }
 };
 
-// A file that cannot be read, is damaged, or was written while it was read is an Error (kBadInput);
-// one of more than `room` bytes one of kMemory.
-PlainFile read_plain_file(const std::string& path, uint64_t room = UINT64_MAX);
+// Error: kBadInput if the file cannot be read, is damaged, or is written while it is read; kMemory
+// if it is larger than `max_bytes`.
+PlainFile read_plain_file(const std::string& path, uint64_t max_bytes = UINT64_MAX);
 
 }  // namespace svdag

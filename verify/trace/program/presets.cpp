@@ -9,51 +9,52 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-bool holds(const VoxelBounds& box, const Vec3& point) {
+bool contains(const VoxelBounds& box, const Vec3& point) {
   bool inside = true;
   for (int a = 0; a < 3; ++a) inside = inside && point[a] >= box.min[a] && point[a] <= box.max[a];
   return inside;
 }
 
-double free_distance(const DagView& dag, const Vec3& from, int axis, double sign, double most) {
+// Distance from a point along an axis to the nearest voxel, at most `max`.
+double free_distance(const DagView& dag, const Vec3& from, int axis, double sign, double max) {
   Vec3 direction{};
   direction[axis] = sign;
-  const Hit wall = trace_closest(dag, {from, direction}, {0, most});
-  return wall.found ? wall.t : most;
+  const Hit wall = trace_closest(dag, {from, direction}, {0, max});
+  return wall.found ? wall.t : max;
 }
 
-// From a spot back along the longer horizontal axis, as far as nothing is in the way. The spot is
-// the middle, or, where that has no view (a small room, solid matter), the one of a few that has
-// the longest.
+// Looks along the longer horizontal axis, from a point as far back as empty space reaches. The view
+// goes through the middle of the box. If the view there is short (a small room, solid matter), it
+// goes through that of several candidate points with the longest view.
 Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double aspect) {
-  constexpr double kWide = 75, kFarthest = 0.4, kEnough = 0.25;
+  constexpr double kWide = 75, kMaxBack = 0.4, kLongEnough = 0.25;
   constexpr double kHeights[] = {0.3, 0.15, 0.5, 0.75},
-                   kPlaces[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
+                   kPositions[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
   const Vec3 size = box.max - box.min;
   const int one = (up + 1) % 3, two = (up + 2) % 3;
   const int along = size[one] > size[two] ? one : two, across = one + two - along;
-  const double farthest = kFarthest * size[along];
+  const double max_distance = kMaxBack * size[along];
   Vec3 best{};
   double longest = -1;
   for (const double height : kHeights) {
-    for (const double place : kPlaces) {
-      for (const double side : kPlaces) {
-        Vec3 spot = box.min;
-        spot[up] += height * size[up];
-        spot[along] += place * size[along];
-        spot[across] += side * size[across];
-        const double view = free_distance(dag, spot, along, 1, farthest) +
-                            free_distance(dag, spot, along, -1, farthest);
-        if (longest < kEnough * size[along] && view > longest) {
+    for (const double depth : kPositions) {
+      for (const double side : kPositions) {
+        Vec3 point = box.min;
+        point[up] += height * size[up];
+        point[along] += depth * size[along];
+        point[across] += side * size[across];
+        const double view = free_distance(dag, point, along, 1, max_distance) +
+                            free_distance(dag, point, along, -1, max_distance);
+        if (longest < kLongEnough * size[along] && view > longest) {
           longest = view;
-          best = spot;
+          best = point;
         }
       }
     }
   }
   Vec3 back{};
   back[along] = -1;
-  const double far = 0.95 * free_distance(dag, best, along, -1, farthest);
+  const double far = 0.95 * free_distance(dag, best, along, -1, max_distance);
   return look_at(best + back * far, best - back * size[along], up, kWide, aspect);
 }
 
@@ -62,7 +63,7 @@ Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double as
 Camera preset_camera(const std::string& name, const DagView& dag, const VoxelBounds& box, int up,
                      double fov, double aspect) {
   if (name == "inside") return inside_view(dag, box, up, aspect);
-  Vec3 towards{};  // from the box to the camera; front looks along the axis after `up`, reversed
+  Vec3 towards{};  // from the box to the camera
   const int depth = up == 1 ? 2 : (up + 2) % 3, across = 3 - up - depth;
   const double near = up == 1 ? 1 : -1;  // y up: front is +z, as in glTF; z up: front is -y
   if (name == "iso") {
@@ -94,7 +95,7 @@ Camera turned(const Camera& camera, const VoxelBounds& box, int up, int frame, i
   result.right = turn(camera.right);
   result.up = turn(camera.up);
   result.forward = turn(camera.forward);
-  if (holds(box, camera.position)) return result;
+  if (contains(box, camera.position)) return result;
   const Vec3 centre = (box.min + box.max) * 0.5;
   result.position = centre + turn(camera.position - centre);
   return result;

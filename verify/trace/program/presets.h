@@ -1,4 +1,4 @@
-// Cameras that show a box, and their way around it.
+// Named cameras that show a box, and their turn around it.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace svdag {
 
-// The camera of a name: iso (three-quarter view from above), front, back, left, right, top (the
-// whole box in view) or inside (past the middle, along the longer horizontal axis, wide).
-// An unknown name is an Error (kUsage). `fov` in degrees.
+// The camera called `name`: iso (three-quarter view from above), front, back, left, right, top
+// (these show the whole box) or inside (a wide view through the middle, along the longer horizontal
+// axis). `fov` is in degrees; inside ignores it. Error (kUsage) if the name is unknown.
 Camera preset_camera(const std::string& name, const DagView& dag, const VoxelBounds& box, int up,
                      double fov, double aspect);
 
-// Frame `frame` of `frames` of a full turn about the axis `up`: around the box's centre, or on the
-// spot if the camera is inside the box.
+// The camera of frame `frame` of `frames` in a full turn about the axis `up`: around the centre of
+// the box, or in place if the camera is inside the box.
 Camera turned(const Camera& camera, const VoxelBounds& box, int up, int frame, int frames);
 
 }  // namespace svdag

@@ -84,7 +84,7 @@ void add_ray_options(CLI::App* app, TraceOptions* options) {
       ->type_name("LENGTH");
   app->add_option_function<std::string>(
          "--cone", [=](const std::string& s) { options->cone = number("--cone", s, 44); },
-         "ao: half the angle of the cone in which they end early, 0 to 44, for example 9 "
+         "ao: half the angle of the cone in which rays end early, 0 to 44, for example 9 "
          "(default 0, which is exact)")
       ->type_name("DEGREES");
   app->add_flag_callback(
@@ -102,9 +102,9 @@ void add_output_options(CLI::App* app, TraceOptions* options) {
   takes_files(app->add_option_function<std::string>(
                   "--picture",
                   [=](const std::string& name) {
-                    refuse_other_pictures(name, ".ppm",
-                                          "pictures are PPM: choose a name in .ppm "
-                                          "(svdag-verify render: PNG)");
+                    reject_other_picture_format(name, ".ppm",
+                                                "pictures are PPM: choose a name in .ppm "
+                                                "(svdag-verify render: PNG)");
                     options->picture = name;
                   },
                   "Write a picture of the result"),
@@ -117,11 +117,11 @@ void add_options(CLI::App* app, TraceOptions* options) {
   one_of(app->add_option("--device", options->device, "cpu or cuda (default cpu)"), {"cpu", "cuda"})
       ->type_name("NAME");
   app->add_flag("--compare", options->compare,
-                "Trace on both, and count the pixels that differ; exit 1 if any does");
+                "Trace on both devices and count the pixels that differ; exit 1 if any does");
   add_view_options(app, options);
   add_ray_options(app, options);
   from_to(app->add_option("--rounds", options->rounds,
-                          "Repeat N times and report the least time (default 3)"),
+                          "Repeat N times and report the shortest time (default 3)"),
           1, 1000)
       ->type_name("N");
   from_to(
@@ -173,7 +173,7 @@ std::optional<TraceOptions> parse_trace_options(int argc, char** argv) {
 }
 
 Workload make_workload(const TraceOptions& options, const PlainFile& file) {
-  if (file.view.empty()) fail_usage(options.file + ": has no voxel to look at");
+  if (file.view.empty()) fail_usage(options.file + ": has no voxel to trace");
   const VoxelBounds box = occupied_bounds(file.view);
   Workload work{{make_camera(options, file, box), options.width, options.height}, {}, {}};
   const double diagonal = length(box.max - box.min);
@@ -189,7 +189,7 @@ Workload make_workload(const TraceOptions& options, const PlainFile& file) {
                   options.light.size() == 4 ? options.light[3] / file.header().voxel_size : 0};
     const double radius = work.light.radius;
     if (!(length(work.light.centre) < 1e100) || !(radius >= 0 && radius < 1e100))
-      fail_usage("--light: the light must be at a finite place, with a radius of 0 or more");
+      fail_usage("--light: the position must be finite, the radius 0 or more");
   }
   work.secondary.samples = options.samples;
   if (options.reach > 0) work.secondary.reach = options.reach / file.header().voxel_size;

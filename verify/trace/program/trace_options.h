@@ -1,4 +1,4 @@
-// The command line of svdag-trace.
+// The command line of svdag-trace, and the workload that it selects.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,25 @@ namespace svdag {
 struct TraceOptions {
   std::string file;
   std::string device = "cpu";  // cpu, cuda
-  std::string preset = "iso";
-  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in the world; empty: the preset
-  std::vector<double> light;   // x,y,z[,radius] in the world; empty: above what is seen
-  int up = 1;
+  std::string preset = "iso";  // of preset_camera
+  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in scene units; empty: the preset
+  std::vector<double> light;   // x,y,z[,radius] in scene units; empty: above the voxels
+  int up = 1;                  // axis
   uint32_t width = 1280, height = 720;
   uint32_t samples = 64, rounds = 3;
-  unsigned threads = 0;
-  double reach = 0;  // of ambient occlusion, in world units; 0: no limit
-  double cone = 0;   // half the angle of its rays' cones, in degrees; 0: exact
+  unsigned threads = 0;  // 0: one per processor
+  double reach = 0;      // length of ambient occlusion rays, in scene units; 0: unlimited
+  double cone = 0;       // half the angle of their cones, in degrees; 0: exact
   bool beams = true;
-  bool compare = false;       // trace on both, and compare
-  std::string dump, picture;  // files to write; empty: none
+  bool compare = false;       // trace on both devices, and compare
+  std::string dump, picture;  // output files; empty: none
 };
 
-// Nothing if the command line is complete without tracing (--help, --version). Error: kUsage.
+// Returns nothing if there is nothing to trace (--help, --version). Error: kUsage.
 std::optional<TraceOptions> parse_trace_options(int argc, char** argv);
 
-// The rays of the options, in voxels of the file. Error (kUsage) if they are impossible.
+// The rays that the options describe, in voxels of the file. Error (kUsage) if values are out of
+// range or the file has no voxel.
 Workload make_workload(const TraceOptions& options, const PlainFile& file);
 
 }  // namespace svdag

@@ -1,11 +1,11 @@
-// svdag-trace as it is built without nvcc.
+// Replaces cuda.cu in builds without nvcc.
 #include "streaming/error.h"
 #include "verify/trace/program/device.h"
 
 namespace svdag {
 
-Answers trace_on_cuda(const PlainFile&, const Workload&) {
-  fail_usage("--device cuda: this svdag-trace was built without CUDA (make cuda builds the other)");
+TraceResults trace_on_cuda(const PlainFile&, const Workload&) {
+  fail_usage("--device cuda: this svdag-trace was built without CUDA: build it with make cuda");
 }
 
 }  // namespace svdag

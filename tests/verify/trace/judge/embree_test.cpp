@@ -1,4 +1,4 @@
-// Embree's hits and distances against every triangle in turn, by formulas of the test's own.
+// Embree's hits and distances against those of all triangles, by independent formulas.
 #include "verify/trace/judge/embree.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-struct Traced {
-  Traced(const Grid& grid, const std::vector<LatticeTriangle>& soup)
+struct TracedSoup {
+  TracedSoup(const Grid& grid, const std::vector<LatticeTriangle>& soup)
       : tracer(middle(grid), soup.size(), 2, &budget) {
     tracer.add(soup, grid.fraction());
     tracer.build();
@@ -32,17 +32,17 @@ struct Traced {
   TriangleTracer tracer;
 };
 
-// Moeller and Trumbore 1997. `margin` falls to the least distance of a decision from its tie.
+// Moeller and Trumbore 1997. Lowers `margin` to how close the decision is to a tie.
 std::optional<double> hit_of(const Ray& ray, const VoxelTriangle& t, double* margin) {
   const Vec3 a = t.v[1] - t.v[0], b = t.v[2] - t.v[0], p = cross(ray.direction, b);
   const double det = dot(a, p);
   if (det == 0) return {};
   const Vec3 s = ray.origin - t.v[0], q = cross(s, a);
   const double u = dot(s, p) / det, v = dot(ray.direction, q) / det, w = 1 - u - v;
-  const double least = std::min({u, v, w});
+  const double min = std::min({u, v, w});
   const double at = dot(b, q) / det;
-  if (at > 0) *margin = std::min(*margin, std::abs(least));
-  if (least < 0 || at < 0) return {};
+  if (at > 0) *margin = std::min(*margin, std::abs(min));
+  if (min < 0 || at < 0) return {};
   return at;
 }
 
@@ -80,14 +80,14 @@ class Numbers {
   std::mt19937_64 random_;
 };
 
-TEST(Embree, FindsTheSameFirstHitAsTryingAll) {
+TEST(Embree, FindsTheSameFirstHitAsBruteForce) {
   for (const int levels : {4, 8, 14, 20}) {
     const Grid grid = test_grid(levels);
     const double n = double(grid.resolution());
     const auto soup = random_soup(grid, 100, uint64_t(levels), grid.resolution() / 4);
-    const Traced traced(grid, soup);
+    const TracedSoup traced(grid, soup);
     Numbers numbers(uint64_t(levels) + 1);
-    int hits = 0, asked = 0;
+    int hits = 0, tested = 0;
     for (int i = 0; i < 2000; ++i) {
       // Half of the rays are aimed at the inside of a triangle.
       const VoxelTriangle& aim = traced.tracer.triangles()[size_t(i) % soup.size()];
@@ -100,8 +100,8 @@ TEST(Embree, FindsTheSameFirstHitAsTryingAll) {
         const auto at = hit_of(ray, t, &margin);
         if (at && (!first || *at < *first)) first = at;
       }
-      if (margin < 1e-4) continue;  // beside an edge floats may miss
-      ++asked;
+      if (margin < 1e-4) continue;  // floats may miss near an edge
+      ++tested;
       const auto hit = traced.tracer.closest(ray, 0, kInfinite);
       ASSERT_EQ(hit.has_value(), first.has_value()) << levels << ", ray " << i;
       if (!hit) continue;
@@ -110,16 +110,16 @@ TEST(Embree, FindsTheSameFirstHitAsTryingAll) {
       EXPECT_FALSE(hit->doubtful);
     }
     EXPECT_GT(hits, 200) << levels;
-    EXPECT_GT(asked, 1000) << levels;
+    EXPECT_GT(tested, 1000) << levels;
   }
 }
 
-TEST(Embree, HitsOutsideTheSpanAreNone) {
+TEST(Embree, HitsOutsideTheSpanAreIgnored) {
   const Grid grid = test_grid(5);
   const int64_t s = int64_t(1) << grid.fraction();
   const LatticeTriangle wall{{{LatticePoint(10 * s, 0, 0), LatticePoint(10 * s, 64 * s, 0),
                                LatticePoint(10 * s, 0, 64 * s)}}};
-  const Traced traced(grid, {wall});
+  const TracedSoup traced(grid, {wall});
   const Ray ray{{{2, 5, 5}}, {{1, 0, 0}}};
   EXPECT_EQ(traced.tracer.closest(ray, 0, 20)->t, 8);
   EXPECT_EQ(traced.tracer.closest(ray, 8, 8)->t, 8);
@@ -133,7 +133,7 @@ TEST(Embree, HitOnAnEdgeIsDoubtful) {
   const LatticeTriangle wall{
       {{LatticePoint(10 * s, 2 * s, 2 * s), LatticePoint(10 * s, 8 * s, 2 * s),
         LatticePoint(10 * s, 2 * s, 8 * s)}}};
-  const Traced traced(grid, {wall});
+  const TracedSoup traced(grid, {wall});
   const auto on = traced.tracer.closest({{{2, 4, 2}}, {{1, 0, 0}}}, 0, 20);
   ASSERT_TRUE(on);
   EXPECT_TRUE(on->doubtful);
@@ -142,46 +142,46 @@ TEST(Embree, HitOnAnEdgeIsDoubtful) {
   EXPECT_FALSE(in->doubtful);
 }
 
-TEST(Embree, DistanceIsTheLeastOfAll) {
+TEST(Embree, DistanceIsTheMinimumOfAll) {
   for (const int levels : {4, 8, 14, 20}) {
     const Grid grid = test_grid(levels);
     const double n = double(grid.resolution());
     const auto soup = random_soup(grid, 100, uint64_t(levels), grid.resolution() / 4);
-    const Traced traced(grid, soup);
+    const TracedSoup traced(grid, soup);
     Numbers numbers(uint64_t(levels) + 2);
     for (int i = 0; i < 1000; ++i) {
       const Vec3 point = numbers.point(-0.5 * n, 1.5 * n);
-      double least = kInfinite;
+      double min = kInfinite;
       for (const VoxelTriangle& t : traced.tracer.triangles())
-        least = std::min(least, distance_of(point, t));
-      EXPECT_NEAR(traced.tracer.distance_to(point, kInfinite), least, 1e-9 * n);
-      EXPECT_NEAR(traced.tracer.distance_to(point, least + 1e-6 * n), least, 1e-9 * n);
-      EXPECT_EQ(traced.tracer.distance_to(point, least * (1 - 1e-6)), kInfinite);
+        min = std::min(min, distance_of(point, t));
+      EXPECT_NEAR(traced.tracer.distance_to(point, kInfinite), min, 1e-9 * n);
+      EXPECT_NEAR(traced.tracer.distance_to(point, min + 1e-6 * n), min, 1e-9 * n);
+      EXPECT_EQ(traced.tracer.distance_to(point, min * (1 - 1e-6)), kInfinite);
     }
   }
 }
 
-TEST(Embree, TrianglesWithoutAreaAreNear) {
+TEST(Embree, DistancesToTrianglesWithoutAreaAreExact) {
   const Grid grid = test_grid(6);
   const int64_t s = int64_t(1) << grid.fraction();
   const LatticePoint a(10 * s, 20 * s, 30 * s), b(20 * s, 20 * s, 30 * s);
-  const Traced point(grid, {{{a, a, a}}}), segment(grid, {{{a, b, b}}}),
+  const TracedSoup point(grid, {{{a, a, a}}}), segment(grid, {{{a, b, b}}}),
       folded(grid, {{{a, b, LatticePoint(15 * s, 20 * s, 30 * s)}}});
   EXPECT_EQ(point.tracer.distance_to({{10, 23, 34}}, kInfinite), 5);
-  for (const Traced* traced : {&segment, &folded}) {
+  for (const TracedSoup* traced : {&segment, &folded}) {
     EXPECT_EQ(traced->tracer.distance_to({{13, 23, 34}}, kInfinite), 5);
     EXPECT_EQ(traced->tracer.distance_to({{25, 20, 30}}, kInfinite), 5);
     EXPECT_FALSE(traced->tracer.closest({{{13, 0, 30}}, {{0, 1, 0}}}, 0, 100));
   }
 }
 
-TEST(Embree, RefusesMoreTrianglesThanItCanNumber) {
+TEST(Embree, RejectsMoreTrianglesThanItCanNumber) {
   MemoryBudget budget;
   EXPECT_SVDAG_ERROR(TriangleTracer({}, (uint64_t(1) << 32) / 3 + 1, 1, &budget), ExitCode::kUsage,
                      "cannot number");
 }
 
-TEST(Embree, KeepsToTheBudget) {
+TEST(Embree, ObeysTheBudget) {
   const Grid grid = test_grid(10);
   const auto soup = random_soup(grid, 100'000, 1, 10);
   MemoryBudget none(1'000'000);
@@ -195,14 +195,14 @@ TEST(Embree, KeepsToTheBudget) {
 
 #else
 
-TEST(Embree, IsRefusedWhereItIsNotBuiltIn) {
+TEST(Embree, IsAnErrorInBuildsWithoutIt) {
   MemoryBudget budget;
   EXPECT_SVDAG_ERROR(TriangleTracer({}, 1, 1, &budget), ExitCode::kUsage, "without Embree");
 }
 
 #endif
 
-TEST(FloatRay, IsHeldByFloatsAndNearlyTheSame) {
+TEST(FloatRay, IsRoundedToFloats) {
   const Vec3 middle{{32768, 32768, 32768}};
   const Ray ray = float_ray({{{1.1, 2.2, 65000.3}}, {{3, 4, -12}}}, middle);
   for (int a = 0; a < 3; ++a) {

@@ -1,4 +1,4 @@
-// The nearest voxel against every voxel in turn.
+// The nearest voxel against the minimum over all voxels.
 #include "verify/trace/judge/nearest.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace svdag {
 namespace {
 
-TEST(NearestVoxel, IsTheLeastOfAll) {
+TEST(NearestVoxel, IsTheMinimumOfAll) {
   std::mt19937_64 random(1);
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
   for (const int levels : {3, 4, 6, 8}) {
@@ -22,21 +22,21 @@ TEST(NearestVoxel, IsTheLeastOfAll) {
     const double n = double(grid.resolution());
     for (int i = 0; i < 500; ++i) {
       const Vec3 point{{(2 * unit() - 0.5) * n, (2 * unit() - 0.5) * n, (2 * unit() - 0.5) * n}};
-      double least = 1e300;
+      double min = 1e300;
       for (const auto& [x, y, z] : voxels)
-        least = std::min(least,
-                         length(point - Vec3{{double(x) + 0.5, double(y) + 0.5, double(z) + 0.5}}));
+        min = std::min(min,
+                       length(point - Vec3{{double(x) + 0.5, double(y) + 0.5, double(z) + 0.5}}));
       const NearestVoxel nearest = nearest_voxel(file.view(), point, 1e100);
       ASSERT_TRUE(nearest.found);
-      EXPECT_NEAR(nearest.distance, least, 1e-12 * n);
+      EXPECT_NEAR(nearest.distance, min, 1e-12 * n);
       EXPECT_TRUE(voxels.count({nearest.voxel[0], nearest.voxel[1], nearest.voxel[2]}));
-      EXPECT_TRUE(nearest_voxel(file.view(), point, least * 1.001).found);
-      EXPECT_FALSE(nearest_voxel(file.view(), point, least * 0.999).found);
+      EXPECT_TRUE(nearest_voxel(file.view(), point, min * 1.001).found);
+      EXPECT_FALSE(nearest_voxel(file.view(), point, min * 0.999).found);
     }
   }
 }
 
-TEST(NearestVoxel, OfAnEmptyDagIsNone) {
+TEST(NearestVoxel, AnEmptyDagHasNone) {
   const RawFile file(raw_dag(test_grid(4), {}));
   const NearestVoxel nearest =
       nearest_voxel(file.view(), {{1, 2, 3}}, std::numeric_limits<double>::infinity());

@@ -1,4 +1,4 @@
-// Rays against triangles pass what is right, and see one voxel missing or one voxel too many.
+// The judge by rays accepts correct DAGs, and detects one missing or one extra voxel.
 #include "verify/trace/judge/ray_judge.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays
   return result;
 }
 
-TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
+TEST(RayJudge, AcceptsCorrectDags) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     for (const int levels : {3, 5, 7}) {
       for (const int side : {1, 4, 20}) {
@@ -57,7 +57,7 @@ TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
         EXPECT_EQ(r.far, 0U) << levels << ", " << side;
         EXPECT_EQ(r.uncovered, 0U) << levels << ", " << side;
         EXPECT_EQ(r.points_judged > 0, rule == Rule::kConservative) << levels << ", " << side;
-        // Triangles of one lattice step are points to floats: no ray is said to hit them.
+        // Triangles of one lattice step are points in floats, so Embree reports no hits.
         if (side > 1) {
           EXPECT_GT(r.judged, kRays / 100) << levels << ", " << side;
         }
@@ -76,7 +76,7 @@ TEST(RayJudge, FindsNoFaultWithWhatIsRight) {
   }
 }
 
-TEST(RayJudge, AScenePointIsAskedFromAllAround) {
+TEST(RayJudge, ASceneOfOnePointIsTracedFromAllSides) {
   for (const bool empty : {false, true}) {
     Grid grid = test_grid(3);
     const LatticePoint point(int64_t(7) << grid.fraction() >> 1);
@@ -87,7 +87,7 @@ TEST(RayJudge, AScenePointIsAskedFromAllAround) {
   }
 }
 
-TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
+TEST(RayJudge, OnlyTheSelectionIsJudged) {
   Grid grid = test_grid(6);
   grid.bounded = true;
   grid.selection = {LatticePoint(10, 20, 5), LatticePoint(40, 33, 50)};
@@ -99,7 +99,7 @@ TEST(RayJudge, SelectionsAreJudgedWithinTheirBounds) {
   EXPECT_GT(r.both, 1000U);
 }
 
-TEST(RayJudge, VoxelsOutsideASelectionAreSeenHoweverNearATriangle) {
+TEST(RayJudge, VoxelsOutsideTheSelectionAreDetectedHoweverNearATriangle) {
   const Grid whole = test_grid(6);
   Case c{whole, Rule::kConservative, random_soup(whole, 60, 3, 30)};
   const VoxelSet voxels = c.voxels();
@@ -109,13 +109,13 @@ TEST(RayJudge, VoxelsOutsideASelectionAreSeenHoweverNearATriangle) {
   ASSERT_LT(inside, voxels.size());
   const RayJudgement r = judged(c, voxels);
   EXPECT_FALSE(r.ok());
-  EXPECT_GE(r.outside, voxels.size() - inside);  // all are tested once, some by rays, too
+  EXPECT_GE(r.outside, voxels.size() - inside);  // all are tested once, and some by rays, too
   EXPECT_EQ(r.far, 0U);
   ASSERT_FALSE(r.first.empty());
   EXPECT_EQ(r.first[0].what, RayOffender::What::kOutside);
 }
 
-TEST(RayJudge, WhatNothingWasAskedOfIsNotTested) {
+TEST(RayJudge, AJudgementWithoutApplicableClaimsIsNotTested) {
   const Grid grid = test_grid(5);
   const int64_t s = int64_t(1) << grid.fraction();
   const LatticePoint from(3 * s, 4 * s, 5 * s), to(20 * s, 17 * s, 9 * s + 1);
@@ -125,7 +125,7 @@ TEST(RayJudge, WhatNothingWasAskedOfIsNotTested) {
   EXPECT_TRUE(judged({grid, Rule::kConservative, thin.soup}, {}).tested());
 }
 
-TEST(RayJudge, OneVoxelMissingIsSeen) {
+TEST(RayJudge, OneMissingVoxelIsDetected) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     // A wall across the grid, seen from both sides.
     const Grid grid = test_grid(4);
@@ -138,7 +138,7 @@ TEST(RayJudge, OneVoxelMissingIsSeen) {
     EXPECT_TRUE(judged(c, voxels).ok());
     ASSERT_EQ(voxels.erase({7, 5, 9}), 1U);
     const RayJudgement r =
-        judged(c, voxels, 10 * kRays);  // of thin, only rays along an axis are judged
+        judged(c, voxels, 10 * kRays);  // thin: only rays along an axis are judged
     EXPECT_GT(r.late, 0U);
     EXPECT_EQ(r.far, 0U);
     ASSERT_FALSE(r.first.empty());
@@ -151,7 +151,7 @@ TEST(RayJudge, OneVoxelMissingIsSeen) {
   }
 }
 
-TEST(RayJudge, OneVoxelTooManyIsSeen) {
+TEST(RayJudge, OneExtraVoxelIsDetected) {
   const Grid grid = test_grid(6);
   const Case c{grid, Rule::kConservative, random_soup(grid, 1, 5, 4)};
   VoxelSet voxels = c.voxels();
@@ -185,7 +185,7 @@ TEST(RayJudge, VoxelsWithoutAnyTriangleAreFar) {
   EXPECT_EQ(r.both, 0U);
 }
 
-// Rays pass triangles of zero area; their points do not.
+// Rays miss triangles of zero area, but points on them are tested.
 TEST(RayJudge, SegmentsWithoutVoxelsAreUncovered) {
   const Grid grid = test_grid(5);
   const int64_t s = int64_t(1) << grid.fraction();
@@ -209,7 +209,7 @@ TEST(RayJudge, SegmentsWithoutVoxelsAreUncovered) {
   EXPECT_GT(judged(c, voxels).uncovered, 0U);
 }
 
-// A triangle that crosses no segment between centres sets nothing, so no distance accuses the file.
+// A triangle that crosses no centre segment sets no voxel, so no distance is an error.
 TEST(RayJudge, ThinLeavesSegmentsUncovered) {
   const Grid grid = test_grid(5);
   const int64_t s = int64_t(1) << grid.fraction();
@@ -220,7 +220,7 @@ TEST(RayJudge, ThinLeavesSegmentsUncovered) {
   EXPECT_EQ(r.points_judged, 0U);
 }
 
-// A wall on the border of the bounds belongs to the voxels inside; one beyond to none.
+// A wall on the border of the bounds sets the voxels inside; one beyond sets none.
 TEST(RayJudge, WallsAtTheBoundsAreNotUncovered) {
   Grid grid = test_grid(5);
   grid.bounded = true;
@@ -236,7 +236,7 @@ TEST(RayJudge, WallsAtTheBoundsAreNotUncovered) {
   }
 }
 
-TEST(RayJudge, ThreadsDoNotReachTheAnswer) {
+TEST(RayJudge, ResultsDoNotDependOnThreads) {
   const Grid grid = test_grid(6);
   const Case c{grid, Rule::kConservative, random_soup(grid, 30, 9, 10)};
   const RawFile file(raw_dag(grid, c.voxels()));

@@ -1,4 +1,4 @@
-// The fast traversal, beams and batches against the plain traversal, ray by ray, bit by bit.
+// The fast traversal, beams and batches give the hits of the plain traversal, bit by bit.
 #include <gtest/gtest.h>
 
 #include "tests/verify/trace/plain_traversal.h"
@@ -23,13 +23,13 @@ namespace {
 
 class SameHit : public ::testing::TestWithParam<int> {};
 
-TEST_P(SameHit, FastIsPlainOnEveryFamilySpanAndCut) {
+TEST_P(SameHit, TheFastTraversalGivesThePlainHits) {
   const int levels = GetParam();
   const VoxelSet voxels = clustered_voxels(levels, uint64_t(levels), 12);
   const RawFile file(raw_dag(test_grid(levels), voxels));
   const DagView dag = file.view();
   RayFamilies rays(uint64_t(7 * levels), double(dag.resolution()));
-  Tracer tracer(dag);  // one for all, so that paths of other rays are taken up
+  Tracer tracer(dag);  // one for all, so that rays resume on paths of others
   std::vector<VoxelSet::value_type> list(voxels.begin(), voxels.end());
   for (int family = 0; family < kRayFamilies; ++family) {
     int hits = 0;
@@ -73,7 +73,7 @@ TEST_P(SameHit, BatchesGiveTheHitsOfSingleRays) {
   }
 }
 
-TEST_P(SameHit, ABeamLosesNoHitAndMovesNone) {
+TEST_P(SameHit, BeamsKeepAllHits) {
   const int levels = GetParam();
   const VoxelSet voxels = clustered_voxels(levels, 11, 20);
   const RawFile file(raw_dag(test_grid(levels), voxels));
@@ -113,7 +113,7 @@ TEST_P(SameHit, ABeamLosesNoHitAndMovesNone) {
 
 INSTANTIATE_TEST_SUITE_P(Levels, SameHit, ::testing::Values(3, 4, 6, 9, 14, 20));
 
-TEST(Beam, TilesOfAPictureStartLateAndSeeTheSame) {
+TEST(Beam, TilesOfAPictureStartLaterWithTheSameHits) {
   const RawFile file(raw_dag(test_grid(9), clustered_voxels(9, 2, 400)));
   const DagView dag = file.view();
   const Picture picture{look_at({{-300, 200, -350}}, {{256, 256, 256}}, 1, 50, 1.25), 80, 64};

@@ -1,4 +1,4 @@
-// Cameras: what they frame, and how they turn.
+// Cameras frame the box, and turn around it.
 #include "verify/trace/kernel/camera.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Camera, FramesTheWholeBox) {
   }
 }
 
-TEST(Camera, BoundsOfSmallGridsAreThoseOfTheBricks) {
+TEST(Camera, BoundsOfSmallGridsAreThoseOfBricks) {
   const RawFile file(raw_dag(test_grid(6), {{5, 40, 63}, {20, 41, 0}}));
   const VoxelBounds box = occupied_bounds(file.view());
   const Vec3 min{{4, 40, 0}}, max{{24, 44, 64}};
@@ -40,7 +40,7 @@ TEST(Camera, BoundsOfSmallGridsAreThoseOfTheBricks) {
   }
 }
 
-TEST(Camera, InsideStandsInTheOpen) {
+TEST(Camera, InsideIsInEmptySpace) {
   VoxelSet voxels;  // two walls across x, with a floor between them
   for (int64_t i = 0; i < 64; ++i) {
     for (int64_t k = 0; k < 32; ++k) {
@@ -57,7 +57,7 @@ TEST(Camera, InsideStandsInTheOpen) {
   EXPECT_GT(camera.forward[0], 0.99);
 }
 
-TEST(Camera, InsideLeavesASmallRoomInTheMiddle) {
+TEST(Camera, InsideAvoidsASmallRoomInTheMiddle) {
   VoxelSet voxels;
   for (int64_t i = 0; i < 64; ++i) {
     for (int64_t k = 0; k < 64; ++k) voxels.emplace(i, 0, k);
@@ -80,23 +80,24 @@ TEST(Camera, InsideLeavesASmallRoomInTheMiddle) {
   EXPECT_FALSE(in_room);
 }
 
-TEST(Camera, TurnsAroundWhatItSeesFromOutsideAndOnTheSpotWithin) {
+TEST(Camera, TurnsAroundTheBoxFromOutsideAndInPlaceInside) {
   const VoxelBounds box{{{0, 0, 0}}, {{64, 32, 64}}};
   const Camera outside = preset_camera("front", DagView(), box, 1, 40, 1.5);
   const Camera half = turned(outside, box, 1, 2, 4),
                back = preset_camera("back", DagView(), box, 1, 40, 1.5);
   Camera within = outside;
   within.position = {{32, 16, 32}};
-  const Camera spun = turned(within, box, 1, 2, 4);
+  const Camera turned_inside = turned(within, box, 1, 2, 4);
   for (int a = 0; a < 3; ++a) {
     EXPECT_NEAR(half.position[a], back.position[a], 1e-9);
     EXPECT_NEAR(half.forward[a], back.forward[a], 1e-12);
-    EXPECT_EQ(spun.position[a], within.position[a]);
-    EXPECT_NEAR(spun.forward[a], -within.forward[a] + (a == 1 ? 2 * within.forward[1] : 0), 1e-12);
+    EXPECT_EQ(turned_inside.position[a], within.position[a]);
+    EXPECT_NEAR(turned_inside.forward[a], -within.forward[a] + (a == 1 ? 2 * within.forward[1] : 0),
+                1e-12);
   }
 }
 
-TEST(Camera, UnknownPresetIsASentence) {
+TEST(Camera, UnknownPresetIsAnError) {
   EXPECT_SVDAG_ERROR(preset_camera("above", DagView(), {}, 1, 40, 1), ExitCode::kUsage,
                      "\"above\"");
 }

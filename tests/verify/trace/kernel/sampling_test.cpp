@@ -1,4 +1,4 @@
-// Where secondary rays go: within their bounds, with the right density, the same every time.
+// Secondary rays are within their bounds, have the right density, and are reproducible.
 #include "verify/trace/kernel/sampling.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace svdag {
 namespace {
 
-TEST(Sampling, EveryStratumOfTheSquareHoldsOnePoint) {
+TEST(Sampling, EveryStratumOfTheSquareHasOnePoint) {
   for (const uint32_t count : {1U, 16U, 64U, 70U}) {
     const auto side = uint32_t(std::sqrt(count));
     std::vector<int> strata(side * side);
@@ -25,14 +25,14 @@ TEST(Sampling, EveryStratumOfTheSquareHoldsOnePoint) {
   }
 }
 
-TEST(Sampling, PixelsHavePointsOfTheirOwn) {
+TEST(Sampling, PixelsHaveDifferentPoints) {
   const Point2 a = square_point(1, 3, 64), b = square_point(2, 3, 64), c = square_point(1, 3, 64);
   EXPECT_NE(a.x, b.x);
   EXPECT_EQ(a.x, c.x);
   EXPECT_EQ(a.y, c.y);
 }
 
-TEST(Sampling, SineAndCosineAreThoseOfTheLibrary) {
+TEST(Sampling, SineAndCosineMatchTheLibrary) {
   for (double v = -0.5; v <= 0.5; v += 1.0 / 4096) {
     const Point2 turn = quarter_turns(v);
     ASSERT_NEAR(turn.x, std::cos(v * 1.5707963267948966), 1e-8);
@@ -53,7 +53,7 @@ TEST(Sampling, TheDiskIsCoveredEvenly) {
   for (const int n : cells) EXPECT_NEAR(n, kCount / 32.0, kCount / 32.0 * 0.02);
 }
 
-TEST(Sampling, DirectionsAreOnTheirSideWithTheDensityOfTheCosine) {
+TEST(Sampling, DirectionsAreAboveTheSurfaceWithCosineDensity) {
   for (const Vec3& n : {Vec3{{0, 0, 1}}, Vec3{{0, 0, -1}}, normalized({{1, -2, 3}})}) {
     Vec3 mean{};
     double square = 0;
@@ -65,7 +65,7 @@ TEST(Sampling, DirectionsAreOnTheirSideWithTheDensityOfTheCosine) {
       mean = mean + d * (1.0 / kCount);
       square += dot(d, n) * dot(d, n) / kCount;
     }
-    EXPECT_NEAR(dot(mean, n), 2.0 / 3, 1e-3);  // of the cosine under its own density
+    EXPECT_NEAR(dot(mean, n), 2.0 / 3, 1e-3);  // mean of the cosine
     EXPECT_NEAR(square, 1.0 / 2, 1e-3);
     EXPECT_NEAR(length(mean), 2.0 / 3, 1e-3);  // nothing sideways
   }
@@ -82,9 +82,9 @@ TEST(Sampling, SoftRaysEndOnTheLight) {
   }
 }
 
-// A ray without a direction would be nowhere, and a tracer that goes on from the last ray's cell
-// would answer the next one wrongly.
-TEST(Sampling, ALightAtTheSurfaceGivesRaysThatCanBeTraced) {
+// A ray without a direction has no valid cell, and a tracer that resumes from it would give a wrong
+// hit for the next ray.
+TEST(Sampling, ALightAtTheSurfaceGivesValidRays) {
   const Surfel surfel{true, {{1, 2, 3}}, {{0, 0, 1}}};
   for (const double radius : {0.0, 2.0}) {
     for (const double off : {0.0, 1e-320, 1e-200, 1e-95}) {
@@ -99,8 +99,8 @@ TEST(Sampling, ALightAtTheSurfaceGivesRaysThatCanBeTraced) {
   }
 }
 
-// The answers to one tracer's rays are those to each ray alone.
-TEST(Sampling, ALightAtTheSurfaceLeavesOtherRaysAlone) {
+// Rays traced in a batch give the same results as each ray alone.
+TEST(Sampling, ALightAtTheSurfaceDoesNotAffectOtherRays) {
   const RawFile raw(raw_dag(test_grid(6), clustered_voxels(6, 3, 5)));
   const Surfel surfel{true, {{20, 30, 40}}, {{0, 0, 1}}};
   const Light lights[] = {{{{50, 60, 20}}, 9}, {surfel.point, 4}, {{{5, 3, 60}}, 9}};

@@ -1,4 +1,4 @@
-// Normals out of voxels.
+// Normals from voxels.
 #include "verify/trace/kernel/surface.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Surface, NormalOfAPlaneIsThePlanes) {
   EXPECT_GT(dot(normal, normalized({{1, 2, 2}})), 0.99);
 }
 
-TEST(Surface, ASingleVoxelHasTheNormalOfTheFaceThatWasEntered) {
+TEST(Surface, ASingleVoxelHasTheNormalOfTheEnteredFace) {
   const RawFile file(raw_dag(test_grid(6), {{20, 30, 40}}));
   const Ray ray{{{20.5, 64, 40.5}}, {{0, -1, 0}}};
   const Vec3 normal = surface_normal(file.view(), trace_closest(file.view(), ray), ray.direction);
@@ -36,7 +36,7 @@ TEST(Surface, ASingleVoxelHasTheNormalOfTheFaceThatWasEntered) {
   EXPECT_EQ(normal[2], 0);
 }
 
-TEST(Surface, BricksAreFoundAgainFromTheirCommonAncestor) {
+TEST(Surface, BricksAreFoundFromTheirCommonAncestor) {
   std::mt19937 random(3);
   VoxelSet voxels;
   for (int i = 0; i < 400; ++i) voxels.emplace(random() % 128, random() % 128, random() % 128);
@@ -44,7 +44,7 @@ TEST(Surface, BricksAreFoundAgainFromTheirCommonAncestor) {
   const DagView dag = file.view();
   BrickPath path(dag);
   for (int i = 0; i < 20000; ++i) {
-    // Mostly neighbours of bricks that are there.
+    // Mostly neighbours of occupied bricks.
     auto it = voxels.begin();
     std::advance(it, int(random() % voxels.size()));
     const auto [x, y, z] = *it;

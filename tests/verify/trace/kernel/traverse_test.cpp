@@ -1,4 +1,4 @@
-// Rays through the DAG against every voxel in turn.
+// Rays through the DAG against a slab test of every voxel.
 #include "verify/trace/kernel/traverse.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-// When the ray is inside the voxel's cube (slab test in long double), if ever.
+// The times between which the ray is inside the voxel's cube, if any (slab test in long double).
 std::optional<std::pair<long double, long double>> slab(const Ray& ray, const int64_t voxel[3]) {
   long double enter = 0, exit = 1e30L;
   for (int a = 0; a < 3; ++a) {
@@ -28,7 +28,7 @@ std::optional<std::pair<long double, long double>> slab(const Ray& ray, const in
   return {{enter, exit}};
 }
 
-// The first entry of a voxel that the ray crosses by more than a touch.
+// The first time at which the ray enters a voxel that it does not merely touch.
 std::optional<long double> first_entry(const Ray& ray, const VoxelSet& voxels) {
   std::optional<long double> first;
   for (const auto& [x, y, z] : voxels) {
@@ -62,7 +62,7 @@ Ray random_ray(std::mt19937_64& random, double n, int kind) {
   return ray;
 }
 
-TEST(Traverse, FindsTheSameFirstVoxelAsTryingAll) {
+TEST(Traverse, FindsTheSameFirstVoxelAsBruteForce) {
   std::mt19937_64 random(1);
   for (const int levels : {3, 5, 7}) {
     const Grid grid = test_grid(levels);
@@ -85,7 +85,7 @@ TEST(Traverse, FindsTheSameFirstVoxelAsTryingAll) {
   }
 }
 
-TEST(Traverse, FullGridIsHitAtItsFaceAndFullBricksAreNoHole) {
+TEST(Traverse, FullGridIsHitAtItsFace) {
   VoxelSet voxels;
   for (int64_t i = 0; i < 512; ++i) voxels.emplace(i >> 6, i >> 3 & 7, i & 7);
   const RawFile file(raw_dag(test_grid(3), voxels));
@@ -106,7 +106,7 @@ TEST(Traverse, StopsAtTheEndOfTheRay) {
 }
 
 TEST(Traverse, DeepGridsStayExact) {
-  // One voxel at the far corner of 1M^3, seen from afar through voxel-sized gaps.
+  // One voxel at the far corner of 1M^3, hit from far away within one voxel's width.
   const int64_t last = (1 << 20) - 1;
   const RawFile file(raw_dag(test_grid(20), {{last, last, last}, {0, 5, 5}}));
   for (const double offset : {1e-6, 0.5, 1 - 1e-6}) {
@@ -120,7 +120,7 @@ TEST(Traverse, DeepGridsStayExact) {
   EXPECT_FALSE(trace_closest(file.view(), {{{-1e6, beside, beside}}, {{1, 0, 0}}}).found);
 }
 
-TEST(Traverse, EmptyDagIsNeverHit) {
+TEST(Traverse, EmptyDagHasNoHit) {
   const RawFile file(raw_dag(test_grid(4), {}));
   EXPECT_FALSE(trace_closest(file.view(), {{{-1, 1, 1}}, {{1, 0.1, 0.1}}}).found);
 }

@@ -1,4 +1,4 @@
-// The 64-tree: every met cell is found, and every hit is the plain traversal's, bit by bit.
+// The 64-tree finds every met cell, and gives the hits of the plain traversal, bit by bit.
 #include "verify/trace/kernel/tree64.h"
 
 #include <gtest/gtest.h>
@@ -14,16 +14,16 @@
 namespace svdag {
 namespace {
 
-// A full node with cells of side 4^depth, somewhere in a grid of 2^20.
-struct SomeNode {
-  SomeNode(RayFamilies& random, uint32_t depth) : side(double(uint64_t(1) << 2 * depth)) {
+// A full node with cells of side 4^depth, at a random position in a grid of 2^20.
+struct RandomNode {
+  RandomNode(RayFamilies& random, uint32_t depth) : side(double(uint64_t(1) << 2 * depth)) {
     for (int a = 0; a < 3; ++a)
       corner[a] = std::floor(random.unit() * 0x1p20 / (4 * side)) * (4 * side);
     tree.side[0] = side;
     tree.per_side[0] = 1 / side;
   }
 
-  // By the definition of ray.h.
+  // The definition of ray.h.
   bool meets(const MirroredRay& ray, const Span& span, unsigned cell) const {
     double enter = span.begin, exit = span.end;
     for (int a = 0; a < 3; ++a) {
@@ -50,7 +50,7 @@ void expect_all_met_cells() {
   RayFamilies random(17, 0x1p20);
   uint64_t met = 0, found = 0;
   for (int i = 0; i < 20 * rays_per_family(); ++i) {
-    SomeNode node(random, uint32_t(i) % 9);
+    RandomNode node(random, uint32_t(i) % 9);
     const Ray ray = random.ray(i % kRayFamilies,
                                {{node.corner[0] + 2 * node.side, node.corner[1] + 2 * node.side,
                                  node.corner[2] + 2 * node.side}});
@@ -63,19 +63,19 @@ void expect_all_met_cells() {
       ++met;
       ASSERT_TRUE(cells >> cell & 1U) << "ray " << i << ", cell " << cell;
     }
-    // Rays along edges meet, as far as bytes tell, the cells on all sides.
+    // Family 0 only: for rays along edges, bytes cannot separate the cells on all sides.
     if (i % kRayFamilies == 0) found += uint64_t(std::popcount(cells)) << 32;
     if (i % kRayFamilies == 0) {
       for (unsigned cell = 0; cell < 64; ++cell) found += node.meets(mirrored, span, cell);
     }
   }
   EXPECT_GT(met, 1000U);
-  const double all = double(found >> 32), right = double(found & 0xffffffffU);
-  EXPECT_GT(right, 100);
-  EXPECT_LT(all, 1.2 * right) << "a test that lets too much pass slows every walk";
+  const double all = double(found >> 32), correct = double(found & 0xffffffffU);
+  EXPECT_GT(correct, 100);
+  EXPECT_LT(all, 1.2 * correct) << "false positives slow every walk";
 }
 
-TEST(Cells64, PlainOnesHoldEveryMetCellAndFewOthers) {
+TEST(Cells64, PlainCellsIncludeEveryMetCellAndFewOthers) {
   expect_all_met_cells<PlainCells>();
 }
 
@@ -87,12 +87,12 @@ struct CallAvx2 {
   }
 };
 
-TEST(Cells64, VectorsHoldEveryMetCellAndFewOthers) {
+TEST(Cells64, Avx2CellsIncludeEveryMetCellAndFewOthers) {
   if (!has_fast_target()) GTEST_SKIP() << "no AVX2";
   expect_all_met_cells<CallAvx2>();
 }
 
-TEST(Cells64, VectorsMirrorAsTheDefinitionDoes) {
+TEST(Cells64, Avx2CellsMirrorLikePlainCells) {
   if (!has_fast_target()) GTEST_SKIP() << "no AVX2";
   alignas(32) double corner[4] = {}, found[4];
   Tree64View tree;
@@ -124,13 +124,13 @@ Hit plain_walk(const Tree64View& tree, const Ray& ray, const Span& span) {
 
 class SameHit64 : public ::testing::TestWithParam<int> {};
 
-TEST_P(SameHit64, WalksGiveThePlainHitOnEveryFamilyAndSpan) {
+TEST_P(SameHit64, WalksGiveThePlainHits) {
   const int levels = GetParam();
   const VoxelSet voxels = clustered_voxels(levels, uint64_t(levels), 12);
   const RawFile file(raw_dag(test_grid(levels), voxels));
   const DagView dag = file.view();
   const Tree64 tree(dag);
-  EXPECT_EQ(tree.bytes(), Tree64::bytes(dag)) << "what it was said to take";
+  EXPECT_EQ(tree.bytes(), Tree64::bytes(dag)) << "the predicted size";
   RayFamilies random(uint64_t(7 * levels), double(dag.resolution()));
   const std::vector<VoxelSet::value_type> list(voxels.begin(), voxels.end());
   for (int family = 0; family < kRayFamilies; ++family) {
@@ -158,7 +158,7 @@ TEST_P(SameHit64, WalksGiveThePlainHitOnEveryFamilyAndSpan) {
 
 INSTANTIATE_TEST_SUITE_P(Levels, SameHit64, ::testing::Values(3, 4, 5, 6, 9, 14, 19, 20));
 
-TEST(Tree64, OfNothingHasNoHit) {
+TEST(Tree64, AnEmptyTreeHasNoHit) {
   const RawFile file(raw_dag(test_grid(6), {}));
   const DagView dag = file.view();
   const Tree64 tree(dag);
@@ -170,22 +170,22 @@ TEST(Tree64, OfNothingHasNoHit) {
   EXPECT_FALSE(hits[0].found || hits[1].found);
 }
 
-TEST(Tree64, SharesWhatTheDagShares) {
-  VoxelSet voxels;  // the same 16^3 in each of 64 places
+TEST(Tree64, SharesSubtreesLikeTheDag) {
+  VoxelSet voxels;  // the same voxel in each of 64 cubes of 16^3
   for (int64_t i = 0; i < 64; ++i)
     voxels.emplace(16 * (i / 16) + 3, 16 * (i / 4 % 4) + 7, 16 * (i % 4) + 1);
   const RawFile file(raw_dag(test_grid(6), voxels));
   EXPECT_EQ(Tree64(file.view()).bytes(), 8U * (1 + 32 + 1 + 1));  // the root, one node, its brick
 }
 
-TEST(Tree64, IsMadeWhereItPaysAndFits) {
+TEST(Tree64, IsBuiltIfItPaysAndFits) {
   if (!has_fast_target()) GTEST_SKIP() << "no AVX2";
   const RawFile file(raw_dag(test_grid(9), clustered_voxels(9, 3, 12)));
   const DagView dag = file.view();
   const uint64_t many = uint64_t(1) << 40, bytes = Tree64::bytes(dag);
   EXPECT_EQ(tree_if_it_pays(dag, many, many).bytes(), bytes);
   EXPECT_EQ(tree_if_it_pays(dag, 1, many).bytes(), 0U) << "for one ray";
-  EXPECT_EQ(tree_if_it_pays(dag, many, bytes).bytes(), 0U) << "without room to make it";
+  EXPECT_EQ(tree_if_it_pays(dag, many, bytes).bytes(), 0U) << "without memory to build it";
 }
 
 }  // namespace

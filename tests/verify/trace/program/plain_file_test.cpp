@@ -1,4 +1,4 @@
-// The reader of svdag-trace: takes sound files, and what it takes is safe to trace.
+// The reader of svdag-trace accepts sound files, and all files that it accepts are safe to trace.
 #include "verify/trace/program/plain_file.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class PlainFileTest : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(PlainFileTest, SeesTheVoxelsThatWereWritten) {
+TEST_F(PlainFileTest, ReadsTheVoxelsThatWereWritten) {
   const VoxelSet voxels = clustered_voxels(6, 3, 5);
   const RawFile raw(raw_dag(test_grid(6), voxels));
   raw.write(path());
@@ -40,17 +40,17 @@ TEST_F(PlainFileTest, SeesTheVoxelsThatWereWritten) {
   }
 }
 
-TEST_F(PlainFileTest, TakesTheEmptyGrid) {
+TEST_F(PlainFileTest, ReadsTheEmptyGrid) {
   RawFile(raw_dag(test_grid(4), {})).write(path());
   EXPECT_TRUE(read_plain_file(path()).view.empty());
 }
 
-TEST_F(PlainFileTest, AFileThatIsNotThereIsASentence) {
+TEST_F(PlainFileTest, AMissingFileIsAnError) {
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "cannot be opened");
 }
 
 // A file of another kind is not reported as damaged, whatever its bytes at our size field.
-TEST_F(PlainFileTest, AFileOfAnotherKindIsToldSo) {
+TEST_F(PlainFileTest, AFileOfAnotherFormatIsReportedAsSuch) {
   for (const size_t size : {8U, 1023U, 1024U, 5000U}) {
     write(std::vector<std::byte>(size, std::byte{'v'}));
     EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "its first bytes are not");
@@ -60,7 +60,7 @@ TEST_F(PlainFileTest, AFileOfAnotherKindIsToldSo) {
                      "is not a svdag file (it is too short)");
 }
 
-TEST_F(PlainFileTest, ACutFileIsDamaged) {
+TEST_F(PlainFileTest, ATruncatedFileIsDamaged) {
   const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
   for (const std::ptrdiff_t size : {8, 1023, 1024}) {
     write({raw.bytes().begin(), raw.bytes().begin() + size});
@@ -68,7 +68,7 @@ TEST_F(PlainFileTest, ACutFileIsDamaged) {
   }
 }
 
-TEST_F(PlainFileTest, EveryCutIsRefused) {
+TEST_F(PlainFileTest, EveryTruncationIsRejected) {
   const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
   for (size_t size = 0; size < raw.bytes().size(); size += 41) {
     write({raw.bytes().begin(), raw.bytes().begin() + std::ptrdiff_t(size)});
@@ -76,14 +76,14 @@ TEST_F(PlainFileTest, EveryCutIsRefused) {
   }
 }
 
-TEST_F(PlainFileTest, RefusesWhatIsNoRegularFile) {
+TEST_F(PlainFileTest, RejectsFoldersAndPipes) {
   EXPECT_SVDAG_ERROR(read_plain_file(folder_.path()), ExitCode::kBadInput, "is not a regular file");
   ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "is not a regular file");
 }
 
-// Any grid that svdag-verify check takes: doubles reach further than scenes do.
-TEST_F(PlainFileTest, TakesGridsOfAnySizeAnywhere) {
+// The range of doubles is accepted, as by svdag-verify check, although no scene needs it.
+TEST_F(PlainFileTest, AcceptsGridsOfAnySizeAnywhere) {
   for (const double size : {std::numeric_limits<double>::min(), 1e303}) {
     Grid grid = test_grid(4);
     grid.voxel_size = size;
@@ -93,7 +93,7 @@ TEST_F(PlainFileTest, TakesGridsOfAnySizeAnywhere) {
   }
 }
 
-TEST_F(PlainFileTest, RefusesSidesAndCornersThatAreNoNumbers) {
+TEST_F(PlainFileTest, RejectsImpossibleVoxelSizesAndCorners) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double denormal = std::numeric_limits<double>::denorm_min();
   for (const double size : {0.0, denormal, -1.0, infinity, std::nan("")}) {
@@ -110,32 +110,32 @@ TEST_F(PlainFileTest, RefusesSidesAndCornersThatAreNoNumbers) {
   }
 }
 
-// It would be a node without a voxel: no ray could meet what its parent says is there.
-TEST_F(PlainFileTest, RefusesAnEmptyBrick) {
+// It would be a node without a voxel, although its parent says that it is occupied.
+TEST_F(PlainFileTest, RejectsAnEmptyBrick) {
   RawDag raw = raw_dag(test_grid(5), clustered_voxels(5, 3, 3));
   raw.bricks.back() = 0;
   RawFile(raw).write(path());
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "damaged file: an empty brick");
 }
 
-TEST_F(PlainFileTest, TakesNoMoreMemoryThanItMay) {
+TEST_F(PlainFileTest, ObeysTheMemoryLimit) {
   const RawFile raw(raw_dag(test_grid(5), clustered_voxels(5, 3, 3)));
   raw.write(path());
   const uint64_t size = raw.bytes().size();
   EXPECT_EQ(read_plain_file(path(), size).bytes(), size);
   EXPECT_SVDAG_ERROR(read_plain_file(path(), size - 1), ExitCode::kMemory, "svdag-verify render");
-  // What only pretends to be large is damaged: asked first, and before memory is taken for it.
+  // The size in the header is checked first, before memory is allocated.
   std::filesystem::resize_file(path(), uint64_t(1) << 40);
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "not the one in its header");
 }
 
-// A damaged word is refused, or leads to other voxels, but never out of the file (as the
-// sanitizers would say).
-TEST_F(PlainFileTest, WhatItTakesCanBeTraced) {
+// A damaged word is rejected, or leads to other voxels, but never outside the file (the sanitizers
+// would report that).
+TEST_F(PlainFileTest, AcceptedFilesAreSafeToTrace) {
   const RawFile raw(raw_dag(test_grid(7), clustered_voxels(7, 8, 6)));
   std::mt19937 random(1);
   RayFamilies rays(2, 128);
-  int refused = 0, taken = 0;
+  int rejected = 0, accepted = 0;
   for (int i = 0; i < 1500; ++i) {
     std::vector<std::byte> bytes = raw.bytes();
     const size_t end = i % 2 ? 640 : size_t(raw.header().metadata_offset);
@@ -145,16 +145,16 @@ TEST_F(PlainFileTest, WhatItTakesCanBeTraced) {
     write(bytes);
     try {
       const PlainFile file = read_plain_file(path());
-      ++taken;
+      ++accepted;
       for (int k = 0; k < 20; ++k)
         trace_closest(file.view, rays.ray(k % kRayFamilies, {{64, 64, 64}}));
     } catch (const Error& error) {
-      ++refused;
+      ++rejected;
       ASSERT_EQ(error.code(), ExitCode::kBadInput);
     }
   }
-  EXPECT_GT(refused, 300);
-  EXPECT_GT(taken, 50);
+  EXPECT_GT(rejected, 300);
+  EXPECT_GT(accepted, 50);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the words of svdag-trace's command line mean, in voxels of the file.
+// The options of svdag-trace as rays in voxels of the file.
 #include "verify/trace/program/trace_options.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TraceOptions parse(std::vector<std::string> words) {
   return parse_trace_options(int(argv.size()), argv.data()).value();
 }
 
-// 16^3 voxels of side 1/4 from (-1, 2, 8) on, of which those from (1, 2, 3) to (9, 10, 11) matter.
+// 16^3 voxels of side 1/4 with the corner at (-1, 2, 8). Voxels (1, 2, 3) and (9, 10, 11) are set.
 PlainFile small_file() {
   Grid grid = test_grid(4);
   grid.voxel_size = 0.25;
@@ -43,7 +43,7 @@ void expect_point(const Vec3& point, double x, double y, double z) {
   EXPECT_DOUBLE_EQ(point[2], z);
 }
 
-TEST(TraceOptions, PlacesAreOfTheWorldAndRaysOfVoxels) {
+TEST(TraceOptions, OptionsAreInSceneUnitsAndRaysInVoxels) {
   const Workload work =
       work_of({"--camera", "0,3,9,0,3,10", "--light", "1,2.5,8.25,2", "--reach", "3"});
   expect_point(work.picture.camera.position, 4, 4, 4);
@@ -57,7 +57,7 @@ TEST(TraceOptions, ALightWithoutARadiusIsAPoint) {
   EXPECT_EQ(work_of({"--light", "1,2,8"}).light.radius, 0);
 }
 
-TEST(TraceOptions, WithoutALightItIsAboveWhatIsSeen) {
+TEST(TraceOptions, TheDefaultLightIsAboveTheVoxels) {
   const VoxelBounds box = occupied_bounds(small_file().view);
   for (int up = 0; up < 3; ++up) {
     const Workload work = work_of({"--up", std::string(1, char('x' + up))});
@@ -70,7 +70,7 @@ TEST(TraceOptions, WithoutALightItIsAboveWhatIsSeen) {
   }
 }
 
-// Inside, it hangs below a ceiling; a user's camera is not a preset.
+// Inside a room the light is below the ceiling. A camera overrides the preset.
 TEST(TraceOptions, OnlyThePresetInsideMovesTheLight) {
   const double above = work_of({}).light.centre[1];
   EXPECT_LT(work_of({"--preset", "inside"}).light.centre[1], above);
@@ -78,7 +78,7 @@ TEST(TraceOptions, OnlyThePresetInsideMovesTheLight) {
   EXPECT_EQ(work_of({"--preset", "inside", "--camera", "0,3,9,0,3,10"}).light.centre[1], above);
 }
 
-TEST(TraceOptions, APresetIsThatOfPictures) {
+TEST(TraceOptions, PresetsAreThoseOfRender) {
   const PlainFile file = small_file();
   const VoxelBounds box = occupied_bounds(file.view);
   for (const std::string name : {"iso", "front", "back", "left", "right", "top", "inside"}) {
@@ -101,7 +101,7 @@ TEST(TraceOptions, TheAngleOfViewIsTheSeventhNumber) {
     EXPECT_SVDAG_ERROR(slope(fov), ExitCode::kUsage, "is not 0.1 to 179 degrees");
 }
 
-TEST(TraceOptions, NumbersAreTaken) {
+TEST(TraceOptions, NumbersReachTheWorkload) {
   const Workload work = work_of(
       {"--size=7x5", "-j3", "--rounds", "2", "--samples", "9", "--no-beams", "--cone", "9"});
   EXPECT_EQ(work.picture.width, 7U);
@@ -113,7 +113,7 @@ TEST(TraceOptions, NumbersAreTaken) {
   EXPECT_NEAR(work.secondary.cut.spread, 2 * std::tan(0.15707963267948966), 1e-15);
 }
 
-TEST(TraceOptions, WithoutThemAnswersAreExact) {
+TEST(TraceOptions, ByDefaultResultsAreExact) {
   for (const Workload& work : {work_of({}), work_of({"--reach", "0", "--cone", "0"})}) {
     EXPECT_EQ(work.secondary.reach, Secondary().reach);
     EXPECT_EQ(work.secondary.cut.spread, 0);
@@ -121,7 +121,7 @@ TEST(TraceOptions, WithoutThemAnswersAreExact) {
   }
 }
 
-TEST(TraceOptions, WhatCannotBeMeantIsASentence) {
+TEST(TraceOptions, InvalidValuesAreUsageErrors) {
   const struct {
     std::vector<std::string> words;
     const char* sentence;
@@ -143,7 +143,7 @@ TEST(TraceOptions, WhatCannotBeMeantIsASentence) {
       {{"--camera", "1e400,2,3,1,2,3"}, "is not a list of finite numbers"},
       {{"--camera", "1e300,2,3,1,2,3"}, "more than 10^100 voxels away"},
       {{"--light", "1,2"}, "give x,y,z"},
-      {{"--light", "1,2,3,-1"}, "a radius of 0 or more"},
+      {{"--light", "1,2,3,-1"}, "the radius 0 or more"},
       {{"--cone", "45"}, "--cone: \"45\""},
       {{"--reach", "-1"}, "--reach: \"-1\""},
       {{"b.svdag"}, "not expected: b.svdag"},
@@ -153,7 +153,7 @@ TEST(TraceOptions, WhatCannotBeMeantIsASentence) {
     EXPECT_SVDAG_ERROR(work_of(words), ExitCode::kUsage, sentence);
 }
 
-TEST(TraceOptions, PicturesOfOtherFormatsAreRefusedInAnyCase) {
+TEST(TraceOptions, PictureNamesOfOtherFormatsAreRejectedInAnyCase) {
   for (const char* ending :
        {"png", "PNG", "jpg", "jpeg", "webp", "gif", "bmp", "tif", "tiff", "exr"})
     EXPECT_SVDAG_ERROR(parse({"--picture", std::string("a.") + ending}), ExitCode::kUsage,
