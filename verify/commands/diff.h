@@ -9,7 +9,7 @@ struct DiffConfig {
   CommonConfig common;
   std::string a, b;
   uint64_t show = 10;      // differing voxels to list
-  bool by_index = false;   // compare by voxel index, wherever the grids are
+  bool by_index = false;   // compare by voxel index, ignoring positions
   std::string write_diff;  // output: a PLY of the centres of differing voxels; empty: none
   uint64_t write_most = 10'000'000;  // limit of its points
 };
