@@ -113,7 +113,7 @@ ImportReport import_as(const FormatRow& row, const File& file, const ImportComma
     return import_voxels(read, import, &executor);
   }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
-  reject_unused_range(*grid, config.iso);
+  refuse_needless_range(*grid, config.iso);
   const VdbVoxels voxels(std::move(grid), config.file);
   const auto read = [&](const VoxelSink& sink, const FullCubeSink& cubes) {
     return voxels.read(sink, cubes);
