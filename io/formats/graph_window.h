@@ -1,7 +1,7 @@
-// Access to the nodes of a foreign file by offset, through one small window.
+// A small read window over a foreign DAG file, for access to its nodes by file offset.
 //
 // An import reads the nodes of a level in ascending order (io/dag/node_graph.h), so the window
-// moves forward; other orders work too, only slower.
+// moves forward; other orders work too, but slower.
 #pragma once
 
 #include <algorithm>
@@ -36,10 +36,10 @@ class GraphWindow {
     std::memcpy(&value, bytes_.data() + (offset - begin_), sizeof value);
     return value;
   }
-  void fill(uint64_t offset, size_t least) {
+  void fill(uint64_t offset, size_t min_bytes) {
     begin_ = offset;
     filled_ = file_->read_some_at(offset, bytes_);
-    if (filled_ < least) fail_input(path(), "it ends too early", offset + filled_);
+    if (filled_ < min_bytes) fail_input(path(), "unexpected end of file", offset + filled_);
   }
 
   const File* file_;
@@ -48,22 +48,23 @@ class GraphWindow {
   size_t filled_ = 0;
 };
 
-// The next number of a header.
+// Reads the next number of a header.
 template <class T>
-T head_value(ByteStream* stream) {
+T header_value(ByteStream* stream) {
   T value;
   stream->read(std::as_writable_bytes(std::span(&value, 1)));
   return value;
 }
 
-// log2 N as a file of another program says it, in a field at `offset`.
+// Checks log2 N of a foreign file, read from the field at `offset`.
 inline int checked_levels(const File& file, uint64_t levels, uint64_t offset) {
   if (levels < uint64_t(kMinLevels) || levels > uint64_t(kMaxLevels))
-    fail_input(file.path(), "has " + std::to_string(levels) + " levels, 3 to 20 are read", offset);
+    fail_input(file.path(), "has " + std::to_string(levels) + " levels, 3 to 20 are supported",
+               offset);
   return int(levels);
 }
 
-// The grid whose cube begins at `min`; its side is the longest of the box.
+// The grid whose cube begins at `min` and has the longest side of the box.
 inline Grid grid_of_box(const File& file, const Point& min, const Point& max, int levels) {
   Grid grid;
   grid.levels = levels;
@@ -75,7 +76,7 @@ inline Grid grid_of_box(const File& file, const Point& min, const Point& max, in
   }
   grid.voxel_size = std::ldexp(side, -levels);
   if (!std::isnormal(grid.voxel_size) || grid.voxel_size < 0)
-    fail_input(file.path(), "its box has no size", 0);
+    fail_input(file.path(), "its bounding box is empty or not finite", 0);
   grid.selection = grid.whole();
   return grid;
 }

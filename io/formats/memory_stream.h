@@ -1,5 +1,5 @@
-// Bytes in memory as a std::istream that can seek: for libraries that read streams, in a process
-// that may open no file.
+// A seekable std::istream over bytes in memory, for libraries that read streams in a process that
+// may not open files.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace svdag {
 class MemoryBuffer final : public std::streambuf {
  public:
   explicit MemoryBuffer(std::span<const std::byte> bytes) {
-    // A streambuf wants char*, and never writes to what it only reads.
+    // setg() takes char*, but an input streambuf never writes through it.
     char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
     setg(begin, begin, begin + bytes.size());
   }
 
  protected:
-  // A place outside of the bytes is refused: the stream's failbit.
+  // A position outside of the bytes fails, which sets the stream's failbit.
   pos_type seekoff(off_type by, std::ios_base::seekdir from, std::ios_base::openmode) override {
     const off_type size = egptr() - eback();
     const off_type base = from == std::ios_base::beg   ? 0

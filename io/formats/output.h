@@ -1,7 +1,7 @@
-// Numbers and text on their way into a file that is there whole or not at all.
+// A buffered little-endian writer of an output file that appears as a whole or not at all.
 //
-// Little-endian, through one buffer, so that a format can be written number by number at the speed
-// of the disk. A full disk is an Error (kOutput), and the old file stays.
+// The buffer lets a format be written number by number at the speed of the disk. A full disk is an
+// Error (kOutput), and an existing file stays as it was.
 #pragma once
 
 #include <bit>
@@ -31,7 +31,7 @@ class Output {
     std::memcpy(buffer_.data() + used_, bytes.data(), bytes.size());
     used_ += bytes.size();
   }
-  // Replaces what was put at `offset`.
+  // Overwrites the bytes written earlier at `offset`.
   template <class T>
   requires std::is_arithmetic_v<T>
   void patch(uint64_t offset, T value) {
@@ -45,7 +45,7 @@ class Output {
   }
   uint64_t size() const { return file_.size() + used_; }
 
-  // The file gets its name.
+  // Flushes and renames the file to its final name.
   void commit();
 
  private:

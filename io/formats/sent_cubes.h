@@ -1,14 +1,14 @@
-// A grid of cubes as a limited child sends it (streaming/process/limited_child.h), and as it is
-// kept.
+// A VDB grid received as a stream of cubes from a decoder in a limited child process
+// (streaming/process/limited_child.h).
 //
-// The first block is a CubeHead and the grid's name; all later ones are CubeRecords. They are
-// treated as input from a hostile program: impossible types, names, transforms, sides and positions
-// are an Error (kBadInput), and so are two cubes that hold the same voxel, and more cubes than a
-// file of that size can hold.
+// The first block of the stream is a CubeHeader followed by the grid's name; all later blocks are
+// CubeRecords. The sender is not trusted: impossible types, names, transforms, sides and positions
+// are an Error (kBadInput), and so are two cubes with a common voxel, and more cubes than a file of
+// that size can hold.
 //
 // A full cube takes 16 bytes, so that a tree node full of tiles (32,768 of them, from 8 KB of masks
-// in the file) cannot exhaust memory; a leaf takes 80. Both are kept in the order of OpenVDB's
-// tree, in which they arrive, so that a voxel is found without an index.
+// in the file) cannot exhaust memory; a leaf takes 80. Both are stored in the order of OpenVDB's
+// tree, in which they arrive, so a voxel is found without an index.
 #pragma once
 
 #include <span>
@@ -18,31 +18,31 @@
 
 namespace svdag {
 
-enum class CubeType : uint32_t { kMask = 0, kBool = 1, kFloat = 2 };
+enum class CubeValueType : uint32_t { kMask = 0, kBool = 1, kFloat = 2 };
 
-struct CubeHead {
-  CubeType type;
-  uint32_t name_bytes;  // that follow this, kLongestName at most
+struct CubeHeader {
+  CubeValueType type;
+  uint32_t name_bytes;  // that follow the header, at most kMaxNameBytes
   std::array<double, 3> origin;
   std::array<std::array<double, 3>, 3> axes;  // axes[a]: one step along index axis a
 
-  static constexpr uint32_t kLongestName = 255;
+  static constexpr uint32_t kMaxNameBytes = 255;
 };
 
 struct CubeRecord {
   std::array<int32_t, 3> origin;  // multiples of the side
   uint32_t side;                  // 8, 128 or 4096
-  std::array<uint64_t, 8> words;  // of a Block, not empty; without a meaning if the side is larger
+  std::array<uint64_t, 8> words;  // of a non-empty Block; ignored if the side is larger
 };
 
-class SentCubes final : public VdbGrid {
+class DecodedGrid final : public VdbGrid {
  public:
-  // What is kept takes `most` bytes at most. Errors name `path`.
-  SentCubes(const std::string& path, uint64_t most) : path_(path), most_(most) {}
+  // The stored cubes take at most `max_bytes` bytes. Errors name `path`.
+  DecodedGrid(const std::string& path, uint64_t max_bytes) : path_(path), max_bytes_(max_bytes) {}
 
-  // The next block, of which records are not cut.
-  void take(std::span<const std::byte> block);
-  // Everything has arrived; the queries below are valid from now on.
+  // Processes the next block; a record never spans two blocks.
+  void receive(std::span<const std::byte> block);
+  // Ends the stream: sorts and checks the cubes. The functions below require it.
   void finish();
 
   std::string name() const override { return name_; }
@@ -58,17 +58,17 @@ class SentCubes final : public VdbGrid {
     uint32_t side;
   };
 
-  void take_head(std::span<const std::byte> block);
+  void receive_header(std::span<const std::byte> block);
   void add(const CubeRecord& record);
   void check_overlap() const;
-  // The tile that holds the voxel; null if none does.
+  // The tile that contains the voxel, or null.
   const Tile* tile_at(const LatticePoint& voxel) const;
-  [[noreturn]] void fail_head() const;
+  [[noreturn]] void fail_malformed() const;
 
   std::string path_;
-  uint64_t most_;
-  bool has_head_ = false;
-  CubeType type_ = CubeType::kMask;
+  uint64_t max_bytes_;
+  bool has_header_ = false;
+  CubeValueType type_ = CubeValueType::kMask;
   std::string name_;
   IndexToWorld centres_;
   VoxelBox bounds_;

@@ -1,4 +1,4 @@
-// --iso=LOW,HIGH: the values of a float grid that count as set.
+// The range of values of a float grid that count as set (--iso=LOW,HIGH).
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ struct ValueRange {
   double low, high;
 };
 
-// "LOW,HIGH", where -inf and inf are numbers too; anything else is an Error (kUsage).
+// Parses "LOW,HIGH", which may be -inf and inf; anything else is an Error (kUsage).
 ValueRange parse_iso(const std::string& text);
 
 }  // namespace svdag

@@ -1,17 +1,16 @@
-// OpenVDB grids (.vdb) and NanoVDB grids (.nvdb), leaf by leaf.
+// Reading and writing of OpenVDB grids (.vdb), and writing of NanoVDB grids (.nvdb), leaf by leaf.
 //
-// A grid of VDB (Museth 2013) is a tree of fixed depth over infinite index space: leaves of 8^3
-// voxels, below nodes of 128^3 and of 4096^3, each of which may also hold a tile, one value for a
-// whole child. Our blocks are such leaves bit by bit, our full cubes become tiles and tiles become
-// cubes, so nothing is ever expanded into single voxels.
+// A VDB grid (Museth 2013) is a tree of fixed depth over infinite index space: leaves of 8^3 voxels
+// below nodes of 128^3 and of 4096^3, which may also hold tiles, one value for a whole child. Our
+// blocks equal such leaves bit by bit, and our full cubes correspond to tiles, so nothing is
+// expanded into single voxels.
 //
-// Voxel (i, j, k) of a VDB grid has its *centre* at transform(i, j, k), where ours have their
-// corner: IndexToWorld speaks of centres on both sides, and voxel_centres() puts ours half a voxel
-// further.
+// transform(i, j, k) is the *centre* of voxel (i, j, k) of a VDB grid, but the corner of ours.
+// IndexToWorld maps to centres for both; voxel_centres() adds half a voxel to ours.
 //
-// OpenVDB's headers take 45 s and 0.9 GB per source file, so they are named in vdb*.cpp alone; no
-// type of theirs is named here. Its writer does not notice a full disk: what was written is read
-// again and compared before the file gets its name.
+// OpenVDB's headers take 45 s and 0.9 GB per source file, so only the sources in io/formats/vdb/
+// include them, and this header uses none of its types. Its writer does not detect a full disk: a
+// written file is read back and compared before it is renamed to its final name.
 #pragma once
 
 #include <array>
@@ -36,36 +35,37 @@ struct IndexToWorld {
   bool operator==(const IndexToWorld&) const = default;
 };
 
-// Of the voxels of `grid`.
+// The map from the voxels of `grid` to their centres.
 IndexToWorld voxel_centres(const Grid& grid);
 
 enum class VdbFormat {
   kMask,  // .vdb, grids of type mask: a voxel is active or not
-  kBool,  // .vdb, grids of type bool, active and true: for readers that know no masks
+  kBool,  // .vdb, grids of type bool, active and true: for readers without support for masks
   kNano,  // .nvdb, one grid of type mask
 };
 
 using VdbMetadata = std::map<std::string, std::string>;
 
-// Sets of voxels on their way into a file.
+// Collects grids of voxels and writes them to a file.
 class VdbWriter {
  public:
   virtual ~VdbWriter() = default;
-  // A new grid; what is added later goes into it.
+  // Begins a new grid, to which the following calls add.
   virtual void begin(const std::string& name, const IndexToWorld& centres) = 0;
   virtual void metadata(const VdbMetadata& entries) = 0;
-  // The cube's origin is a multiple of 8; of a larger cube a multiple of its side or of 4096.
+  // The origin is a multiple of 8; that of a larger cube, a multiple of its side or of 4096.
   virtual void add(const VoxelCube& cube) = 0;
   virtual void add_voxel(const LatticePoint& voxel) = 0;
-  // Puts everything into a file under the name `path`, whole or not at all; a full disk is an Error
+  // Writes all grids to the file `path`, as a whole or not at all; a full disk is an Error
   // (kOutput).
   virtual void write(const std::string& path, VdbFormat format) = 0;
 };
 
-// In a build without OpenVDB this is an Error (kUsage), and so is read_vdb().
+// Without OpenVDB in the build this is an Error (kUsage), and so is read_vdb().
 std::unique_ptr<VdbWriter> make_vdb_writer();
 
-// Upper bound on the bytes that a VdbWriter needs for so many leaves and nodes, writing included.
+// Upper bound on the bytes that a VdbWriter needs for these numbers of leaves and nodes, writing
+// included.
 uint64_t vdb_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096);
 
 // A grid that was read. A voxel is set iff it is active (mask), active and true (bool), or has a
@@ -77,8 +77,8 @@ class VdbGrid {
   virtual std::string type() const = 0;  // "mask", "bool", "float"
   virtual const IndexToWorld& centres() const = 0;
   virtual VoxelBox bounds() const = 0;  // of set voxels
-  // Leaves and tiles (of 8^3, 128^3, 4096^3) in which something is set, each voxel in one of them,
-  // until the sink returns false.
+  // Visits disjoint leaves and tiles (of 8^3, 128^3, 4096^3) that hold all set voxels, until the
+  // sink returns false.
   virtual bool visit(const VoxelCubeSink& sink) const = 0;
   virtual bool get(const LatticePoint& voxel) const = 0;
 };
@@ -86,10 +86,10 @@ class VdbGrid {
 // Error (kUsage) if a range was given for a grid that holds no values.
 void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
 
-// Reads grid `name`, or the only one if that is empty, in a child process with limits on memory and
-// time (streaming/process/limited_child.h); `sandbox`: in one that can only compute. Broken files,
-// other types and transforms that are not linear are an Error (kBadInput); a float grid without a
-// range is one (kUsage).
+// Reads grid `name` (empty: the only one) in a child process with limits on memory and time
+// (streaming/process/limited_child.h); with `sandbox` the child can only compute. Damaged files,
+// other types and nonlinear transforms are an Error (kBadInput), a float grid without a range is an
+// Error (kUsage).
 std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& name,
                                   const std::optional<ValueRange>& range, bool sandbox = false);
 

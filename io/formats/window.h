@@ -1,4 +1,4 @@
-// The window that formats of single voxels write: a box of one level of a DAG.
+// The voxel window that formats of single voxels write: a box of one level of a DAG.
 #pragma once
 
 #include <bit>
@@ -12,12 +12,12 @@ namespace svdag {
 struct VoxelWindow {
   Grid grid;        // of the level; its selection is the window
   CubeWalk* walk;   // of the level
-  uint64_t voxels;  // set in the window
+  uint64_t voxels;  // number set in the window
 
   const VoxelBox& box() const { return grid.selection; }
 };
 
-// visit(voxel) for each set voxel of a box, cube by cube. Returns how many there were.
+// Calls visit(voxel) for each set voxel of a box, cube by cube. Returns their number.
 template <class Visit>
 uint64_t for_each_voxel(CubeWalk* walk, const VoxelBox& box, const Visit& visit) {
   const auto visit_box = [&](const LatticePoint& from, int64_t side, const auto& inside) {

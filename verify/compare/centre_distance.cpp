@@ -5,8 +5,7 @@
 namespace svdag {
 namespace {
 
-// With |q| < 1.5 * 2^62 (io/lattice.h) a height is below 2^195 and its square, four times, below
-// 2^392.
+// With |q| < 1.5 * 2^62 (io/lattice.h) a height is below 2^195, and four times its square below 2^392.
 namespace mp = boost::multiprecision;
 using Int = mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>,
                        mp::et_off>;
@@ -24,7 +23,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// All distances are compared with `bound` / 4, in squared lattice steps.
+// Both functions compare a squared distance with `bound` / 4, in squared lattice steps.
 bool near_segment(const LatticePoint& p, const LatticePoint& u, const LatticePoint& v,
                   const Int& bound) {
   const Vector edge = vector(u, v), to = vector(u, p);

@@ -89,7 +89,7 @@ VoxelBox VdbComparer::window() const {
   return window_ != nullptr ? *window_ : VoxelBox{LatticePoint(0), LatticePoint(kAll)};
 }
 
-VdbComparison VdbComparer::compare(uint64_t show) {
+VdbComparison VdbComparer::compare(uint64_t max_listed) {
   VdbComparison result;
   uint64_t cubes = 0;
   theirs_.visit([&](const VoxelCube& cube) {
@@ -98,7 +98,7 @@ VdbComparison VdbComparer::compare(uint64_t show) {
       result.both += both;
       result.missing += missing.count();
       each_voxel(missing, [&](const LatticePoint& voxel) {
-        if (result.first_missing.size() >= show) return false;
+        if (result.first_missing.size() >= max_listed) return false;
         result.first_missing.push_back(map_(voxel));
         return true;
       });
@@ -106,7 +106,7 @@ VdbComparison VdbComparer::compare(uint64_t show) {
     return true;
   });
   result.extra = ours_->count_voxels(window()) - result.both;
-  const uint64_t to_find = std::min(show, result.extra);
+  const uint64_t to_find = std::min(max_listed, result.extra);
   if (to_find > 0)
     extras([&](const LatticePoint& voxel) {
       result.first_extra.push_back(voxel);

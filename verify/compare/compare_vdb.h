@@ -1,12 +1,12 @@
-// A DAG against a VDB grid, voxel by voxel, without unpacking either.
+// Compares a DAG with a VDB grid, voxel by voxel, without unpacking either.
 //
-// The VDB grid is walked leaf by leaf and tile by tile. A leaf is compared with the 8^3 voxels of
-// the DAG at the same place, turned as the grids lie to each other. A tile is compared with the
-// number of voxels that the DAG has there; only where it has some but not all, the tile is cut into
-// the next smaller ones. What both have is then known, and with the DAG's own number of voxels so
-// is what only the DAG has: its voxels are walked only if there is such a difference to show. That
-// number is counted, node by node: a header may say anything. Time follows the leaves of the VDB
-// grid, and the nodes of the DAG, not its voxels.
+// The VDB grid is visited leaf by leaf and tile by tile. A leaf is compared with the 8^3 voxels of
+// the DAG at the same position, with axes permuted as needed. A tile is compared with the number of
+// voxels that the DAG has there; only if it has some but not all, the tile is divided into the next
+// smaller ones. This gives the number of common voxels, and with the DAG's own number of voxels the
+// number that only the DAG has: its voxels are visited only to list such differences. The DAG's
+// number is counted node by node, because a header is not trusted. Time is proportional to the
+// leaves of the VDB grid and the nodes of the DAG, not to its voxels.
 #pragma once
 
 #include <vector>
@@ -28,23 +28,23 @@ struct VdbComparison {
 
 class VdbComparer {
  public:
-  // `window`, in voxels of the level, is compared alone, if given. All must outlive this.
+  // Compares only `window` (in voxels of the level), if given. All arguments must outlive this.
   VdbComparer(const VdbGrid& theirs, CubeWalk* ours, const IndexMap& map, const VoxelBox* window);
 
-  // Lists up to `show` voxels of each kind.
-  VdbComparison compare(uint64_t show);
-  // Puts the grids "missing" and "extra" into the writer, in the place and orientation of theirs.
+  // Lists up to `max_listed` voxels of each kind.
+  VdbComparison compare(uint64_t max_listed);
+  // Adds the grids "missing" and "extra" to the writer, with the transform of theirs.
   void write_difference(VdbWriter* writer);
 
  private:
-  // Both take cubes of their index space.
+  // split() and compare_block() take cubes of their index space.
   using Found = std::function<void(uint64_t both, const VoxelCube& missing)>;
   void split(const VoxelCube& cube, const Found& found);
   void compare_block(VoxelCube cube, const Found& found);
   Block ours(const LatticePoint& origin) const;
   // Passes our voxels that theirs lacks to the sink, until it returns false.
   void extras(const std::function<bool(const LatticePoint& ours)>& sink);
-  // Of ours, where it is compared.
+  // The compared box, in our voxels.
   VoxelBox window() const;
 
   const VdbGrid& theirs_;

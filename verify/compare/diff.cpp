@@ -8,7 +8,7 @@
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
-size_t DagDiff::Memo::home(Pair pair) const {
+size_t DagDiff::Memo::home_slot(Pair pair) const {
   const uint64_t key = uint64_t(pair.a) << 32 | pair.b;
   const unsigned __int128 product =
       static_cast<unsigned __int128>(key ^ 0x9e3779b97f4a7c15) * 0xd6e8feb86659fd93;
@@ -17,7 +17,7 @@ size_t DagDiff::Memo::home(Pair pair) const {
 
 DagDiff::Counts* DagDiff::Memo::find(Pair pair) {
   if (slots_.empty()) return nullptr;
-  for (size_t at = home(pair);; at = (at + 1) & (slots_.size() - 1)) {
+  for (size_t at = home_slot(pair);; at = (at + 1) & (slots_.size() - 1)) {
     Slot& slot = slots_[at];
     if (slot.pair.a == pair.a && slot.pair.b == pair.b) return &slot.counts;
     if (slot.pair.a == kNoChild && slot.pair.b == kNoChild) return nullptr;
@@ -25,12 +25,12 @@ DagDiff::Counts* DagDiff::Memo::find(Pair pair) {
 }
 
 void DagDiff::Memo::prefetch(Pair pair) const {
-  if (!slots_.empty()) __builtin_prefetch(&slots_[home(pair)]);
+  if (!slots_.empty()) __builtin_prefetch(&slots_[home_slot(pair)]);
 }
 
 void DagDiff::Memo::put(Pair pair, const Counts& counts) {
   if ((used_ + 1) * 8 > slots_.size() * 5) grow();
-  size_t at = home(pair);
+  size_t at = home_slot(pair);
   while (slots_[at].pair.a != kNoChild || slots_[at].pair.b != kNoChild)
     at = (at + 1) & (slots_.size() - 1);
   slots_[at] = {pair, counts};
@@ -87,7 +87,7 @@ DagDiff::Counts DagDiff::count(uint32_t level, Pair pair) {
     return {uint64_t(std::popcount(a & ~b)), uint64_t(std::popcount(b & ~a)),
             uint64_t(std::popcount(a & b))};
   }
-  if (const Counts* known = memos_[level].find(pair)) return *known;
+  if (const Counts* cached = memos_[level].find(pair)) return *cached;
   if (level == 4) check_interrupt();
   // The children's data is scattered in memory: all are prefetched before the first is used.
   std::array<Pair, 8> children;
@@ -96,8 +96,8 @@ DagDiff::Counts DagDiff::count(uint32_t level, Pair pair) {
     prefetch(level + 1, children[c]);
   }
   Counts counts;
-  for (const Pair& part_pair : children) {
-    const Counts part = count(level + 1, part_pair);
+  for (const Pair& child_pair : children) {
+    const Counts part = count(level + 1, child_pair);
     counts.only_a += part.only_a;
     counts.only_b += part.only_b;
     counts.both += part.both;
@@ -118,9 +118,9 @@ bool DagDiff::visit(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at
     const auto [a, b] = bricks_of(pair);
     return a == b || sink(at, a, b);
   }
-  const Counts* known = memos_[level].find(pair);
-  SVDAG_ASSERT(known != nullptr);
-  if (known->only_a == 0 && known->only_b == 0) return true;
+  const Counts* cached = memos_[level].find(pair);
+  SVDAG_ASSERT(cached != nullptr);
+  if (cached->only_a == 0 && cached->only_b == 0) return true;
   for (unsigned c = 0; c < 8; ++c) {
     const std::array<uint32_t, 3> corner{2 * at[0] + (c >> 2 & 1), 2 * at[1] + (c >> 1 & 1),
                                          2 * at[2] + (c & 1)};

@@ -1,6 +1,6 @@
 // The symmetric difference of two DAGs, without unpacking either.
 //
-// Two voxel sets are compared by descending both DAGs at once. A pair of nodes (a, b) of one level
+// Two voxel sets are compared by descending both DAGs together. A pair of nodes (a, b) of one level
 // always has the same difference, so it is computed once and cached: time is proportional to the
 // number of different pairs, which for DAGs of one scene is about the number of nodes, not of
 // voxels. A node without counterpart forms a pair with nothing.
@@ -23,11 +23,11 @@ namespace svdag {
 struct DiffCounts {
   uint64_t only_a = 0, only_b = 0;  // voxels
   uint64_t both = 0;
-  uint64_t pairs = 0;  // of nodes that were compared
+  uint64_t pairs = 0;  // distinct pairs of nodes compared
   bool same() const { return only_a == 0 && only_b == 0; }
 };
 
-// A brick that differs; its coordinates in bricks.
+// Receives a brick that differs; its coordinates are in bricks.
 using DiffSink = std::function<bool(const std::array<uint32_t, 3>& brick, uint64_t a, uint64_t b)>;
 
 class DagDiff {
@@ -48,7 +48,7 @@ class DagDiff {
   struct Counts {
     uint64_t only_a = 0, only_b = 0, both = 0;
   };
-  // Remembered pairs of one level: open addressing, grown at 5/8.
+  // The cached pairs of one level: a hash table with open addressing, grown at a load of 5/8.
   class Memo {
    public:
     Counts* find(Pair pair);
@@ -61,7 +61,7 @@ class DagDiff {
       Pair pair{kNoChild, kNoChild};
       Counts counts;
     };
-    size_t home(Pair pair) const;
+    size_t home_slot(Pair pair) const;
     void grow();
 
     std::vector<Slot> slots_;

@@ -23,12 +23,12 @@ struct ColouredPoint {
 }  // namespace
 
 void write_difference(DagDiff* diff, const DiffCounts& counts, const Grid& grid,
-                      const std::string& path, uint64_t most) {
+                      const std::string& path, uint64_t max_points) {
   const uint64_t points = counts.only_a + counts.only_b;
-  if (points > most)
+  if (points > max_points)
     throw Error(ExitCode::kUsage,
                 "would get " + std::to_string(points) + " points, more than " +
-                    std::to_string(most) + ": give more with --write-most",
+                    std::to_string(max_points) + ": give more with --write-most",
                 path);
   AtomicFile file(path);
   file.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +

@@ -11,36 +11,36 @@ namespace svdag {
 namespace {
 
 double length(const Point& p) {
-  return std::hypot(p.x, p.y, p.z);  // of any scale: no square overflows
+  return std::hypot(p.x, p.y, p.z);  // no overflow at any scale
 }
 
-VoxelBox box_of(LatticePoint a, LatticePoint b) {  // both inclusive, in any order
+VoxelBox box_of(LatticePoint a, LatticePoint b) {  // opposite corners, inclusive
   for (int i = 0; i < 3; ++i)
     if (a[i] > b[i]) std::swap(a[i], b[i]);
   return {a, b + int64_t(1)};
 }
 
-[[noreturn]] void refuse(const std::string& path, const VdbGrid& theirs, const std::string& why) {
+[[noreturn]] void reject(const std::string& path, const VdbGrid& theirs, const std::string& why) {
   fail_usage(path + ": grid " + theirs.name() + " cannot be compared: " + why);
 }
 
-// The level whose voxels have their size.
+// The level of our grid whose voxels have their size.
 int find_level(const VdbGrid& theirs, const Grid& grid, const std::string& path) {
   const double size = length(theirs.centres().axes[0]);
   const double coarser = std::log2(size / grid.voxel_size);
   const double whole = std::nearbyint(coarser);
   if (!(std::abs(coarser - whole) < kCentreTolerance) || whole < 0 ||
       grid.levels - whole < kMinLevels)
-    refuse(path, theirs,
+    reject(path, theirs,
            "its voxels are " + format_double(size) + " wide, those of the file " +
                format_double(grid.voxel_size) + ", and no level of it has such voxels");
   return grid.levels - int(whole);
 }
 
-// The signed permutation next to their axes, in voxels of ours.
-IndexMap turn_of(const VdbGrid& theirs, double size, const std::string& path) {
+// Finds the signed permutation of axes nearest to theirs, in our voxels.
+IndexMap find_axes(const VdbGrid& theirs, double size, const std::string& path) {
   IndexMap map;
-  std::array<bool, 3> taken{};
+  std::array<bool, 3> used{};
   for (size_t a = 0; a < 3; ++a) {
     const Point step = theirs.centres().axes[a] / size;
     int along = 0;
@@ -48,16 +48,16 @@ IndexMap turn_of(const VdbGrid& theirs, double size, const std::string& path) {
       if (std::abs(step[b]) > std::abs(step[along])) along = b;
     Point rest = step;
     rest[along] -= std::copysign(1.0, step[along]);
-    if (!(length(rest) < kCentreTolerance) || taken[size_t(along)])
-      refuse(path, theirs, "it is turned, sheared or stretched against the file's grid");
-    taken[size_t(along)] = true;
+    if (!(length(rest) < kCentreTolerance) || used[size_t(along)])
+      reject(path, theirs, "it is rotated, sheared or stretched relative to the file's grid");
+    used[size_t(along)] = true;
     map.axis[a] = along;
     map.sign[a] = step[along] < 0 ? -1 : 1;
   }
   return map;
 }
 
-// Their voxels in the file's index space.
+// Maps their voxels to the file's index space.
 class Placement {
  public:
   Placement(const IndexToWorld& theirs, const Grid& level) {
@@ -69,7 +69,7 @@ class Placement {
     for (int a = 0; a < 3; ++a)
       reach = std::max({reach, std::abs(theirs.origin[a] / size),
                         std::abs(ours.origin[a] / size) + double(level.resolution())});
-    tolerance_ = kCentreTolerance + std::min(kRoundings * reach, kMostOfRoundings);
+    tolerance_ = kCentreTolerance + std::min(kRounding * reach, kMaxRounding);
   }
 
   Point operator()(const LatticePoint& i) const {
@@ -99,13 +99,13 @@ VoxelBox IndexMap::back(const VoxelBox& ours) const {
 GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& path) {
   GridFit fit{find_level(theirs, grid, path), {}};
   const Grid level = level_grid(grid, fit.levels);
-  fit.map = turn_of(theirs, level.voxel_size, path);
+  fit.map = find_axes(theirs, level.voxel_size, path);
   const Placement position(theirs.centres(), level);
   const VoxelBox box = theirs.bounds();
   const Point first = position(box.min);
   const LatticePoint turned = fit.map(box.min);
   for (int a = 0; a < 3; ++a) {
-    if (!(std::abs(first[a]) < 0x1p40)) refuse(path, theirs, "it is too far away");
+    if (!(std::abs(first[a]) < 0x1p40)) reject(path, theirs, "it is too far away");
     fit.map.shift[a] = int64_t(std::nearbyint(first[a])) - turned[a];
   }
   Point worst(0);
@@ -121,7 +121,7 @@ GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& pat
     char text[128];
     std::snprintf(text, sizeof text, "its voxel centres are (%.3g, %.3g, %.3g) voxels away from",
                   worst.x, worst.y, worst.z);
-    refuse(path, theirs, std::string(text) + " those of the file");
+    reject(path, theirs, std::string(text) + " those of the file");
   }
   return fit;
 }

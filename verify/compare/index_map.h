@@ -1,17 +1,15 @@
 // The map from the voxels of a foreign grid to ours.
 //
-// Their voxel i has its centre at origin + sum of i_a * axes_a, ours voxel u at centre + u * size,
-// the centre being that of our voxel 0. The grids fit if every centre of theirs is a centre of
-// ours: then u = P i + shift with a signed permutation P, so axes may be swapped and mirrored. How
-// far the true map is from that one is an affine function, largest at a corner of the box of their
+// The centre of their voxel i is origin + sum of i_a * axes_a; that of our voxel u is c + u * size,
+// c being the centre of our voxel 0. The grids fit if each of their centres is one of ours: then
+// u = P i + shift with a signed permutation P, so axes may be swapped and mirrored. The difference
+// between the true map and this one is an affine function, largest at a corner of the box of their
 // voxels, so eight points prove it for all.
 //
-// Far from zero a voxel is a few steps of a double, or less than one. Positions are therefore
-// relative to our first centre, not to zero: our own exports match to the last bit, so they fit at
+// Far from zero a voxel is only a few steps of a double, or less. Positions are therefore relative to our first centre, not to zero: our own exports match to the last bit, so they fit at
 // any position. Grids of other programs may be off by a few roundings of the coordinates, but by at
 // most 1/8 of a voxel: otherwise the corresponding voxel is ambiguous.
-// Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1
-// voxel at 1M).
+// Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1 voxel at 1M).
 #pragma once
 
 #include "io/formats/vdb.h"
@@ -19,7 +17,7 @@
 namespace svdag {
 
 struct IndexMap {
-  std::array<int, 3> axis{0, 1, 2};  // theirs a runs along ours axis[a]
+  std::array<int, 3> axis{0, 1, 2};  // their axis a is our axis axis[a]
   std::array<int, 3> sign{1, 1, 1};
   LatticePoint shift{0};
 
@@ -39,15 +37,15 @@ struct IndexMap {
 };
 
 struct GridFit {
-  int levels;  // the level of our grid whose voxels are as large as theirs
+  int levels;  // the level of our grid with voxels of their size
   IndexMap map;
 };
 
-// Voxel centres further apart than this, in voxels, are not the same, but for roundings.
+// Voxel centres farther apart than this (in voxels), beyond rounding, do not match.
 constexpr double kCentreTolerance = 1e-3;
 
-// Finds the level of `grid` and the map onto it; a grid that does not fit is an Error (kUsage) that
-// says what is different. `path` is that of their file.
+// Finds the matching level of `grid` and the map onto it. A grid that does not fit is an Error
+// (kUsage) that names the difference and their file, `path`.
 GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& path);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// Whether two grids are positioned so that their voxels can be compared by index.
+// Tests if two grids are positioned so that their voxels can be compared by index.
 //
 // Grids of one resolution must have the same corner and the same voxel size. Grids of different
 // resolution may correspond in three ways: one is a level of the other (planes agree), both divide
@@ -20,9 +20,9 @@
 
 namespace svdag {
 
-// A few roundings of a double, against the number that was rounded; and what they may be at most,
-// in voxels: a grid further from zero is in no known place, but for one with the same numbers.
-constexpr double kRoundings = 0x1p-50, kMostOfRoundings = 1.0 / 8;
+// The relative error of a few roundings of a double, and the largest error accepted, in voxels: a grid
+// farther from zero has no known position and matches only a grid with equal numbers.
+constexpr double kRounding = 0x1p-50, kMaxRounding = 1.0 / 8;
 
 bool same_place(const Grid& a, const Grid& b);
 

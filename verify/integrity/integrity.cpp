@@ -14,7 +14,7 @@ namespace {
 
 using Key = std::array<uint64_t, 8>;
 
-// One pass over the levels, bricks first; `below_*` is what the level above needs to know.
+// One pass over the levels, bricks first; `below_*` describes the level below the current one.
 class Inspection {
  public:
   Inspection(const Header& header, const DagView& dag, IntegrityReport* report)
@@ -48,7 +48,7 @@ class Inspection {
     uint64_t unordered = 0, last = 0;
     for (uint64_t i = 0; i < dag_.brick_count; ++i) {
       const uint64_t brick = dag_.bricks[i];
-      if (brick <= last) ++unordered;  // the first brick is compared with 0: none may be empty
+      if (brick <= last) ++unordered;  // the first brick is compared with 0, so it must not be empty
       last = brick;
       below_voxels_[i] = uint64_t(std::popcount(brick));
     }
@@ -63,7 +63,7 @@ class Inspection {
     const NodeIndex index(words, count);
     std::vector<uint64_t> voxels(index.nodes());
     std::vector<uint64_t> used((below_voxels_.size() + 63) / 64);
-    uint64_t unordered = 0, empty = 0, astray = 0, node = 0;
+    uint64_t unordered = 0, empty = 0, invalid = 0, node = 0;
     Key last{};
     for (uint64_t w = 0; w < count; ++node) {
       const uint32_t mask = words[w];
@@ -78,19 +78,19 @@ class Inspection {
       for (unsigned c = 0; c < 8; ++c) {
         if ((mask >> c & 1U) == 0) continue;
         key[c] = uint64_t(*child) + 1;
-        if (!visit_child(level, *child++, &voxels[node], &used)) ++astray;
+        if (!visit_child(level, *child++, &voxels[node], &used)) ++invalid;
       }
       if (!(last < key)) ++unordered;  // Key{} is the empty node, below every other
       last = key;
       w += size;
     }
     report_->nodes[level] = index.nodes();
-    report(level, unordered, empty, astray, used);
+    report(level, unordered, empty, invalid, used);
     below_voxels_ = std::move(voxels);
     below_ = index;
   }
 
-  // Adds a child's voxels and marks it as used; false if no node begins at that place.
+  // Adds a child's voxels and marks it as used; returns false if no node begins there.
   bool visit_child(uint32_t level, uint32_t child, uint64_t* voxels, std::vector<uint64_t>* used) {
     const bool to_brick = level + 1 == dag_.brick_level();
     if (to_brick ? child >= dag_.brick_count : !below_.is_start(child)) return false;
@@ -100,13 +100,13 @@ class Inspection {
     return true;
   }
 
-  void report(uint32_t level, uint64_t unordered, uint64_t empty, uint64_t astray,
+  void report(uint32_t level, uint64_t unordered, uint64_t empty, uint64_t invalid,
               const std::vector<uint64_t>& used) {
     if (empty > 0) defect(level, "has " + std::to_string(empty) + " impossible child masks");
     if (unordered > 0)
       defect(level,
              "has " + std::to_string(unordered) + " nodes that are repeated or out of order");
-    if (astray > 0) defect(level, "has " + std::to_string(astray) + " pointers that hit no node");
+    if (invalid > 0) defect(level, "has " + std::to_string(invalid) + " child pointers that are not the start of a node");
     uint64_t marked = 0;
     for (const uint64_t bits : used) marked += uint64_t(std::popcount(bits));
     if (marked < below_voxels_.size())
@@ -121,13 +121,13 @@ class Inspection {
   NodeIndex below_;                     // of the level below, unless those are bricks
 };
 
-// Is a voxel set outside the selection?
+// Searches for a voxel outside the selection.
 //
-// Only cubes that the border of the selection cuts are looked into, and those of one node that it
-// cuts in the same way once: a floor in the border's plane has few nodes, but cubes without number.
+// Descends only into cubes that the border of the selection cuts, and once per node and way of
+// cutting: a floor in the border's plane has few nodes, but an enormous number of cubes.
 class OutsideSearch {
  public:
-  explicit OutsideSearch(const DagView& dag) : dag_(dag), asked_(dag.levels) {}
+  explicit OutsideSearch(const DagView& dag) : dag_(dag), searched_(dag.levels) {}
 
   bool find(const Header& h) {
     VoxelBox selection;
@@ -139,17 +139,18 @@ class OutsideSearch {
   }
 
  private:
-  // `selection` is relative to the corner of the node's cube. No node is empty.
+  // Returns true if a voxel is found. `selection` is relative to the corner of the node's cube. No
+  // node is empty.
   bool find(uint32_t level, uint32_t node, const VoxelBox& selection) {
     const int64_t side = int64_t(1) << (dag_.levels - level);
     const VoxelBox cut = clipped(selection, side);
     if (cut.empty()) return true;
     if (cut == VoxelBox{LatticePoint(0), LatticePoint(side)}) return false;
     if (level == dag_.brick_level()) return find_in_brick(dag_.bricks[node], cut);
-    uint64_t& asked = asked_[level][node];
-    const uint64_t how = uint64_t(1) << borders_inside(cut, side);
-    if ((asked & how) != 0) return false;  // what was found would have ended the search
-    asked |= how;
+    uint64_t& searched = searched_[level][node];
+    const uint64_t cut_bit = uint64_t(1) << borders_inside(cut, side);
+    if ((searched & cut_bit) != 0) return false;  // already searched without a find
+    searched |= cut_bit;
     for (unsigned c = 0; c < 8; ++c) {
       const uint32_t child = dag_child(dag_, level, node, c);
       const LatticePoint corner = LatticePoint(c >> 2, c >> 1 & 1, c & 1) * (side / 2);
@@ -159,8 +160,8 @@ class OutsideSearch {
     return false;
   }
 
-  // Which of the six borders of the selection run through the inside of a cube, as bits. In all
-  // cubes of a level they do so at the same place, for cubes begin at multiples of their side.
+  // The borders of the selection (six bits) that run through the inside of a cube. They do so at the
+  // same position in all cubes of a level, because cubes begin at multiples of their side.
   static unsigned borders_inside(const VoxelBox& cut, int64_t side) {
     unsigned bits = 0;
     for (int a = 0; a < 3; ++a) {
@@ -180,7 +181,7 @@ class OutsideSearch {
     return false;
   }
 
-  // The part of `box` in the cube at 0.
+  // The part of `box` in the cube of this side at 0.
   static VoxelBox clipped(const VoxelBox& box, int64_t side) {
     VoxelBox part;
     for (int a = 0; a < 3; ++a) {
@@ -191,12 +192,12 @@ class OutsideSearch {
   }
 
   const DagView& dag_;
-  // [level], of nodes: which ways of being cut were looked into, a bit for each of the 2^6.
-  std::vector<std::unordered_map<uint32_t, uint64_t>> asked_;
+  // [level], per node: the ways of cutting already searched, one bit for each of the 2^6.
+  std::vector<std::unordered_map<uint32_t, uint64_t>> searched_;
 };
 
-// The corner of a lattice is a plane of the world, from which cells of up to 1024 voxels keep their
-// content; a box has no such planes.
+// Checks the corner's lattice plane k0, a multiple of 1024 so that cells of up to 1024 voxels have the
+// same content in every grid of the lattice. A box has no such planes.
 void check_lattice(const Header& header, std::vector<std::string>* defects) {
   const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
   for (const int64_t k0 : header.k0) {
@@ -208,7 +209,7 @@ void check_lattice(const Header& header, std::vector<std::string>* defects) {
   }
   for (int a = 0; lattice && a < 3; ++a) {
     if (header.corner[a] != (double(header.k0[a]) + 0.5) * header.voxel_size)
-      defects->push_back("the grid's corner is not at the lattice plane of its number k0");
+      defects->push_back("the grid's corner is not at the lattice plane k0");
   }
 }
 
@@ -217,14 +218,14 @@ void check_lattice(const Header& header, std::vector<std::string>* defects) {
 IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata) {
   IntegrityReport report;
   Inspection(header, dag, &report).run();
-  // Walking down is only safe in a DAG whose pointers were found right.
+  // Descending is only safe in a DAG whose pointers are valid.
   if (report.defects.empty() && header.bounded != 0 && OutsideSearch(dag).find(header))
     report.defects.push_back("a voxel outside the selection is set");
   if (report.voxels != header.voxels)
     report.defects.push_back("the header counts " + std::to_string(header.voxels) +
                              " voxels, the DAG holds " + std::to_string(report.voxels));
   check_lattice(header, &report.defects);
-  // A move is less than half a lattice step, plus the rounding of the move itself.
+  // A move is at most half a lattice step, including the rounding of the move itself.
   if (!(header.largest_snap >= 0 && header.largest_snap <= std::ldexp(0.5, -int(header.fraction))))
     report.defects.push_back("the largest snap is more than half a lattice step");
   for (std::string& defect : metadata_defects(header, metadata))

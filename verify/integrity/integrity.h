@@ -31,7 +31,7 @@ struct IntegrityReport {
 
 IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata);
 
-// Where the JSON text of the metadata and the header differ; empty if nowhere.
+// The differences between the JSON text of the metadata and the header.
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata);
 
 }  // namespace svdag

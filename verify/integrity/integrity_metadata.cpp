@@ -1,5 +1,5 @@
-// The metadata's JSON against the header (docs/format.md, "Metadata"): field by field, so that a
-// defect has a name, and then as the one line that it must be, for JSON has many texts of a value.
+// Compares the metadata's JSON with the header (docs/format.md, "Metadata"): field by field, so that
+// a defect names its field, then byte for byte, because JSON has many texts for one value.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -35,12 +35,12 @@ json expected_metadata(const Header& h) {
           {"largest_snap", h.largest_snap}};
 }
 
-constexpr int kDeepest = 2;  // the selection, in the grid, in the object
+constexpr int kMaxDepth = 2;  // the selection inside the grid inside the object
 
-// The beginning of what may be anything.
+// The beginning of an untrusted text.
 std::string beginning(const std::string& text) {
   size_t end = std::min<size_t>(text.size(), 40);
-  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // within a character
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // inside a UTF-8 character
   return text.substr(0, end) + (end < text.size() ? "..." : "");
 }
 
@@ -48,23 +48,23 @@ std::string quoted(const std::string& key) {
   return "\"" + beginning(key) + "\"";
 }
 
-// Notes keys that come twice in one object: readers disagree about which of them counts.
+// Reports keys that occur twice in one object: readers disagree about which one counts.
 class RepeatedKeys {
  public:
   explicit RepeatedKeys(std::vector<std::string>* defects) : defects_(defects) {}
 
-  void see(json::parse_event_t event, const json& parsed) {
+  void on_event(json::parse_event_t event, const json& parsed) {
     if (event == json::parse_event_t::object_start) open_.emplace_back();
     if (event == json::parse_event_t::object_end) open_.pop_back();
     if (event != json::parse_event_t::key) return;
     const std::string key = parsed.get<std::string>();
-    if (!open_.back().insert(key).second && told_.insert(key).second)
+    if (!open_.back().insert(key).second && reported_.insert(key).second)
       defects_->push_back("the metadata has the key " + quoted(key) + " twice");
   }
 
  private:
-  std::vector<std::set<std::string>> open_;  // keys of the objects around
-  std::set<std::string> told_;
+  std::vector<std::set<std::string>> open_;  // keys of the enclosing objects
+  std::set<std::string> reported_;
   std::vector<std::string>* defects_;
 };
 
@@ -73,14 +73,14 @@ class RepeatedKeys {
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata) {
   std::vector<std::string> defects;
   RepeatedKeys repeated(&defects);
-  bool deep = false;
-  const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
-    repeated.see(event, parsed);
-    deep = deep || depth > kDeepest + 1;
-    return !deep;  // dropped, so that printing it cannot exhaust the stack
+  bool too_deep = false;
+  const auto on_event = [&](int depth, json::parse_event_t event, json& parsed) {
+    repeated.on_event(event, parsed);
+    too_deep = too_deep || depth > kMaxDepth + 1;
+    return !too_deep;  // dropped, so that printing it cannot exhaust the stack
   };
-  const json found = json::parse(metadata, see, /*allow_exceptions=*/false);
-  if (deep) return {"the metadata is nested too deep"};
+  const json found = json::parse(metadata, on_event, /*allow_exceptions=*/false);
+  if (too_deep) return {"the metadata is nested too deep"};
   if (!found.is_object()) return {"the metadata is not a JSON object"};
   const json expected = expected_metadata(header);
   for (const auto& [key, value] : expected.items()) {
@@ -96,7 +96,7 @@ std::vector<std::string> metadata_defects(const Header& header, std::string_view
       defects.push_back("the metadata has an unknown key " + quoted(key));
   }
   if (defects.empty() && metadata != metadata_of(header))
-    return {"the metadata is not the one line that the format has for it"};
+    return {"the metadata is not the exact line that the format requires"};
   return defects;
 }
 

@@ -1,6 +1,6 @@
-// Numbers the nodes of one section of a DAG, so that values can be kept per node and not per word.
+// Numbers the nodes of one section of a DAG, to store values per node instead of per word.
 //
-// A bitmap of the words that begin a node, and the count of nodes before each 64 words.
+// Consists of a bitmap of the words that begin a node and the count of nodes before each 64 words.
 #pragma once
 
 #include <bit>
@@ -29,7 +29,7 @@ class NodeIndex {
   bool is_start(uint64_t word) const {
     return word / 64 < starts_.size() && (starts_[word / 64] >> (word % 64) & 1U) != 0;
   }
-  // How many nodes begin before `word`: the number of the node that begins there.
+  // The number of nodes that begin before `word`, which is the number of the node that begins there.
   uint64_t rank(uint64_t word) const {
     const uint64_t below = starts_[word / 64] & ((uint64_t(1) << (word % 64)) - 1);
     return before_[word / 64] + uint64_t(std::popcount(below));

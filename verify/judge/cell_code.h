@@ -1,7 +1,7 @@
-// Morton codes: cells of one level as numbers, in the order in which a depth-first walk meets them.
+// Morton codes of the cells of one level: numbers in the order of a depth-first walk.
 //
-// Bits of x, y, z alternate, x first, so that each three bits are a child number 4x + 2y + z and
-// the code of a parent is code >> 3. Coordinates have at most 20 bits.
+// The bits of x, y, z are interleaved, x first, so each three bits are a child number 4x + 2y + z
+// and the code of the parent is code >> 3. Coordinates have at most 20 bits.
 #pragma once
 
 #include <cstdint>

@@ -14,8 +14,8 @@ using Int256 = boost::multiprecision::int256_t;
 
 constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
 
-// Any axis is right; this one makes few and long columns: the smallest component of the normal,
-// and where that is a tie (walls, segments) the longest side of the box. Doubles suffice.
+// The axis that gives few and long columns; any axis is correct. It is the smallest component of the
+// normal or, if tied (walls, segments), the longest side of the box. Doubles suffice.
 int best_axis(const LatticeTriangle& t) {
   const Point a(t.v[1] - t.v[0]), b(t.v[2] - t.v[0]);
   const Point n(std::abs(a.y * b.z - a.z * b.y), std::abs(a.z * b.x - a.x * b.z),
@@ -34,7 +34,7 @@ int best_axis(const LatticeTriangle& t) {
 
 }  // namespace
 
-// One triangle against the columns of one window; Int holds every intermediate value.
+// Clips one triangle by the columns of one window. Int must hold every intermediate value.
 template <class Int>
 class ColumnClip {
  public:
@@ -78,7 +78,7 @@ class ColumnClip {
   struct Edge {
     Coordinates a, b;  // a.u <= b.u
   };
-  // Where the edges cross a line u = k*S, if they do (an edge inside the line does not).
+  // The crossings of the edges with a line u = k*S (an edge inside the line has none).
   struct Cut {
     std::array<bool, 3> crosses;
     std::array<Rounded, 3> v, w;
@@ -134,10 +134,10 @@ class ColumnClip {
     row->last = -kNone;
   }
 
-  // The point's column number m and w.
+  // Adds a point with height w to column m.
   void add(Clipper::Row* row, int64_t m, const Rounded& w) {
     if (row == nullptr || m < first_[1] || m > last_[1]) return;
-    // The touched range grows over columns that were never written, or hold an older slab.
+    // The touched range grows over columns that are uninitialized or hold an older slab.
     if (row->first > row->last) row->first = m, row->last = m - 1;
     while (m < row->first) reset(row, --row->first);
     while (m > row->last) reset(row, ++row->last);
@@ -152,7 +152,7 @@ class ColumnClip {
     for (int64_t m = first_cell(v.ceil); m <= last_cell(v.floor); ++m) add(row, m, w);
   }
 
-  // Corners on the line u = k*S: crossings with edges (2) and corners of squares (3).
+  // Adds the corners on the line u = k*S: crossings with edges (2) and corners of squares (3).
   void add_line(int64_t k, const Cut& cut, const Rows& rows) {
     int64_t low = kNone, high = -kNone;
     for (int i = 0; i < 3; ++i) {
@@ -169,7 +169,7 @@ class ColumnClip {
     if (begin <= end) walk_corners(k << shift_, begin, end, rows);
   }
 
-  // The plane's w over corners (u, m*S) for m = begin .. end: one division, then exact steps.
+  // Adds the plane's w at the corners (u, m*S), m = begin .. end: one division, then exact steps.
   void walk_corners(int64_t u, int64_t begin, int64_t end, const Rows& rows) {
     const Int start = nu_ * (u - p_[0][0]) + nv_ * ((begin << shift_) - p_[0][1]);
     Division<Int> at(-start, nw_);
@@ -193,7 +193,7 @@ class ColumnClip {
     }
   }
 
-  // Corners between the lines: vertices (1) and crossings with lines v = m*S (2).
+  // Adds the corners between the lines: vertices (1) and crossings with lines v = m*S (2).
   void add_slab(int64_t k, const Cut& low, const Cut& high) {
     const int64_t u0 = k << shift_, u1 = (k + 1) << shift_;
     for (const Coordinates& p : p_) {

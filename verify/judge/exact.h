@@ -1,8 +1,8 @@
-// Exact quotients of integers: all the arithmetic of the judge's clipping.
+// Exact quotients of integers: the arithmetic of the judge's clipping.
 //
-// A point where a triangle is cut is a rational number. The judge never compares two of them: of a
-// minimum only the voxel at or below it is needed, and ceil and floor are monotone, so
-// ceil(min of all) = min of all ceils. One division per point, no tolerance, no common denominator.
+// The coordinates of a cut are rational numbers. The judge never compares two of them: it only needs
+// the voxel at or below a minimum, and ceil and floor are monotone, so ceil(min of all) = min of all
+// ceils. One division per point, no tolerance, no common denominator.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace svdag {
 
 __extension__ typedef __int128 Int128;
 
-// Whether every intermediate value about this triangle fits 128 bits (occupancy.h counts them).
+// True if 128 bits hold every intermediate value for this triangle (see clip_judge.h).
 inline bool fits_int128(const LatticeTriangle& t) {
   constexpr int64_t kNarrow = int64_t(1) << 41;
   for (const LatticePoint& p : t.v) {
@@ -24,7 +24,7 @@ inline bool fits_int128(const LatticeTriangle& t) {
   return true;
 }
 
-// A rational number, seen from the integers: floor == ceil iff it is one.
+// A rational number rounded down and up; floor == ceil iff it is an integer.
 struct Rounded {
   int64_t floor;
   int64_t ceil;
@@ -43,7 +43,7 @@ struct Division {
       remainder += divisor;
     }
   }
-  // base + dividend / divisor, where the result is known to fit 64 bits.
+  // base + dividend / divisor; the result must fit 64 bits.
   Rounded plus(int64_t base) const {
     const int64_t floor = base + static_cast<int64_t>(quotient);
     return {floor, floor + (remainder != 0 ? 1 : 0)};

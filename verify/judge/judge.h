@@ -1,12 +1,12 @@
-// Two judges behind one interface that decide which voxels a triangle sets.
+// The interface of the two judges that decide which voxels a triangle sets.
 //
-//   integer   clips the triangle by columns of cells, or walks its lines of centres, in integers
-//             (clip_judge.h, thin.h)
+//   integer   clips the triangle by columns of cells, or enumerates its lines of centres, in
+//             integers (clip_judge.h, thin.h)
 //   cgal      tests one cell after the other with CGAL's exact kernel (judge_cgal.h)
 //
 // They share neither arithmetic nor method, except for the box of cells that they test
-// (touched_cells.h), so one detects an error of the other. Both judge both rules
-// (docs/accuracy.md). A judge keeps scratch memory: one per thread.
+// (touched_cells.h), so each detects errors of the other. Both judge both rules
+// (docs/accuracy.md). A judge reuses scratch memory: one per thread.
 #pragma once
 
 #include <memory>
@@ -23,14 +23,14 @@ class Judge {
   using Sink = Clipper::Sink;
 
   virtual ~Judge() = default;
-  // Hands every cell of side 2^shift inside `window` that the closed triangle meets to `sink`.
-  // Whatever the rule, a triangle sets voxels in these cells only.
+  // Passes every cell of side 2^shift inside `window` that the closed triangle meets to `sink`.
+  // With any rule, a triangle sets voxels in these cells only.
   virtual void cells(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
                      const Sink& sink) = 0;
-  // Hands every voxel (of side 2^fraction) that the rule sets to `sink`, at least once.
+  // Passes every voxel (of side 2^fraction) that the rule sets to `sink`, at least once.
   virtual void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
                       const Sink& sink) = 0;
-  // Whether the triangle meets the closed cell.
+  // True if the triangle meets the closed cell.
   bool touches(const LatticeTriangle& triangle, int shift, const LatticePoint& cell);
 };
 
@@ -45,7 +45,7 @@ struct JudgeChoice {
 std::unique_ptr<Judge> make_judge(const JudgeChoice& choice);
 std::vector<std::unique_ptr<Judge>> make_judges(const JudgeChoice& choice, size_t count);
 
-// "integer" or "cgal", and what that is for people.
+// The names "integer" and "cgal", and a description for people.
 JudgeChoice::Kind parse_judge(const std::string& name);
 const char* name_of(JudgeChoice::Kind kind);
 const char* description_of(JudgeChoice::Kind kind, Rule rule);

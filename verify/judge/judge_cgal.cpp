@@ -14,7 +14,7 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Number = Kernel::FT;
 using Shape = std::variant<Kernel::Point_3, Kernel::Segment_3, Kernel::Triangle_3>;
 
-// A double holds 53 bits; two of them hold every lattice coordinate.
+// A double holds 53 bits; two doubles hold every lattice coordinate.
 Number number(int64_t q) {
   constexpr int64_t kDouble = int64_t(1) << 53;
   if (-kDouble <= q && q <= kDouble) return Number(double(q));
@@ -25,7 +25,8 @@ Kernel::Point_3 point(const LatticePoint& p) {
   return {number(p.x), number(p.y), number(p.z)};
 }
 
-// The triangle as what it is: on a line, the ends are the least and the greatest of its points.
+// The triangle, or the segment or point to which it degenerates: on a line, the ends are the
+// lexicographically smallest and largest vertex.
 Shape shape_of(const LatticeTriangle& t) {
   std::array<Kernel::Point_3, 3> p{point(t.v[0]), point(t.v[1]), point(t.v[2])};
   if (!CGAL::collinear(p[0], p[1], p[2])) return Kernel::Triangle_3(p[0], p[1], p[2]);
@@ -50,7 +51,7 @@ class CgalJudge final : public Judge {
 
   void cells(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
              const Sink& sink) override {
-    take(triangle);
+    set_triangle(triangle);
     const VoxelBox box = touched_cells(box_of(triangle), shift, window);
     if (!box.empty()) descend(box, shift, sink);
   }
@@ -58,8 +59,8 @@ class CgalJudge final : public Judge {
   void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
               const Sink& sink) override {
     if (rule_ == Rule::kConservative) return cells(triangle, fraction, window, sink);
-    // A segment that crosses the triangle is in its closed voxel except for d: as e tends to 0 the
-    // crossing remains in the limit, so the triangle meets the closed voxel.
+    // A shifted centre segment is in its closed voxel except for d. As e tends to 0 the crossing
+    // persists, so a triangle that crosses it meets the closed voxel.
     cells(triangle, fraction, window, [&](const CellRun& voxel) {
       if (crosses_a_centre_segment(voxel.first, fraction)) sink(voxel);
     });
@@ -67,11 +68,11 @@ class CgalJudge final : public Judge {
 
  private:
   // The same triangle is tested many times: CGAL caches its exact numbers.
-  void take(const LatticeTriangle& triangle) {
-    if (shape_of_ == triangle && taken_) return;
-    shape_of_ = triangle;
+  void set_triangle(const LatticeTriangle& triangle) {
+    if (triangle_ == triangle && has_triangle_) return;
+    triangle_ = triangle;
     shape_ = shape_of(triangle);
-    taken_ = true;
+    has_triangle_ = true;
   }
 
   void descend(const VoxelBox& box, int shift, const Sink& sink) {
@@ -91,10 +92,10 @@ class CgalJudge final : public Judge {
     const auto* triangle = std::get_if<Kernel::Triangle_3>(&shape_);
     if (triangle == nullptr) return false;
     const Number half(double(int64_t(1) << shift >> 1));
-    constexpr double kMove[3] = {0x1p-256, 0x1p-512, 0x1p-768};
+    constexpr double kShift[3] = {0x1p-256, 0x1p-512, 0x1p-768};
     std::array<Number, 3> centre;
     for (int a = 0; a < 3; ++a)
-      centre[size_t(a)] = number(voxel[a] << shift) + half + Number(kMove[a]);
+      centre[size_t(a)] = number(voxel[a] << shift) + half + Number(kShift[a]);
     for (size_t w = 0; w < 3; ++w) {
       std::array<Number, 3> from = centre, to = centre;
       from[w] -= half;
@@ -106,8 +107,8 @@ class CgalJudge final : public Judge {
   }
 
   Rule rule_;
-  bool taken_ = false;
-  LatticeTriangle shape_of_{};
+  bool has_triangle_ = false;
+  LatticeTriangle triangle_{};
   Shape shape_;
 };
 

@@ -1,4 +1,4 @@
-// The distances of voxel centres from triangles by OpenVDB's own mesh-to-volume conversion.
+// The distances of voxel centres from triangles, computed by OpenVDB's mesh-to-volume conversion.
 //
 // tools::meshToVolume floods outward from every triangle as long as the squared distance of a
 // voxel's centre is at most 3/4, so each voxel that a triangle may touch gets the distance to its
@@ -15,7 +15,7 @@
 
 namespace svdag {
 
-// A block of 8^3 distances, index 64x + 8y + z; what is further away than about a voxel is kFar.
+// A block of 8^3 distances, index 64x + 8y + z; distances above about one voxel are kFar.
 constexpr float kFar = 3.4e38F;
 using DistanceSink = std::function<void(const LatticePoint& origin, std::span<const float, 512>)>;
 

@@ -9,7 +9,7 @@ namespace {
 
 using Int256 = boost::multiprecision::int256_t;
 
-// One triangle against the lines of centres along one axis at a time.
+// Intersects one triangle with the lines of centres, one axis at a time.
 template <class Int>
 class CentreLines {
  public:
@@ -66,7 +66,7 @@ class CentreLines {
     if (begin < end) walk(m, begin, end);
   }
 
-  // The heights over the centres begin .. end-1 of row m: one division, then exact steps.
+  // Computes the heights over the centres begin .. end-1 of row m: one division, then exact steps.
   void walk(int64_t m, int64_t begin, int64_t end) {
     const LatticePoint& p = t_.v[0];
     Division<Int> at(-(n_[u_] * (centre(begin) - p[u_]) + n_[v_] * (centre(m) - p[v_])), n_[w_]);
@@ -96,9 +96,9 @@ class CentreLines {
   int64_t half_;
   VoxelBox window_;
   const Clipper::Sink& sink_;
-  std::array<Int, 3> normal_, n_;  // n_ is the normal or its opposite, with n_w > 0
+  std::array<Int, 3> normal_, n_;  // n_: the normal or its opposite, with n_w > 0
   int u_ = 0, v_ = 0, w_ = 0;
-  bool up_ = false;  // d moves a height that is on a voxel plane above it
+  bool up_ = false;  // true if d moves a height on a voxel plane upwards
   Division<Int> step_{0, 1};
 };
 

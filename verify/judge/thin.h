@@ -1,32 +1,33 @@
-// The judge's own voxelizer for the rule thin: lines of centres through the triangle, in integers.
+// The judge's own voxelizer for the rule thin: intersects lines of centres with the triangle, in
+// integers.
 //
 // Definition (docs/accuracy.md, rule thin): voxel k has the centre c = (k + 1/2) * S, S = 2^shift.
-// With all centres moved by the symbolic d = (e, e^2, e^3), e > 0 smaller than any number that
+// With all centres shifted by the symbolic d = (e, e^2, e^3), e > 0 smaller than any number that
 // occurs, k is set iff for some axis w the segment of length S through c + d along w crosses the
-// triangle. After that shift no target is exactly on a plane or edge, so "crosses" is unambiguous.
+// triangle. After the shift no centre is exactly on a plane or edge, so "crosses" is unambiguous.
 //
-// Idea: the segments of one axis w chain up to lines of centres, and a line that meets the
-// triangle crosses it in one point, so in one segment. So enumerate the lines, as a scan
-// converter does its pixels, and divide for the point. Let u < v be the other two axes; then e_u
-// dominates e_v, and every tie is settled by a half-open comparison:
+// Idea: the segments of one axis w form lines of centres, and a line that meets the triangle crosses
+// it in one point, so in one segment. Enumerate the lines, as a scan converter enumerates pixels,
+// and compute the point by division. Let u < v be the other two axes; then e_u dominates e_v, and
+// every tie is resolved by a half-open comparison:
 //   row    V + e_v is between the ends of an edge  iff  min v <= V < max v
 //   pixel  U + e_u is right of an edge's crossing  iff  U >= crossing: the row's own e_v moves the
 //          crossing by a multiple of e_v only, less than e_u
 //   voxel  the height h of the plane over (U, V) moves by -(n . d) / n_w against the voxel planes,
-//          which on a plane is up iff the first nonzero component of n has not the sign of n_w
+//          which on a plane is up iff the first nonzero component of n and n_w differ in sign
 // The row is the interval [ceil min crossing, ceil max crossing) of integers U.
 //
 // Bits: as for corners of squares in clip_judge.h; (U, V) is in the triangle's box there as well.
 // Triangles of zero area have n_w = 0 for every w, cross no line and set nothing.
-// Rejected: testing voxel after voxel by the signs of edge functions and of the plane at both ends
-// (what the builder does; a judge must not repeat its errors).
+// Rejected: testing each voxel by the signs of edge functions and of the plane at both ends (the
+// builder's method; a judge must not repeat its errors).
 #pragma once
 
 #include "verify/judge/clip_judge.h"
 
 namespace svdag {
 
-// Hands every voxel of `window` that the triangle sets to `sink`, up to three times (once an axis).
+// Passes every voxel of `window` that the triangle sets to `sink`, at most once per axis.
 void thin_voxels(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
                  const Clipper::Sink& sink);
 

@@ -22,14 +22,14 @@ struct TileNode {
   uint32_t node;
 };
 
-// Everything known about one tile; begin .. end are its entries in the sorted list.
+// The node and the triangles of one tile; begin .. end are its entries in the sorted list.
 struct TileWork {
   uint64_t tile;
   uint32_t node;  // or kNoChild
   size_t begin, end;
 };
 
-// A few thousand triangles or a few dozen tiles are one task of the executor.
+// Number of triangles or tiles per task of the executor.
 constexpr size_t kTriangleChunk = 4096;
 constexpr size_t kTileChunk = 64;
 
@@ -62,7 +62,7 @@ std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const Latti
     }
     progress.advance(end - chunk * kTriangleChunk);
   });
-  // Tasks reach workers in any order; sorting by (tile, triangle) makes the list one and the same.
+  // Workers get tasks in any order; sorting by (tile, triangle) makes the list deterministic.
   executor.for_each(lists.size(),
                     [&](size_t, size_t i) { std::sort(lists[i].begin(), lists[i].end()); });
   std::vector<TileTriangle> merged;
@@ -83,7 +83,7 @@ void collect_nodes(const DagView& dag, uint32_t tile_level, uint32_t level, uint
   }
 }
 
-// Merges the two sorted lists into one entry per tile that either of them names.
+// Merges the two sorted lists: one entry per tile that occurs in either.
 std::vector<TileWork> plan_work(std::span<const TileTriangle> triangles,
                                 std::span<const TileNode> nodes) {
   std::vector<TileWork> work;
@@ -100,7 +100,7 @@ std::vector<TileWork> plan_work(std::span<const TileTriangle> triangles,
   return work;
 }
 
-// One worker's place to compare a tile in.
+// Compares tiles, one at a time; one per worker.
 class TileComparison {
  public:
   TileComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
@@ -186,14 +186,14 @@ Comparison compare_all(const DagView& dag, const Grid& grid,
   const std::vector<TileWork> work = plan_work(lists, nodes);
 
   progress.phase("comparing", work.size());
-  std::vector<TileComparison> places;
+  std::vector<TileComparison> comparisons;
   for (size_t i = 0; i < executor.workers(); ++i)
-    places.emplace_back(dag, grid, triangles, lists, *judges[i]);
+    comparisons.emplace_back(dag, grid, triangles, lists, *judges[i]);
   std::vector<Comparison> parts(chunks(work.size(), kTileChunk));
   executor.for_each(parts.size(), [&](size_t worker, size_t chunk) {
     const size_t end = std::min(work.size(), (chunk + 1) * kTileChunk);
     for (size_t i = chunk * kTileChunk; i < end; ++i)
-      places[worker].compare(work[i], &parts[chunk]);
+      comparisons[worker].compare(work[i], &parts[chunk]);
     progress.advance(end - chunk * kTileChunk);
   });
   progress.finish();

@@ -1,9 +1,9 @@
-// All bricks: the file's occupancy against a judge's own, voxel by voxel.
+// Compares all bricks of a file with the voxels that a judge sets.
 //
-// The grid is cut into tiles. A tile is visited iff a triangle meets its closed cube or the DAG has
-// a node for it; everything else is empty on both sides. The triangles of a tile are found by the
-// same judge, with the tile as the cell: a triangle that touches a voxel touches its tile, so no
-// list misses one.
+// The grid is divided into tiles. A tile is visited iff a triangle meets its closed cube or the DAG
+// has a node for it; all other tiles are empty on both sides. The same judge finds the triangles of
+// a tile, with the tile as the cell: a triangle that touches a voxel touches its tile, so none is
+// missed.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ namespace svdag {
 
 struct WrongVoxel {
   LatticePoint voxel;
-  bool missing;  // the judge sets it and the file lacks it; else the file has it in excess
+  bool missing;  // true: set by the judge but not in the file; false: the reverse
 };
 
-// Counts of decisions about voxels and where they differ.
+// Counts of compared voxels, and the first differences.
 struct Comparison {
   static constexpr size_t kShown = 8;
 
-  uint64_t bricks = 0;        // bricks compared; of all bricks only those not empty on both sides
-  uint64_t wrong_bricks = 0;  // of these, with a missing or an extra voxel
+  uint64_t bricks = 0;        // bricks compared; in a full comparison, those not empty on both sides
+  uint64_t wrong_bricks = 0;  // those with a missing or an extra voxel
   uint64_t judge_voxels = 0;
   uint64_t file_voxels = 0;
   uint64_t missing = 0;
@@ -36,9 +36,9 @@ struct Comparison {
   std::vector<WrongVoxel> first;  // the first kShown in the order of the bricks
 
   bool agrees() const { return missing == 0 && extra == 0; }
-  // Counts one brick whose corner voxel is `corner`.
+  // Adds one brick whose corner voxel is `corner`.
   void add(uint64_t judge, uint64_t file, const LatticePoint& corner);
-  // Appends the counts of bricks that come later.
+  // Adds the counts of later bricks.
   void append(const Comparison& later);
 };
 

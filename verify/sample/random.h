@@ -1,4 +1,5 @@
-// The same numbers from every standard library: std::uniform_* leave the algorithm open.
+// A random number generator with the same results on every standard library, which std::uniform_*
+// does not guarantee.
 #pragma once
 
 #include <cstdint>

@@ -9,9 +9,9 @@
 namespace svdag {
 namespace {
 
-// Triangles gathered before they are shared out to the workers.
-constexpr size_t kGather = size_t(1) << 16;
-constexpr size_t kShare = 1024;
+// Triangles per batch, and per task of a worker.
+constexpr size_t kBatchTriangles = size_t(1) << 16;
+constexpr size_t kTaskTriangles = 1024;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ void BrickSample::add(const LatticeTriangle& triangle, Judge& judge) {
   const VoxelBox bricks{LatticePoint(0), LatticePoint(grid_.resolution() / kBrickSide)};
   const VoxelBox box = touched_cells(box_of(triangle), grid_.fraction() + 2, bricks);
   if (box.empty()) return;
-  // The smallest octree cell that holds the whole box: the common prefix of its corners' codes.
+  // The smallest octree cell that contains the box: the common prefix of its corners' codes.
   const uint64_t low = cell_code(box.min), high = cell_code(box.max - int64_t(1));
   const int height = int(std::bit_width(low ^ high) + 2) / 3;
   const auto begin = std::lower_bound(codes_.begin(), codes_.end(), low);
@@ -31,8 +31,8 @@ void BrickSample::add(const LatticeTriangle& triangle, Judge& judge) {
           size_t(end - codes_.begin()));
 }
 
-// The sampled bricks begin .. end are those inside `cell`, which is 2^height bricks wide, that the
-// triangle may touch.
+// begin .. end are the sampled bricks inside `cell`, which is 2^height bricks wide, that the triangle
+// may touch.
 void BrickSample::descend(const LatticeTriangle& triangle, Judge& judge, uint64_t cell, int height,
                           size_t begin, size_t end) {
   if (begin == end) return;
@@ -102,9 +102,9 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   BrickSample sample(grid, std::move(codes));
   std::vector<LatticeTriangle> gathered;
   const auto flush = [&] {
-    executor.for_each((gathered.size() + kShare - 1) / kShare, [&](size_t worker, size_t share) {
-      const size_t end = std::min(gathered.size(), (share + 1) * kShare);
-      for (size_t i = share * kShare; i < end; ++i) sample.add(gathered[i], *judges[worker]);
+    executor.for_each((gathered.size() + kTaskTriangles - 1) / kTaskTriangles, [&](size_t worker, size_t task) {
+      const size_t end = std::min(gathered.size(), (task + 1) * kTaskTriangles);
+      for (size_t i = task * kTaskTriangles; i < end; ++i) sample.add(gathered[i], *judges[worker]);
     });
     progress.advance(gathered.size());
     gathered.clear();
@@ -112,7 +112,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   progress.phase("judging triangles", 0);
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     gathered.insert(gathered.end(), batch.begin(), batch.end());
-    if (gathered.size() >= kGather) flush();
+    if (gathered.size() >= kBatchTriangles) flush();
   });
   flush();
   progress.finish();

@@ -1,13 +1,13 @@
-// Sampled bricks: an answer about a large file in a bounded time and memory.
+// Compares a random sample of bricks: judges a large file in bounded time and memory.
 //
-// Half of the bricks are drawn uniformly from the DAG's occupied bricks (they would show extra
-// voxels and missing neighbours), half from the scene (scene_draw.h; they would show bricks that
-// are missing altogether, which no draw from the file can). Then the scene is streamed once more
-// against the sampled bricks alone: a sorted list of Morton codes is an octree already, in which a
-// triangle descends as long as it touches the cell, exactly.
-// What a sample says about the whole is said of each kind of draw by itself: "all bricks", those
-// of the file and those it lacks, is nothing that one can draw from uniformly.
-// Rejected: holding the scene (it may not fit), testing every triangle against every brick.
+// Half of the bricks are drawn uniformly from the DAG's occupied bricks (these show extra voxels and
+// missing neighbours), half from the scene (scene_draw.h; these show bricks that are missing
+// altogether, which no draw from the file can). The scene is then streamed again and tested against
+// the sampled bricks only: their sorted list of Morton codes is an octree, in which each triangle
+// descends as long as it touches the cell, exactly.
+// Statistical statements are made per kind of draw: the union of the bricks that the file has and
+// those that it lacks cannot be sampled uniformly.
+// Rejected: holding the scene in memory (it may not fit), testing every triangle against every brick.
 #pragma once
 
 #include <cstdint>
@@ -22,40 +22,40 @@
 
 namespace svdag {
 
-// The Morton codes of `count` bricks of the DAG, each occupied brick of the grid equally likely.
+// Draws the Morton codes of `count` bricks, each occupied brick of the grid equally likely.
 std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& random);
 
-// Of `count` draws, half from either side; the odd one is the scene's, so that one draw sees a file
-// that lacks everything. What the scene cannot give is drawn from the file.
+// `count` draws, half from the file and half from the scene. An odd draw is the scene's, so that a
+// single draw detects an empty file. Draws that the scene cannot give are made from the file.
 struct BrickDraw {
   std::vector<uint64_t> file;
   SceneDraw scene;
 
   std::vector<uint64_t> all() const;
-  // There is nothing to compare: the file has no voxel, and no triangle's box meets the selection.
+  // Nothing to compare: the file has no voxel, and no triangle's box meets the selection.
   bool both_empty() const { return all().empty() && scene.near == 0; }
-  // There may be something, but nothing was drawn: no judgement follows.
+  // Nothing was drawn although the scene may set voxels: no conclusion is possible.
   bool untested() const { return all().empty() && scene.near > 0; }
 };
 BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
                       uint64_t seed);
 
-// What a draw takes while its brick is drawn and compared: its place, its code some times over, and
-// the brick; or its window.
+// Memory of one draw while its brick is drawn and compared: its position, several copies of its code,
+// and the brick; or its window.
 constexpr uint64_t kBytesOfDraw = 64;
 
-// The Error (kUsage) of an untested sample.
+// Throws the Error (kUsage) for an untested sample.
 [[noreturn]] void fail_untested();
 
-// Voxelizes exactly the given bricks (sorted, without repetition) while triangles go by.
+// Voxelizes exactly the given bricks (sorted and unique) from a stream of triangles.
 class BrickSample {
  public:
   BrickSample(const Grid& grid, std::vector<uint64_t> codes);
 
-  // Adds what a triangle sets; calls may run at once if each has its own judge.
+  // Adds the voxels that a triangle sets. Calls may run concurrently if each has its own judge.
   void add(const LatticeTriangle& triangle, Judge& judge);
   Comparison compare(const DagView& dag) const;
-  // How many of these draws gave a wrong brick; all of them must be in the sample.
+  // The number of these draws that gave a wrong brick. All must be in the sample.
   uint64_t count_wrong(const DagView& dag, const std::vector<uint64_t>& draws) const;
 
  private:
@@ -66,23 +66,23 @@ class BrickSample {
 
   Grid grid_;
   std::vector<uint64_t> codes_;
-  std::vector<Brick> bricks_;  // what the triangles set so far, by index into codes_
+  std::vector<Brick> bricks_;  // voxels set so far, by index into codes_
 };
 
-// Draws of one kind, repetitions counted, and how many gave a wrong brick.
+// Number of draws of one kind, with repetitions, and of those that gave a wrong brick.
 struct DrawnBricks {
   uint64_t draws = 0;
   uint64_t wrong = 0;
 };
 
 struct SampleComparison {
-  Comparison comparison;  // of all that were drawn, each brick once
-  DrawnBricks file;       // of the file's occupied bricks, each equally likely
+  Comparison comparison;  // of all drawn bricks, each counted once
+  DrawnBricks file;       // drawn from the file's occupied bricks
   std::array<DrawnBricks, kMeasures> scene;
   bool both_empty = false, untested = false;  // as in BrickDraw
 };
 
-// The whole: `count` bricks drawn with `seed`, judged on all workers.
+// Draws `count` bricks with `seed` and judges them on all workers.
 SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid,
                                 uint64_t count, uint64_t seed, const JudgeChoice& choice,
                                 Executor& executor, Progress& progress);

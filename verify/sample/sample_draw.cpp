@@ -1,4 +1,4 @@
-// Drawing bricks of a DAG, and both sides of a sample together.
+// Draws bricks from a DAG, and combines the draws from file and scene.
 #include <bit>
 
 #include "streaming/error.h"
@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-// For every inner node, how many occupied bricks of the grid lie below it.
+// For every inner node, the number of occupied bricks of the grid below it.
 class BrickCounts {
  public:
   explicit BrickCounts(const DagView& dag) : dag_(dag), levels_(dag.brick_level()) {
@@ -84,7 +84,7 @@ BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, 
 void fail_untested() {
   fail_usage(
       "--sample: nothing could be drawn, so nothing was tested: the file has no voxel, and no "
-      "triangle was found in its grid; leave --sample out to compare all");
+      "triangle was found in its grid: leave --sample out to compare all");
 }
 
 }  // namespace svdag

@@ -40,10 +40,10 @@ double area_of(const Point& p, const Point& q, const Point& r) {
          length_of(Point(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x));
 }
 
-// A triangle's part in the selection, in voxels.
-class Part {
+// The part of a triangle inside the selection, in voxels.
+class ClippedTriangle {
  public:
-  Part(const LatticeTriangle& t, const Grid& grid)
+  ClippedTriangle(const LatticeTriangle& t, const Grid& grid)
       : low_(grid.selection.min), high_(grid.selection.max) {
     const double voxel = std::ldexp(1.0, -grid.fraction());
     bool inside = true;
@@ -62,11 +62,11 @@ class Part {
     }
     if (inside) {
       area_ = area_of(corners_[0], corners_[1], corners_[2]);
-      return;  // nearly always, so nothing is cut or copied for it
+      return;  // the common case: nothing is cut or copied
     }
     if (!cut_segment(low_, high_, &edge_)) edge_.to = edge_.from;
     cut_ = cut_to_box(Polygon(corners_.begin(), corners_.end()), low_, high_);
-    there_ = !cut_.empty();
+    meets_selection_ = !cut_.empty();
     for (size_t i = 2; i < cut_.size(); ++i) area_ += area_of(cut_[0], cut_[i - 1], cut_[i]);
   }
 
@@ -77,12 +77,12 @@ class Part {
       case Measure::kLongestEdge:
         return length_of(edge_.to - edge_.from);
       case Measure::kTriangle:
-        return there_ ? 1 : 0;
+        return meets_selection_ ? 1 : 0;
     }
     return 0;
   }
 
-  // The brick of a point that the measure draws.
+  // Draws a point by the measure and returns its brick.
   uint64_t draw(Measure measure, Random& random) const {
     if (measure == Measure::kLongestEdge)
       return brick(edge_.from + (edge_.to - edge_.from) * random.unit());
@@ -119,30 +119,31 @@ class Part {
 
   Point low_, high_;
   std::array<Point, 3> corners_;
-  Polygon cut_;        // empty if the whole triangle is inside, or nothing of it
-  bool there_ = true;  // is some of it inside?
-  Segment edge_{};     // the part of the longest edge; a point if it has no length
+  Polygon cut_;        // empty if the triangle is entirely inside or entirely outside
+  bool meets_selection_ = true;
+  Segment edge_{};     // the part of the longest edge inside; a point if none is
   double area_ = 0;
 };
 
-// The draws by one measure: the line of all weights end to end, and ascending places on it.
-struct Draws {
+// The draws by one measure: ascending positions on the line of all weights laid end to end.
+struct MeasureDraws {
   double total = 0, passed = 0;
-  std::vector<double> places;
+  std::vector<double> positions;
   size_t next = 0;
 };
 
-// A third each, one more for the first ones; a measure without weight leaves its share to the next.
-void place(std::array<Draws, kMeasures>* draws, uint64_t count, Random& random) {
+// Draws a third of the positions by each measure (the first ones get the remainder); a measure without
+// weight leaves its share to the next.
+void draw_positions(std::array<MeasureDraws, kMeasures>* draws, uint64_t count, Random& random) {
   uint64_t left = 0;
   for (size_t m = 0; m < kMeasures; ++m) {
-    Draws& own = (*draws)[m];
+    MeasureDraws& drawn = (*draws)[m];
     left += (count + kMeasures - 1 - m) / kMeasures;
-    if (!(own.total > 0)) continue;
-    own.places.resize(left);
+    if (!(drawn.total > 0)) continue;
+    drawn.positions.resize(left);
     left = 0;
-    for (double& place : own.places) place = random.unit() * own.total;
-    std::sort(own.places.begin(), own.places.end());
+    for (double& position : drawn.positions) position = random.unit() * drawn.total;
+    std::sort(drawn.positions.begin(), drawn.positions.end());
   }
 }
 
@@ -150,7 +151,7 @@ void place(std::array<Draws, kMeasures>* draws, uint64_t count, Random& random) 
 
 std::vector<uint64_t> SceneDraw::all() const {
   std::vector<uint64_t> all;
-  for (const std::vector<uint64_t>& own : codes) all.insert(all.end(), own.begin(), own.end());
+  for (const std::vector<uint64_t>& drawn : codes) all.insert(all.end(), drawn.begin(), drawn.end());
   return all;
 }
 
@@ -158,25 +159,25 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
   SceneDraw result;
   if (grid.selection.empty()) return result;
   const LatticeBox selection = grid.closed(grid.selection);
-  std::array<Draws, kMeasures> draws;
+  std::array<MeasureDraws, kMeasures> draws;
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
       if (!selection.meets(box_of(t))) continue;
       ++result.near;
-      const Part part(t, grid);
-      for (size_t m = 0; m < kMeasures; ++m) draws[m].total += part.weight(Measure(m));
+      const ClippedTriangle clipped(t, grid);
+      for (size_t m = 0; m < kMeasures; ++m) draws[m].total += clipped.weight(Measure(m));
     }
   });
-  place(&draws, count, random);
+  draw_positions(&draws, count, random);
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
       if (!selection.meets(box_of(t))) continue;
-      const Part part(t, grid);
+      const ClippedTriangle clipped(t, grid);
       for (size_t m = 0; m < kMeasures; ++m) {
-        Draws& own = draws[m];
-        own.passed += part.weight(Measure(m));
-        for (; own.next < own.places.size() && own.places[own.next] < own.passed; ++own.next)
-          result.codes[m].push_back(part.draw(Measure(m), random));
+        MeasureDraws& drawn = draws[m];
+        drawn.passed += clipped.weight(Measure(m));
+        for (; drawn.next < drawn.positions.size() && drawn.positions[drawn.next] < drawn.passed; ++drawn.next)
+          result.codes[m].push_back(clipped.draw(Measure(m), random));
       }
     }
   });

@@ -1,17 +1,17 @@
 // Draws random bricks from a scene, by measures for which error bounds can be stated.
 //
 //   area          points uniform over the area of the triangles
-//   longest edge  points uniform along the longest edges of the triangles: a needle has length
-//                 where it has no area
-//   triangle      a triangle, all equally likely, and a point of it, moved by up to a voxel on
-//                 each axis: tiny triangles, points, and the bricks beside a surface
+//   longest edge  points uniform along the longest edges of the triangles: finds needles, which
+//                 have length but no area
+//   triangle      a point of a uniformly chosen triangle, moved by up to a voxel on each axis:
+//                 finds tiny triangles, points, and the bricks beside a surface
 //
 // All measures are of the part of the snapped scene in the grid (with --bounds: in the selection),
 // so no draw misses it. The first two draws are independent and uniform: k of n points in wrong
 // bricks bound the share of that area, or length, that is in wrong bricks. The third is a search
 // and bounds nothing.
-// Rejected: one measure for all. By area no needle is ever drawn, by length a carpet of small
-// triangles hides a plane, by number a tessellated screw hides the walls.
+// Rejected: a single measure. By area no needle is ever drawn, by length a carpet of small triangles
+// hides a plane, by number a tessellated screw hides the walls.
 #pragma once
 
 #include <array>
@@ -33,9 +33,9 @@ struct SceneDraw {
   std::vector<uint64_t> all() const;
 };
 
-// `count` draws, a third by each measure; what a measure cannot give (a scene without area, a scene
-// of points) is drawn by the next. Nothing only if no triangle was found in the selection. Streams
-// the scene twice.
+// Makes `count` draws, a third by each measure; a measure without weight (a scene without area, a
+// scene of points) passes its draws to the next. The result is empty only if no triangle was found in
+// the selection. Streams the scene twice.
 SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Random& random);
 
 }  // namespace svdag

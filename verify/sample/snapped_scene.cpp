@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// The grid that a bake of the whole scene would choose, or nothing where none fits.
+// True if a bake of the whole scene with these bounds would choose this grid.
 bool follows_from(const Grid& grid, const Box& bounds) {
   if (grid.bounded) return false;
   try {
@@ -48,9 +48,9 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
   return counts;
 }
 
-std::string snap_defect(double said, const SnapCounts& whole_scene) {
-  if (said == 0 || said == whole_scene.largest_move) return {};
-  return "the header says that the snap moved the scene by up to " + format_double(said) +
+std::string snap_defect(double recorded, const SnapCounts& whole_scene) {
+  if (recorded == 0 || recorded == whole_scene.largest_move) return {};
+  return "the header says that the snap moved the scene by up to " + format_double(recorded) +
          " voxels, it is " + format_double(whole_scene.largest_move);
 }
 

@@ -1,8 +1,8 @@
-// A tile: the unit in which the judge compares, 64^3 voxels (or the whole of a smaller grid).
+// A tile, the judge's unit of comparison: 64^3 voxels (or the whole of a smaller grid).
 //
 // Its 16^3 bricks are in Morton order in 32 KiB, which fits the first-level cache; a DAG fills
-// them in one descent. Larger tiles would save set-up but make every clear and compare a trip to
-// memory.
+// them in one descent. Larger tiles would save set-up, but every clear and compare would miss that
+// cache.
 #pragma once
 
 #include <algorithm>

@@ -8,12 +8,12 @@
 namespace svdag {
 namespace {
 
-// The DAG to write; `format`: for an Error.
+// The DAG to write; `format` is named in errors.
 LevelDag level_dag(const Selection& selection, const ExportConfig& config, const char* format,
                    MemoryBudget* budget) {
   if (config.bounds)
     fail_usage("--bounds: " + std::string(format) +
-               " holds whole DAGs: bake or import the part that is wanted, or export voxels (npz, "
+               " holds whole DAGs only: bake or import just that part, or export voxels (npz, "
                "vdb, ...)");
   return LevelDag(selection.file, selection.grid.levels, budget);
 }
@@ -42,7 +42,7 @@ uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
 uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   if (!config.output.ends_with(".octree"))
     fail_usage(config.output +
-               ": the name must end in .octree; two more files are written beside it");
+               ": the name must end in .octree (two more files are written beside it)");
   const LevelDag dag = level_dag(*selection, config, "the .octree", budget);
   write_octree(dag, config.output);
   return dag.voxels();

@@ -14,19 +14,19 @@
 namespace svdag {
 namespace {
 
-struct Row {
+struct FormatRow {
   ExportFormat format;
   uint64_t (*write)(Selection*, const ExportConfig&, MemoryBudget*);
-  std::string (*path)(const std::string& output, int levels) = nullptr;  // null: the output itself
-  std::vector<std::string> (*files)(const std::string& path) = nullptr;  // null: that path alone
+  std::string (*path)(const std::string& output, int levels) = nullptr;  // null: output as given
+  std::vector<std::string> (*files)(const std::string& path) = nullptr;  // null: only path
 };
 
-// The one table of formats.
-constexpr Row kFormats[] = {
+// The only table of formats.
+constexpr FormatRow kFormats[] = {
     {{"vdb", "vdb", "OpenVDB, a mask grid (or --bool)"}, export_vdb},
     {{"nvdb", "nvdb", "NanoVDB, a mask grid"}, export_nvdb},
     {{"hashdag", "dag.bin", "HashDAG, -o DIR/NAME"}, export_hashdag, hashdag_path},
-    {{"symvox", "svdag", "SymVox, another .svdag than ours"}, export_symvox},
+    {{"symvox", "svdag", "SymVox, a different .svdag"}, export_symvox},
     {{"transform-dag", "svo", "transform-DAG tools"}, export_transform_dag},
     {{"octree", "octree", "ooc_svo_builder, three files"}, export_octree, nullptr, octree_files},
     {{"npz", "npz", "NumPy, coordinates of voxels"}, export_npz},
@@ -39,40 +39,41 @@ bool ends_in(const std::string& path, const char* ending) {
   return path.ends_with("." + std::string(ending));
 }
 
-const Row& choose(const ExportConfig& config) {
+const FormatRow& choose(const ExportConfig& config) {
   if (config.format.empty() && ends_in(config.output, "svdag"))
-    fail_usage(config.output + ": SymVox has another .svdag than ours: --format symvox writes it");
+    fail_usage(config.output + ": to write the .svdag of SymVox, add --format symvox");
   std::string names;
-  for (const Row& row : kFormats) {
+  for (const FormatRow& row : kFormats) {
     const bool chosen = config.format.empty() ? ends_in(config.output, row.format.ending)
                                               : config.format == row.format.name;
     if (chosen) return row;
     names += (names.empty() ? "" : ", ") + std::string(row.format.name);
   }
   if (config.format.empty())
-    fail_usage(config.output + ": its ending names no format: choose one with --format: " + names);
+    fail_usage(config.output + ": unknown ending: choose a format with --format: " + names);
   fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
 }
 
-int checked_level(const DagFile& file, std::optional<int> options) {
+int checked_level(const DagFile& file, std::optional<int> requested) {
   const int finest = int(file.header().levels);
-  const int level = options.value_or(finest);
+  const int level = requested.value_or(finest);
   if (level < kMinLevels || level > finest)
-    fail_usage("--level: " + file.path() + " has levels " + std::to_string(kMinLevels) + " to " +
-               std::to_string(finest) + " to export");
+    fail_usage("--level " + std::to_string(level) + ": " + file.path() +
+               " can be exported at levels " + std::to_string(kMinLevels) + " to " +
+               std::to_string(finest));
   return level;
 }
 
-void refuse_options_of_others(const Row& row, const ExportConfig& config) {
+void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& config) {
   const std::string format = row.format.name;
   if (config.as_bool && row.write != export_vdb)
-    fail_usage("--bool: only vdb has grids of type bool, and this is " + format);
+    fail_usage("--bool: only vdb has grids of type bool, the format is " + format);
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
   if (config.max_voxels && std::find(lists.begin(), lists.end(), row.write) == lists.end())
-    fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, and this is " + format);
+    fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, the format is " + format);
 }
 
-void refuse_own_input(const Row& row, const ExportConfig& config) {
+void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
   const auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
   for (const std::string& file : files) {
     if (same_file(config.file, file))
@@ -91,18 +92,18 @@ Selection::Selection(const DagFile& dag_file, const ExportConfig& config)
 
 std::vector<ExportFormat> export_formats() {
   std::vector<ExportFormat> formats;
-  for (const Row& row : kFormats) formats.push_back(row.format);
+  for (const FormatRow& row : kFormats) formats.push_back(row.format);
   return formats;
 }
 
 int run(const ExportConfig& options) {
-  const Row& row = choose(options);
-  refuse_options_of_others(row, options);
+  const FormatRow& row = choose(options);
+  reject_options_of_other_formats(row, options);
   const DagFile file = DagFile::open(options.file);
   Selection selection(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
-  refuse_own_input(row, config);
+  reject_input_as_output(row, config);
   AtomicFile::check(config.output);
   MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);

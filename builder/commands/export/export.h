@@ -1,8 +1,8 @@
-// svdag export FILE -o X: writes the voxels of a DAG in another format.
+// The command svdag export FILE -o X: writes the voxels of a DAG in another format.
 //
-// A whole file at one of its levels, or a window of it. Runs as a program of its own, svdag-export,
-// which `svdag export` starts: a bake does not load the libraries of other formats, which cost
-// memory (OpenVDB 38 MB) and time.
+// Exports a whole file at one of its levels, or a window of it. Runs as a program of its own,
+// svdag-export, which `svdag export` starts: a bake does not load the libraries of other formats,
+// which cost memory (OpenVDB 38 MB) and time.
 #pragma once
 
 #include <optional>
@@ -16,20 +16,20 @@ namespace svdag {
 struct ExportConfig {
   std::string file;
   std::string output;
-  std::string format;                  // a name of export_formats(); empty: by the output's ending
-  std::optional<int> level;            // whose nodes become voxels; none: L, the finest
-  std::optional<Box> bounds;           // only the voxels whose interior meets this box
-  std::optional<uint64_t> max_voxels;  // of formats that list voxels; none: 10^9. More are refused
-  bool as_bool = false;                // VDB grids of type bool, for readers that know no masks
-  uint64_t memory = 0;                 // 0: half of what the machine allows
+  std::string format;         // a name of export_formats(); empty: from the output's ending
+  std::optional<int> level;   // the level whose nodes become voxels; none: L, the finest
+  std::optional<Box> bounds;  // only the voxels whose interior meets this box
+  std::optional<uint64_t> max_voxels;  // limit for formats that list voxels; none: 10^9
+  bool as_bool = false;                // VDB grids of type bool, for readers without masks
+  uint64_t memory = 0;                 // 0: half of the machine's memory
   bool quiet = false;
 };
 
-// One foreign format: how it is called, the ending of its files, and for people.
+// One foreign format: its name, the ending of its files, and a description for people.
 struct ExportFormat {
   const char* name;
   const char* ending;
-  const char* what;
+  const char* description;
 };
 
 std::vector<ExportFormat> export_formats();

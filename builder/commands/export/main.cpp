@@ -16,7 +16,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
   std::vector<std::string> names;
   for (const ExportFormat& format : export_formats()) {
     names.push_back(format.name);
-    formats += std::string(formats.empty() ? "" : "; ") + format.name + ": " + format.what;
+    formats += std::string(formats.empty() ? "" : "; ") + format.name + ": " + format.description;
   }
   takes_files(app->add_option("FILE", config->file, "The .svdag file"), {".svdag"})->required();
   takes_files(app->add_option("-o,--output", config->output, "The file to write"), {"*"})
@@ -37,10 +37,10 @@ void set_up(CLI::App* app, ExportConfig* config) {
   app->add_option_function<std::string>(
          "--max-voxels",
          [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },
-         "npz, binvox, vox, ply: refuse more voxels than this (default: 10^9)")
+         "npz, binvox, vox, ply: reject more voxels than this (default: 10^9)")
       ->type_name("N");
   app->add_flag("--bool", config->as_bool,
-                "vdb: grids of type bool instead of mask, for readers that know no masks");
+                "vdb: grids of type bool instead of mask, for readers without mask grids");
   add_memory_budget(app, &config->memory);
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,

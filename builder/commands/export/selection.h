@@ -1,4 +1,4 @@
-// What of a DAG is exported: a box of one of its levels.
+// The part of a DAG to export (a box of one of its levels), and the export function per format.
 #pragma once
 
 #include <string>
@@ -21,13 +21,13 @@ struct Selection {
 // One function per format; each writes `path` whole or not at all and returns the voxels written.
 uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
-// DAGs of others hold whole grids: --bounds is an Error (kUsage).
+// Foreign DAG formats hold whole grids: --bounds is an Error (kUsage).
 uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_symvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
                               MemoryBudget* budget);
 uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
-// Lists of voxels: more than config.max_voxels are an Error (kUsage), known before any is written.
+// Lists of voxels: more than config.max_voxels are an Error (kUsage) before anything is written.
 uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_vox(Selection* selection, const ExportConfig& config, MemoryBudget* budget);

@@ -8,8 +8,8 @@
 namespace svdag {
 namespace {
 
-// What a grid says about itself besides its transform.
-VdbMetadata about(const Selection& selection) {
+// The metadata of the grid besides its transform.
+VdbMetadata grid_metadata(const Selection& selection) {
   const Header& h = selection.file.header();
   return {{"creator", "svdag"},
           {"svdag_level", std::to_string(selection.grid.levels)},
@@ -18,13 +18,13 @@ VdbMetadata about(const Selection& selection) {
           {"svdag_content_hash", to_hex(h.content_hash)}};
 }
 
-// The memory that the grid will take, counted before any of it is taken.
+// Reserves the memory of the grid before it is allocated.
 MemoryBudget::Reservation reserve(Selection* selection, MemoryBudget* budget) {
-  const uint64_t most = budget->limit() / vdb_bytes(1, 0, 0);
-  const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, most);
-  if (counts.blocks > most)
+  const uint64_t max_leaves = budget->limit() / vdb_bytes(1, 0, 0);
+  const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, max_leaves);
+  if (counts.blocks > max_leaves)
     throw Error(ExitCode::kMemory,
-                "the grid would have more than " + format_count(most) +
+                "the grid would have more than " + format_count(max_leaves) +
                     " leaves, too many for --memory: export a coarser --level, or a part with "
                     "--bounds");
   return budget->reserve(vdb_bytes(counts.blocks, counts.middle, counts.large),
@@ -36,7 +36,7 @@ uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& c
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
   const auto reservation = reserve(selection, budget);
   writer->begin("occupancy", voxel_centres(selection->grid));
-  writer->metadata(about(*selection));
+  writer->metadata(grid_metadata(*selection));
   uint64_t voxels = 0, cubes = 0;
   selection->walk.visit(selection->grid.selection, [&](const VoxelCube& cube) {
     if (++cubes % 4096 == 0) check_interrupt();

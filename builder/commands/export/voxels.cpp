@@ -9,18 +9,18 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMostVoxels = 1'000'000'000;  // unless --max-voxels says more or less
+constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // of --max-voxels
 
-// Its voxels are counted, for nothing proves the number in the header of a file.
+// Counts the voxels: the number in the header of a file is not trusted.
 VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const auto memory = budget->reserve(selection->walk.bytes_to_count(selection->grid.selection),
                                       "counts of voxels");
   const VoxelWindow window{selection->grid, &selection->walk,
                            selection->walk.count_voxels(selection->grid.selection)};
-  const uint64_t most = config.max_voxels.value_or(kMostVoxels);
-  if (window.voxels > most)
+  const uint64_t max_voxels = config.max_voxels.value_or(kDefaultMaxVoxels);
+  if (window.voxels > max_voxels)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
-               format_count(most) +
+               format_count(max_voxels) +
                ": export a coarser --level, a part with --bounds, or raise --max-voxels");
   return window;
 }

@@ -26,42 +26,42 @@ namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
 using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&);
-using Head = std::string_view;  // the first bytes of a file
+using FileStart = std::string_view;  // the first bytes of a file
 
-bool looks_like_symvox(const File& file, Head) {
+bool looks_like_symvox(const File& file, FileStart) {
   SymvoxHeader header;
   return read_symvox_header(file, &header);
 }
-bool looks_like_hashdag(const File& file, Head) {
+bool looks_like_hashdag(const File& file, FileStart) {
   return file.path().ends_with(".dag.bin");
 }
-bool looks_like_transform_dag(const File&, Head head) {
+bool looks_like_transform_dag(const File&, FileStart start) {
   uint32_t magic = 0;
-  std::memcpy(&magic, head.data(), std::min(head.size(), sizeof magic));
+  std::memcpy(&magic, start.data(), std::min(start.size(), sizeof magic));
   return magic == kTransformDagMagic;
 }
-bool looks_like_npz(const File&, Head head) {
-  return head.starts_with("PK\3\4") || head.starts_with("\x93NUMPY");
+bool looks_like_npz(const File&, FileStart start) {
+  return start.starts_with("PK\3\4") || start.starts_with("\x93NUMPY");
 }
-bool looks_like_binvox(const File&, Head head) {
-  return head.starts_with("#binvox");
+bool looks_like_binvox(const File&, FileStart start) {
+  return start.starts_with("#binvox");
 }
-bool looks_like_vox(const File&, Head head) {
-  return head.starts_with("VOX ");
+bool looks_like_vox(const File&, FileStart start) {
+  return start.starts_with("VOX ");
 }
-bool looks_like_vdb(const File&, Head head) {
-  return head.starts_with(" BDV") || head.starts_with("NanoVDB");
+bool looks_like_vdb(const File&, FileStart start) {
+  return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
-struct Row {
+struct FormatRow {
   const char* name;
-  bool (*matches)(const File&, Head);
-  GraphReader graph;  // one of the two, or neither for OpenVDB
+  bool (*matches)(const File&, FileStart);
+  GraphReader graph;  // at most one of the two is set; for OpenVDB, neither
   VoxelReader voxels;
 };
 
-// The one table of formats; those with a magic number come first.
-constexpr Row kFormats[] = {
+// The only table of formats; those with a magic number come first.
+constexpr FormatRow kFormats[] = {
     {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
     {"npz", looks_like_npz, nullptr, read_npz},
     {"binvox", looks_like_binvox, nullptr, read_binvox},
@@ -71,46 +71,46 @@ constexpr Row kFormats[] = {
     {"symvox", looks_like_symvox, read_symvox, nullptr},
 };
 
-const Row& choose(const ImportCommandConfig& config, const File& file) {
-  std::array<char, 8> start{};
-  const size_t got = file.read_some_at(0, std::as_writable_bytes(std::span(start)));
-  const Head head(start.data(), got);
-  if (got == sizeof kMagic && std::memcmp(start.data(), kMagic, sizeof kMagic) == 0)
-    fail_usage(config.file + ": is a .svdag of this program already");
+const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
+  std::array<char, 8> bytes{};
+  const size_t size = file.read_some_at(0, std::as_writable_bytes(std::span(bytes)));
+  const FileStart start(bytes.data(), size);
+  if (size == sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0)
+    fail_usage(config.file + ": is already a .svdag of this program");
   std::string names;
-  for (const Row& row : kFormats) {
-    if (config.format.empty() ? row.matches(file, head) : config.format == row.name) return row;
+  for (const FormatRow& row : kFormats) {
+    if (config.format.empty() ? row.matches(file, start) : config.format == row.name) return row;
     names += (names.empty() ? "" : ", ") + std::string(row.name);
   }
   if (!config.format.empty())
     fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
   for (const std::string& ending : kSceneEndings) {
     if (has_ending(config.file, ending))
-      fail_input(config.file, "is a scene: svdag build bakes it");
+      fail_input(config.file, "is a scene: bake it with svdag build");
   }
-  fail_input(config.file, "unknown file format: name it with --format: " + names);
+  fail_input(config.file, "unknown file format: choose one with --format: " + names);
 }
 
 // Options of OpenVDB grids are rejected for other formats, not ignored.
-void require_no_vdb_options(const ImportCommandConfig& config, const Row& row) {
+void require_no_vdb_options(const ImportCommandConfig& config, const FormatRow& row) {
   const char* option = !config.grid.empty() ? "--grid" : config.iso ? "--iso" : nullptr;
   if (option != nullptr)
-    fail_usage(std::string(option) + ": is about the grids of a .vdb, and " + config.file +
-               " is read as " + row.name);
+    fail_usage(std::string(option) + ": only for .vdb files, and " + config.file + " is read as " +
+               row.name);
 }
 
-ImportReport import_as(const Row& row, const File& file, const ImportCommandConfig& config,
-                       const ImportConfig& wanted) {
+ImportReport import_as(const FormatRow& row, const File& file, const ImportCommandConfig& config,
+                       const ImportConfig& import) {
   ParallelExecutor executor(threads_or_all(config.threads));
   if (row.graph != nullptr) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    return import_graph(graph.get(), wanted, &executor);
+    return import_graph(graph.get(), import, &executor);
   }
   if (row.voxels != nullptr) {
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
       return row.voxels(file, sink);
     };
-    return import_voxels(read, wanted, &executor);
+    return import_voxels(read, import, &executor);
   }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
   refuse_needless_range(*grid, config.iso);
@@ -118,14 +118,14 @@ ImportReport import_as(const Row& row, const File& file, const ImportCommandConf
   const auto read = [&](const VoxelSink& sink, const FullCubeSink& cubes) {
     return voxels.read(sink, cubes);
   };
-  return import_voxels(read, wanted, &executor, voxels.count());
+  return import_voxels(read, import, &executor, voxels.count());
 }
 
 }  // namespace
 
 std::vector<std::string> import_formats() {
   std::vector<std::string> names;
-  for (const Row& row : kFormats) names.emplace_back(row.name);
+  for (const FormatRow& row : kFormats) names.emplace_back(row.name);
   return names;
 }
 
@@ -135,7 +135,7 @@ int run(const ImportCommandConfig& config) {
   refuse_foreign_name(config.import.output);
   if (names_run(config.import.output))
     fail_usage(config.import.output +
-               ": an import is a .svdag, and this is the name of a run: choose another one");
+               ": an import writes a .svdag, and this is the name of a run: choose another name");
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
   InputWatch inputs;
@@ -143,7 +143,7 @@ int run(const ImportCommandConfig& config) {
   ImportConfig import = config.import;
   import.source = config.file;
   import.inputs = &inputs;
-  const Row& row = choose(config, file);
+  const FormatRow& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
   const ImportReport report = inputs.guard([&] { return import_as(row, file, config, import); });
   if (!config.quiet)

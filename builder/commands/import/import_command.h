@@ -1,4 +1,5 @@
-// svdag import X -o OUT.svdag: converts voxels of other programs to a minimal canonical DAG.
+// The command svdag import X -o OUT.svdag: converts voxels of other programs to a minimal canonical
+// DAG.
 //
 // Runs as a program of its own, svdag-import, which `svdag import` starts: a bake does not load the
 // libraries of other formats. A format is recognised by the content of the file.
@@ -15,8 +16,8 @@ namespace svdag {
 
 struct ImportCommandConfig {
   std::string file;
-  std::string format;             // a name of import_formats(); empty: by the file's contents
-  std::string grid;               // vdb: which grid; empty: the only one
+  std::string format;             // a name of import_formats(); empty: from the file's content
+  std::string grid;               // --grid, vdb: name of the grid; empty: the only one
   std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
   bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
@@ -24,7 +25,7 @@ struct ImportCommandConfig {
   bool quiet = false;
 };
 
-// The names of the formats.
+// The names of the supported formats.
 std::vector<std::string> import_formats();
 
 int run(const ImportCommandConfig& config);

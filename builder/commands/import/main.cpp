@@ -22,15 +22,14 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
       ->required()
       ->type_name("OUT");
   suggests(
-      app->add_option("--format", config->format, formats + " (default: by what is in the file)"),
+      app->add_option("--format", config->format, formats + " (default: from the file content)"),
       import_formats())
       ->type_name("NAME");
   app->add_option_function<std::string>(
          "-r,--resolution",
          [import](const std::string& s) { import->levels = parse_resolution(s); },
-         "vdb, npz, binvox, vox: voxels per axis of the grid (default: what the file says, or as "
-         "few "
-         "as its voxels need)")
+         "vdb, npz, binvox, vox: voxels per axis of the grid (default: from the file, or the "
+         "smallest that holds the voxels)")
       ->type_name("N");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");
@@ -44,8 +43,9 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
           kMostThreads)
       ->type_name("N");
-  takes_folder(app->add_option("--scratch", import->scratch,
-                               "Folder for what does not fit in memory (default: OUT.scratch)"))
+  takes_folder(
+      app->add_option("--scratch", import->scratch,
+                      "Folder for data that does not fit in memory (default: OUT.scratch)"))
       ->type_name("DIR");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,

@@ -10,16 +10,17 @@
 namespace svdag {
 namespace {
 
-// Where voxel `first` of index space has its corner, and how large voxels are.
-GridPlacement place_of(const std::string& path, const IndexToWorld& centres,
-                       const LatticePoint& first) {
+// The placement of a grid whose voxel (0, 0, 0) is voxel `first` of the index space.
+GridPlacement placement_of(const std::string& path, const IndexToWorld& centres,
+                           const LatticePoint& first) {
   GridPlacement place;
   place.voxel_size = centres.axes[0].x;
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
       const double expected = a == b ? place.voxel_size : 0;
       if (std::abs(centres.axes[size_t(a)][b] - expected) > 1e-6 * std::abs(place.voxel_size))
-        fail_input(path, "its transform turns, mirrors or stretches the grid, which is not read");
+        fail_input(path,
+                   "its transform rotates, mirrors or stretches the grid, which is not supported");
     }
   }
   place.corner = centres(Point(first)) - place.voxel_size * 0.5;
@@ -30,7 +31,7 @@ bool is_full(const VoxelCube& cube) {
   return cube.side > kBlockSide || cube.block == Block::full();
 }
 
-// The voxels of a block, from `first` on.
+// Adds the voxels of a block, relative to `first`.
 void add_block(const VoxelCube& cube, const LatticePoint& first, VoxelBatch* batch) {
   const LatticePoint at = cube.origin - first;
   for (int64_t x = 0; x < kBlockSide; ++x)
@@ -53,13 +54,13 @@ VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
   });
   const VoxelBox box = grid_->bounds();
   for (int a = 0; a < 3 && !box.empty(); ++a) {
-    // A multiple of the sides, so that cubes stay cubes.
+    // A multiple of all sides, so that cubes stay aligned.
     if (box.min[a] < 0 || box.max[a] > int64_t(1) << kMaxLevels)
       first_[a] = box.min[a] & ~(side - 1);
     if (box.max[a] - first_[a] > int64_t(1) << kMaxLevels)
       fail_input(path, "its voxels span more than 1M on an axis");
   }
-  place_ = place_of(path, grid_->centres(), first_);
+  place_ = placement_of(path, grid_->centres(), first_);
 }
 
 GridPlacement VdbVoxels::read(const VoxelSink& voxels, const FullCubeSink& cubes) const {

@@ -1,4 +1,4 @@
-// What of an OpenVDB grid is set, as voxels and as cubes.
+// The set voxels of an OpenVDB grid as a source of an import: single voxels and full cubes.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,12 @@
 
 namespace svdag {
 
-// Voxel numbers are those of the grid's index space; if some are below 0, or all beyond 1M, the set
-// is moved to begin near 0.
+// Voxel coordinates are those of the grid's index space; if one is outside 0 .. 1M - 1, the set is
+// moved to begin near 0 on that axis.
 class VdbVoxels {
  public:
-  // A grid that spans more than 1M voxels on an axis, and transforms that turn, or that are not the
-  // same on all axes, are an Error (kBadInput) that names `path`.
+  // A grid of more than 1M voxels on an axis, and a transform that rotates, mirrors or stretches,
+  // are an Error (kBadInput) that names `path`.
   VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path);
 
   // Number of voxels that are passed one by one.

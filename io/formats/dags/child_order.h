@@ -1,16 +1,18 @@
-// Children numbered t = x + 2y + 4z instead of our c = 4x + 2y + z.
+// Conversion between our child numbers, c = 4x + 2y + z, and those of formats with
+// t = x + 2y + 4z.
 #pragma once
 
 #include "io/brick.h"
 
 namespace svdag {
 
-// From c to t and from t to c.
+// c to t, or t to c.
 constexpr unsigned mirrored_child(unsigned c) {
   return (c >> 2 & 1) | (c & 2) | (c << 2 & 4);
 }
 
-// A brick with both child numbers of each bit mirrored: 4^3 voxels in Morton order, x lowest.
+// The brick with both child numbers of each bit mirrored: 4^3 voxels in Morton order, x in the
+// lowest bit.
 constexpr Brick mirrored_brick(Brick brick) {
   Brick mirrored = 0;
   for (unsigned c1 = 0; c1 < 8; ++c1) {

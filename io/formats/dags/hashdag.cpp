@@ -11,19 +11,19 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kEnding = ".basic_dag.dag.bin";
-constexpr int kMostLevels = 17;  // of the programs: 128K
+constexpr const char* kNameEnding = ".basic_dag.dag.bin";
+constexpr int kMaxHashDagLevels = 17;  // 128K: the limit of the programs
 constexpr uint64_t kHeaderBytes = 60;
 
 class HashDagGraph : public NodeGraph {
  public:
   explicit HashDagGraph(const File& file) : nodes_(file), bricks_(file) {
-    ByteStream head(file, 0, kHeaderBytes);
-    for (double& side : box_) side = head_value<double>(&head);
-    levels_ = int(checked_levels(file, head_value<uint32_t>(&head), 48));
-    words_ = head_value<uint64_t>(&head);
+    ByteStream header(file, 0, kHeaderBytes);
+    for (double& side : box_) side = header_value<double>(&header);
+    levels_ = int(checked_levels(file, header_value<uint32_t>(&header), 48));
+    words_ = header_value<uint64_t>(&header);
     if (words_ == 0 || words_ > kNoChild || file.size() != kHeaderBytes + 4 * words_)
-      fail_input(file.path(), "is not a HashDAG file: its size is not the one in its header", 52);
+      fail_input(file.path(), "is not a HashDAG file: its size does not match its header", 52);
     grid_ = grid_of_box(file, {box_[0], box_[1], box_[2]}, {box_[3], box_[4], box_[5]}, levels_);
   }
 
@@ -39,7 +39,7 @@ class HashDagGraph : public NodeGraph {
       if ((mask >> c & 1) == 0) continue;
       result[c] = nodes_.u32(at + 4 * next);
       if (result[c] >= words_)
-        fail_input(nodes_.path(), "damaged file: a pointer leads out of it", at + 4 * next);
+        fail_input(nodes_.path(), "damaged file: a child pointer is out of range", at + 4 * next);
       ++next;
     }
     return result;
@@ -47,12 +47,12 @@ class HashDagGraph : public NodeGraph {
   Brick brick(uint32_t id) override { return bricks_.u64(offset(levels_ - 2, id, 2)); }
 
  private:
-  // Of a node of `words` words.
+  // File offset of node `id`, which takes `words` words.
   uint64_t offset(int level, uint32_t id, uint64_t words) const {
     const uint64_t at = kHeaderBytes + 4 * uint64_t(id);
     if (id + words > words_)
       fail_input(nodes_.path(),
-                 "damaged file: a node of level " + std::to_string(level) + " is cut off", at);
+                 "damaged file: a node of level " + std::to_string(level) + " is truncated", at);
     return at;
   }
 
@@ -63,45 +63,47 @@ class HashDagGraph : public NodeGraph {
   Grid grid_;
 };
 
-// Its readers know the levels from the name: "64k" of another grid would be read as 64K^3.
-void require_number(const std::string& path, int levels) {
-  const std::string name = path.substr(0, path.size() - std::strlen(kEnding));
+// The programs take the number of levels from the file name: any grid in a file named "64k" would
+// be read as 64K^3.
+void check_resolution_in_name(const std::string& path, int levels) {
+  const std::string name = path.substr(0, path.size() - std::strlen(kNameEnding));
   if (!name.ends_with('k')) return;
   const size_t begin = name.find_last_not_of("0123456789", name.size() - 2) + 1;
   const std::string number = name.substr(begin, name.size() - 1 - begin);
   const std::string own = levels < 10 ? "" : std::to_string(uint64_t(1) << (levels - 10));
   if (!number.empty() && number != own)
-    fail_usage(path + ": names a grid of " + number + "K^3, and this one has " +
-               format_resolution(uint64_t(1) << levels) + "^3");
+    fail_usage(path + ": the name says " + number + "K^3, but the grid has " +
+               format_resolution(uint64_t(1) << levels) + "^3: rename the output");
 }
 
-std::string without(const std::string& path, const std::string& ending) {
+std::string strip_ending(const std::string& path, const std::string& ending) {
   return path.ends_with(ending) ? path.substr(0, path.size() - ending.size()) : path;
 }
 
 }  // namespace
 
 std::string hashdag_path(const std::string& path, int levels) {
-  if (path.ends_with(kEnding)) {
-    require_number(path, levels);
+  if (path.ends_with(kNameEnding)) {
+    check_resolution_in_name(path, levels);
     return path;
   }
   if (levels < 10)
     fail_usage(path +
-               ": HashDAG has no name for grids below 1K^3: give the whole name, ending in " +
-               kEnding);
-  return without(path, ".dag.bin") + std::to_string(uint64_t(1) << (levels - 10)) + "k" + kEnding;
+               ": HashDAG defines no name for grids below 1K^3: give the full name, ending in " +
+               kNameEnding);
+  return strip_ending(path, ".dag.bin") + std::to_string(uint64_t(1) << (levels - 10)) + "k" +
+         kNameEnding;
 }
 
 void write_hashdag(const LevelDag& dag, const Grid& grid, const std::string& path) {
-  if (grid.levels > kMostLevels)
+  if (grid.levels > kMaxHashDagLevels)
     fail_usage("HashDAG holds grids up to 128K^3, this one has " +
                format_resolution(uint64_t(grid.resolution())) + "^3: export a coarser --level");
-  std::array<uint64_t, kMaxSections> base{};  // [level]: its first word
+  std::array<uint64_t, kMaxSections> base{};  // [level]: index of its first word
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
   const uint64_t words = base[dag.brick_level()] + 2 * dag.bricks();
   if (words >= kNoChild)
-    fail_usage("HashDAG holds 2^32 - 2 words, this DAG needs " + format_count(words) +
+    fail_usage("HashDAG holds at most 2^32 - 2 words, this DAG needs " + format_count(words) +
                ": export a coarser --level");
   Output out(path);
   const Point corner = grid.corner();

@@ -32,7 +32,7 @@ uint64_t LevelDag::nodes(uint32_t level) const {
 uint64_t LevelDag::voxels() const {
   if (!cut()) return header_.voxels;
   if (empty()) return 0;
-  std::vector<uint64_t> paths{1};  // of the nodes of a level, by word; of bricks by number
+  std::vector<uint64_t> paths{1};  // per node of a level, by word; per brick, by number
   MemoryBudget::Reservation counted = budget_->reserve(0, kCounts);
   for (uint32_t k = 0; k < brick_level(); ++k) {
     const bool to_bricks = k + 1 == brick_level();

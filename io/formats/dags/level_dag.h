@@ -1,9 +1,9 @@
-// The DAG that foreign DAG formats hold: ours, cut off at a level.
+// A view of our DAG cut off at a level, as foreign DAG formats store it.
 //
 // Its voxels are the nodes of level K of the file, its bricks the nodes of level K-2 with their
-// children's masks; all above is as the file has it. Bricks that look alike after the cut are not
-// merged, so a DAG of a coarser level is right but not always minimal (`svdag import` makes it so).
-// An empty grid has one node without children, since foreign formats have no other way to say it.
+// children's masks; the levels above are those of the file. Bricks that become equal by the cut are
+// not merged, so the DAG of a coarser level is correct but not always minimal (`svdag import` makes
+// it minimal). An empty grid is one node without children, the only form foreign formats have.
 #pragma once
 
 #include <bit>
@@ -16,14 +16,14 @@
 
 namespace svdag {
 
-// The child mask of a brick: which of its 2^3 blocks hold a voxel.
+// The child mask of a brick: the 2^3 blocks that contain a voxel.
 constexpr uint32_t brick_octants(Brick brick) {
   uint32_t mask = 0;
   for (unsigned c = 0; c < 8; ++c) mask |= uint32_t((brick >> (8 * c) & 0xff) != 0) << c;
   return mask;
 }
 
-// A number for each brick, and one behind them.
+// One number per brick, and one past the last.
 struct BlockNumbers {
   MemoryBudget::Reservation counted;
   HugeVector<uint32_t> numbers;
@@ -39,11 +39,11 @@ class LevelDag {
   uint32_t levels() const { return levels_; }
   uint32_t brick_level() const { return levels_ - 2; }
 
-  // Of an inner level: words as in the file, a mask and one child each.
+  // Words of an inner level as in the file: per node a mask and its children.
   uint64_t words(uint32_t level) const;
   uint64_t nodes(uint32_t level) const;
-  // visit(mask, children): a pointer to the child words of each node of an inner level, in order. A
-  // child is a word of the next level, or what brick_number() knows.
+  // Calls visit(mask, pointer to the child words) for each node of an inner level, in order. A
+  // child is the index of a word of the next level, or an argument of brick_number().
   template <class Visit>
   void for_each_node(uint32_t level, const Visit& visit) const {
     if (empty()) return level == 0 ? visit(0U, static_cast<const uint32_t*>(nullptr)) : void();
@@ -55,7 +55,7 @@ class LevelDag {
   uint32_t mask(uint32_t level, uint32_t word) const { return dag_.words[level][word] & 0xffU; }
 
   uint64_t bricks() const { return bricks_; }
-  // visit(brick) of all, in the order of their numbers.
+  // Calls visit(brick) for all bricks, in the order of their numbers.
   template <class Visit>
   void for_each_brick(const Visit& visit) const {
     if (empty()) return;
@@ -66,12 +66,12 @@ class LevelDag {
     }
   }
   Brick brick(uint32_t child) const { return dag_brick_at(dag_, brick_level(), child); }
-  // The number, 0 .. bricks() - 1, of the brick that a child of level K-3 is.
+  // The number, 0 .. bricks() - 1, of the brick that a child word of level K-3 refers to.
   uint32_t brick_number(uint32_t child) const { return cut() ? starts_.rank(child) : child; }
 
   // Set voxels of the grid.
   uint64_t voxels() const;
-  // The words of an inner level at which a node begins.
+  // Bitmap of the words of an inner level at which a node begins.
   RankBitmap node_starts(uint32_t level) const;
   // [brick]: number of non-empty 2^3 blocks in the bricks before it; the last entry is the total.
   BlockNumbers blocks_before() const;
@@ -84,7 +84,7 @@ class LevelDag {
   const Header& header_;
   uint32_t levels_;
   MemoryBudget* budget_;
-  RankBitmap starts_;  // cut: of level K-2
+  RankBitmap starts_;  // if cut: starts of the nodes of level K-2
   uint64_t bricks_;
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr uint64_t kNoData = 0, kVoxelData = 1;
 
-// A node whose children, by our numbers, are `mask`: from `base` on one behind the other in the
-// format's order, or all the same one.
+// Writes a node with the child mask `mask` (our child numbers). Its children are stored from `base`
+// on in the format's order, or are all the node `base` if `same` is set.
 void put_node(uint64_t data, uint64_t base, uint32_t mask, bool same, Output* out) {
   struct {
     uint64_t data, base;
@@ -27,10 +27,10 @@ void put_node(uint64_t data, uint64_t base, uint32_t mask, bool same, Output* ou
   out->put(std::as_bytes(std::span(&node, 1)));
 }
 
-// Where the children of each node begin.
-class Places {
+// The number of the first child of each node.
+class ChildNumbers {
  public:
-  explicit Places(const LevelDag& dag) : blocks_before_(dag.blocks_before()) {
+  explicit ChildNumbers(const LevelDag& dag) : blocks_before_(dag.blocks_before()) {
     uint64_t next = 1;  // node 0 is the voxel
     begin_[dag.brick_level()] = next;
     next += blocks_before_[dag.bricks()];
@@ -43,7 +43,7 @@ class Places {
   uint64_t of_brick(const LevelDag& dag, uint32_t number) const {
     return begin_[dag.brick_level()] + blocks_before_[number];
   }
-  // Every word before `word` that starts no node is a child pointer; `starts` knows the nodes.
+  // Each word before `word` either starts a node (`starts`) or is a child pointer.
   uint64_t of_node(uint32_t level, uint32_t word, const RankBitmap& starts) const {
     return begin_[level] + word - starts.rank(word);
   }
@@ -51,11 +51,11 @@ class Places {
 
  private:
   BlockNumbers blocks_before_;
-  std::array<uint64_t, kMaxSections> begin_{};  // [level]: children of its nodes
+  std::array<uint64_t, kMaxSections> begin_{};  // [level]: first child of its nodes
   uint64_t root_;
 };
 
-// The blocks of 2^3, as children of the bricks.
+// Writes the 2^3 blocks, the children of the bricks.
 void put_blocks(const LevelDag& dag, Output* out) {
   dag.for_each_brick([&](Brick brick) {
     for (unsigned t = 0; t < 8; ++t) {
@@ -65,8 +65,8 @@ void put_blocks(const LevelDag& dag, Output* out) {
   });
 }
 
-// The children of the nodes of `level`.
-void put_children(const LevelDag& dag, uint32_t level, const Places& places, Output* out) {
+// Writes the children of the nodes of `level`.
+void put_children(const LevelDag& dag, uint32_t level, const ChildNumbers& numbers, Output* out) {
   const bool to_bricks = level + 1 == dag.brick_level();
   std::optional<RankBitmap> below;
   if (!to_bricks) below = dag.node_starts(level + 1);
@@ -76,17 +76,17 @@ void put_children(const LevelDag& dag, uint32_t level, const Places& places, Out
       if ((mask >> c & 1) == 0) continue;
       const uint32_t child = children[popcount8(mask & ((1U << c) - 1))];
       if (to_bricks) {
-        put_node(kNoData, places.of_brick(dag, dag.brick_number(child)),
+        put_node(kNoData, numbers.of_brick(dag, dag.brick_number(child)),
                  brick_octants(dag.brick(child)), false, out);
       } else {
-        put_node(kNoData, places.of_node(level + 1, child, *below), dag.mask(level + 1, child),
+        put_node(kNoData, numbers.of_node(level + 1, child, *below), dag.mask(level + 1, child),
                  false, out);
       }
     }
   });
 }
 
-// Entry 0 is null, entry 1 the voxel: Morton code 0, white, no normal.
+// Writes the data file: entry 0 is null, entry 1 the voxel (Morton code 0, white, no normal).
 void write_data(const std::string& path) {
   Output out(path);
   for (const float white : {0.F, 1.F}) {
@@ -104,22 +104,23 @@ std::vector<std::string> octree_files(const std::string& path) {
 }
 
 void write_octree(const LevelDag& dag, const std::string& path) {
-  for (const char* ending : {"", "data"}) AtomicFile::check(path + ending);  // before any is there
-  const Places places(dag);
+  for (const char* ending : {"", "data"})
+    AtomicFile::check(path + ending);  // before any file is created
+  const ChildNumbers numbers(dag);
   const std::vector<std::string> files = octree_files(path);
   Output nodes(files[1]);
   put_node(kVoxelData, 0, 0, false, &nodes);
   put_blocks(dag, &nodes);
-  for (uint32_t k = dag.brick_level(); k-- > 0;) put_children(dag, k, places, &nodes);
+  for (uint32_t k = dag.brick_level(); k-- > 0;) put_children(dag, k, numbers, &nodes);
   uint32_t root_mask = 0;
   dag.for_each_node(0, [&](uint32_t mask, const uint32_t*) { root_mask = mask; });
-  put_node(kNoData, root_mask == 0 ? 0 : places.root() - uint64_t(popcount8(root_mask)), root_mask,
+  put_node(kNoData, root_mask == 0 ? 0 : numbers.root() - uint64_t(popcount8(root_mask)), root_mask,
            false, &nodes);
-  SVDAG_ASSERT(nodes.size() == 24 * (places.root() + 1));
+  SVDAG_ASSERT(nodes.size() == 24 * (numbers.root() + 1));
 
   Output header(files[0]);
   header.put("#octreeheader 1\ngridlength " + std::to_string(uint64_t(1) << dag.levels()) +
-             "\nn_nodes " + std::to_string(places.root() + 1) + "\nn_data 2\nEND\n");
+             "\nn_nodes " + std::to_string(numbers.root() + 1) + "\nn_data 2\nEND\n");
   nodes.commit();
   write_data(files[2]);
   header.commit();

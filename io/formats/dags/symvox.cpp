@@ -12,7 +12,7 @@
 namespace svdag {
 namespace {
 
-// The box may be flat; the grid is the cube of the side around its middle.
+// The box may be flat: the grid is the cube of side `header.side` around its middle.
 double corner_of(const SymvoxHeader& header, int axis) {
   const double middle = (double(header.box_min[axis]) + double(header.box_max[axis])) / 2;
   return middle - double(header.side) / 2;
@@ -22,7 +22,7 @@ class SymvoxGraph : public NodeGraph {
  public:
   explicit SymvoxGraph(const File& file) : nodes_(file), blocks_(file) {
     if (!read_symvox_header(file, &header_))
-      fail_input(file.path(), "is not a SymVox file: its header does not fit to its size");
+      fail_input(file.path(), "is not a SymVox file: its header does not match its size");
     levels_ = checked_levels(file, header_.levels, 28);
     Point min, max;
     for (int a = 0; a < 3; ++a) {
@@ -40,17 +40,17 @@ class SymvoxGraph : public NodeGraph {
     if (mask > 0xff)
       fail_input(nodes_.path(),
                  "a child mask has more than 8 bits: the file is damaged, or a .ussvdag, whose "
-                 "mirrored nodes are not read",
+                 "mirrored nodes are not supported",
                  at);
     if (id + uint64_t(popcount8(mask)) >= header_.words)
-      fail_input(nodes_.path(), "damaged file: a node is cut off", at);
+      fail_input(nodes_.path(), "damaged file: a node is truncated", at);
     std::array<uint32_t, 8> result;
     for (unsigned c = 8, next = 1; c-- > 0;) {
       result[c] = kNoChild;
       if ((mask >> c & 1) == 0) continue;
       result[c] = nodes_.u32(at + 4 * next);
       if (result[c] >= header_.words)
-        fail_input(nodes_.path(), "damaged file: a pointer leads out of it", at + 4 * next);
+        fail_input(nodes_.path(), "damaged file: a child pointer is out of range", at + 4 * next);
       ++next;
     }
     return result;
@@ -79,19 +79,20 @@ class SymvoxGraph : public NodeGraph {
   Grid grid_;
 };
 
-// The masks of 2^3 blocks in use, and their words: one behind the other from `first` on.
-std::array<uint32_t, 256> place_blocks(const LevelDag& dag, uint64_t first, uint64_t* end) {
+// Assigns consecutive words from `first` on to the masks of 2^3 blocks in use: [mask] is its word,
+// or 0.
+std::array<uint32_t, 256> assign_block_words(const LevelDag& dag, uint64_t first, uint64_t* end) {
   std::array<uint32_t, 256> word{};
   dag.for_each_brick([&](Brick brick) {
     for (int b = 0; b < 64; b += 8) word[brick >> b & 0xff] = 1;
   });
   *end = first;
   word[0] = 0;
-  for (uint32_t& place : word) place = place != 0 ? uint32_t((*end)++) : 0;
+  for (uint32_t& w : word) w = w != 0 ? uint32_t((*end)++) : 0;
   return word;
 }
 
-// The nodes of bricks and the blocks in them; `blocks` holds the positions of the blocks.
+// Writes the nodes of the bricks and their blocks; `blocks`: the word of each block mask.
 void put_bricks(const LevelDag& dag, const std::array<uint32_t, 256>& blocks, Output* out) {
   dag.for_each_brick([&](Brick brick) {
     out->put(brick_octants(brick));
@@ -118,15 +119,14 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
   for (int a = 0; a < 3; ++a) {
     good = good && header.box_min[a] < header.box_max[a];
     good = good && std::isfinite(header.box_min[a]) && std::isfinite(header.box_max[a]);
-    // Where a reader will take the grid to be; an eighth of a voxel is the same place for
-    // svdag-verify.
+    // The position that a reader computes. svdag-verify accepts up to an eighth of a voxel.
     const double read = corner_of(header, a);
     good = good && std::abs(read - corner[a]) <= grid.voxel_size / 8;
   }
   if (!good)
     fail_usage(
-        "SymVox keeps the box of a grid as float32, and this one is too large, too small or too "
-        "far from zero for that: export hashdag, which keeps float64");
+        "SymVox stores the box of a grid as float32, and this box is too large, too small or too "
+        "far from zero: export hashdag, which stores float64");
   return header;
 }
 
@@ -135,13 +135,13 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
 void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path) {
   SymvoxHeader header = header_for(dag, grid);
   const BlockNumbers blocks_before = dag.blocks_before();
-  std::array<uint64_t, kMaxSections> base{};  // [level]: its first word
+  std::array<uint64_t, kMaxSections> base{};  // [level]: index of its first word
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
   const uint64_t first_leaf = base[dag.brick_level()] + dag.bricks() + blocks_before[dag.bricks()];
   uint64_t words = 0;
-  const auto blocks = place_blocks(dag, first_leaf, &words);
+  const auto blocks = assign_block_words(dag, first_leaf, &words);
   if (words > UINT32_MAX)
-    fail_usage("SymVox holds less than 2^32 words, this DAG needs " + format_count(words) +
+    fail_usage("SymVox holds fewer than 2^32 words, this DAG needs " + format_count(words) +
                ": export a coarser --level");
   uint64_t nodes = dag.bricks() + (words - first_leaf);
   for (uint32_t k = 0; k < dag.brick_level(); ++k) nodes += dag.nodes(k);

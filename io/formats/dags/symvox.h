@@ -1,9 +1,10 @@
-// DAGs of SymVox, SVDAG-Compression and the DAGger web viewer: .svdag (another one than ours).
+// Reader and writer of the DAG files of SymVox, SVDAG-Compression and the DAGger web viewer. Their
+// ending is .svdag too, but the format is not ours.
 //
-// Layout: the header of io/dag/symvox_header.h, then u32 words. The root is at word 0, levels
-// follow each other. An inner node is its child mask and the absolute word index of each child, in
-// *descending* order of the children; a node of level L-1 is one word, the mask of a 2^3 block. A
-// brick of ours becomes a node and up to eight of the 255 masks there are.
+// Layout: the header of io/dag/symvox_header.h, then u32 words. The root is at word 0, the levels
+// follow in order. An inner node is its child mask and the absolute word index of each child, in
+// *descending* order of the children; a node of level L-1 is one word, the mask of a 2^3 block. Our
+// brick becomes one node and up to eight of the 255 possible masks.
 #pragma once
 
 #include <memory>
@@ -14,12 +15,12 @@
 
 namespace svdag {
 
-// `grid`: of the level. 2^32 words and more are an Error (kUsage), and so is a box that is not
-// finite in float32, or has no extent there.
+// `grid` is that of the exported level. 2^32 words or more are an Error (kUsage), and so is a box
+// that is not finite, or has no extent, in float32.
 void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path);
 
-// `file` must outlive the graph. What is not such a file is an Error (kBadInput), and so are the
-// mirrored nodes of a .ussvdag.
+// `file` must outlive the graph. Any other file is an Error (kBadInput), and so are the mirrored
+// nodes of a .ussvdag.
 std::unique_ptr<NodeGraph> read_symvox(const File& file);
 
 }  // namespace svdag

@@ -17,21 +17,22 @@ class TransformDagGraph : public NodeGraph {
  public:
   explicit TransformDagGraph(const File& file) : nodes_(file), bricks_(file) {
     ByteStream stream(file);
-    if (head_value<uint32_t>(&stream) != kTransformDagMagic)
-      fail_input(file.path(), "is not a transform-DAG .svo (its magic number is another)", 0);
-    if (head_value<uint32_t>(&stream) != kVersion)
-      fail_input(file.path(), "has a version of .svo that is not read", 4);
-    const uint64_t sections = head_value<uint64_t>(&stream);
+    if (header_value<uint32_t>(&stream) != kTransformDagMagic)
+      fail_input(file.path(), "is not a transform-DAG .svo (wrong magic number)", 0);
+    if (header_value<uint32_t>(&stream) != kVersion)
+      fail_input(file.path(), "has an unsupported .svo version (2 is supported)", 4);
+    const uint64_t sections = header_value<uint64_t>(&stream);
     const int levels = checked_levels(file, sections - 1, 8);
     for (int i = 0; i <= levels; ++i) sections_.push_back(section(&stream, 32));
     leaves_ = section(&stream, 8);
     if (sections_.back().count == 0) fail_input(file.path(), "has no root", 8);
-    if (head_value<uint32_t>(&stream) != 1U << levels)
-      fail_input(file.path(), "its resolution is not that of its levels", stream.offset() - 4);
-    if (head_value<uint32_t>(&stream) != uint32_t(levels))
+    if (header_value<uint32_t>(&stream) != 1U << levels)
+      fail_input(file.path(), "its resolution does not match its levels", stream.offset() - 4);
+    if (header_value<uint32_t>(&stream) != uint32_t(levels))
       fail_input(file.path(), "its root is not on its last level", stream.offset() - 4);
-    if (head_value<uint32_t>(&stream) > kTypeDag)
-      fail_input(file.path(), "has transforms: only trees and DAGs without are read",
+    if (header_value<uint32_t>(&stream) > kTypeDag)
+      fail_input(file.path(),
+                 "has transforms: only trees and DAGs without transforms are supported",
                  stream.offset() - 4);
     grid_.levels = levels;
     grid_.selection = grid_.whole();
@@ -47,7 +48,7 @@ class TransformDagGraph : public NodeGraph {
     for (unsigned t = 0; t < 8; ++t) {
       const uint32_t child = nodes_.u32(at + 4 * t);
       if (child != kNoChild && child >= below)
-        fail_input(nodes_.path(), "damaged file: a pointer leads nowhere", at + 4 * t);
+        fail_input(nodes_.path(), "damaged file: a child index is out of range", at + 4 * t);
       result[mirrored_child(t)] = child;
     }
     return result;
@@ -62,7 +63,7 @@ class TransformDagGraph : public NodeGraph {
   };
 
   static Section section(ByteStream* stream, uint64_t bytes_each) {
-    const uint64_t count = head_value<uint64_t>(stream);
+    const uint64_t count = header_value<uint64_t>(stream);
     const Section result{stream->offset(), count};
     if (count > stream->remaining() / bytes_each)
       fail_input(stream->file().path(), "damaged file: a level is larger than the file",
@@ -72,7 +73,7 @@ class TransformDagGraph : public NodeGraph {
   }
 
   GraphWindow nodes_, bricks_;
-  std::vector<Section> sections_;  // by log2 of the side of its nodes
+  std::vector<Section> sections_;  // indexed by log2 of the side of their nodes
   Section leaves_{};
   Grid grid_;
 };

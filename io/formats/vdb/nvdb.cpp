@@ -13,8 +13,9 @@
 namespace svdag {
 namespace {
 
-// The grid with its place in the world. NanoVDB's converter inverts the matrix of the transform,
-// which fails for voxels below 1.45e-5; so it gets the voxels alone, and the place is put in here.
+// Converts the grid and its transform. NanoVDB's converter inverts the matrix of the transform,
+// which fails for voxels below 1.45e-5; so it converts the voxels with the identity, and the
+// transform is set here.
 nanovdb::GridHandle<> to_nano(const openvdb::MaskGrid& grid) {
   const IndexToWorld centres = centres_of(grid.transform());
   const double size = centres.axes[0].x;
@@ -26,7 +27,7 @@ nanovdb::GridHandle<> to_nano(const openvdb::MaskGrid& grid) {
   nanovdb::GridData* data = reinterpret_cast<nanovdb::GridData*>(handle.data());
   data->mMap.set(size, centres.origin, 1.0);
   data->mVoxelSize = nanovdb::Vec3R(size);
-  nanovdb::gridStats(*nano);  // the box in the world
+  nanovdb::gridStats(*nano);  // updates the world bounding box
   nanovdb::updateChecksum(*nano);
   return handle;
 }
@@ -38,11 +39,11 @@ void write_nano(const openvdb::MaskGrid& grid, const std::string& path) {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   nanovdb::io::writeGrid(out, handle, nanovdb::io::Codec::NONE);
   out.close();
-  if (!out) throw std::runtime_error("not written whole");
+  if (!out) throw std::runtime_error("incomplete write");
   std::ifstream in(path, std::ios::binary);
   const nanovdb::GridHandle<> back = nanovdb::io::readGrid(in);
   if (back.size() != handle.size() || std::memcmp(back.data(), handle.data(), back.size()) != 0)
-    throw std::runtime_error("reads back as something else");
+    throw std::runtime_error("reads back differently");
 }
 
 }  // namespace svdag

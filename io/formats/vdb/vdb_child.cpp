@@ -1,5 +1,5 @@
-// OpenVDB reads files in a process of its own, because it checks few counts and allocates what a
-// damaged count requests; with --sandbox, in a process that can only compute.
+// Runs OpenVDB's reader in a limited child process, because it checks few counts and allocates what
+// a damaged count requests. With --sandbox the child can only compute.
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -16,20 +16,20 @@
 namespace svdag {
 namespace {
 
-// A scattered voxel costs OpenVDB a node of 271 KB, one of 34 KB and a leaf, and the file their
-// masks, of 9 KB, which are never compressed: 34 bytes of memory for one in the file. Nothing takes
-// more of what is in a file (values of a leaf that compress to nothing: 16), so twice as much is
-// enough for every file; a count that requires more is wrong.
+// Memory per byte of the file. The worst case is an isolated voxel: it costs OpenVDB a node of
+// 271 KB, one of 34 KB and a leaf, for 9 KB of masks in the file, which are never compressed: a
+// factor of 34. (Leaf values that compress to nothing give 16.) Twice that suffices for every valid
+// file; a count that requires more is wrong.
 constexpr uint64_t kMemoryPerByte = 64;
-// For OpenVDB's lists of types, a node's values while they are unpacked, blocks to send.
-constexpr uint64_t kMemoryAtLeast = uint64_t(48) << 20;
-// As SentCubes keeps them, cubes take 64 times the masks in the file that say so, or less.
-constexpr uint64_t kKeptPerByte = 64;
-constexpr uint64_t kKeptAtLeast = uint64_t(1) << 20;
+// For OpenVDB's type registry, the values of a node being unpacked, and blocks to send.
+constexpr uint64_t kMinMemory = uint64_t(48) << 20;
+// A DecodedGrid takes at most 64 times the bytes of the masks in the file.
+constexpr uint64_t kGridBytesPerByte = 64;
+constexpr uint64_t kMinGridBytes = uint64_t(1) << 20;
 
-// As decoders of scenes have it (io/scene/readers/limited_decoder.h): a second for every 64 KiB.
+// One second per 64 KiB, as for scene decoders (io/scene/readers/limited_decoder.h).
 ChildLimits limits_for(uint64_t bytes, uint64_t machine, bool sandbox) {
-  return {kMemoryAtLeast + std::min(bytes * kMemoryPerByte, machine), 30 + bytes / 65536, sandbox};
+  return {kMinMemory + std::min(bytes * kMemoryPerByte, machine), 30 + bytes / 65536, sandbox};
 }
 
 }  // namespace
@@ -42,25 +42,25 @@ std::unique_ptr<VdbGrid> read_vdb(const std::string& path, const std::string& na
   constexpr std::string_view kNano = "NanoVDB";
   if (bytes.size() >= kNano.size() && std::memcmp(bytes.data(), kNano.data(), kNano.size()) == 0)
     fail_input(path,
-               "is a NanoVDB file, which is only written: give the .vdb it was made of, or "
-               "make one with nanovdb_convert");
+               "is a NanoVDB file, which svdag cannot read: give the .vdb it was made from, or "
+               "convert it with nanovdb_convert");
   const uint64_t machine = default_memory_limit();
   const ChildLimits limits = limits_for(bytes.size(), machine, sandbox);
   const bool enough = bytes.size() * kMemoryPerByte <= machine;
-  const std::string too_little =
+  const std::string out_of_memory =
       "OpenVDB needs more than " + format_bytes(limits.memory) +
-      " for it: " + (enough ? "its counts are wrong" : "this machine has too little");
-  auto grid = std::make_unique<SentCubes>(path, kKeptAtLeast + bytes.size() * kKeptPerByte);
+      " to read it: " + (enough ? "its counts are wrong" : "this machine has less");
+  auto grid = std::make_unique<DecodedGrid>(path, kMinGridBytes + bytes.size() * kGridBytesPerByte);
   run_limited(
       limits, path,
       [&](const BlockSink& send) {
         try {
           decode_vdb(path, bytes, name, range, send);
         } catch (const std::bad_alloc&) {
-          fail_input(path, too_little);
+          fail_input(path, out_of_memory);
         }
       },
-      [&](std::span<const std::byte> block) { grid->take(block); });
+      [&](std::span<const std::byte> block) { grid->receive(block); });
   grid->finish();
   return grid;
 }

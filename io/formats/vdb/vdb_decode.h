@@ -1,4 +1,5 @@
-// What of a .vdb is read by OpenVDB, in a limited child (vdb_child.cpp), without its headers.
+// The part of reading a .vdb that runs in a limited child process (vdb_child.cpp); declared without
+// OpenVDB's headers.
 #pragma once
 
 #include <span>
@@ -8,9 +9,9 @@
 
 namespace svdag {
 
-// Sends the grid requested from read_vdb() out of the bytes of the file `path`, as described in
-// io/formats/sent_cubes.h. Opens no file and starts no thread. Must run in a process that exits
-// afterwards: OpenVDB's data is never freed, since its trees free themselves with threads.
+// Decodes the grid that read_vdb() requests from the bytes of the file `path` and sends it in the
+// format of io/formats/sent_cubes.h. Opens no file and starts no thread. The process must exit
+// afterwards: OpenVDB's data is never freed, because its trees free themselves with threads.
 void decode_vdb(const std::string& path, std::span<const std::byte> bytes, const std::string& name,
                 const std::optional<ValueRange>& range, const BlockSink& send);
 

@@ -29,9 +29,9 @@ class Archive final : public openvdb::io::Archive {
     setLibraryVersion(*in_);
     setDataCompression(*in_);
     openvdb::MetaMap().readMeta(*in_);
-    for (int32_t left = readGridCount(*in_); left > 0; --left) read_entry();
-    std::stable_sort(grids_.begin(), grids_.end(), [](const Entry& a, const Entry& b) {
-      return a.what.gridName() < b.what.gridName();
+    for (int32_t rest = readGridCount(*in_); rest > 0; --rest) read_entry();
+    std::stable_sort(grids_.begin(), grids_.end(), [](const GridEntry& a, const GridEntry& b) {
+      return a.descriptor.gridName() < b.descriptor.gridName();
     });
   }
 
@@ -39,111 +39,115 @@ class Archive final : public openvdb::io::Archive {
 
   std::string names() const {
     std::string all;
-    for (const Entry& entry : grids_)
-      all += (all.empty() ? "" : ", ") + GridDescriptor::nameAsString(entry.what.uniqueName());
+    for (const GridEntry& entry : grids_)
+      all +=
+          (all.empty() ? "" : ", ") + GridDescriptor::nameAsString(entry.descriptor.uniqueName());
     return all;
   }
 
-  // By its unique name, else the first of that name; null if not found.
+  // The grid with this unique name, else the first of this name; null if not found.
   GridBase::Ptr grid(const std::string& name) {
-    Entry* entry = find(name);
+    GridEntry* entry = find(name);
     if (entry == nullptr) return nullptr;
-    fill(entry);
-    if (entry->what.isInstance()) {  // its tree is that of another grid
-      Entry* parent = find(GridDescriptor::nameAsString(entry->what.instanceParentName()));
+    load(entry);
+    if (entry->descriptor.isInstance()) {  // it shares the tree of another grid
+      GridEntry* parent =
+          find(GridDescriptor::nameAsString(entry->descriptor.instanceParentName()));
       if (parent == nullptr) throw openvdb::KeyError("the grid whose tree it shares is missing");
-      fill(parent);
+      load(parent);
       entry->grid->setTree(parent->grid->baseTreePtr());
     }
     return entry->grid;
   }
-  GridBase::Ptr first() { return grid(GridDescriptor::nameAsString(grids_[0].what.uniqueName())); }
+  GridBase::Ptr first() {
+    return grid(GridDescriptor::nameAsString(grids_[0].descriptor.uniqueName()));
+  }
 
  private:
-  struct Entry {
-    GridDescriptor what;
+  struct GridEntry {
+    GridDescriptor descriptor;
     GridBase::Ptr grid;
-    bool filled = false;
+    bool loaded = false;
   };
 
   void read_entry() {
-    Entry& entry = grids_.emplace_back();
-    entry.grid = entry.what.read(*in_);
+    GridEntry& entry = grids_.emplace_back();
+    entry.grid = entry.descriptor.read(*in_);
     if (!inputHasGridOffsets()) {
-      readGrid(entry.grid, entry.what, *in_);
-      entry.filled = true;
+      readGrid(entry.grid, entry.descriptor, *in_);
+      entry.loaded = true;
       return;
     }
-    if (entry.what.getEndPos() < in_->tellg())  // else a file could be read for ever
+    if (entry.descriptor.getEndPos() < in_->tellg())  // else reading might never end
       throw openvdb::IoError("a grid ends before it begins");
-    entry.what.seekToEnd(*in_);
+    entry.descriptor.seekToEnd(*in_);
   }
 
-  Entry* find(const std::string& name) {
+  GridEntry* find(const std::string& name) {
     const std::string unique = GridDescriptor::stringAsUniqueName(name);
-    for (Entry& entry : grids_)
-      if (entry.what.uniqueName() == unique) return &entry;
-    for (Entry& entry : grids_)
-      if (entry.what.gridName() == name) return &entry;
+    for (GridEntry& entry : grids_)
+      if (entry.descriptor.uniqueName() == unique) return &entry;
+    for (GridEntry& entry : grids_)
+      if (entry.descriptor.gridName() == name) return &entry;
     return nullptr;
   }
 
-  void fill(Entry* entry) {
-    if (entry->filled) return;
-    entry->what.seekToGrid(*in_);
-    readGrid(entry->grid, entry->what, *in_);
-    entry->filled = true;
+  void load(GridEntry* entry) {
+    if (entry->loaded) return;
+    entry->descriptor.seekToGrid(*in_);
+    readGrid(entry->grid, entry->descriptor, *in_);
+    entry->loaded = true;
   }
 
   std::istream* in_;
   openvdb::io::StreamMetadata::Ptr stream_;
-  std::vector<Entry> grids_;
+  std::vector<GridEntry> grids_;
 };
 
-// What of a grid is set, by the type of its values.
+// Predicates for set voxels, per value type.
 struct Active {
-  static constexpr CubeType kType = CubeType::kMask;
+  static constexpr CubeValueType kType = CubeValueType::kMask;
   template <class Value>
   bool operator()(const Value&, bool active) const {
     return active;
   }
 };
 struct ActiveAndTrue {
-  static constexpr CubeType kType = CubeType::kBool;
+  static constexpr CubeValueType kType = CubeValueType::kBool;
   bool operator()(bool value, bool active) const { return value && active; }
 };
 struct InRange {
-  static constexpr CubeType kType = CubeType::kFloat;
+  static constexpr CubeValueType kType = CubeValueType::kFloat;
   ValueRange range;
   bool operator()(float value, bool) const { return value >= range.low && value <= range.high; }
 };
 
-CubeHead head_of(const std::string& path, CubeType type, const GridBase& grid) {
+CubeHeader cube_header(const std::string& path, CubeValueType type, const GridBase& grid) {
   if (!grid.transform().isLinear())
     fail_input(path, "grid " + grid.getName() + " has a transform that is not linear");
   const IndexToWorld centres = centres_of(grid.transform());
-  CubeHead head{};
-  head.type = type;
+  CubeHeader header{};
+  header.type = type;
   for (int a = 0; a < 3; ++a) {
-    for (size_t row = 0; row < 3; ++row) head.axes[row][size_t(a)] = centres.axes[row][a];
-    head.origin[size_t(a)] = centres.origin[a];
+    for (size_t row = 0; row < 3; ++row) header.axes[row][size_t(a)] = centres.axes[row][a];
+    header.origin[size_t(a)] = centres.origin[a];
   }
-  return head;
+  return header;
 }
 
-void send_head(CubeHead head, std::string name, const BlockSink& send) {
-  name.resize(std::min<size_t>(name.size(), CubeHead::kLongestName));
+void send_header(CubeHeader header, std::string name, const BlockSink& send) {
+  name.resize(std::min<size_t>(name.size(), CubeHeader::kMaxNameBytes));
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  head.name_bytes = uint32_t(name.size());
-  std::vector<std::byte> block(sizeof head + name.size());
-  std::copy_n(reinterpret_cast<const std::byte*>(&head), sizeof head, block.begin());
+  header.name_bytes = uint32_t(name.size());
+  std::vector<std::byte> block(sizeof header + name.size());
+  std::copy_n(reinterpret_cast<const std::byte*>(&header), sizeof header, block.begin());
   std::copy_n(reinterpret_cast<const std::byte*>(name.data()), name.size(),
-              block.begin() + sizeof head);
+              block.begin() + sizeof header);
   send(block);
 }
 
-// Gathers records into blocks.
+// Collects records into blocks and sends them.
 class CubeSender {
  public:
   explicit CubeSender(const BlockSink& send) : send_(send) { records_.reserve(kBatch); }
@@ -165,13 +169,13 @@ class CubeSender {
 
 template <class GridType, class IsSet>
 void send_grid(const std::string& path, const GridType& grid, IsSet is_set, const BlockSink& send) {
-  const CubeHead head = head_of(path, IsSet::kType, grid);
+  const CubeHeader header = cube_header(path, IsSet::kType, grid);
   if (is_set(grid.background(), false))
-    fail_usage("--iso: the background of grid " + grid.getName() +
+    fail_usage("--iso: the background value of grid " + grid.getName() +
                " is in that range, so infinitely many voxels would be set");
-  send_head(head, grid.getName(), send);
+  send_header(header, grid.getName(), send);
   CubeSender out(send);
-  auto value = grid.tree().cbeginValueAll();  // tiles only: leaves are taken whole
+  auto value = grid.tree().cbeginValueAll();  // tiles only: leaves follow below
   value.setMaxDepth(GridType::TreeType::ValueAllCIter::LEAF_DEPTH - 1);
   for (; value; ++value) {
     if (!is_set(*value, value.isValueOn())) continue;
@@ -189,8 +193,8 @@ void send_grid(const std::string& path, const GridType& grid, IsSet is_set, cons
   out.flush();
 }
 
-void send_any(const std::string& path, const GridBase::Ptr& base,
-              const std::optional<ValueRange>& range, const BlockSink& send) {
+void send_supported_grid(const std::string& path, const GridBase::Ptr& base,
+                         const std::optional<ValueRange>& range, const BlockSink& send) {
   if (const auto mask = openvdb::gridPtrCast<openvdb::MaskGrid>(base))
     return send_grid(path, *mask, Active(), send);
   if (const auto bools = openvdb::gridPtrCast<openvdb::BoolGrid>(base))
@@ -201,17 +205,18 @@ void send_any(const std::string& path, const GridBase::Ptr& base,
                          ", not mask, bool or float");
   if (!range)
     fail_usage(path + ": grid " + base->getName() +
-               " is a float grid: say with --iso=LOW,HIGH which values are set");
+               " is a float grid: give the values that are set with --iso=LOW,HIGH");
   send_grid(path, *floats, InRange{*range}, send);
 }
 
-GridBase::Ptr pick(const std::string& path, const std::string& name, Archive* archive) {
+GridBase::Ptr select_grid(const std::string& path, const std::string& name, Archive* archive) {
   archive->open();
-  if (archive->count() == 0) fail_input(path, "holds no grid");
+  if (archive->count() == 0) fail_input(path, "contains no grid");
   if (name.empty() && archive->count() > 1)
-    fail_usage(path + ": holds more than one grid; choose with --grid one of " + archive->names());
+    fail_usage(path + ": contains more than one grid: choose one with --grid: " + archive->names());
   const GridBase::Ptr grid = name.empty() ? archive->first() : archive->grid(name);
-  if (!grid) fail_usage(path + ": has no grid " + name + "; it holds " + archive->names());
+  if (!grid)
+    fail_usage(path + ": has no grid " + name + ": choose one with --grid: " + archive->names());
   return grid;
 }
 
@@ -221,16 +226,17 @@ void decode_vdb(const std::string& path, std::span<const std::byte> bytes, const
                 const std::optional<ValueRange>& range, const BlockSink& send) {
   try {
     openvdb::initialize();
-    // Neither is ever deleted, whatever is thrown, and so no tree is.
+    // Neither is deleted, whatever is thrown, so no tree is freed.
     auto* stream = new MemoryStream(bytes);
     auto* archive = new Archive(stream);
-    send_any(path, pick(path, name, archive), range, send);
+    send_supported_grid(path, select_grid(path, name, archive), range, send);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::ios_base::failure&) {
-    fail_input(path, "OpenVDB cannot read it: it is cut off, or its counts and offsets are wrong");
+    fail_input(path,
+               "OpenVDB cannot read it: it is truncated, or its counts and offsets are wrong");
   } catch (const std::exception& error) {
     fail_input(path, std::string("OpenVDB cannot read it: ") + error.what());
   }

@@ -1,5 +1,4 @@
-// What vdb_read.cpp, vdb_write.cpp and nvdb.cpp share: OpenVDB's types and their transforms as
-// ours.
+// Helpers on OpenVDB types shared by vdb_read.cpp, vdb_write.cpp and nvdb.cpp.
 #pragma once
 
 #include <openvdb/io/Archive.h>
@@ -11,8 +10,8 @@
 
 namespace svdag {
 
-// What a linear transform says, to the last bit. Its affine map would not: OpenVDB inverts the
-// matrix of each, which it refuses to do for voxels below 1.45e-5.
+// A linear transform as IndexToWorld, to the last bit. Its affine map cannot be used: OpenVDB
+// inverts the matrix of every affine map, which fails for voxels below 1.45e-5.
 inline IndexToWorld centres_of(const openvdb::math::Transform& transform) {
   const auto point = [](const openvdb::Vec3d& p) { return Point(p.x(), p.y(), p.z()); };
   IndexToWorld centres;
@@ -25,7 +24,7 @@ inline IndexToWorld centres_of(const openvdb::math::Transform& transform) {
   return centres;
 }
 
-// A .nvdb of one grid, whose voxels are cubes along the axes, into a file that `path` opens.
+// Writes one grid, with cubic axis-aligned voxels, as .nvdb to the file `path`.
 void write_nano(const openvdb::MaskGrid& grid, const std::string& path);
 
 }  // namespace svdag

@@ -15,17 +15,17 @@ openvdb::Vec3d vector(const Point& p) {
   return {p.x, p.y, p.z};
 }
 
-// Whether the axes of voxels are those of the world.
-bool is_straight(const IndexToWorld& centres) {
+// True if the axes of the voxels are those of the world.
+bool is_axis_aligned(const IndexToWorld& centres) {
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       if (a != b && centres.axes[size_t(a)][b] != 0) return false;
   return true;
 }
 
-// A map of a scale and a translation. Every way to construct one goes through a matrix and back,
-// which is inexact, far from zero above all, and fails for voxels below 1.45e-5. What OpenVDB reads
-// out of a file it takes bit by bit, so it reads what its ScaleTranslateMap::write would write.
+// A map of a scale and a translation. All of OpenVDB's constructors convert to a matrix and back,
+// which is inexact, above all far from zero, and fails for voxels below 1.45e-5. Reading a map from
+// a file is exact, so this writes what ScaleTranslateMap::write would write, and reads it.
 openvdb::math::Transform::Ptr scale_translate(const openvdb::Vec3d& scale,
                                               const openvdb::Vec3d& translation) {
   using namespace openvdb::math;
@@ -45,7 +45,7 @@ openvdb::math::Transform::Ptr scale_translate(const openvdb::Vec3d& scale,
 
 openvdb::math::Transform::Ptr transform_of(const IndexToWorld& centres) {
   const auto& axes = centres.axes;
-  if (is_straight(centres))
+  if (is_axis_aligned(centres))
     return scale_translate({axes[0].x, axes[1].y, axes[2].z}, vector(centres.origin));
   openvdb::Mat4R matrix = openvdb::Mat4R::identity();  // acts on row vectors
   for (int row = 0; row < 3; ++row)
@@ -54,8 +54,8 @@ openvdb::math::Transform::Ptr transform_of(const IndexToWorld& centres) {
   return openvdb::math::Transform::createLinearTransform(matrix);
 }
 
-// A grid that OpenVDB can write. OpenVDB copies each grid, to add metadata, and would also convert
-// the copy's transform to a matrix, which is not needed.
+// A grid that OpenVDB can write. OpenVDB copies each grid to add metadata, and would convert the
+// copy's transform to a matrix; the copy gets the identity instead, as its transform is not used.
 template <class GridType>
 class WritableGrid final : public GridType {
  public:
@@ -66,7 +66,7 @@ class WritableGrid final : public GridType {
   }
 };
 
-// Whether the file at `path` says what was to be written.
+// True if the file at `path` contains these grids.
 template <class GridType>
 bool reads_back(const std::string& path, const openvdb::GridPtrVec& grids) {
   openvdb::io::File file(path);
@@ -88,7 +88,7 @@ bool reads_back(const std::string& path, const openvdb::GridPtrVec& grids) {
 template <class GridType>
 void write_grids(const std::string& path, const openvdb::GridPtrVec& grids) {
   openvdb::io::File(path).write(grids);
-  if (!reads_back<GridType>(path, grids)) throw openvdb::IoError("reads back as something else");
+  if (!reads_back<GridType>(path, grids)) throw openvdb::IoError("reads back differently");
 }
 
 openvdb::GridPtrVec as_bool(const std::vector<openvdb::MaskGrid::Ptr>& masks) {
@@ -150,7 +150,7 @@ class Writer final : public VdbWriter {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
-      throw Error(ExitCode::kOutput, "could not be written whole: is the disk full?", path);
+      throw Error(ExitCode::kOutput, "could not be written completely: is the disk full?", path);
     }
     file.commit();
   }

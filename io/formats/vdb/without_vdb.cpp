@@ -7,19 +7,19 @@
 namespace svdag {
 namespace {
 
-[[noreturn]] void lacking() {
-  fail_usage("this program was built without OpenVDB; build it with -DSVDAG_OPENVDB=ON");
+[[noreturn]] void fail_without_vdb() {
+  fail_usage("this program was built without OpenVDB: build it with -DSVDAG_OPENVDB=ON");
 }
 
 }  // namespace
 
 std::unique_ptr<VdbWriter> make_vdb_writer() {
-  lacking();
+  fail_without_vdb();
 }
 
 std::unique_ptr<VdbGrid> read_vdb(const std::string&, const std::string&,
                                   const std::optional<ValueRange>&, bool) {
-  lacking();
+  fail_without_vdb();
 }
 
 }  // namespace svdag

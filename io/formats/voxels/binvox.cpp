@@ -38,7 +38,7 @@ class RunWriter {
   uint64_t count_ = 0;
 };
 
-// Layers of the cube along x, a few at a time: a bit per voxel, y fastest.
+// Some layers of the cube along x: one bit per voxel, y fastest.
 class Layers {
  public:
   Layers(int64_t depth, int64_t side)
@@ -69,25 +69,25 @@ class Layers {
   std::vector<uint64_t> words_;
 };
 
-struct Cuboid {
+struct VoxelCounts {
   uint64_t x, y, z;  // voxels per axis
 };
 
-// Lines of other words are notes of the program that wrote the file.
-bool is_ours(const std::string& line) {
+// Lines with other keywords are comments of the program that wrote the file.
+bool is_header_keyword(const std::string& line) {
   for (const char* word : {"dim", "translate", "scale", "data"}) {
     if (line.starts_with(word)) return true;
   }
   return false;
 }
 
-// Reads the lines before the data; *data is where that begins.
-Cuboid read_head(const File& file, GridPlacement* place, uint64_t* data) {
+// Reads the header lines; sets *data to the offset of the data.
+VoxelCounts read_header(const File& file, GridPlacement* place, uint64_t* data) {
   ByteStream stream(file, 0, UINT64_MAX, 4096);
   const auto first = stream.line(4096);
   if (!first || !first->starts_with("#binvox"))
     fail_input(file.path(), "is not a binvox file (it does not begin with #binvox)");
-  Cuboid dim{};
+  VoxelCounts dim{};
   double scale = 1;
   for (;;) {
     const uint64_t at = stream.offset();
@@ -98,16 +98,16 @@ Cuboid read_head(const File& file, GridPlacement* place, uint64_t* data) {
     double x, y, z;
     if (line == "data") break;
     if (std::sscanf(line.c_str(), "dim %llu %llu %llu", &d, &h, &w) == 3) {
-      dim = {d, w, h};  // of x, y, z: the file runs through x, then z, then y
+      dim = {d, w, h};  // of x, y, z: the file stores x slowest, then z, then y
     } else if (std::sscanf(line.c_str(), "translate %lf %lf %lf", &x, &y, &z) == 3) {
       place->corner = {x, y, z};
-    } else if (std::sscanf(line.c_str(), "scale %lf", &scale) != 1 && is_ours(line)) {
-      fail_input(file.path(), "has a header line that is not understood", at);
+    } else if (std::sscanf(line.c_str(), "scale %lf", &scale) != 1 && is_header_keyword(line)) {
+      fail_input(file.path(), "has an invalid header line", at);
     }
   }
   for (const uint64_t side : {dim.x, dim.y, dim.z}) {
     if (side == 0 || side > uint64_t(1) << kMaxLevels)
-      fail_input(file.path(), "has no dimensions of 1 to 1M voxels");
+      fail_input(file.path(), "its dimensions are not 1 to 1M voxels per axis");
     place->resolution = std::max(place->resolution, side);
   }
   place->voxel_size = scale / double(place->resolution);
@@ -121,9 +121,9 @@ void write_binvox(const VoxelWindow& window, const std::string& path) {
   const VoxelBox& box = window.box();
   int64_t side = 1;
   for (int a = 0; a < 3; ++a) side = std::max(side, box.max[a] - box.min[a]);
-  if (side > kMostBinvoxSide)
-    fail_usage("binvox stores every voxel, set or not, so windows up to " +
-               format_count(kMostBinvoxSide) + " voxels a side are written, this one has " +
+  if (side > kMaxBinvoxSide)
+    fail_usage("binvox stores every voxel, set or not: a window has at most " +
+               format_count(kMaxBinvoxSide) + " voxels per axis, this one has " +
                format_count(uint64_t(side)) +
                ": export a coarser --level, or a part with --bounds");
   Output out(path);
@@ -152,7 +152,7 @@ void write_binvox(const VoxelWindow& window, const std::string& path) {
 GridPlacement read_binvox(const File& file, const VoxelSink& sink) {
   GridPlacement place;
   uint64_t data = 0;
-  const Cuboid dim = read_head(file, &place, &data);
+  const VoxelCounts dim = read_header(file, &place, &data);
   ByteStream stream(file, data);
   VoxelBatch batch(sink);
   const uint64_t total = dim.x * dim.y * dim.z;
@@ -160,7 +160,8 @@ GridPlacement read_binvox(const File& file, const VoxelSink& sink) {
     std::array<uint8_t, 2> run;
     stream.read(std::as_writable_bytes(std::span(run)));
     if (run[0] > 1 || run[1] == 0 || run[1] > total - i)
-      fail_input(file.path(), "has an impossible run of voxels", stream.offset() - 2);
+      fail_input(file.path(), "damaged file: a run has an invalid value or length",
+                 stream.offset() - 2);
     for (const uint64_t end = i + run[1]; i < end; ++i) {
       if (run[0] != 0)
         batch.add({uint32_t(i / dim.y / dim.z), uint32_t(i % dim.y), uint32_t(i / dim.y % dim.z)});

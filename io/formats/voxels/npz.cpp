@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::string_view kArrayMagic = "\x93NUMPY";
 
-// Begins an entry with an array of the type and shape, as NumPy spells them.
+// Begins an archive entry: an array of this type and shape, in NumPy's notation.
 void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
                  const std::string& shape) {
   std::string header =
       "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
-  constexpr size_t kBefore = 10;  // magic, version, length
-  header.resize((kBefore + header.size() + 1 + 63) / 64 * 64 - kBefore - 1, ' ');
+  constexpr size_t kPrefixBytes = 10;  // magic, version, length
+  header.resize((kPrefixBytes + header.size() + 1 + 63) / 64 * 64 - kPrefixBytes - 1, ' ');
   header += '\n';
   zip->begin(name + ".npy");
   zip->put(kArrayMagic);
@@ -29,9 +29,9 @@ void begin_array(ZipWriter* zip, const std::string& name, const std::string& typ
   zip->put(header);
 }
 
-// An array of a file: its type and shape, and the place of its elements.
+// An array in a file: its type, its shape and the offsets of its elements.
 struct Array {
-  char kind = 0;       // 'b' bool, 'u', 'i', 'f'; 0: another type, and nothing else is known
+  char kind = 0;       // 'b' bool, 'u', 'i', 'f'; 0: unsupported type, other members are unset
   uint64_t bytes = 0;  // of an element
   bool fortran_order = false;
   std::vector<uint64_t> shape;
@@ -44,9 +44,9 @@ struct Array {
   }
 };
 
-// The text behind `key` in a header, a Python dictionary as NumPy writes it.
-std::string_view value_of(std::string_view header, std::string_view key, const File& file,
-                          uint64_t offset) {
+// The text after `key` in a header, which is a Python dictionary as NumPy writes it.
+std::string_view header_value(std::string_view header, std::string_view key, const File& file,
+                              uint64_t offset) {
   const size_t at = header.find(key);
   const size_t colon = at == std::string_view::npos ? at : header.find(':', at);
   if (colon == std::string_view::npos)
@@ -88,14 +88,14 @@ Array read_header(const File& file, uint64_t offset, uint64_t end) {
   std::string header(length, '\0');
   stream.read(std::as_writable_bytes(std::span(header)));
   Array array;
-  const std::string_view type = value_of(header, "'descr'", file, offset);
+  const std::string_view type = header_value(header, "'descr'", file, offset);
   if (type.size() < 5 || (type[1] != '<' && type[1] != '|') || type[3] < '1' || type[3] > '8' ||
       type[4] != type[0])
     return array;
   array.kind = type[2];
   array.bytes = uint64_t(type[3] - '0');
-  array.fortran_order = value_of(header, "'fortran_order'", file, offset).starts_with("True");
-  array.shape = parse_shape(value_of(header, "'shape'", file, offset), file, offset);
+  array.fortran_order = header_value(header, "'fortran_order'", file, offset).starts_with("True");
+  array.shape = parse_shape(header_value(header, "'shape'", file, offset), file, offset);
   array.offset = stream.offset();
   array.end = end;
   if (array.elements() > (end - array.offset) / array.bytes)
@@ -114,7 +114,7 @@ bool is_dense(const Array& a) {
   return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
 }
 
-// The next integer of the array; a negative one becomes a large number, whatever its width.
+// Reads the next integer of the array; a negative one of any width becomes a large number.
 uint64_t read_integer(ByteStream* stream, const Array& array) {
   uint64_t bits = 0;
   stream->read(std::as_writable_bytes(std::span(&bits, 1)).first(array.bytes));
@@ -122,8 +122,8 @@ uint64_t read_integer(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
-// In Fortran order, which numpy.argwhere() gives, all x precede all y and z: a stream for
-// each.
+// In Fortran order, which numpy.argwhere() gives, all x precede all y and all z: one stream per
+// axis.
 void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
   const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
   std::vector<ByteStream> streams;
@@ -173,7 +173,7 @@ void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
   batch.flush();
 }
 
-// The next number of an array of integers or floats.
+// Reads the next number of an array of integers or floats.
 double read_number(ByteStream* stream, const Array& array) {
   if (array.kind == 'f' && array.bytes == 4) {
     float number = 0;
@@ -185,14 +185,15 @@ double read_number(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? double(int64_t(bits)) : double(bits);
 }
 
-bool says_place(std::string_view name) {
+bool is_placement(std::string_view name) {
   return name == "corner" || name == "resolution" || name == "voxel_size";
 }
 
-// The arrays that place the voxels. Each is read or rejected, never ignored.
-void read_place(const File& file, std::string_view name, const Array& array, GridPlacement* place) {
+// Reads an array that places the voxels. Such an array is read or rejected, never ignored.
+void read_placement(const File& file, std::string_view name, const Array& array,
+                    GridPlacement* place) {
   const uint64_t count = name == "corner" ? 3 : 1;
-  if (!says_place(name)) return;
+  if (!is_placement(name)) return;
   const bool is_float = array.kind == 'f' && (array.bytes == 4 || array.bytes == 8);
   if (!(is_float || is_integer(array)) || array.elements() != count)
     fail_input(file.path(), "has an array \"" + std::string(name) + "\" that is not " +
@@ -211,13 +212,13 @@ void read_place(const File& file, std::string_view name, const Array& array, Gri
   }
 }
 
-// Which of the arrays of a file are its voxels.
-class Choice {
+// Chooses the array of a file that holds its voxels.
+class VoxelArrayChoice {
  public:
-  explicit Choice(const File& file) : file_(file) {}
+  explicit VoxelArrayChoice(const File& file) : file_(file) {}
 
-  void look_at(std::string_view name, const Array& array) {
-    if (says_place(name)) return;
+  void consider(std::string_view name, const Array& array) {
+    if (is_placement(name)) return;
     const bool fits = is_coordinates(array) || is_dense(array);
     if (name == kCoordinates) {
       if (!fits)
@@ -232,21 +233,20 @@ class Choice {
     }
   }
 
-  // An array of their name; else the only one that can be meant.
+  // The array named "coordinates", else the only candidate.
   const Array& voxels() const {
     if (named_) return *named_;
     if (several_)
       fail_input(file_.path(),
-                 "has more than one array that may be the voxels: call theirs \"coordinates\"");
+                 "has more than one array that may hold the voxels: name theirs \"coordinates\"");
     if (!found_)
-      fail_input(
-          file_.path(),
-          "has no array of N x 3 integers, and none of three dimensions of bool" +
-              (unread_.empty() ? "" : "; of a type that is not read: " + unread_.substr(0, 40)));
+      fail_input(file_.path(),
+                 "has no array of N x 3 integers and no 3-dimensional array of bool" +
+                     (unread_.empty() ? "" : "; of an unsupported type: " + unread_.substr(0, 40)));
     if (!points_.empty() && is_coordinates(*found_))
-      fail_input(file_.path(), "has points of N x 3 floats, " + points_.substr(0, 40) +
-                                   ", beside N x 3 integers, which may be colours: call the array "
-                                   "of the voxels \"coordinates\"");
+      fail_input(file_.path(), "has N x 3 floats, " + points_.substr(0, 40) +
+                                   ", beside N x 3 integers, which may be colours: name the array "
+                                   "of voxels \"coordinates\"");
     return *found_;
   }
 
@@ -257,7 +257,7 @@ class Choice {
   std::optional<Array> named_, found_;
   bool several_ = false;
   std::string points_;
-  std::string unread_;  // the first of another type: none of ours, or not what was meant
+  std::string unread_;  // the first array of an unsupported type
 };
 
 }  // namespace
@@ -295,12 +295,12 @@ GridPlacement read_npz(const File& file, const VoxelSink& sink) {
     entries.push_back({"array.npy", 0, file.size(), 0});
   }
   GridPlacement place;
-  Choice choice(file);
+  VoxelArrayChoice choice(file);
   for (const ZipEntry& entry : entries) {
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
-    read_place(file, name, array, &place);
-    choice.look_at(name, array);
+    read_placement(file, name, array, &place);
+    choice.consider(name, array);
   }
   const Array& voxels = choice.voxels();
   if (is_dense(voxels)) {
@@ -310,7 +310,7 @@ GridPlacement read_npz(const File& file, const VoxelSink& sink) {
     read_coordinates(file, voxels, sink);
   }
   for (const ZipEntry& entry : entries) {
-    if (zipped) require_sound(file, entry);
+    if (zipped) check_crc(file, entry);
   }
   return place;
 }

@@ -1,12 +1,12 @@
-// NumPy archives `.npz`: the coordinates of set voxels.
+// Reader and writer of NumPy archives `.npz` with the coordinates of set voxels.
 //
-// An archive is a zip file of `.npy` arrays, stored as they are. Written: `coordinates` (N x 3,
-// int32: x, y, z from the corner of the grid, in any order), `resolution` (int64),
-// `corner` (3 x float64, world position of voxel (0, 0, 0)) and `voxel_size` (float64).
-// Read: the same, or any archive (or lone `.npy`) with one array of N x 3 integers, or of three
-// dimensions of bool or uint8, set where it is not 0; `resolution` and `voxel_size` of one number,
-// `corner` of three, as float32, float64 or integers of 1 to 8 bytes. Other content under these
-// names is rejected, and so are compressed archives.
+// An archive is a zip file of uncompressed `.npy` arrays. Written: `coordinates` (N x 3, int32: x,
+// y, z from the corner of the grid, in any order), `resolution` (int64), `corner` (3 x float64,
+// world position of the corner of voxel (0, 0, 0)) and `voxel_size` (float64).
+// Read: the same, or any archive (or single `.npy`) with one array of N x 3 integers, or one
+// 3-dimensional array of bool or uint8, whose nonzero elements are set. `resolution` and
+// `voxel_size` hold one number, `corner` three, as float32, float64 or integers of 1 to 8 bytes;
+// any other array of these names is rejected, and so are compressed archives.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace svdag {
 
 void write_npz(const VoxelWindow& window, const std::string& path);
 
-// Any other file is an Error (kBadInput), and so is a coordinate below 0 or from 2^20 on.
+// Any other file is an Error (kBadInput), and so is a coordinate outside 0 .. 2^20 - 1.
 GridPlacement read_npz(const File& file, const VoxelSink& sink);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// The centres of voxels as the points of a PLY file: 3 x f64 world coordinates, little-endian.
+// Writer of voxel centres as points of a PLY file: 3 x f64 world coordinates, little-endian.
 #pragma once
 
 #include <string>

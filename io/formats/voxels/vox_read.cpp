@@ -22,21 +22,21 @@ bool is_hidden(const Dictionary& attributes) {
 
 struct Model {
   std::array<uint32_t, 3> size;
-  uint64_t offset, count;  // of its voxels in the file
+  uint64_t offset, count;  // of its voxel records in the file
 };
 
-// A node of the scene graph: a place (one child), a group (its children), or a shape (its models,
-// the frames of an animation: the first is read).
-struct Node {
-  Offset place{};
+// A node of the scene graph: a translation (one child), a group (its children), or a shape (its
+// models are the frames of an animation, of which the first is read).
+struct SceneNode {
+  Offset translation{};
   uint32_t layer = kNoLayer;
   bool hidden = false;
   bool rotated = false;
   std::vector<uint32_t> children, models;
-  size_t visits = 0;  // of nodes, from this one on; 0: not counted
+  size_t visits = 0;  // number of nodes visited from this one on; 0: not counted
 };
 
-// Reads the numbers of one chunk; all that reach beyond it are errors.
+// Reads the contents of one chunk; reading past its end is an Error.
 class ChunkReader {
  public:
   ChunkReader(ByteStream* stream, uint64_t bytes) : stream_(stream), left_(bytes) {
@@ -44,18 +44,18 @@ class ChunkReader {
   }
   uint32_t number() {
     uint32_t value;
-    take(sizeof value);
+    consume(sizeof value);
     stream_->read(std::as_writable_bytes(std::span(&value, 1)));
     return value;
   }
   std::string text() {
     const uint32_t length = number();
-    take(length);
+    consume(length);
     std::string text(length, '\0');
     stream_->read(std::as_writable_bytes(std::span(text)));
     return text;
   }
-  // Of what follows, at least 4 bytes each.
+  // The number of items that follow, of at least 4 bytes each.
   uint32_t count() {
     const uint32_t n = number();
     if (n > left_ / 4) fail();
@@ -73,12 +73,12 @@ class ChunkReader {
   uint64_t left() const { return left_; }
   uint64_t offset() const { return stream_->offset(); }
   [[noreturn]] void fail() const {
-    fail_input(stream_->file().path(), "damaged .vox file: a chunk is larger than its contents",
+    fail_input(stream_->file().path(), "damaged .vox file: a chunk ends too early",
                stream_->offset());
   }
 
  private:
-  void take(uint64_t bytes) {
+  void consume(uint64_t bytes) {
     if (bytes > left_) fail();
     left_ -= bytes;
   }
@@ -94,8 +94,8 @@ class VoxReader {
   GridPlacement read(const VoxelSink& sink) {
     read_chunks();
     if (nodes_.empty()) {
-      const size_t shown = std::min<size_t>(models_.size(), frames_ ? 1 : models_.size());
-      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_of(i));
+      const size_t shown = std::min<size_t>(models_.size(), has_frames_ ? 1 : models_.size());
+      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_voxel(i));
     } else {
       count_visits(0, 0);
       place_node(0, {}, 0);
@@ -115,12 +115,12 @@ class VoxReader {
   }
 
  private:
-  // A small file may repeat its parts without end.
+  // A small file can repeat its models exponentially often.
   static constexpr size_t kMaxVisits = size_t(1) << 20;
-  static constexpr uint64_t kMostVoxels = uint64_t(1) << 32;
-  static constexpr int kDeepest = 64;
+  static constexpr uint64_t kMaxVoxels = uint64_t(1) << 32;
+  static constexpr int kMaxDepth = 64;
 
-  Offset middle_of(uint32_t model) const {
+  Offset middle_voxel(uint32_t model) const {
     Offset middle;
     for (size_t a = 0; a < 3; ++a) middle[a] = models_[model].size[a] / 2;
     return middle;
@@ -153,10 +153,10 @@ class VoxReader {
       const uint32_t count = chunk->count();
       models_.push_back({*size, chunk->offset(), count});
     } else if (name == "PACK") {
-      frames_ = true;
+      has_frames_ = true;
     } else if (name == "nTRN") {
       const uint32_t id = chunk->number();
-      Node node;
+      SceneNode node;
       node.hidden = is_hidden(chunk->dictionary());
       node.children = {chunk->number()};
       chunk->number();  // reserved
@@ -164,7 +164,7 @@ class VoxReader {
       if (chunk->count() > 0) read_frame(chunk->dictionary(), &node);
       nodes_[id] = std::move(node);
     } else if (name == "nGRP" || name == "nSHP") {
-      Node& node = nodes_[chunk->number()];
+      SceneNode& node = nodes_[chunk->number()];
       node.hidden = is_hidden(chunk->dictionary());
       for (uint32_t n = chunk->count(); n > 0; --n) {
         (name == "nGRP" ? node.children : node.models).push_back(chunk->number());
@@ -176,29 +176,29 @@ class VoxReader {
     }
   }
 
-  // A place that cannot be read matters only where a model is shown: place_node() refuses.
-  void read_frame(const Dictionary& frame, Node* node) const {
+  // A rotation is an error only where a model is shown: place_node() rejects it.
+  void read_frame(const Dictionary& frame, SceneNode* node) const {
     if (const auto r = frame.find("_r"); r != frame.end()) node->rotated = r->second != "4";
     const auto t = frame.find("_t");
     if (t == frame.end()) return;
     long long x, y, z;
     if (std::sscanf(t->second.c_str(), "%lld %lld %lld", &x, &y, &z) != 3)
-      fail_input(file_.path(), "damaged .vox file: a place is not three numbers");
-    node->place = {x, y, z};
+      fail_input(file_.path(), "damaged .vox file: a translation is not three integers");
+    node->translation = {x, y, z};
   }
 
-  Node& node_of(uint32_t id, int depth) {
+  SceneNode& node_of(uint32_t id, int depth) {
     const auto found = nodes_.find(id);
-    if (found == nodes_.end() || depth > kDeepest) fail_graph();
+    if (found == nodes_.end() || depth > kMaxDepth) fail_graph();
     return found->second;
   }
   [[noreturn]] void fail_graph() const {
-    fail_input(file_.path(), "damaged .vox file: broken scene graph");
+    fail_input(file_.path(), "damaged .vox file: invalid scene graph");
   }
 
-  // Looks at each node once, before place_node() visits it once for every way that leads to it.
+  // Visits each node once, before place_node() visits it once per path that leads to it.
   size_t count_visits(uint32_t id, int depth) {
-    Node& node = node_of(id, depth);
+    SceneNode& node = node_of(id, depth);
     if (node.visits != 0) return node.visits;
     size_t visits = 1;
     for (const uint32_t child : node.children) {
@@ -208,31 +208,31 @@ class VoxReader {
     return node.visits = visits;
   }
 
-  // `refusal`: why what is shown below this node could not be read; none.
-  void place_node(uint32_t id, const Offset& from, int depth, const char* refusal = nullptr) {
-    const Node& node = node_of(id, depth);
+  // `reject_reason`: why models below this node cannot be read; null if they can.
+  void place_node(uint32_t id, const Offset& from, int depth, const char* reject_reason = nullptr) {
+    const SceneNode& node = node_of(id, depth);
     if (node.hidden || hidden_layers_.contains(node.layer)) return;
-    if (node.rotated) refusal = "has rotated models, which are not read";
+    if (node.rotated) reject_reason = "has rotated models, which are not supported";
     Offset at = from;
     for (size_t a = 0; a < 3; ++a) {
-      const int64_t place = node.place[a];
-      const bool far = place < -(int64_t(1) << kMaxLevels) || place > int64_t(1) << kMaxLevels;
-      if (far) refusal = "has a model further than 1M voxels from 0";
-      if (!far) at[a] += place;
+      const int64_t move = node.translation[a];
+      const bool far = move < -(int64_t(1) << kMaxLevels) || move > int64_t(1) << kMaxLevels;
+      if (far) reject_reason = "has a model further than 1M voxels from 0";
+      if (!far) at[a] += move;
     }
-    for (const uint32_t child : node.children) place_node(child, at, depth + 1, refusal);
+    for (const uint32_t child : node.children) place_node(child, at, depth + 1, reject_reason);
     if (node.models.empty()) return;
-    if (refusal != nullptr) fail_input(file_.path(), refusal);
+    if (reject_reason != nullptr) fail_input(file_.path(), reject_reason);
     place_model(node.models.front(), at);
   }
 
-  // With voxel size/2 of it at `middle`.
+  // Places the model with its voxel size/2 at `middle`.
   void place_model(uint32_t model, const Offset& middle) {
     if (model >= models_.size()) fail_graph();
     voxels_ += models_[model].count;
-    if (placed_.size() >= kMaxVisits || voxels_ > kMostVoxels)
-      fail_input(file_.path(), "repeats its models too often");
-    Offset corner = middle_of(model);
+    if (placed_.size() >= kMaxVisits || voxels_ > kMaxVoxels)
+      fail_input(file_.path(), "shows more than 2^20 models or 2^32 voxels");
+    Offset corner = middle_voxel(model);
     for (size_t a = 0; a < 3; ++a) corner[a] = middle[a] - corner[a];
     placed_.emplace_back(model, corner);
   }
@@ -256,11 +256,11 @@ class VoxReader {
 
   const File& file_;
   std::vector<Model> models_;
-  std::map<uint32_t, Node> nodes_;
+  std::map<uint32_t, SceneNode> nodes_;
   std::set<uint32_t> hidden_layers_;
-  bool frames_ = false;  // PACK: without a scene graph, models are the frames of an animation
-  std::vector<std::pair<uint32_t, Offset>> placed_;  // models and their corners
-  uint64_t voxels_ = 0;                              // of placed_
+  bool has_frames_ = false;  // PACK chunk: without a scene graph, models are animation frames
+  std::vector<std::pair<uint32_t, Offset>> placed_;  // models with their corners
+  uint64_t voxels_ = 0;                              // total of placed_
 };
 
 }  // namespace

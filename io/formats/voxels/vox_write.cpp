@@ -9,7 +9,7 @@ namespace {
 constexpr int64_t kTile = 256;
 constexpr uint32_t kVersion = 150;
 
-// A chunk whose size is filled in at the end.
+// A chunk whose size is patched in at its end.
 class Chunk {
  public:
   Chunk(const char* name, Output* out) : out_(out) {
@@ -19,7 +19,7 @@ class Chunk {
     begin_ = out->size();
   }
   void end() { out_->patch(begin_ - 8, uint32_t(out_->size() - begin_)); }
-  // Its bytes are inner chunks.
+  // Ends a chunk whose content is inner chunks only.
   void end_of_inner() { out_->patch(begin_ - 4, uint32_t(out_->size() - begin_)); }
 
  private:
@@ -32,8 +32,8 @@ void put_text(const std::string& text, Output* out) {
   out->put(text);
 }
 
-// Node `id` of the scene graph, which places node `child`.
-void put_place(uint32_t id, uint32_t child, const std::string& place, Output* out) {
+// Writes node `id` of the scene graph, which moves node `child` by `translation`.
+void put_transform(uint32_t id, uint32_t child, const std::string& translation, Output* out) {
   Chunk chunk("nTRN", out);
   out->put(id);
   out->put(uint32_t(0));  // attributes
@@ -41,10 +41,10 @@ void put_place(uint32_t id, uint32_t child, const std::string& place, Output* ou
   out->put(int32_t(-1));  // reserved
   out->put(int32_t(-1));  // layer
   out->put(uint32_t(1));  // frames
-  out->put(uint32_t(place.empty() ? 0 : 1));
-  if (!place.empty()) {
+  out->put(uint32_t(translation.empty() ? 0 : 1));
+  if (!translation.empty()) {
     put_text("_t", out);
-    put_text(place, out);
+    put_text(translation, out);
   }
   chunk.end();
 }
@@ -59,7 +59,7 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
-// Returns how many voxels it has.
+// Returns the number of voxels of the model.
 uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side, Output* out) {
   Chunk size("SIZE", out);
   for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
@@ -71,18 +71,18 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
     for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
     out->put(uint8_t(1));
   });
-  out->patch(count_at, uint32_t(count));  // of 256^3 voxels at most
+  out->patch(count_at, uint32_t(count));  // at most 256^3
   chunk.end();
   return count;
 }
 
-// The tiles with a voxel of the window.
+// The tiles that contain a voxel of the window.
 std::vector<LatticePoint> tiles_of(const VoxelWindow& window) {
   std::vector<LatticePoint> tiles;
   const auto add = [&](const LatticePoint& tile) {
-    // In Morton order a tile is left once and for all.
+    // In Morton order the cubes of a tile are contiguous.
     if (tiles.empty() || tiles.back() != tile) tiles.push_back(tile);
-    return tiles.size() <= kMostVoxModels;
+    return tiles.size() <= kMaxVoxModels;
   };
   const bool all = window.walk->visit(window.box(), [&](const VoxelCube& cube) {
     const LatticePoint first = cube.origin / kTile;
@@ -95,19 +95,17 @@ std::vector<LatticePoint> tiles_of(const VoxelWindow& window) {
     return true;
   });
   if (!all)
-    fail_usage("vox holds models of 256^3 voxels, and this window needs more than " +
-               format_count(kMostVoxModels) +
-               ": export a coarser --level, or a part with --bounds");
+    fail_usage("vox holds models of 256^3 voxels, this window needs more than " +
+               format_count(kMaxVoxModels) + ": export a coarser --level, or a part with --bounds");
   return tiles;
 }
 
 }  // namespace
 
 void write_vox(const VoxelWindow& window, const std::string& path) {
-  if (window.voxels > kMostVoxVoxels)
-    fail_usage("vox holds at most " + format_count(kMostVoxVoxels) +
-               " voxels here, this window has " + format_count(window.voxels) +
-               ": export a coarser --level, or a part with --bounds");
+  if (window.voxels > kMaxVoxVoxels)
+    fail_usage("vox holds at most " + format_count(kMaxVoxVoxels) + " voxels, this window has " +
+               format_count(window.voxels) + ": export a coarser --level, or a part with --bounds");
   const std::vector<LatticePoint> tiles = tiles_of(window);
   const int64_t side = std::min(kTile, window.grid.resolution());
   Output out(path);
@@ -124,8 +122,8 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
     written += put_model(window, box, side, &out);
   }
   SVDAG_ASSERT(written == window.voxels);
-  // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the place and the shape of model i.
-  put_place(0, 1, {}, &out);
+  // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the translation and the shape of model i.
+  put_transform(0, 1, {}, &out);
   Chunk group("nGRP", &out);
   out.put(uint32_t(1));
   out.put(uint32_t(0));
@@ -134,7 +132,7 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
   group.end();
   for (uint32_t i = 0; i < tiles.size(); ++i) {
     const LatticePoint middle = tiles[i] * kTile + side / 2;
-    put_place(
+    put_transform(
         2 + 2 * i, 3 + 2 * i,
         std::to_string(middle.x) + " " + std::to_string(middle.y) + " " + std::to_string(middle.z),
         &out);

@@ -14,10 +14,10 @@ constexpr uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEnd = 0x06054b50
                    kEnd64 = 0x06064b50, kLocator64 = 0x07064b50;
 constexpr uint16_t kVersion = 45;  // the first with 64-bit sizes
 constexpr uint16_t kExtra64 = 1;
-constexpr uint32_t kSee64 = 0xffffffff;
-constexpr uint16_t kDay = 1 << 5 | 1;  // 1 January 1980: the same archive, the same bytes
+constexpr uint32_t kIn64BitField = 0xffffffff;
+constexpr uint16_t kDay = 1 << 5 | 1;  // 1 January 1980: makes archives reproducible
 
-// CRC-32 (IEEE 802.3), 8 bytes at a time: table k is that of a byte with k zero bytes behind it.
+// CRC-32 (IEEE 802.3), 8 bytes at a time: table k is for a byte followed by k zero bytes.
 constexpr std::array<std::array<uint32_t, 256>, 8> make_crc_tables() {
   std::array<std::array<uint32_t, 256>, 8> tables{};
   for (uint32_t i = 0; i < 256; ++i) {
@@ -46,7 +46,7 @@ uint32_t add_to_crc(uint32_t crc, std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-// What local headers and the directory have in common, from the version to the checksum.
+// The fields common to local headers and the directory, from the version to the sizes.
 void put_common(uint32_t crc, Output* out) {
   out->put(kVersion);
   out->put(uint16_t(0));  // flags
@@ -54,8 +54,8 @@ void put_common(uint32_t crc, Output* out) {
   out->put(uint16_t(0));  // time
   out->put(kDay);
   out->put(crc);
-  out->put(kSee64);  // both sizes
-  out->put(kSee64);
+  out->put(kIn64BitField);  // both sizes
+  out->put(kIn64BitField);
 }
 
 }  // namespace
@@ -80,14 +80,14 @@ void ZipWriter::put(std::span<const std::byte> bytes) {
 }
 
 void ZipWriter::end() {
-  Entry& entry = entries_.back();
+  DirectoryEntry& entry = entries_.back();
   entry.bytes = out_.size() - begin_;
   out_.patch(entry.offset + 14, entry.crc);
   out_.patch(begin_ - 16, entry.bytes);
   out_.patch(begin_ - 8, entry.bytes);
 }
 
-void ZipWriter::put_sizes(const Entry& entry) {
+void ZipWriter::put_sizes(const DirectoryEntry& entry) {
   out_.put(kExtra64);
   out_.put(uint16_t(24));
   out_.put(entry.bytes);
@@ -97,7 +97,7 @@ void ZipWriter::put_sizes(const Entry& entry) {
 
 void ZipWriter::commit() {
   const uint64_t directory = out_.size();
-  for (const Entry& entry : entries_) {
+  for (const DirectoryEntry& entry : entries_) {
     out_.put(kCentral);
     out_.put(kVersion);
     put_common(entry.crc, &out_);
@@ -105,7 +105,7 @@ void ZipWriter::commit() {
     out_.put(uint16_t(28));
     for (int i = 0; i < 3; ++i) out_.put(uint16_t(0));  // comment, disk, attributes
     out_.put(uint32_t(0));
-    out_.put(kSee64);
+    out_.put(kIn64BitField);
     out_.put(entry.name);
     put_sizes(entry);
   }
@@ -124,31 +124,31 @@ void ZipWriter::commit() {
   out_.put(uint32_t(0));
   out_.put(uint16_t(count));
   out_.put(uint16_t(count));
-  out_.put(kSee64);
-  out_.put(kSee64);
+  out_.put(kIn64BitField);
+  out_.put(kIn64BitField);
   out_.put(uint16_t(0));
   out_.commit();
 }
 
 namespace {
 
-// Numbers at offsets of a piece of the file; all that reach beyond it are errors.
-class Piece {
+// A range of the file in memory; access beyond it is an Error.
+class FileSlice {
  public:
-  Piece(const File& file, uint64_t offset, uint64_t bytes) : file_(file), offset_(offset) {
+  FileSlice(const File& file, uint64_t offset, uint64_t bytes) : file_(file), offset_(offset) {
     bytes_.resize(bytes);
     file.read_at(offset, bytes_);
   }
   template <class T>
   T at(uint64_t i) const {
     T value;
-    std::memcpy(&value, part(i, sizeof value).data(), sizeof value);
+    std::memcpy(&value, bytes(i, sizeof value).data(), sizeof value);
     return value;
   }
-  std::span<const std::byte> part(uint64_t i, uint64_t bytes) const {
-    if (i > bytes_.size() || bytes > bytes_.size() - i)
-      fail_input(file_.path(), "damaged zip file: its directory is cut off", offset_ + i);
-    return std::span(bytes_).subspan(i, bytes);
+  std::span<const std::byte> bytes(uint64_t i, uint64_t size) const {
+    if (i > bytes_.size() || size > bytes_.size() - i)
+      fail_input(file_.path(), "damaged zip file: its directory is truncated", offset_ + i);
+    return std::span(bytes_).subspan(i, size);
   }
   uint64_t size() const { return bytes_.size(); }
 
@@ -158,22 +158,22 @@ class Piece {
   std::vector<std::byte> bytes_;
 };
 
-struct Directory {
+struct DirectoryRange {
   uint64_t offset, bytes;
 };
 
-Directory find_directory(const File& file) {
-  constexpr uint64_t kRecord = 22, kLongestComment = 65535, kLocator = 20;
+DirectoryRange find_directory(const File& file) {
+  constexpr uint64_t kRecord = 22, kMaxCommentBytes = 65535, kLocator = 20;
   const uint64_t size = file.size();
   if (size < kRecord) fail_input(file.path(), "is not a zip file");
-  const uint64_t tail_bytes = std::min(size, kRecord + kLongestComment + kLocator);
-  const Piece tail(file, size - tail_bytes, tail_bytes);
+  const uint64_t tail_bytes = std::min(size, kRecord + kMaxCommentBytes + kLocator);
+  const FileSlice tail(file, size - tail_bytes, tail_bytes);
   for (uint64_t i = tail_bytes - kRecord + 1; i-- > 0;) {
     if (tail.at<uint32_t>(i) != kEnd) continue;
     if (i >= kLocator && tail.at<uint32_t>(i - kLocator) == kLocator64) {
       const uint64_t at = tail.at<uint64_t>(i - kLocator + 8);
       if (at > size || size - at < 56) break;
-      const Piece end(file, at, 56);
+      const FileSlice end(file, at, 56);
       return {end.at<uint64_t>(48), end.at<uint64_t>(40)};
     }
     return {tail.at<uint32_t>(i + 16), tail.at<uint32_t>(i + 12)};
@@ -181,15 +181,15 @@ Directory find_directory(const File& file) {
   fail_input(file.path(), "is not a zip file (it has no directory)");
 }
 
-// The sizes and the offset of an entry, which may be in its extra field.
-void read_extra64(const Piece& directory, uint64_t at, uint64_t bytes,
+// Reads those of the sizes and the offset of an entry that are in its 64-bit extra field.
+void read_extra64(const FileSlice& directory, uint64_t at, uint64_t bytes,
                   std::array<uint64_t*, 3> fields) {
   for (const uint64_t end = at + bytes; at + 4 <= end;) {
     const uint16_t kind = directory.at<uint16_t>(at), length = directory.at<uint16_t>(at + 2);
     at += 4;
     uint64_t next = at;
     for (uint64_t* field : fields) {
-      if (kind != kExtra64 || *field != kSee64) continue;
+      if (kind != kExtra64 || *field != kIn64BitField) continue;
       *field = directory.at<uint64_t>(next);
       next += 8;
     }
@@ -200,20 +200,20 @@ void read_extra64(const Piece& directory, uint64_t at, uint64_t bytes,
 }  // namespace
 
 std::vector<ZipEntry> read_zip(const File& file) {
-  constexpr uint64_t kLargestDirectory = uint64_t(1) << 24;
+  constexpr uint64_t kMaxDirectoryBytes = uint64_t(1) << 24;
   const uint64_t size = file.size();
-  const Directory place = find_directory(file);
-  if (place.offset > size || place.bytes > size - place.offset || place.bytes > kLargestDirectory)
-    fail_input(file.path(), "damaged zip file: its directory is not in it");
-  const Piece directory(file, place.offset, place.bytes);
+  const DirectoryRange place = find_directory(file);
+  if (place.offset > size || place.bytes > size - place.offset || place.bytes > kMaxDirectoryBytes)
+    fail_input(file.path(), "damaged zip file: its directory is out of range");
+  const FileSlice directory(file, place.offset, place.bytes);
   std::vector<ZipEntry> entries;
   for (uint64_t at = 0; at < directory.size();) {
     if (directory.at<uint32_t>(at) != kCentral)
-      fail_input(file.path(), "damaged zip file: broken directory", place.offset + at);
+      fail_input(file.path(), "damaged zip file: invalid directory entry", place.offset + at);
     uint64_t packed = directory.at<uint32_t>(at + 20), bytes = directory.at<uint32_t>(at + 24);
     uint64_t local = directory.at<uint32_t>(at + 42);
     const uint64_t name = directory.at<uint16_t>(at + 28), extra = directory.at<uint16_t>(at + 30);
-    const auto text = directory.part(at + 46, name);
+    const auto text = directory.bytes(at + 46, name);
     ZipEntry entry{{reinterpret_cast<const char*>(text.data()), text.size()},
                    0,
                    0,
@@ -221,22 +221,22 @@ std::vector<ZipEntry> read_zip(const File& file) {
     read_extra64(directory, at + 46 + name, extra, {&bytes, &packed, &local});
     if (directory.at<uint16_t>(at + 10) != 0 || packed != bytes)
       fail_input(file.path(), entry.name +
-                                  " is compressed, which is not read: write the archive "
+                                  " is compressed, which is not supported: write the archive "
                                   "with numpy.savez");
     if (local > size || size - local < 30)
-      fail_input(file.path(), "damaged zip file: an entry is not in it", place.offset + at);
-    const Piece head(file, local, 30);
+      fail_input(file.path(), "damaged zip file: an entry is out of range", place.offset + at);
+    const FileSlice head(file, local, 30);
     entry.offset = local + 30 + head.at<uint16_t>(26) + head.at<uint16_t>(28);
     entry.bytes = bytes;
     if (head.at<uint32_t>(0) != kLocal || entry.offset > size || bytes > size - entry.offset)
-      fail_input(file.path(), "damaged zip file: an entry is not in it", local);
+      fail_input(file.path(), "damaged zip file: an entry is out of range", local);
     entries.push_back(entry);
     at += 46 + name + extra + directory.at<uint16_t>(at + 32);
   }
   return entries;
 }
 
-void require_sound(const File& file, const ZipEntry& entry) {
+void check_crc(const File& file, const ZipEntry& entry) {
   ByteStream stream(file, entry.offset, entry.offset + entry.bytes);
   uint32_t crc = 0;
   for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {

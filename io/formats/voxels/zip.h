@@ -1,4 +1,5 @@
-// Zip archives of stored (not compressed) entries, with 64-bit sizes: what `.npz` files are.
+// Reader and writer of zip archives with stored (uncompressed) entries and 64-bit sizes, the
+// container of `.npz` files.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace svdag {
 
-// Writes the entries one after the other; sizes and checksum of each are filled in at its end.
+// Writes entries one after the other; the sizes and checksum of each are patched in at its end.
 class ZipWriter {
  public:
   explicit ZipWriter(const std::string& path) : out_(path) {}
@@ -22,35 +23,34 @@ class ZipWriter {
   void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
   void put(std::span<const std::byte> bytes);
   void end();
-  // Writes the directory; the file gets its name.
+  // Writes the directory and renames the file to its final name.
   void commit();
 
  private:
-  struct Entry {
+  struct DirectoryEntry {
     std::string name;
     uint64_t offset = 0, bytes = 0;
     uint32_t crc = 0;
   };
 
-  void put_sizes(const Entry& entry);
+  void put_sizes(const DirectoryEntry& entry);
 
   Output out_;
-  std::vector<Entry> entries_;
-  uint64_t begin_ = 0;  // of the current entry's bytes
+  std::vector<DirectoryEntry> entries_;
+  uint64_t begin_ = 0;  // offset of the current entry's bytes
 };
 
-// A stored entry of an archive: where its bytes are.
+// A stored entry of an archive and the range of its bytes.
 struct ZipEntry {
   std::string name;
   uint64_t offset, bytes;
-  uint32_t crc;  // as the directory says
+  uint32_t crc;  // from the directory
 };
 
-// The entries of an archive. Anything but a zip file without compressed entries is an Error
-// (kBadInput).
+// The entries of an archive. A compressed entry, or any other file, is an Error (kBadInput).
 std::vector<ZipEntry> read_zip(const File& file);
 
-// Reads the entry once to its end: an Error (kBadInput) if its bytes are not those of its checksum.
-void require_sound(const File& file, const ZipEntry& entry);
+// Reads the whole entry; a checksum mismatch is an Error (kBadInput).
+void check_crc(const File& file, const ZipEntry& entry);
 
 }  // namespace svdag

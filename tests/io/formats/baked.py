@@ -26,7 +26,7 @@ def write_ply(path, triangles):
 
 
 def askew():
-    """Triangles that look different from every side: no mirror or turn of the axes maps them on themselves."""
+    """Triangles without symmetry: no permutation or reflection of the axes maps them to themselves."""
     chance = random.Random(7)
     corners = [[chance.uniform(0, s) + o for s, o in ((5, -1.25), (3.1, 2), (1.7, 0.375))] for _ in range(16)]
     return [[corners[i], corners[i + 1], corners[i + 2]] for i in range(14)]
@@ -39,7 +39,7 @@ def slices(n):
 
 
 def is_asymmetric(voxels, resolution):
-    """Whether all 47 other ways to name and point the axes give another set."""
+    """True if all 47 other permutations and reflections of the axes give another set."""
     own = {tuple(v) for v in voxels.tolist()}
     images = set()
     for axes in itertools.permutations(range(3)):
@@ -53,7 +53,7 @@ def is_asymmetric(voxels, resolution):
 
 
 class Bakery:
-    """Programs, and a folder that goes with it."""
+    """Runs the programs in a temporary folder."""
 
     def __init__(self, programs):
         self.programs = pathlib.Path(programs).resolve()

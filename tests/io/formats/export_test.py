@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `svdag export` writes is read back, by independent readers, as the same voxels.
+"""Independent readers read the files of `svdag export` as the same voxels.
 
 Usage: export_test.py PROGRAMS
 """
@@ -38,11 +38,11 @@ class Export(unittest.TestCase):
         return BAKERY.folder / output
 
     def expect_same(self, found, voxels):
-        """Without unittest's own comparison of lists, which takes minutes to describe a difference."""
-        self.assertTrue(numpy.array_equal(found, voxels), f"{len(found)} voxels instead of the {len(voxels)} there are")
+        """Avoids unittest's comparison of lists, which takes minutes to describe a difference."""
+        self.assertTrue(numpy.array_equal(found, voxels), f"{len(found)} voxels instead of {len(voxels)}")
 
     def expect(self, dag, name, form, level, voxels, *options, low=(0, 0, 0), corner=True):
-        """The export holds `voxels`, counted from `low`, at the right place of the world."""
+        """Checks that the export holds `voxels`, relative to `low`, at the right world coordinates."""
         path = self.export(name, form, *options)
         size = dag.voxel_size * 2.0**(dag.L - level)
         if form == "ply":
@@ -60,7 +60,7 @@ class Export(unittest.TestCase):
             for got, own, first in zip(found.corner, dag.corner, low):
                 self.assertAlmostEqual(got, own + size * first, delta=1e-6 * (abs(own) + size * 2**level))
 
-    def test_the_scene_would_betray_any_swap_of_axes(self):
+    def test_the_scene_has_no_symmetry(self):
         self.assertTrue(is_asymmetric(self.voxels, 128))
         self.assertTrue(is_asymmetric(coarser(self.voxels, 3), 16))
 
@@ -69,7 +69,7 @@ class Export(unittest.TestCase):
             with self.subTest(form=form):
                 self.expect(self.dag, "askew", form, 7, self.voxels)
 
-    def test_a_coarser_level_has_the_voxels_in_which_something_is(self):
+    def test_a_coarser_level_has_the_voxels_that_are_not_empty(self):
         for form in {**DAGS, **LISTS}:
             for level in (6, 5, 4, 3):
                 with self.subTest(form=form, level=level):
@@ -103,7 +103,7 @@ class Export(unittest.TestCase):
             with self.subTest(form=form):
                 self.expect(self.full, "full", form, 5, voxels, bounds_option(bounds))
 
-    def test_vox_puts_tiles_together(self):
+    def test_vox_joins_tiles(self):
         self.expect(self.large, "large", "vox", 9, self.large.voxels().astype("<i8"))
 
     def test_dags_are_as_large_as_ours(self):
@@ -112,13 +112,13 @@ class Export(unittest.TestCase):
         self.assertEqual(size, 60 + 4 * words + 8 * len(self.large.bricks))
         self.assertLess(self.export("large", "octree").stat().st_size, 100)
 
-    def test_another_order_of_children_would_be_seen(self):
+    def test_another_order_of_children_is_detected(self):
         for form, order in (("hashdag", ZYX), ("symvox", ZYX), ("transform-dag", XYZ), ("octree", XYZ)):
             with self.subTest(form=form):
                 found = READERS[form](self.export("askew", form), order)
                 self.assertFalse(numpy.array_equal(found.voxels, self.voxels))
 
-    def test_a_header_off_by_one_would_be_seen(self):
+    def test_a_header_off_by_one_is_detected(self):
         fields = {"hashdag": [48, 52], "symvox": [28, 32, 36, 40], "transform-dag": [0, 4, 8, 16, 40, -12, -8, -4]}
         for form, offsets in fields.items():
             path = self.export("askew", form)
@@ -148,7 +148,7 @@ class Export(unittest.TestCase):
         self.assertIn("names a grid of 64K^3", BAKERY.run("svdag", "export", "named.svdag", "-o", wrong, "--format", "hashdag", code=2))
         self.assertFalse((BAKERY.folder / wrong).exists())
 
-    def test_a_place_that_floats_cannot_keep_is_refused(self):
+    def test_a_position_that_floats_cannot_store_is_rejected(self):
         near, far = (BAKERY.bake(name, askew()[:2], "-s", "0.01", f"--bounds={x},0,0,{x + 1},1,1")
                      for name, x in (("near", 1000), ("far", 4000000.3)))
         BAKERY.run("svdag", "export", "near.svdag", "--format", "symvox", "-o", "near-symvox.svdag")
@@ -159,7 +159,7 @@ class Export(unittest.TestCase):
         first = self.export("askew", "npz").read_bytes()
         self.assertEqual(first, self.export("askew", "npz").read_bytes())
 
-    def test_too_many_voxels_are_refused_before_writing(self):
+    def test_too_many_voxels_are_rejected_before_writing(self):
         for form in LISTS:
             path = BAKERY.folder / f"refused.{form}"
             error = BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o", path, "--max-voxels",
@@ -168,7 +168,7 @@ class Export(unittest.TestCase):
             self.assertFalse(path.exists())
             BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o", path, "--max-voxels", len(self.voxels))
 
-    def test_bounds_of_a_dag_are_refused(self):
+    def test_bounds_of_a_dag_are_rejected(self):
         for form, name in DAGS.items():
             self.assertIn("--bounds", BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o",
                                                  f"refused-{name}", bounds_option(BOUNDS), code=2))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`svdag import` makes the very DAG of whatever holds the same voxels: ours exported, or others' own.
+"""`svdag import` gives the same DAG for the same voxels: from our exports, or from files in others' layouts.
 
 Usage: import_test.py PROGRAMS
 """
@@ -19,7 +19,7 @@ EXPORTED = {"hashdag": "x.basic_dag.dag.bin", "symvox": "x.svdag", "transform-da
 
 
 def nodes_of(dag):
-    """A hash of each level's bytes: one answer for one set of voxels."""
+    """A hash of each level's bytes, which the set of voxels determines."""
     return [hashlib.sha256(dag.section(k)).hexdigest() for k in range(dag.L - 1)]
 
 
@@ -34,7 +34,7 @@ class Import(unittest.TestCase):
         cls.empty = BAKERY.bake("empty", askew(), "-r", "32", "--bounds=900,900,900,901,901,901")
 
     def read(self, data, name, *options):
-        """What a file becomes; the Python reader demands the canonical form."""
+        """Imports `data`; the Python reader requires the canonical form."""
         (BAKERY.folder / name).write_bytes(data)
         return self.imported(name, *options)
 
@@ -93,7 +93,7 @@ class Import(unittest.TestCase):
             with self.subTest(name=name):
                 self.assertEqual(self.read(data, name).voxel_count, 0)
 
-    def test_the_box_of_a_dag_is_its_place(self):
+    def test_the_box_of_a_dag_gives_its_position(self):
         dag = self.read(write_foreign.hashdag(self.few.tolist(), 5, (-3, 7, 0.5), 8), "b.dag.bin")
         self.expect_place(dag, (-3, 7, 0.5), 0.25)
         dag = self.read(write_foreign.symvox(self.few.tolist(), 5, (1, 2, -3), 8), "b.svdag")
@@ -134,7 +134,7 @@ class Import(unittest.TestCase):
                 (BAKERY.folder / "n.npz").write_bytes(write_foreign.npz(x=columns))
                 self.assertIn("0 ... 1M - 1", BAKERY.run("svdag", "import", "n.npz", "-o", "n.svdag", code=3))
 
-    def test_negative_coordinates_of_every_width_are_refused(self):
+    def test_negative_coordinates_of_every_width_are_rejected(self):
         for width in ("i1", "<i2", "<i4", "<i8"):
             with self.subTest(width=width):
                 (BAKERY.folder / "n.npz").write_bytes(write_foreign.npz(x=numpy.array([[0, 0, 0], [-1, 2, 3]], width)))
@@ -144,7 +144,7 @@ class Import(unittest.TestCase):
                 dag = self.read(write_foreign.npz(x=numpy.array([[highest, 0, 0]], width)), "h.npz")
                 self.assertEqual((2**dag.L, dag.voxel_count), (highest + 1, 1))
 
-    def test_the_place_of_an_array_in_every_type(self):
+    def test_the_placement_arrays_have_every_type(self):
         x = numpy.array(self.few, "<i4")
         for kind in ("<f4", "<f8", "i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"):
             with self.subTest(kind=kind):
@@ -156,7 +156,7 @@ class Import(unittest.TestCase):
         dag = self.read(write_foreign.npz(x=x, voxel_size=numpy.float32(0.1)), "p.npz")
         self.assertEqual(dag.voxel_size, float(numpy.float32(0.1)))
 
-    def test_a_place_that_is_not_understood_is_refused(self):
+    def test_an_invalid_placement_array_is_rejected(self):
         x = numpy.array(self.few, "<i4")
         for name, array in (("voxel_size", numpy.float16(1)), ("voxel_size", numpy.array([1.0, 2, 3])),
                             ("voxel_size", numpy.True_), ("resolution", numpy.float32(64.5)),
@@ -175,7 +175,7 @@ class Import(unittest.TestCase):
                 self.assertIn("w.npz: puts its voxels at an impossible place",
                               BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
-    def test_a_binvox_that_is_no_cube(self):
+    def test_a_binvox_that_is_not_a_cube(self):
         high = self.few.max(0) + 1
         dense = numpy.zeros(high, bool)
         dense[tuple(self.few.T)] = True
@@ -198,7 +198,7 @@ class Import(unittest.TestCase):
             with self.subTest(shift=shift):
                 self.assertEqual(nodes_of(self.read(data, "two.vox", "-r", "32")), nodes_of(self.small))
 
-    def test_what_a_vox_file_hides_is_no_voxel(self):
+    def test_hidden_voxels_of_a_vox_file_are_ignored(self):
         shown, other = self.few[::2], self.few[1::2]
         places = [[16, 16, 16], [16, 16, 16]]
         for name, how in {"hidden": {"hidden": [1]}, "layer": {"hidden_layers": [1]}}.items():
@@ -213,7 +213,7 @@ class Import(unittest.TestCase):
         parts = self.read(write_foreign.vox(*models, pack=False), "p.vox", "-r", "32")
         self.assertEqual(parts.voxel_count, len(self.few))
 
-    def test_a_vox_part_that_cannot_be_read_matters_if_it_is_shown(self):
+    def test_an_unsupported_vox_model_is_an_error_only_if_shown(self):
         models = (self.few[::2], (32, 32, 32)), (self.few[1::2], (32, 32, 32))
         for name, far, how in (("rotated", 16, {"rotated": [1]}), ("further than 1M", 2**21, {})):
             places = [[16, 16, 16], [16, far, 16]]
@@ -224,7 +224,7 @@ class Import(unittest.TestCase):
                 (BAKERY.folder / "s.vox").write_bytes(write_foreign.vox(*models, places=places, **how))
                 self.assertIn(name, BAKERY.run("svdag", "import", "s.vox", "-o", "s.svdag", code=3))
 
-    def test_arrays_that_are_none_of_ours_are_left_alone(self):
+    def test_unrelated_arrays_are_ignored(self):
         x = numpy.array(self.few, "<i4")
         others = {"names": numpy.array(["a longer name"]), "numbers": numpy.array([1, 2], ">f8"),
                   "complex": numpy.array([1j]), "table": numpy.zeros(3, [("a", "<i4"), ("b", "<f4")])}
@@ -233,9 +233,9 @@ class Import(unittest.TestCase):
         for named in ({"coordinates": x, "colours": colours, "other": x}, {"coordinates": x, "points": x.astype("<f4")}):
             self.assertEqual(self.read(write_foreign.npz(**named), "o.npz").voxel_count, len(self.few))
         (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**others))
-        self.assertIn("of a type that is not read: names\n", BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+        self.assertIn("of an unsupported type: names\n", BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
-    def test_arrays_of_which_two_may_be_meant_are_refused(self):
+    def test_ambiguous_arrays_are_rejected(self):
         x, points = numpy.array(self.few, "<i4"), numpy.array(self.few, "<f4")
         colours = numpy.zeros((len(x), 3), "u1")
         for arrays, sentence in (({"x": x, "colours": colours}, "more than one array"),
@@ -244,7 +244,7 @@ class Import(unittest.TestCase):
             (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**arrays))
             self.assertIn(sentence, BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
-    def test_a_bit_that_was_flipped_in_an_archive_is_seen(self):
+    def test_a_flipped_bit_in_an_archive_is_detected(self):
         good = write_foreign.npz(x=numpy.array(self.few, "<i4"), resolution=numpy.array(32))
         begin = good.index(b"\x93NUMPY") + 128
         for at in (begin, begin + 2 * len(self.few), begin + 12 * len(self.few) - 4):
@@ -264,7 +264,7 @@ class Import(unittest.TestCase):
             self.assertFalse((BAKERY.folder / "little.svdag.scratch").exists())
             self.assertEqual(nodes_of(BAKERY.dag("little.svdag")), nodes_of(BAKERY.dag("large.svdag")))
 
-    def test_broken_files_are_one_sentence(self):
+    def test_damaged_files_give_one_message(self):
         good = {"t.dag.bin": write_foreign.hashdag(self.few.tolist(), 5), "t.svdag": write_foreign.symvox(self.few.tolist(), 5),
                 "t.svo": write_foreign.transform_dag(self.few.tolist(), 5),
                 "t.npz": write_foreign.npz(x=numpy.array(self.few, "<i4")), "t.npy": b"\x93NUMPY\1\0\xff\xff",
@@ -277,7 +277,7 @@ class Import(unittest.TestCase):
                     self.assertEqual(error.count("\n"), 1)
                     self.assertFalse((BAKERY.folder / "broken.svdag").exists())
 
-    def test_compressed_archives_and_mirrored_nodes_are_refused(self):
+    def test_compressed_archives_and_mirrored_nodes_are_rejected(self):
         numpy.savez_compressed(BAKERY.folder / "c.npz", x=numpy.array(self.few, "<i4"))
         self.assertIn("compressed", BAKERY.run("svdag", "import", "c.npz", "-o", "c.svdag", code=3))
         data = bytearray(write_foreign.symvox(self.few.tolist(), 5))

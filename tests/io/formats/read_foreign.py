@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Readers of other programs' formats, written from their layouts alone, for comparison.
+"""Independent readers of other programs' formats, written from their layouts alone.
 
-Each read_X(path) returns a Found: the resolution, the set voxels as a sorted array of (x, y, z), and what
-the file says of the world (None where it says nothing). Anything unexpected is Broken: these readers
-forgive nothing, since they judge a writer.
+Each read_X(path) returns a Found: the resolution, the set voxels as a sorted array of (x, y, z), and the
+world coordinates (None if the file has none). Anything unexpected raises Broken: these readers are
+strict, because they test a writer.
 
 Usage: read_foreign.py FORMAT FILE prints resolution, voxels and a hash of them.
 """
@@ -19,7 +19,7 @@ import numpy
 
 
 class Broken(Exception):
-    """The file is not what its format says."""
+    """The file violates its format."""
 
 
 def demand(condition, sentence):
@@ -259,7 +259,7 @@ def read_vox(path):
             model, = struct.unpack_from("<I", body, 4)
             found = models[model][:, :3]
             demand(bool(numpy.all(found < sizes[model])) and bool(numpy.all(models[model][:, 3] > 0)), "XYZI range")
-            # A model's place is that of its voxel size // 2.
+            # A model is placed by the position of its voxel size // 2.
             voxels.append(found - [s // 2 for s in sizes[model]] + offset)
 
     place(0, [0, 0, 0])

@@ -1,4 +1,4 @@
-// What a child sends is a grid of cubes or an Error, whatever it sends.
+// Any bytes that a decoder sends give a valid grid of cubes or an Error.
 #include "io/formats/sent_cubes.h"
 
 #include <gtest/gtest.h>
@@ -15,18 +15,18 @@ namespace svdag {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-constexpr uint64_t kMuch = uint64_t(1) << 30;
+constexpr uint64_t kNoLimit = uint64_t(1) << 30;
 
-CubeHead head(uint32_t name_bytes = 4) {
-  CubeHead head{};
-  head.type = CubeType::kBool;
+CubeHeader head(uint32_t name_bytes = 4) {
+  CubeHeader head{};
+  head.type = CubeValueType::kBool;
   head.name_bytes = name_bytes;
   head.origin = {1, 2, 3};
   for (size_t a = 0; a < 3; ++a) head.axes[a][a] = 0.5;
   return head;
 }
 
-Bytes head_block(const CubeHead& head, const std::string& name) {
+Bytes head_block(const CubeHeader& head, const std::string& name) {
   Bytes block(sizeof head + name.size());
   std::memcpy(block.data(), &head, sizeof head);
   std::memcpy(block.data() + sizeof head, name.data(), name.size());
@@ -42,16 +42,16 @@ CubeRecord tile(const std::array<int32_t, 3>& origin, uint32_t side) {
   return record;
 }
 
-SentCubes received(const std::vector<CubeRecord>& records, uint64_t most = kMuch) {
-  SentCubes cubes("x.vdb", most);
-  cubes.take(head_block(head(), "name"));
-  cubes.take(std::as_bytes(std::span(records)));
+DecodedGrid received(const std::vector<CubeRecord>& records, uint64_t max_bytes = kNoLimit) {
+  DecodedGrid cubes("x.vdb", max_bytes);
+  cubes.receive(head_block(head(), "name"));
+  cubes.receive(std::as_bytes(std::span(records)));
   cubes.finish();
   return cubes;
 }
 
-TEST(SentCubes, AHeadNamesTheGridAndItsPlace) {
-  const SentCubes cubes = received({});
+TEST(DecodedGrid, AHeaderNamesTheGridAndItsTransform) {
+  const DecodedGrid cubes = received({});
   EXPECT_EQ(cubes.name(), "name");
   EXPECT_EQ(cubes.type(), "bool");
   EXPECT_EQ(cubes.centres()({2, 0, 4}), Point(2, 2, 5));
@@ -59,7 +59,7 @@ TEST(SentCubes, AHeadNamesTheGridAndItsPlace) {
   EXPECT_FALSE(cubes.get({0, 0, 0}));
 }
 
-TEST(SentCubes, EveryVoxelIsFoundInWhateverOrderItsCubeCame) {
+TEST(DecodedGrid, EveryVoxelIsFoundInAnyOrderOfCubes) {
   // One of each size, on both sides of zero and of the borders of larger nodes.
   std::vector<CubeRecord> records;
   for (const int32_t x : {-4096, -136, -8, 0, 120, 4096})
@@ -77,7 +77,7 @@ TEST(SentCubes, EveryVoxelIsFoundInWhateverOrderItsCubeCame) {
   };
   std::mt19937 random(3);
   for (int run = 0; run < 5; ++run) {
-    const SentCubes cubes = received(records);
+    const DecodedGrid cubes = received(records);
     uint64_t count = 0;
     cubes.visit([&](const VoxelCube& cube) { return count += cube.count(); });
     EXPECT_EQ(count, (1U << 21) + 512 + 6 * 4 * 2);
@@ -94,42 +94,42 @@ TEST(SentCubes, EveryVoxelIsFoundInWhateverOrderItsCubeCame) {
   }
 }
 
-TEST(SentCubes, ACubeOfTheLargestSideIsNotExpanded) {
+TEST(DecodedGrid, ACubeOfTheLargestSideIsNotExpanded) {
   const int32_t last = std::numeric_limits<int32_t>::max() - 4095;
-  const SentCubes cubes = received({tile({0, 0, 0}, 4096), tile({last, 0, 0}, 4096)});
+  const DecodedGrid cubes = received({tile({0, 0, 0}, 4096), tile({last, 0, 0}, 4096)});
   EXPECT_TRUE(cubes.get({4095, 4095, 4095}));
   EXPECT_TRUE(cubes.get(LatticePoint((int64_t(1) << 31) - 1, 0, 0)));
   EXPECT_FALSE(cubes.get({4096, 0, 0}));
   EXPECT_EQ(cubes.bounds().max.x, int64_t(1) << 31);
 }
 
-TEST(SentCubes, HeadsOfNoGridAreRefused) {
-  const auto refused = [](const Bytes& block, const char* part) {
-    SentCubes cubes("x.vdb", kMuch);
-    EXPECT_SVDAG_ERROR(cubes.take(block), ExitCode::kBadInput, part);
+TEST(DecodedGrid, InvalidHeadersAreRejected) {
+  const auto expect_rejected = [](const Bytes& block, const char* part) {
+    DecodedGrid cubes("x.vdb", kNoLimit);
+    EXPECT_SVDAG_ERROR(cubes.receive(block), ExitCode::kBadInput, part);
   };
-  const char* no_grid = "sent an invalid grid";
-  refused({}, no_grid);
-  refused(Bytes(sizeof(CubeHead) - 1), no_grid);
-  refused(head_block(head(3), "name"), no_grid);
-  refused(head_block(head(5), "name"), no_grid);
-  refused(head_block(head(256), std::string(256, 'a')), no_grid);
-  refused(head_block(head(0xffffffff), "name"), no_grid);
-  refused(head_block(head(4), "na\x1b["), no_grid);
-  CubeHead wrong = head();
-  wrong.type = CubeType(3);
-  refused(head_block(wrong, "name"), no_grid);
+  const char* invalid = "sent an invalid grid";
+  expect_rejected({}, invalid);
+  expect_rejected(Bytes(sizeof(CubeHeader) - 1), invalid);
+  expect_rejected(head_block(head(3), "name"), invalid);
+  expect_rejected(head_block(head(5), "name"), invalid);
+  expect_rejected(head_block(head(256), std::string(256, 'a')), invalid);
+  expect_rejected(head_block(head(0xffffffff), "name"), invalid);
+  expect_rejected(head_block(head(4), "na\x1b["), invalid);
+  CubeHeader wrong = head();
+  wrong.type = CubeValueType(3);
+  expect_rejected(head_block(wrong, "name"), invalid);
   wrong = head();
   wrong.axes[2][1] = std::numeric_limits<double>::infinity();
-  refused(head_block(wrong, "name"), "not finite");
+  expect_rejected(head_block(wrong, "name"), "not finite");
   wrong = head();
   wrong.origin[0] = std::nan("");
-  refused(head_block(wrong, "name"), "not finite");
-  SentCubes none("x.vdb", kMuch);
-  EXPECT_SVDAG_ERROR(none.finish(), ExitCode::kBadInput, no_grid);
+  expect_rejected(head_block(wrong, "name"), "not finite");
+  DecodedGrid none("x.vdb", kNoLimit);
+  EXPECT_SVDAG_ERROR(none.finish(), ExitCode::kBadInput, invalid);
 }
 
-TEST(SentCubes, PlacesWhereNoCubeCanBeAreRefused) {
+TEST(DecodedGrid, CubesAtImpossiblePositionsAreRejected) {
   const int32_t last = std::numeric_limits<int32_t>::max();
   for (const CubeRecord& wrong :
        {leaf({4, 0, 0}), leaf({0, 0, -7}), leaf({last, 0, 0}), leaf({0, 0, 0}, 0),
@@ -137,12 +137,13 @@ TEST(SentCubes, PlacesWhereNoCubeCanBeAreRefused) {
         tile({0, 0, 0}, 16), tile({0, 0, 0}, 1U << 31)}) {
     EXPECT_SVDAG_ERROR(received({wrong}), ExitCode::kBadInput, "impossible position");
   }
-  SentCubes cut("x.vdb", kMuch);
-  cut.take(head_block(head(), "name"));
-  EXPECT_SVDAG_ERROR(cut.take(Bytes(sizeof(CubeRecord) + 1)), ExitCode::kBadInput, "invalid grid");
+  DecodedGrid cut("x.vdb", kNoLimit);
+  cut.receive(head_block(head(), "name"));
+  EXPECT_SVDAG_ERROR(cut.receive(Bytes(sizeof(CubeRecord) + 1)), ExitCode::kBadInput,
+                     "invalid grid");
 }
 
-TEST(SentCubes, VoxelsThatComeTwiceAreRefused) {
+TEST(DecodedGrid, OverlappingCubesAreRejected) {
   const std::vector<std::vector<CubeRecord>> all = {
       {leaf({8, 0, 0}), leaf({16, 0, 0}), leaf({8, 0, 0})},
       {tile({8, 0, 0}, 8), leaf({8, 0, 0})},
@@ -154,17 +155,17 @@ TEST(SentCubes, VoxelsThatComeTwiceAreRefused) {
     EXPECT_SVDAG_ERROR(received(records), ExitCode::kBadInput, "the same voxels");
 }
 
-TEST(SentCubes, AFloodEnds) {
-  SentCubes cubes("x.vdb", 1000);
-  cubes.take(head_block(head(), "name"));
-  const auto flood = [&](uint32_t side) {
+TEST(DecodedGrid, TooManyCubesAreRejected) {
+  DecodedGrid cubes("x.vdb", 1000);
+  cubes.receive(head_block(head(), "name"));
+  const auto send_many = [&](uint32_t side) {
     for (int32_t i = 0; i < 1000; ++i) {
       const CubeRecord record = side == 0 ? leaf({8 * i, 0, 0}) : tile({128 * i, 0, 0}, side);
-      cubes.take(std::as_bytes(std::span(&record, 1)));
+      cubes.receive(std::as_bytes(std::span(&record, 1)));
     }
   };
-  EXPECT_SVDAG_ERROR(flood(0), ExitCode::kBadInput, "more blocks than a file of its size");
-  EXPECT_SVDAG_ERROR(flood(128), ExitCode::kBadInput, "more blocks than a file of its size");
+  EXPECT_SVDAG_ERROR(send_many(0), ExitCode::kBadInput, "more blocks than a file of its size");
+  EXPECT_SVDAG_ERROR(send_many(128), ExitCode::kBadInput, "more blocks than a file of its size");
 }
 
 }  // namespace

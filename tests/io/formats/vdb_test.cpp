@@ -1,5 +1,4 @@
-// Sets of voxels go into a .vdb and come back voxel by voxel, in their place; what is broken is a
-// sentence.
+// Voxels written to a .vdb are read back with the same coordinates; damaged files are an Error.
 #include "io/formats/vdb.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@ class Vdb : public ::testing::Test {
     return folder_.file(name);
   }
 
-  // One grid with these cubes.
+  // Writes one grid with these cubes.
   void write(const std::string& name, const std::vector<VoxelCube>& cubes, VdbFormat format,
              const IndexToWorld& centres = voxel_centres(test_grid(6))) {
     const auto writer = make_vdb_writer();
@@ -103,7 +102,7 @@ TEST_F(Vdb, CentresComeBackWithTheirAxes) {
   EXPECT_EQ(grid->centres()({1, 2, 3}), Point(1e6 + 0.75, -2e5 + 0.25, 0.125 - 0.5));
 }
 
-// Voxels and places at which a matrix cannot be inverted, or not without a loss.
+// Voxel sizes and origins whose matrix cannot be inverted, or not exactly.
 TEST_F(Vdb, CentresComeBackToTheLastBit) {
   const Point near(0.1, -0.7, 0.3), far(1841111.4, 5176075.3, 191.1);
   for (const double size : {0.05, 1.0 / 3, 0.0003, 1.4e-5, 1e-6, 1e-30, 1e30}) {
@@ -127,7 +126,7 @@ TEST_F(Vdb, StretchedAndMirroredAxesComeBackToTheLastBit) {
   EXPECT_EQ(read_vdb(path("a.vdb"), "", {})->centres(), centres);
 }
 
-TEST_F(Vdb, CentresOfAGridLieHalfAVoxelInside) {
+TEST_F(Vdb, CentresOfAGridAreHalfAVoxelInside) {
   const Grid grid = test_grid(6);
   const IndexToWorld centres = voxel_centres(grid);
   EXPECT_EQ(centres({0, 0, 0}), grid.corner() + 0.25);
@@ -143,11 +142,11 @@ TEST_F(Vdb, OneOfSeveralGridsIsChosenByName) {
   EXPECT_EQ(voxels_of(*read_vdb(path("two.vdb"), "second", {})), (VoxelSet{{1, 2, 3}}));
   EXPECT_TRUE(voxels_of(*read_vdb(path("two.vdb"), "first", {})).empty());
   EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "", {}), ExitCode::kUsage,
-                     "choose with --grid one of first, second");
+                     "choose one with --grid: first, second");
   EXPECT_SVDAG_ERROR(read_vdb(path("two.vdb"), "c", {}), ExitCode::kUsage, "has no grid c");
 }
 
-TEST_F(Vdb, BrokenFilesAreASentence) {
+TEST_F(Vdb, DamagedFilesAreAnError) {
   EXPECT_SVDAG_ERROR(read_vdb(path("none.vdb"), "", {}), ExitCode::kBadInput, "none.vdb");
   std::ofstream(path("text.vdb")) << "this is not a grid";
   EXPECT_SVDAG_ERROR(read_vdb(path("text.vdb"), "", {}), ExitCode::kBadInput,
@@ -158,12 +157,12 @@ TEST_F(Vdb, BrokenFilesAreASentence) {
                      "OpenVDB cannot read it");
 }
 
-TEST_F(Vdb, DamagedFilesAreReadOrRefused) {
+TEST_F(Vdb, RandomlyDamagedFilesAreReadOrRejected) {
   write("whole.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);
   std::ifstream file(path("whole.vdb"), std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(file), {}};
   std::mt19937 random(7);
-  int refused = 0;
+  int rejected = 0;
   for (int run = 0; run < 200; ++run) {
     std::string broken = whole;
     const size_t at = random() % broken.size();
@@ -178,23 +177,23 @@ TEST_F(Vdb, DamagedFilesAreReadOrRefused) {
     } catch (const Error& error) {
       EXPECT_TRUE(error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage)
           << error.what();
-      ++refused;
+      ++rejected;
     }
   }
-  EXPECT_GT(refused, 60);
+  EXPECT_GT(rejected, 60);
 }
 
-TEST_F(Vdb, TheSandboxDecidesNothing) {
+TEST_F(Vdb, TheSandboxDoesNotChangeTheResult) {
   if (kSanitized) GTEST_SKIP();
   write("a.vdb", blocks_of(bodies(6, 2)), VdbFormat::kBool);
   EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {}, true)), bodies(6, 2));
   EXPECT_SVDAG_ERROR(read_vdb(path("a.vdb"), "c", {}, true), ExitCode::kUsage, "has no grid c");
   std::filesystem::resize_file(path("a.vdb"), std::filesystem::file_size(path("a.vdb")) / 2);
-  EXPECT_SVDAG_ERROR(read_vdb(path("a.vdb"), "", {}, true), ExitCode::kBadInput, "is cut off");
+  EXPECT_SVDAG_ERROR(read_vdb(path("a.vdb"), "", {}, true), ExitCode::kBadInput, "is truncated");
 }
 
-TEST_F(Vdb, ScatteredVoxelsAreNotTooMuch) {
-  // The most that OpenVDB takes for what is in a file: a node of every size for each of them.
+TEST_F(Vdb, ScatteredVoxelsFitTheMemoryLimit) {
+  // The worst ratio of OpenVDB's memory to the file size: one node of each size per voxel.
   std::vector<VoxelCube> cubes;
   for (int64_t i = 0; i < 700; ++i)
     cubes.push_back({{i % 10 * 4096, i / 10 % 10 * 4096, i / 100 * 4096}, 8, {}});
@@ -203,8 +202,8 @@ TEST_F(Vdb, ScatteredVoxelsAreNotTooMuch) {
   EXPECT_EQ(voxels_of(*read_vdb(path("a.vdb"), "", {})).size(), 700U);
 }
 
-TEST_F(Vdb, ManyTilesAreNotTooMuch) {
-  // Each is one bit of a mask in the file.
+TEST_F(Vdb, ManyTilesFitTheMemoryLimit) {
+  // Each tile is one bit of a mask in the file.
   std::vector<VoxelCube> cubes;
   for (int64_t x = 0; x < 64; ++x)
     for (int64_t y = 0; y < 32; ++y)
@@ -219,7 +218,7 @@ TEST_F(Vdb, ManyTilesAreNotTooMuch) {
   EXPECT_EQ(found, cubes.size() << 21);
 }
 
-TEST_F(Vdb, ACountThatIsTooLargeIsASentence) {
+TEST_F(Vdb, ACountThatIsTooLargeIsAnError) {
   write("whole.vdb", blocks_of(bodies(6, 1)), VdbFormat::kMask);
   std::ifstream file(path("whole.vdb"), std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(file), {}};
@@ -227,19 +226,19 @@ TEST_F(Vdb, ACountThatIsTooLargeIsASentence) {
     std::string broken = whole;
     broken.replace(at, 4, "\xff\xff\xff\xff");
     std::ofstream(path("broken.vdb"), std::ios::binary) << broken;
-    const char* sentence = kSanitized ? "" : "OpenVDB needs more than";
+    const char* message = kSanitized ? "" : "OpenVDB needs more than";
     for (const bool sandbox : {false, true})
       EXPECT_SVDAG_ERROR(read_vdb(path("broken.vdb"), "", {}, sandbox), ExitCode::kBadInput,
-                         sentence);
+                         message);
   }
 }
 
-TEST_F(Vdb, AFolderThatIsNotThereIsASentence) {
+TEST_F(Vdb, AMissingFolderIsAnError) {
   EXPECT_SVDAG_ERROR(write("no/folder/a.vdb", {}, VdbFormat::kMask), ExitCode::kOutput,
                      "cannot write in this folder");
 }
 
-TEST_F(Vdb, NanoVdbIsWrittenToo) {
+TEST_F(Vdb, NanoVdbIsWrittenAndNotRead) {
   write("a.nvdb", blocks_of(bodies(6, 2)), VdbFormat::kNano);
   std::ifstream file(path("a.nvdb"), std::ios::binary);
   std::string magic(8, ' ');

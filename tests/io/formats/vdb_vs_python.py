@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Exported grids as Debian's python3-openvdb reads them, and grids that it wrote as svdag-verify reads them.
+"""Cross-checks .vdb files with Debian's python3-openvdb: it reads our exports, svdag-verify reads its grids.
 
-World coordinates are compared, of a scene without any symmetry and against the mesh itself, so that two
+World coordinates of a scene without symmetry are compared with each other and with the mesh, so that two
 swapped axes or two shifts by half a voxel cannot cancel out. Skipped (77) without python3-openvdb.
 """
 import itertools
@@ -56,7 +56,7 @@ def as_set(points, size):
 
 
 def distance(point, corners):
-    """Of a point from a triangle, by the nearest of many points on it: an upper bound that comes close."""
+    """An upper bound of the distance of a point from a triangle: the nearest of many points on it."""
     a, b, c = corners
     u, v = numpy.meshgrid(*[numpy.linspace(0, 1, 60)] * 2)
     keep = u + v <= 1
@@ -91,20 +91,20 @@ class VdbVsPython(unittest.TestCase):
     def centres(self, voxels, size):
         return self.corner + (voxels + 0.5) * size
 
-    def test_an_exported_file_lies_where_its_voxels_are(self):
+    def test_an_export_has_the_world_coordinates_of_its_voxels(self):
         found = worlds(self.export())
         self.assertGreater(len(found), 1000)
         self.assertEqual(as_set(found, self.size), as_set(self.centres(self.voxels, self.size), self.size))
 
-    def test_an_exported_file_lies_on_the_mesh(self):
+    def test_an_export_is_on_the_mesh(self):
         found = worlds(self.export())
-        for point in POINTS:  # in a voxel
+        for point in POINTS:  # is in a voxel
             self.assertLessEqual(numpy.abs(found - point).max(axis=1).min(), self.size * 0.5001)
-        for point in found[::37]:  # a voxel that touches the mesh
+        for point in found[::37]:  # the centre of a voxel that touches the mesh
             nearest = min(distance(point, POINTS[list(face)]) for face in FACES)
             self.assertLessEqual(nearest, self.size * (0.8661 + 0.1 * 8))
 
-    def test_a_level_lies_where_its_voxels_are(self):
+    def test_a_level_has_the_world_coordinates_of_its_voxels(self):
         for level in range(3, 6):
             size = self.size * 2 ** (6 - level)
             parents = numpy.unique(self.voxels >> (6 - level), axis=0)
@@ -134,7 +134,7 @@ class VdbVsPython(unittest.TestCase):
             self.assertEqual(transform.indexToWorld((0.0, 0.0, 0.0)),
                              tuple(c + grid["voxel_size"] * 0.5 for c in grid["corner"]))
 
-    def test_metadata_tells_where_a_grid_comes_from(self):
+    def test_metadata_names_the_source_of_a_grid(self):
         grid = self.export("--level", "5")
         self.assertEqual((grid["svdag_level"], grid["svdag_levels"], grid["svdag_rule"]), ("5", "6", "conservative"))
 
@@ -156,7 +156,7 @@ class VdbVsPython(unittest.TestCase):
         return json.loads(text) if code < 2 else text
 
     def matrix(self, axes=(0, 1, 2), signs=(1, 1, 1), origin=(0, 0, 0), shift=0.0):
-        """Index to world for row vectors: their axis a runs along ours axes[a]; their 0 is our voxel `origin`."""
+        """Index-to-world matrix for row vectors: their axis a is our axis axes[a], their voxel 0 our voxel `origin`."""
         m = numpy.zeros((4, 4))
         for a in range(3):
             m[a, axes[a]] = signs[a] * self.size
@@ -173,11 +173,11 @@ class VdbVsPython(unittest.TestCase):
                 index[:, a] = signs[a] * (self.voxels[:, axes[a]] - origin[axes[a]])
             result = self.verify(self.foreign(index, self.matrix(axes, signs, origin)))
             self.assertEqual((result["same"], result["both"]), (True, len(self.voxels)))
-            # The same numbers on axes that are not these: other voxels.
+            # The same indices with other axes are other voxels.
             if axes != (0, 1, 2):
                 self.assertFalse(self.verify(self.foreign(index, self.matrix(origin=origin)), code=1)["same"])
 
-    def test_half_a_voxel_is_refused(self):
+    def test_a_shift_by_half_a_voxel_is_rejected(self):
         text = self.verify(self.foreign(self.voxels, self.matrix(shift=-0.5)), code=2)
         self.assertRegex(text, r"its voxel centres are \(-?0\.5, -?0\.5, -?0\.5\) voxels away")
 
@@ -191,13 +191,13 @@ class VdbVsPython(unittest.TestCase):
     def test_tiles_are_compared_as_their_voxels(self):
         grid = self.foreign(self.voxels, self.matrix())
         grid.fill((128, 0, 0), (255, 127, 127), True)  # outside the file's grid
-        grid.fill((0, 0, 0), (63, 63, 63), True)       # around all of its voxels
+        grid.fill((0, 0, 0), (63, 63, 63), True)       # contains all of its voxels
         grid.prune()
         result = self.verify(grid, code=1)
         self.assertEqual((result["both"], result["missing"], result["extra"]),
                          (len(self.voxels), 128 ** 3 + 64 ** 3 - len(self.voxels), 0))
 
-    def test_the_difference_is_written_in_the_place_of_the_grid(self):
+    def test_the_difference_has_the_transform_of_the_grid(self):
         moved = self.voxels[5:]
         path = self.at / "difference.vdb"
         grid = self.foreign([*moved, (60, 1, 2)], self.matrix())
@@ -235,7 +235,7 @@ class VdbVsPython(unittest.TestCase):
         self.assertEqual(self.verify(grid, "--iso=0.1,8", code=1)["missing"], 1)  # active or not
         self.assertIn("background", self.verify(grid, "--iso=-1,1", code=2))
 
-    def test_other_types_and_bent_transforms_are_refused(self):
+    def test_other_types_and_nonlinear_transforms_are_rejected(self):
         grid = pyopenvdb.Vec3SGrid()
         grid.name = "foreign"
         self.assertIn("not mask, bool or float", self.verify(grid, code=3))

@@ -1,6 +1,6 @@
-"""Writers of other programs' formats, from their layouts alone: what an import must understand.
+"""Writers of other programs' formats, from their layouts alone, as input of imports.
 
-They write what ours never would: trees without sharing, depth-first order, empty nodes, repeated
+They use features that our exports do not: trees without sharing, depth-first order, empty nodes, repeated
 voxels, models without a scene graph. Voxels are sequences of (x, y, z).
 """
 import io
@@ -21,7 +21,7 @@ def tree(voxels, levels):
 
 
 def hashdag(voxels, levels, low=(0, 0, 0), side=1.0, empty_nodes=False):
-    """Depth-first, nothing shared; empty_nodes: with nodes that lead to nothing."""
+    """Depth-first, nothing shared; empty_nodes: with nodes without voxels."""
     words = []
 
     def put(node, depth):
@@ -62,7 +62,7 @@ def by_level(voxels, levels):
 
 
 def symvox(voxels, levels, centre=(0.5, 0.5, 0.5), side=1.0):
-    """Level by level; 'first leaf' is the number of words, as one writer has it."""
+    """Level by level; 'first leaf' is the number of words, as in one writer."""
     lists = by_level(voxels, levels)
     starts, at = [], 0
     for depth in range(levels):
@@ -106,7 +106,7 @@ def npz(**arrays):
 
 
 def npz_commented(**arrays):
-    """As a program would that knows nothing of 64-bit sizes, and says something behind the directory."""
+    """An archive without 64-bit sizes, with a comment after the directory."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
         archive.comment = b"made elsewhere"
@@ -150,9 +150,9 @@ def vox_model(voxels, size):
 
 
 def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_shapes=(), frames=1, pack=True):
-    """models: (voxels, size); places: what _t says of each, or no scene graph at all; each in a layer of its
-    own; hidden, hidden_layers, rotated, hidden_shapes: numbers of places; frames: models that every shape names, its own first;
-    pack: whether the number of models is said, which without a scene graph makes them frames of an animation."""
+    """models: (voxels, size); places: the translation _t of each, or None: no scene graph; each model has its own
+    layer; hidden, hidden_layers, rotated, hidden_shapes: indices into places; frames: number of models per shape,
+    its own first; pack: writes the number of models, which without a scene graph makes them frames of an animation."""
     body = chunk(b"PACK", struct.pack("<I", len(models))) if pack else b""
     body += b"".join(vox_model(*m) for m in models)
     if places is not None:

@@ -1,4 +1,4 @@
-// A .nvdb as NanoVDB itself reads it: the voxels and their centres in the world.
+// NanoVDB itself reads our .nvdb with the same voxels and world coordinates.
 #ifdef SVDAG_HAS_OPENVDB
 
 #include <gtest/gtest.h>
@@ -49,8 +49,8 @@ TEST(Nvdb, HoldsTheVoxelsAndTheirCentres) {
   }
 }
 
-// NanoVDB keeps what it is given, and its box of the world and its checksum agree with it.
-TEST(Nvdb, TinyVoxelsAndFarPlacesStayAsTheyAre) {
+// The transform is stored exactly, and NanoVDB's world bounding box and checksum agree with it.
+TEST(Nvdb, TinyVoxelsAndFarOriginsAreExact) {
   for (const double size : {0.05, 0.0003, 1e-6}) {
     const TempFolder folder;
     Grid grid = test_grid(6);
