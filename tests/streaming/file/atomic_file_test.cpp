@@ -150,7 +150,7 @@ TEST(AtomicFile, TheLongestNameIsWrittenAndALongerOneRefusedAtOnce) {
   file.commit();
   EXPECT_EQ(folder.read(std::string(255, 'n')), "new");
   EXPECT_SVDAG_ERROR(AtomicFile(folder.file(std::string(256, 'n'))), ExitCode::kOutput,
-                     "is too long for the name of a file");
+                     "the file name is too long: choose a shorter one");
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void read_a_lost_page(const TempFolder& folder, int which) {
     files.push_back(map(path, kSize));
     if (i == which && ::truncate(path.c_str(), 10) != 0) ::_exit(99);
   }
-  tell_of_lost_pages("svdag");
+  install_lost_page_handlers("svdag");
   for (const MappedFile& file : files) {
     if (byte_at(file, 0) != 'x') ::_exit(98);  // of the page that the file still has a part of
   }
@@ -142,7 +142,7 @@ TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {
   EXPECT_EXIT(
       {
         const MappedFile mapped = map(folder.write("a", "x"), 1);
-        tell_of_lost_pages("svdag");
+        install_lost_page_handlers("svdag");
         raise(SIGBUS);
         ::_exit(int(ExitCode::kBadInput));
       },
