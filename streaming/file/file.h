@@ -1,11 +1,11 @@
 // An open file with complete, positional reads and writes.
 //
-// System calls on files are made only here and in Folder (file_folder.h). EINTR and short transfers
-// are retried. Every other failure is an Error that names the path: kBadInput for reading the
-// user's files, kOutput for writing and for reading files that this program created; failures of a
-// disk or server are always kOutput, a lack of memory or descriptors is kMemory. close() is checked
-// because NFS and quotas report errors there. A failed fsync is not retried, because the kernel has
-// marked the dirty pages clean (PostgreSQL's "fsyncgate").
+// Only this room makes system calls on files. EINTR and short transfers are retried. Every other
+// failure is an Error that names the path: kBadInput for reading the user's files, kOutput for
+// writing and for reading files that this program created; failures of a disk or server are always
+// kOutput, a lack of memory or descriptors is kMemory. close() is checked because NFS and quotas
+// report errors there. A failed fsync is not retried, because the kernel has marked the dirty pages
+// clean (PostgreSQL's "fsyncgate").
 // Rejected: mmap for scenes (a file that shrinks raises SIGBUS), FILE* (errors surface late).
 #pragma once
 
@@ -25,8 +25,8 @@ class File {
   static File open_read(const std::string& path);
   // Creates an anonymous file in `folder` for reading and writing (O_TMPFILE, mode 0600): it has no
   // name, and vanishes with the process unless link_as() gives it one. Falls back to a random,
-  // exclusively created name where the file system has no O_TMPFILE. Errors about the file name
-  // `shown_as`, or the folder if that is empty.
+  // exclusively created name where the file system has no O_TMPFILE. Errors show `shown_as` as the
+  // path, or `folder` if that is empty.
   static File create_anonymous(const std::string& folder, const std::string& shown_as = {});
 
   // A File without descriptor (-1).

@@ -2,7 +2,6 @@
 //
 // All access uses one descriptor of the folder, so a rename or link in the parent folder cannot
 // redirect it once it is open. All failures are Errors (kOutput) unless stated otherwise.
-// Together with File (file.h) this class makes all system calls on files.
 #pragma once
 
 #include <sys/stat.h>

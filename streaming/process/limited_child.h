@@ -29,8 +29,7 @@ namespace svdag {
 struct ChildLimits {
   uint64_t memory = 0;   // bytes of address space beyond those that the child inherits
   uint64_t seconds = 0;  // of processor time; the parent waits ten times as long for each read
-  bool filter =
-      true;  // false: all system calls are allowed; crashes and limits still end the child
+  bool filter = true;    // false: all system calls are allowed; the limits still apply
 };
 
 using BlockSink = std::function<void(std::span<const std::byte>)>;
@@ -41,10 +40,9 @@ constexpr size_t kChildBlock = size_t(72) * 8192;
 
 // Runs work(out) in a limited child and passes the blocks of its output to `use`, in order. An
 // Error of `work` is rethrown with its message, and with its code if that is kMemory or kUsage,
-// else as kBadInput. A child that does not finish is Error (kBadInput) "`path`: the decoder was
-// stopped: it
-// ...". Error (kUsage) if a filter is requested and the system has none; (kMemory) if no process
-// can be started. If `use` throws, the child is killed.
+// else as kBadInput. If the child does not finish: Error (kBadInput) "PATH: the decoder was
+// stopped: it ...". Error (kUsage) if a filter is requested and the system has none; Error
+// (kMemory) if no process can be started. If `use` throws, the child is killed.
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use);
 

@@ -24,7 +24,7 @@ namespace svdag {
 
 struct ExternalSortRoom {
   MemoryBudget* budget;  // `bytes` are reserved from it while the sort exists
-  uint64_t bytes;        // at least kLeast per worker
+  uint64_t bytes;        // at least kLeast for each worker
   Executor* executor;
   std::function<File()> new_file;  // creates the spill file; called at most once
 

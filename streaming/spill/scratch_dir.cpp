@@ -27,8 +27,8 @@ std::string shortened(const std::string& name, size_t max_bytes) {
   return name.substr(0, max_bytes);
 }
 
-// True if no process has used the folder as scratch, yet it has files. An owner creates its lock
-// first, except for a probe of file ownership, and removes it last.
+// True if the folder has files but is not a scratch folder: an owner creates its lock first, except
+// for a probe of file ownership, and removes it last.
 bool has_only_foreign_files(const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), kOwner) != names.end()) return false;
   return !std::all_of(names.begin(), names.end(),
@@ -104,8 +104,8 @@ bool ScratchDir::remove_files(const Folder& folder, const std::set<std::string>&
   return removed;
 }
 
-// Called when all other files are removed, on disk as well: files without a lock count as foreign.
-// As long as the lock exists no other process takes over the folder.
+// Called after all other files have been removed, on disk as well, because files without a lock
+// count as foreign. While the lock exists no other process takes over the folder.
 void ScratchDir::remove_lock(const Folder& folder) noexcept {
   attempt([&] { folder.remove(kOwner); });
   attempt([&] { folder.remove_itself(); });
@@ -113,7 +113,7 @@ void ScratchDir::remove_lock(const Folder& folder) noexcept {
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  // A folder that was created here has known names, which need no allocation.
+  // If the folder was created here its files are known, without an allocation.
   const bool listed = folder_.created() || attempt([&] { created_files_ = names(); });
   created_files_.erase(kOwner);
   // If a file cannot be removed the lock stays, which marks the folder as scratch.
