@@ -1,5 +1,5 @@
-// Limits of counts. One that becomes a 32-bit number and does not fit is an Error, never another
-// number.
+// Limits of counts, and a checked conversion to 32 bits: a count that does not fit is an Error,
+// never a truncated number.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace svdag {
 
-// More threads than this are taken for a slip of the pen.
+// Largest number of threads that a command line or a plan may give.
 constexpr size_t kMostThreads = 1024;
 
-// `count`, or Error (kMemory) "more than 2^32 - 1 WHAT: ...".
+// Returns `count`. Throws Error (kMemory) "more than 2^32 - 1 WHAT: ..." if it is larger than that.
 inline uint32_t as_u32(uint64_t count, const char* what) {
   if (count > UINT32_MAX)
     throw Error(ExitCode::kMemory, std::string("more than 2^32 - 1 ") + what +

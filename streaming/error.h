@@ -1,8 +1,8 @@
-// The one error type of the project.
+// The only error type of the project.
 //
-// An Error is thrown at the edges (files, command line, limits) and caught once, in main(), which
-// prints what() on stderr and exits with code(). what() is one sentence for the person at the
-// keyboard: what went wrong, in which file, where, and what to do about it.
+// Code at the edges (files, command line, limits) throws an Error. run_program() catches it, prints
+// what() on stderr and exits with code(). what() is one sentence for the user: which file, what is
+// wrong, at which byte, and what to do.
 // Rejected: status codes (92 % of catastrophic failures are mishandled codes, Yuan et al. 2014).
 #pragma once
 
@@ -21,16 +21,17 @@ enum class ExitCode : int {
   kBadInput = 3,   // a scene or DAG file is missing, broken or unsupported
   kOutput = 4,     // disk full, I/O error, output not writable
   kMemory = 5,     // the memory budget does not suffice
-  kInternal = 70,  // an assertion failed: a defect of ours (sysexits.h EX_SOFTWARE)
+  kInternal = 70,  // an assertion failed: a bug in the program (sysexits.h EX_SOFTWARE)
 };
 
 class Error : public std::runtime_error {
  public:
-  // what(): `path`, `sentence` (without a full stop), byte `offset`; '?' for control characters.
+  // what() is "PATH: SENTENCE (at byte OFFSET)", without the parts that are not given and with '?'
+  // in place of control characters. `sentence`: without a full stop.
   Error(ExitCode code, const std::string& sentence, const std::string& path = {},
         std::optional<uint64_t> offset = {});
 
-  // A copy whose sentence ends with `hint`.
+  // Returns a copy with `hint` appended to what().
   Error with_hint(const std::string& hint) const;
 
   ExitCode code() const { return code_; }
@@ -38,22 +39,23 @@ class Error : public std::runtime_error {
   std::optional<uint64_t> offset() const { return offset_; }
 
  private:
-  Error(const std::string& what, const Error& like)
-      : std::runtime_error(what), code_(like.code_), path_(like.path_), offset_(like.offset_) {}
+  Error(const std::string& what, const Error& other)
+      : std::runtime_error(what), code_(other.code_), path_(other.path_), offset_(other.offset_) {}
 
   ExitCode code_;
   std::string path_;
   std::optional<uint64_t> offset_;
 };
 
-// Shorthands for the two most common edges.
+// Throws Error (kBadInput).
 [[noreturn]] void fail_input(const std::string& path, const std::string& sentence,
                              std::optional<uint64_t> offset = {});
+// Throws Error (kUsage).
 [[noreturn]] void fail_usage(const std::string& sentence);
 
 constexpr const char* kNoMemory =
-    "the machine has no memory left: give less with --memory or free some";
-// True if `error` says that the system has no memory, or no thread, to give.
+    "the machine is out of memory: lower --memory or free some memory";
+// True for std::bad_alloc, and for a std::system_error that reports a lack of memory or threads.
 bool is_lack_of_memory(const std::exception& error);
 
 // Called by SVDAG_ASSERT: throws an Error (kInternal) that requests a bug report.
@@ -61,6 +63,6 @@ bool is_lack_of_memory(const std::exception& error);
 
 }  // namespace svdag
 
-// Stays on in release builds. Not for kernels, which are noexcept and tested from outside.
+// Checked in release builds, too. Not for kernels, which are noexcept and tested from outside.
 #define SVDAG_ASSERT(condition) \
   ((condition) ? (void)0 : ::svdag::assertion_failed(#condition, __FILE__, __LINE__))

@@ -1,12 +1,12 @@
-// Names that strangers gave, for a terminal.
+// Makes untrusted text safe to print on a terminal.
 #pragma once
 
 #include <string>
 
 namespace svdag {
 
-// `text` with '?' for what a terminal would obey: the control characters C0, DEL, and C1, which is
-// U+0080 ... U+009F in UTF-8.
+// Returns `text` with '?' in place of each control character: C0, DEL, and C1 (U+0080 to U+009F in
+// UTF-8).
 std::string printable(std::string text);
 
 }  // namespace svdag

@@ -1,5 +1,5 @@
-// EXPECT_SVDAG_ERROR(statement, code, part): the statement throws an Error with this exit code
-// whose sentence contains `part`.
+// EXPECT_SVDAG_ERROR(statement, code, part): a test expectation that `statement` throws an Error
+// with exit code `code` and a what() that contains `part`.
 #pragma once
 
 #include <gtest/gtest.h>

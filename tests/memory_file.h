@@ -1,8 +1,8 @@
-// A File over bytes in memory, for tests: the readers take files, and a test should write none.
+// A File over bytes in memory, for tests of readers without files on disk.
 //
-// Making such a file and opening it is ten times the work of reading a small one, so a thread keeps
-// those it has made and writes the next bytes into one that is no longer in use. A File of one's
-// own, opened by its path(), is therefore valid as long as the MemoryFile.
+// Creating and opening such a file takes ten times as long as reading a small one, so each thread
+// reuses those that it has created. Therefore even a second File, opened by path(), is valid only
+// while the MemoryFile exists.
 #pragma once
 
 #include <sys/mman.h>
@@ -21,14 +21,14 @@ namespace svdag {
 
 class MemoryFile {
  public:
-  explicit MemoryFile(std::span<const std::byte> bytes) : memory_(take()) {
+  explicit MemoryFile(std::span<const std::byte> bytes) : memory_(unused_or_new()) {
     for (size_t done = 0; done < bytes.size();) {
       const ssize_t n = ::pwrite(memory_.fd, bytes.data() + done, bytes.size() - done, off_t(done));
       if (n <= 0) throw std::runtime_error("cannot write a memory file");
       done += size_t(n);
     }
     if (bytes.size() < memory_.size && ::ftruncate(memory_.fd, off_t(bytes.size())) != 0)
-      throw std::runtime_error("cannot cut a memory file");
+      throw std::runtime_error("cannot truncate a memory file");
     memory_.size = bytes.size();
   }
   explicit MemoryFile(std::string_view text) : MemoryFile(std::as_bytes(std::span(text))) {}
@@ -59,7 +59,7 @@ class MemoryFile {
     static thread_local std::vector<Memory> list;
     return list;
   }
-  static Memory take() {
+  static Memory unused_or_new() {
     if (unused().empty()) return Memory();
     Memory memory = std::move(unused().back());
     unused().pop_back();

@@ -1,5 +1,5 @@
-// Whether this is a build with a sanitizer, whose runtime needs more system calls than a decoder
-// does, and ends a process that gets no memory.
+// kSanitized is true in builds with a sanitizer, whose runtime makes more system calls than a
+// decoder needs, and ends a process that runs out of memory.
 #pragma once
 
 namespace svdag {

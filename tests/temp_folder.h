@@ -1,4 +1,4 @@
-// An empty folder that disappears with the test.
+// A temporary folder, empty at first and removed by the destructor.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,6 +27,7 @@ class TempFolder {
 
   const std::string& path() const { return path_; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
+  // Writes a file and returns its path.
   std::string write(const std::string& name, const std::string& bytes) const {
     std::ofstream(file(name), std::ios::binary) << bytes;
     return file(name);
@@ -35,6 +36,7 @@ class TempFolder {
     std::ifstream in(file(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
+  // Number of files and folders in it, not counting those in subfolders.
   size_t entries() const {
     return size_t(std::distance(std::filesystem::directory_iterator(path_), {}));
   }

@@ -17,14 +17,14 @@ const std::string& checked(const std::string& target) {
 
 }  // namespace
 
-// A rename replaces whatever has the name: as root, also /dev/null.
+// rename() replaces any file of the name; as root, even /dev/null.
 void AtomicFile::check(const std::string& target) {
   if (target == "-")
     throw Error(ExitCode::kUsage, "-: standard output is not supported: name an output file");
   std::error_code error;
   const fs::file_type type = fs::status(target, error).type();
   if (error == std::errc::filename_too_long)
-    throw Error(ExitCode::kOutput, "is too long for the name of a file", target);
+    throw Error(ExitCode::kOutput, "the file name is too long: choose a shorter one", target);
   if (type == fs::file_type::directory)
     throw Error(ExitCode::kOutput, "is a folder: name a file in it", target);
   const bool free = type == fs::file_type::not_found || type == fs::file_type::regular ||
@@ -50,7 +50,7 @@ void AtomicFile::append(std::span<const std::byte> bytes) {
 void AtomicFile::commit() {
   file_.sync();
   require_mapped_files();
-  check(target_);  // it may have been created meanwhile
+  check(target_);  // again: the target may have been created since the constructor
   file_.link_as(target_);
   file_.close();
   sync_folder(folder_of(target_));

@@ -1,11 +1,11 @@
 // An output file that appears complete or not at all.
 //
-// Bytes go to an anonymous file in the target's folder; commit() does fsync, rename, close and
-// fsync of the folder, in this order, so that after a crash at any moment the name holds the old
-// file or the complete new one. Without commit() nothing is left behind. What was made of a mapped
-// file that was changed meanwhile is not committed (streaming/file/mapped_file.h).
-// Rejected: writing beside the target under a fixed temporary name (follows planted symlinks, two
-// writers mix), unlink before rename (a window without any file).
+// Bytes go to an anonymous file in the target's folder. commit() does fsync, rename, close and
+// fsync of the folder, in this order: after a crash at any moment the name holds the old file or
+// the complete new one. Without commit() nothing is left behind. commit() fails if a mapped input
+// file has changed (streaming/file/mapped_file.h).
+// Rejected: a fixed temporary name beside the target (follows planted symlinks, two writers mix),
+// unlink before rename (a window without any file).
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,26 @@ namespace svdag {
 
 class AtomicFile {
  public:
-  // An Error (kOutput) if `target` is what a file must not replace: a folder, a device, a pipe, a
-  // socket, a link to one, or the name of a descriptor (/dev/stdout); or if it is too long for a
-  // name. For who has work to do before there are bytes to write: an output is refused before it.
+  // Throws Error (kOutput) if `target` is too long a name or must not be replaced: a folder, a
+  // device, a pipe, a socket, a link to one, or the name of a descriptor (/dev/stdout). Error
+  // (kUsage) for "-". A caller with long work ahead calls this first.
   static void check(const std::string& target);
 
-  // Checks, and opens.
+  // Calls check() and creates the anonymous file. Errors: kOutput, kUsage.
   explicit AtomicFile(const std::string& target);
 
+  // Writes all `bytes` at byte `offset`; a gap before them reads as zeros.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  // Writes at size().
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+  // End of the last byte written, in bytes.
   uint64_t size() const { return size_; }
-  // A name under which a library that insists on names may open the file before commit().
+  // A path for libraries that only accept paths: opens the file before commit().
   std::string open_name() const { return "/proc/self/fd/" + std::to_string(file_.descriptor()); }
   void read_at(uint64_t offset, std::span<std::byte> out) const { file_.read_at(offset, out); }
 
+  // Gives the file its name. To be called once; nothing is written afterwards.
   void commit();
 
  private:

@@ -13,21 +13,21 @@ ByteStream::ByteStream(const File& file, uint64_t begin, uint64_t end, size_t wi
       base_(std::min(begin, end_)),
       window_(size_t(std::clamp<uint64_t>(end_ - base_, 1, window))) {}
 
-void ByteStream::fill(size_t at_least) {
+void ByteStream::fill(size_t min_bytes) {
   const size_t kept = filled_ - position_;
   std::memmove(window_.data(), window_.data() + position_, kept);
   base_ += position_;
   position_ = 0;
   filled_ = kept;
-  if (window_.size() < at_least) window_.resize(std::max(at_least, 2 * window_.size()));
-  const uint64_t wanted = std::min<uint64_t>(window_.size() - kept, end_ - (base_ + kept));
-  filled_ += file_->read_some_at(base_ + kept, std::span(window_).subspan(kept, wanted));
-  if (filled_ < kept + wanted) end_ = base_ + filled_;  // the file shrank while we read it
+  if (window_.size() < min_bytes) window_.resize(std::max(min_bytes, 2 * window_.size()));
+  const uint64_t missing = std::min<uint64_t>(window_.size() - kept, end_ - (base_ + kept));
+  filled_ += file_->read_some_at(base_ + kept, std::span(window_).subspan(kept, missing));
+  if (filled_ < kept + missing) end_ = base_ + filled_;  // the file was truncated meanwhile
 }
 
-std::span<const std::byte> ByteStream::peek(size_t at_least) {
-  const size_t wanted = size_t(std::min<uint64_t>(at_least, remaining()));
-  if (filled_ - position_ < wanted) fill(wanted);
+std::span<const std::byte> ByteStream::peek(size_t min_bytes) {
+  const size_t required = size_t(std::min<uint64_t>(min_bytes, remaining()));
+  if (filled_ - position_ < required) fill(required);
   return std::span(window_).subspan(position_, filled_ - position_);
 }
 
@@ -54,16 +54,16 @@ void ByteStream::read(std::span<std::byte> out) {
   }
 }
 
-std::optional<std::string_view> ByteStream::line(size_t longest) {
+std::optional<std::string_view> ByteStream::line(size_t max_bytes) {
   size_t seen = 0;
-  for (size_t want = 1;; want = seen + 1) {
-    const auto bytes = peek(want);
+  for (size_t required = 1;; required = seen + 1) {
+    const auto bytes = peek(required);
     if (bytes.empty()) return {};
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const size_t end = text.find_first_of("\n\r", seen);
     if (end == std::string_view::npos) {
       seen = text.size();
-      if (seen > longest) fail_input(file_->path(), "has a line that is too long", offset());
+      if (seen > max_bytes) fail_input(file_->path(), "has a line that is too long", offset());
       if (seen < remaining()) continue;
       position_ += seen;
       return text;
@@ -72,7 +72,7 @@ std::optional<std::string_view> ByteStream::line(size_t longest) {
     if (text[end] == '\r' && end + 1 == text.size() && end + 1 < remaining()) {
       seen = end;
       peek(end + 2);
-      want = end + 2;
+      required = end + 2;
       continue;
     }
     const bool pair = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';

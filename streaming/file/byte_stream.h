@@ -1,8 +1,8 @@
-// Sequential reading of a part of a file through one small window, never larger than that part.
+// A sequential reader of a byte range of a file, through a window in memory.
 //
-// The readers of scene files see contiguous bytes without ever holding the file: peek(n) makes at
-// least n bytes visible (fewer only at the end), skip(n) moves on. Offsets are those of the file,
-// so that errors can name them.
+// Readers of scene files see contiguous bytes without loading the file: peek(n) makes at least n
+// bytes visible (fewer only at the end), skip(n) advances. Offsets count from the begin of the
+// file, so that errors can report them.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,10 @@ namespace svdag {
 
 class ByteStream {
  public:
-  static constexpr size_t kWindow = size_t(1) << 18;
+  static constexpr size_t kWindow = size_t(1) << 18;  // bytes
 
-  // Reads bytes [begin, end) of `file`, which must outlive the stream; end is cut to the file size.
+  // Reads bytes [begin, end) of `file`, which must outlive the stream; both are clamped to the file
+  // size. `window`: bytes of memory, reduced for a shorter range and enlarged by larger peeks.
   explicit ByteStream(const File& file, uint64_t begin = 0, uint64_t end = UINT64_MAX,
                       size_t window = kWindow);
 
@@ -28,19 +29,20 @@ class ByteStream {
   bool at_end() const { return remaining() == 0; }
   const File& file() const { return *file_; }
 
-  // All bytes now in the window, at least `at_least` unless the end is nearer. Valid until the next
-  // call that is not const.
-  std::span<const std::byte> peek(size_t at_least = 1);
-  // Moves on by n <= remaining() bytes.
+  // Returns all bytes in the window: at least `min_bytes`, fewer only at the end. Valid until the
+  // next non-const call.
+  std::span<const std::byte> peek(size_t min_bytes = 1);
+  // Advances by n bytes; Error (kBadInput) if n > remaining().
   void skip(uint64_t n);
-  // Copies exactly out.size() bytes and moves on; an early end is an Error (kBadInput).
+  // Fills `out` and advances; Error (kBadInput) if fewer bytes remain.
   void read(std::span<std::byte> out);
-  // The next line without its "\n" or "\r\n" (or lone "\r"), or nothing at the end. A line longer
-  // than `longest` bytes is an Error (kBadInput). Valid until the next call that is not const.
-  std::optional<std::string_view> line(size_t longest = size_t(1) << 24);
+  // Returns the next line without its line end ("\n", "\r\n" or "\r"), or nothing at the end. Error
+  // (kBadInput) if the window holds more than `max_bytes` without a line end. Valid until the next
+  // non-const call.
+  std::optional<std::string_view> line(size_t max_bytes = size_t(1) << 24);
 
  private:
-  void fill(size_t at_least);
+  void fill(size_t min_bytes);
 
   const File* file_;
   uint64_t end_;

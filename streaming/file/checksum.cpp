@@ -1,6 +1,6 @@
 #include "streaming/file/checksum.h"
 
-#define XXH_STATIC_LINKING_ONLY  // makes the state's size known, nothing is linked statically
+#define XXH_STATIC_LINKING_ONLY  // declares XXH3_state_t completely; links nothing statically
 #include <xxhash.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Checksums of the formats: XXH3 of 64 and 128 bits (xxHash), little-endian as stored.
+// Checksums of the file formats: XXH3 with 64 and 128 bits (xxHash), stored little-endian.
 #pragma once
 
 #include <array>
@@ -12,16 +12,17 @@ namespace svdag {
 
 using Hash128 = std::array<uint64_t, 2>;  // low word, high word of XXH128_hash_t
 
-// 32 hex digits, the high word first: how a hash is shown to people.
+// 32 lower-case hex digits, high word first: the form in reports.
 std::string to_hex(const Hash128& hash);
-// The same of a hash in a file's header.
+// The same for a hash in a file header.
 inline std::string to_hex(const uint64_t (&hash)[2]) {
   return to_hex(Hash128{hash[0], hash[1]});
 }
 
+// XXH3-64, seed 0.
 uint64_t checksum64(std::span<const std::byte> bytes);
 
-// XXH3-128 over a sequence of byte ranges.
+// XXH3-128, seed 0, of the concatenation of byte ranges.
 class Hasher128 {
  public:
   Hasher128();

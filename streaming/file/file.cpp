@@ -17,7 +17,7 @@
 namespace svdag {
 namespace {
 
-// One sentence for each errno that a user meets; the kernel's words for the rest.
+// Describes the errno values that users meet; strerror() for the rest.
 std::string reason(int error) {
   switch (error) {
     case ENOENT:
@@ -34,7 +34,7 @@ std::string reason(int error) {
     case EMFILE:
       return "this process has too many open files (ulimit -n)";
     case ESTALE:
-      return "the file server has replaced or forgotten it";
+      return "the file server has replaced or removed it";
     case ETIMEDOUT:
       return "the file server does not answer";
     default:
@@ -50,8 +50,8 @@ std::string random_suffix() {
   return text;
 }
 
-// Errors of the system, not of the file's content: they may be gone a moment later, or with more
-// memory or space.
+// Exit code of an errno value. Failures of the system, not of the file's content, have codes of
+// their own: a retry, or more memory or space, may help.
 ExitCode code_of(int error, ExitCode otherwise) {
   switch (error) {
     case EIO:
@@ -71,19 +71,19 @@ bool is_same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Whether `path` names the open file `fd`: what a rename has done that was sent to a file server
-// twice, and is said to have failed the second time.
-bool names(const std::string& path, int fd) {
+// True if `path` names the open file `fd`. A rename may be sent to a file server twice: the
+// repeated request then fails although the rename was done.
+bool is_name_of(const std::string& path, int fd) {
   struct stat own, named;
   return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 && is_same(own, named);
 }
 
-// Whether link_as() can name a file that has no name: the kernel must tell what is open.
+// True if link_as() can name an anonymous file, which it does through /proc.
 bool can_be_named() {
   return ::access("/proc/self/fd", X_OK) == 0;
 }
 
-// From direct transfers back to those through the page cache; false if they were that already.
+// Switches from direct transfers back to the page cache; false if it was in use already.
 bool leave_direct(int fd) {
   const int flags = ::fcntl(fd, F_GETFL);
   return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
@@ -111,12 +111,12 @@ mode_t current_mask() {
                          : kMaskAtStart;
 }
 
-// Applies the umask to the file's permissions. Failure is ignored: some file systems have no
-// permissions, or map the file to another user.
+// Sets the file's permissions to 0666 & ~umask. Ignores failures of file systems that have no
+// permissions or map the file to another user.
 void apply_mask(int fd, const std::string& path) {
   if (::fchmod(fd, 0666 & ~current_mask()) == 0) return;
   if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
-    fail_call(ExitCode::kOutput, "cannot be opened up", path, errno);
+    fail_call(ExitCode::kOutput, "permissions cannot be set", path, errno);
 }
 
 }  // namespace
@@ -126,8 +126,8 @@ void fail_call(ExitCode code, const char* what, const std::string& path, int err
 }
 
 File File::open_read(const std::string& path) {
-  if (path == "-") fail_usage("-: files are read more than once, so standard input cannot be one");
-  // O_NONBLOCK: opening a pipe must not hang before fstat can refuse it.
+  if (path == "-") fail_usage("-: standard input is not supported: name an input file");
+  // O_NONBLOCK: opening a pipe must not block before fstat() detects it.
   const int fd =
       retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
   if (fd < 0) fail_call(ExitCode::kBadInput, "cannot be opened", path, errno);
@@ -150,7 +150,7 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   }
   if (::access(folder.c_str(), F_OK) != 0)
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
-  // Allocated before the file exists: an allocation that failed afterwards would leave the file.
+  // Allocated before the file exists: if an allocation failed later, the file would stay.
   std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
   File file(-1, shown, ExitCode::kOutput);
   fd = retry_interrupted([&] {
@@ -228,7 +228,7 @@ void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
 
 void File::truncate(uint64_t size) {
   if (retry_interrupted([&] { return ::ftruncate(fd_, off_t(size)); }) != 0)
-    fail_call(ExitCode::kOutput, "cannot be cut", path_, errno);
+    fail_call(ExitCode::kOutput, "cannot be truncated", path_, errno);
 }
 
 bool File::use_direct() {
@@ -240,13 +240,13 @@ bool File::try_lock() {
   if (retry_interrupted([&] { return ::flock(fd_, LOCK_EX | LOCK_NB); }) == 0) return true;
   if (errno == ENOLCK || errno == EOPNOTSUPP)
     throw Error(ExitCode::kOutput,
-                "cannot be locked, as files can on local disks: choose one with --scratch", path_);
+                "cannot be locked: choose a folder on a local disk with --scratch", path_);
   if (errno != EWOULDBLOCK) fail_call(ExitCode::kOutput, "cannot be locked", path_, errno);
   return false;
 }
 
 void File::sync() {
-  if (::fsync(fd_) != 0) fail_call(ExitCode::kOutput, "cannot be brought to disk", path_, errno);
+  if (::fsync(fd_) != 0) fail_call(ExitCode::kOutput, "cannot be synced to disk", path_, errno);
 }
 
 void File::link_as(const std::string& path) {
@@ -254,11 +254,12 @@ void File::link_as(const std::string& path) {
     std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
     const std::string self = "/proc/self/fd/" + std::to_string(fd_);
     if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      fail_call(ExitCode::kOutput, "cannot be named", path, errno);
-    temporary_ = std::move(name);  // a copy could fail for lack of memory, and the name would stay
+      fail_call(ExitCode::kOutput, "cannot be created", path, errno);
+    temporary_ = std::move(name);  // not a copy: if it ran out of memory, the name would stay
   }
   apply_mask(fd_, path);
-  if (::rename(temporary_.c_str(), path.c_str()) != 0 && !(errno == ENOENT && names(path, fd_)))
+  if (::rename(temporary_.c_str(), path.c_str()) != 0 &&
+      !(errno == ENOENT && is_name_of(path, fd_)))
     fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
   temporary_.clear();
   path_ = path;
@@ -282,7 +283,7 @@ void sync_folder(const std::string& folder) {
 
 void fail_folder_sync(const std::string& folder, int error) {
   if (error != EINVAL && error != EOPNOTSUPP)
-    fail_call(ExitCode::kOutput, "cannot be brought to disk", folder, error);
+    fail_call(ExitCode::kOutput, "cannot be synced to disk", folder, error);
 }
 
 std::string folder_of(const std::string& path) {
@@ -294,7 +295,7 @@ std::string folder_of(const std::string& path) {
 bool name_exists(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) == 0) return true;
-  // To open the folder is to ask (the close-to-open rule of NFS).
+  // Opening the folder queries the server (close-to-open consistency of NFS).
   const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return false;
   ::close(folder);

@@ -1,11 +1,12 @@
-// The seam to the operating system: every system call on a file goes through here.
+// An open file with complete, positional reads and writes.
 //
-// Reads and writes are positional and complete: EINTR and short transfers are retried, everything
-// else becomes an Error that names the path: kBadInput for reading what was given to us, kOutput
-// for writing, and for reading what we made. close() is checked because NFS and quotas report
-// there; fsync is never retried after it failed, because the kernel marks the dirty pages clean
-// (PostgreSQL's "fsyncgate"). Folder, in file_folder.h, is the other half of the seam.
-// Rejected: mmap for inputs (a file that shrinks is SIGBUS), FILE* (errors surface late).
+// Only this room makes system calls on files. EINTR and short transfers are retried. Every other
+// failure is an Error that names the path: kBadInput for reading the user's files, kOutput for
+// writing and for reading files that this program created; failures of a disk or server are always
+// kOutput, a lack of memory or descriptors is kMemory. close() is checked because NFS and quotas
+// report errors there. A failed fsync is not retried, because the kernel has marked the dirty pages
+// clean (PostgreSQL's "fsyncgate").
+// Rejected: mmap for scenes (a file that shrinks raises SIGBUS), FILE* (errors surface late).
 #pragma once
 
 #include <cstddef>
@@ -19,14 +20,16 @@ namespace svdag {
 
 class File {
  public:
-  // Opens a regular file for reading; folders, devices and pipes are refused.
+  // Opens a regular file for reading. Rejects folders, devices and pipes (kBadInput), and "-"
+  // (kUsage).
   static File open_read(const std::string& path);
-  // Opens an anonymous file in `folder` for writing (O_TMPFILE, mode 0600): it has no name and
-  // vanishes with the process until link_as() gives it one. Falls back to a random, exclusively
-  // created name where the file system has no O_TMPFILE.
-  // Errors speak of it as `shown_as`, the folder if that is empty.
+  // Creates an anonymous file in `folder` for reading and writing (O_TMPFILE, mode 0600): it has no
+  // name, and vanishes with the process unless link_as() gives it one. Falls back to a random,
+  // exclusively created name where the file system has no O_TMPFILE. Errors show `shown_as` as the
+  // path, or `folder` if that is empty.
   static File create_anonymous(const std::string& folder, const std::string& shown_as = {});
 
+  // A File without descriptor (-1).
   File() = default;
   File(File&& other) noexcept;
   File& operator=(File&& other) noexcept;
@@ -36,26 +39,33 @@ class File {
 
   const std::string& path() const { return path_; }
   int descriptor() const { return fd_; }
+  // Size in bytes.
   uint64_t size() const;
 
-  // Fills `out` from byte `offset`; an end of file before that is an error.
+  // Fills `out` from byte `offset` on; Error if the file ends earlier.
   void read_at(uint64_t offset, std::span<std::byte> out) const;
-  // As read_at, but returns the number of bytes read, fewer than requested only at the end of file.
+  // Like read_at(), but returns the number of bytes read: less than out.size() only at the end of
+  // the file.
   size_t read_some_at(uint64_t offset, std::span<std::byte> out) const;
+  // Writes all `bytes` at byte `offset`; a gap before them reads as zeros.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  // Sets the size in bytes.
   void truncate(uint64_t size);
 
-  // From now on bytes go past the page cache (O_DIRECT): offsets, sizes and memory must be
-  // multiples of 4096. False where the file system has no such transfers; one that is refused later
-  // goes through the page cache after all, and so do those after it.
+  // Bypasses the page cache from now on (O_DIRECT): offsets, sizes and addresses should be
+  // multiples of 4096. Returns false if the file system does not support it. If the system rejects
+  // a transfer later, this and all further ones use the page cache.
   bool use_direct();
-  // Locks the file until it is closed or the process ends; returns false if it is locked already.
+  // Takes an exclusive lock (flock) until the file is closed or the process ends. Returns false if
+  // another open file holds it. Error (kOutput) if the file system has no locks.
   bool try_lock();
 
+  // fsync: makes the content durable, but not the name.
   void sync();
-  // Gives the file the name `path` and, where there are such, permissions 0666 & ~umask, replacing
-  // a file of that name atomically. The folder is not yet synced.
+  // Gives the file the name `path`, atomically replacing a file of that name, and permissions
+  // 0666 & ~umask where the file system has permissions. sync_folder() then makes the name durable.
   void link_as(const std::string& path);
+  // Closes the file and reports errors, which the destructor ignores.
   void close();
 
  private:
@@ -67,17 +77,18 @@ class File {
   int fd_ = -1;
   ExitCode unreadable_ = ExitCode::kBadInput;  // of an Error when reading fails
   std::string path_;
-  std::string temporary_;  // the fallback name that must be unlinked if never linked
+  std::string temporary_;  // name to unlink unless link_as() succeeds; empty: none
 };
 
-// fsync of a folder: makes a rename in it durable.
+// fsync of a folder: makes renames in it durable. Error: kOutput.
 void sync_folder(const std::string& folder);
-// The folder part of `path`, "." if it has none.
+// The folder part of `path`; "." if it has none.
 std::string folder_of(const std::string& path);
-// True if there is such a name. NFS clients remember for a while that there was none: the folder
-// is opened again, so that they ask the server.
+// True if `path` exists, after following links. NFS clients cache missing names for a while: a
+// missing one is looked up again after its folder was opened, which makes the client query the
+// server.
 bool name_exists(const std::string& path);
-// True if both names are one and the same existing file.
+// True if both paths name the same existing file.
 bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace svdag

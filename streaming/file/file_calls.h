@@ -1,4 +1,4 @@
-// What the halves of the seam (file.cpp, file_folder.cpp) share: retries, and words for failures.
+// Helpers for system calls on files: retries and error messages.
 #pragma once
 
 #include <cerrno>
@@ -8,14 +8,16 @@
 
 namespace svdag {
 
-// Throws the Error "PATH: WHAT: reason", the reason being that of an errno in a user's words. What
-// a file server says of itself is always kOutput, for it may pass.
+// Throws Error "PATH: WHAT: reason", the reason being a description of errno value `error`. The
+// code is `code`, but kOutput for I/O errors of a disk or file server and kMemory for a lack of
+// memory or descriptors: these may be temporary.
 [[noreturn]] void fail_call(ExitCode code, const char* what, const std::string& path, int error);
 
-// After a failed fsync of a folder. Some file systems cannot sync one and say EINVAL or EOPNOTSUPP:
-// nothing more can be done there, and nothing is thrown.
+// Throws Error (kOutput) after a failed fsync of a folder. Returns for EINVAL and EOPNOTSUPP: such
+// file systems cannot sync folders, and nothing more can be done.
 void fail_folder_sync(const std::string& folder, int error);
 
+// Repeats a system call until it is not interrupted by a signal; returns its result.
 template <class Call>
 auto retry_interrupted(Call call) {
   for (;;) {

@@ -1,11 +1,11 @@
-// What a file's name says of its format, in whatever case.
+// Tests the extension of a file name, ignoring case.
 #pragma once
 
 #include <string_view>
 
 namespace svdag {
 
-// `ending` in lower case, with its dot: ".png".
+// True if `name` ends with `ending`, which is in lower case and includes the dot: ".png".
 inline bool has_ending(std::string_view name, std::string_view ending) {
   if (name.size() < ending.size()) return false;
   name.remove_prefix(name.size() - ending.size());

@@ -26,49 +26,49 @@ bool same(const struct stat& a, const struct stat& b) {
 
 }  // namespace
 
-Folder Folder::open_or_make(std::string path) {
+Folder Folder::open_or_create_folder(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();  // "link/" would follow the link
   int fd = -1;
-  bool made = false;
+  bool created = false;
   do {  // again if the owner of the folder removes it between the two calls
-    made = ::mkdir(path.c_str(), 0700) == 0;
-    if (!made && errno != EEXIST)
+    created = ::mkdir(path.c_str(), 0700) == 0;
+    if (!created && errno != EEXIST)
       fail_call(ExitCode::kOutput, "cannot write in this folder", folder_of(path), errno);
     fd = retry_interrupted([&] { return ::open(path.c_str(), kFolder); });
   } while (fd < 0 && errno == ENOENT);
-  if (fd < 0 && made) {
+  if (fd < 0 && created) {
     const int error = errno;
     ::rmdir(path.c_str());
     errno = error;
   }
   if (fd < 0 && (errno == ENOTDIR || errno == ELOOP))
-    throw Error(ExitCode::kOutput, "is a link or a file, but a folder is needed here", path);
+    throw Error(ExitCode::kOutput, "is a link or a file, not a folder: choose another path", path);
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path, errno);
   Folder folder(fd, std::move(path));
-  folder.made_ = made;
+  folder.created_ = created;
   return folder;
 }
 
 Folder Folder::open_private(std::string path) {
-  Folder folder = open_or_make(std::move(path));
+  Folder folder = open_or_create_folder(std::move(path));
   struct stat status;
   try {
     status = folder.status();
-    if (status.st_uid != ::geteuid() && !folder.gives_files_to(status.st_uid))
+    if (status.st_uid != ::geteuid() && !folder.new_files_belong_to(status.st_uid))
       throw Error(ExitCode::kOutput, "belongs to another user", folder.path_);
   } catch (const std::exception&) {
-    if (folder.made_) ::rmdir(folder.path_.c_str());
+    if (folder.created_) ::rmdir(folder.path_.c_str());
     throw;
   }
-  // An existing folder may be open to others. On file systems without permissions this fails, and
+  // Closes an existing folder to other users. This fails on file systems without permissions, where
   // there is nothing to protect.
   if ((status.st_mode & 0777) != 0700) (void)!::fchmod(folder.fd_, 0700);
   return folder;
 }
 
 Folder Folder::open_shared(std::string path) {
-  Folder folder = open_or_make(std::move(path));
-  if (!folder.made_ && (folder.status().st_mode & S_IWOTH) != 0)
+  Folder folder = open_or_create_folder(std::move(path));
+  if (!folder.created_ && (folder.status().st_mode & S_IWOTH) != 0)
     throw Error(ExitCode::kUsage,
                 "this folder is world-writable, and its files would be trusted: choose "
                 "one of your own, or of your group",
@@ -77,14 +77,14 @@ Folder Folder::open_shared(std::string path) {
 }
 
 Folder::Folder(Folder&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), made_(other.made_) {}
+    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), created_(other.created_) {}
 
 Folder::~Folder() {
   if (fd_ >= 0) ::close(fd_);
 }
 
-// A file server or a mount may map this user to another one; then it maps files, too.
-bool Folder::gives_files_to(uid_t owner) const {
+// A file server or a mount may map this user to another one. It then maps new files, too.
+bool Folder::new_files_belong_to(uid_t owner) const {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);
   const int fd = retry_interrupted(
@@ -111,7 +111,7 @@ bool Folder::has(const std::string& name) const {
 File Folder::create(const std::string& name) const {
   const int fd = retry_interrupted(
       [&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT | O_EXCL, 0600); });
-  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be made", path_of(name), errno);
+  if (fd < 0) fail_call(ExitCode::kOutput, "cannot be created", path_of(name), errno);
   return File(fd, path_of(name), ExitCode::kOutput);
 }
 
@@ -126,18 +126,19 @@ File Folder::open_or_create(const std::string& name) const {
   return regular(fd, name);
 }
 
-// The file of descriptor `fd`, just opened as `name`. A second link to it may lie where others can
-// write, so there must be none.
+// Returns the File of `fd`, which was just opened as `name`. Rejects one with several hard links:
+// another link may be in a folder that other users can write.
 File Folder::regular(int fd, const std::string& name) const {
+  constexpr const char* kNotOwn = "is not a regular file, or has other hard links: remove it";
   if (fd < 0 && (errno == ELOOP || errno == EISDIR || errno == ENXIO))
-    throw Error(ExitCode::kOutput, "is not a regular file of its own", path_of(name));
+    throw Error(ExitCode::kOutput, kNotOwn, path_of(name));
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot be opened", path_of(name), errno);
   File file(fd, path_of(name), ExitCode::kOutput);
   struct stat status;
   if (::fstat(fd, &status) != 0)
     fail_call(ExitCode::kOutput, "cannot be examined", path_of(name), errno);
   if (!S_ISREG(status.st_mode) || status.st_nlink > 1)
-    throw Error(ExitCode::kOutput, "is not a regular file of its own", path_of(name));
+    throw Error(ExitCode::kOutput, kNotOwn, path_of(name));
   return file;
 }
 
@@ -147,14 +148,14 @@ void Folder::remove(const std::string& name) const {
 }
 
 std::vector<std::string> Folder::names() const {
-  // A descriptor of its own, for reading moves it.
+  // A second descriptor, because reading moves its position.
   const int fd = retry_interrupted([&] { return ::openat(fd_, ".", kFolder); });
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
   const auto close = [](DIR* list) { ::closedir(list); };
   const std::unique_ptr<DIR, decltype(close)> list(::fdopendir(fd), close);
   if (list == nullptr) fail_call(ExitCode::kOutput, "cannot be listed", path_, errno);
   std::vector<std::string> names;
-  errno = 0;  // the end and an error look the same but for this
+  errno = 0;  // readdir() returns null at the end and for an error, which sets errno
   while (const dirent* entry = ::readdir(list.get())) {
     const std::string name = entry->d_name;
     if (name != "." && name != "..") names.push_back(name);

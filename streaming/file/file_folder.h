@@ -1,4 +1,4 @@
-// A folder and the files in it: the other half of the seam of file.h.
+// A folder and the files in it.
 //
 // All access uses one descriptor of the folder, so a rename or link in the parent folder cannot
 // redirect it once it is open. All failures are Errors (kOutput) unless stated otherwise.
@@ -15,13 +15,14 @@ namespace svdag {
 
 class Folder {
  public:
+  // Prefix of the names of short-lived files that test who owns new files.
   static constexpr const char* kProbe = ".svdag-probe-";
 
-  // Opens the folder, created if necessary, for this user alone (0700). Rejects links, folders of
-  // other users and everything that is not a folder.
+  // Opens a folder for this user alone: creates it if necessary, and sets its mode to 0700. Rejects
+  // links, folders of other users and everything that is not a folder. Its parent must exist.
   static Folder open_private(std::string path);
-  // Opens a folder of any owner that others may use, too; creates it (0700) if necessary. A
-  // world-writable folder is an Error (kUsage); a link is rejected.
+  // Opens a folder that other users may own and use; creates it (0700) if necessary. Keeps the mode
+  // of an existing one. Rejects links. Error (kUsage) if an existing folder is world-writable.
   static Folder open_shared(std::string path);
 
   Folder(Folder&& other) noexcept;
@@ -29,43 +30,47 @@ class Folder {
   ~Folder();
 
   const std::string& path() const { return path_; }
-  // True if it was made when it was opened: it was empty.
-  bool made() const { return made_; }
-  // True if there is a regular file of this name.
+  // True if open_private() or open_shared() created the folder, which then was empty.
+  bool created() const { return created_; }
+  // True if a regular file of this name exists.
   bool has(const std::string& name) const;
-  // Makes a file (0600) that is not there yet, and opens it for reading and writing.
+  // Creates a file (mode 0600) and opens it for reading and writing. Error if the name exists.
   File create(const std::string& name) const;
-  // Opens a regular file for reading and writing.
+  // Opens an existing regular file with a single hard link for reading and writing.
   File open(const std::string& name) const;
-  // Opens it, or makes it. A File without descriptor if the folder itself was removed meanwhile.
+  // Opens or creates a file. Returns a File without descriptor (-1) if the folder itself was
+  // removed meanwhile.
   File open_or_create(const std::string& name) const;
-  // Removes a file if it is there.
+  // Removes a file, if it exists.
   void remove(const std::string& name) const;
+  // Names of all files and folders in it, without "." and "..", in no particular order.
   std::vector<std::string> names() const;
 
-  // True if `file` is what `name` means in this folder, and this folder what path() means.
+  // True if `name` in this folder still refers to `file`, and path() to this folder.
   bool holds(const File& file, const std::string& name) const;
+  // Makes the creation and removal of files durable.
   void sync() const;
-  // Bytes free on its file system for this user.
+  // Free bytes of the file system that this user may use.
   uint64_t free_bytes() const;
-  // Removes the folder if it is empty; false if it is not.
+  // Removes the folder if it is empty; returns false if it is not.
   bool remove_itself() const;
 
  private:
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
-  static Folder open_or_make(std::string path);
+  static Folder open_or_create_folder(std::string path);
   struct stat status() const;
-  // Whether files created in it belong to `owner`: tested with one, named kProbe and a number.
-  bool gives_files_to(uid_t owner) const;
+  // True if new files in the folder belong to `owner`; creates and removes one to test it.
+  bool new_files_belong_to(uid_t owner) const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;
 
   int fd_;
   std::string path_;
-  bool made_ = false;
+  bool created_ = false;
 };
 
-// The path from the root, the links in its folders resolved, but not the last name.
+// `path` as an absolute path with the symbolic links of its folder resolved, but not a link that is
+// the last component.
 std::string absolute_path(const std::string& path);
 
 }  // namespace svdag

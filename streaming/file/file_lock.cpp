@@ -10,8 +10,8 @@ namespace svdag {
 bool is_locked(const std::string& path) {
   try {
     const File file = File::open_read(path);
-    const auto ask = [&] { return ::flock(file.descriptor(), LOCK_SH | LOCK_NB); };
-    return retry_interrupted(ask) != 0 && errno == EWOULDBLOCK;
+    const auto lock = [&] { return ::flock(file.descriptor(), LOCK_SH | LOCK_NB); };
+    return retry_interrupted(lock) != 0 && errno == EWOULDBLOCK;
   } catch (const Error&) {
     return false;
   }

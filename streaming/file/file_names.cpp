@@ -9,17 +9,18 @@
 namespace svdag {
 namespace {
 
-// Device and inode; empty if the file does not exist.
-std::string number_of(const std::string& path) {
+// "DEVICE:INODE" of the file; empty if it does not exist.
+std::string inode_key(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) return {};
   return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }
 
-// Its place in its folder, and what is there now; names with one of them in common are one file.
+// Keys of the directory entry and, if it exists, of the file. Paths with a common key name one
+// file.
 std::vector<std::string> keys_of(const std::string& path) {
   std::vector<std::string> keys = {place_of(path)};
-  std::string file = number_of(path);
+  std::string file = inode_key(path);
   if (!file.empty()) keys.push_back(std::move(file));
   return keys;
 }
@@ -27,7 +28,7 @@ std::vector<std::string> keys_of(const std::string& path) {
 }  // namespace
 
 std::string place_of(const std::string& path) {
-  const std::string folder = number_of(folder_of(path));
+  const std::string folder = inode_key(folder_of(path));
   return folder.empty() ? path : folder + "/" + path.substr(path.find_last_of('/') + 1);
 }
 
@@ -37,8 +38,8 @@ void FileNames::add(const std::string& path) {
 
 const std::string* FileNames::find(const std::string& path) const {
   for (const std::string& key : keys_of(path)) {
-    const auto known = names_.find(key);
-    if (known != names_.end()) return &known->second;
+    const auto found = names_.find(key);
+    if (found != names_.end()) return &found->second;
   }
   return nullptr;
 }

@@ -1,7 +1,7 @@
-// Files by name, whatever they are called: "a", "./a" and a link to it are one file.
+// A set of files in which all paths to one file are equal: "a", "./a" and a link to it.
 //
-// A file that is not there yet has a name all the same: it will be the one of that last name in
-// that folder. So results can be compared with inputs, and with each other, before they exist.
+// A file that does not exist yet is identified by its folder and its last path component, so
+// outputs can be compared with inputs, and with each other, before they are written.
 #pragma once
 
 #include <string>
@@ -9,18 +9,19 @@
 
 namespace svdag {
 
-// The last name in its folder, whatever the folder is called: what a rename to `path` replaces. Two
-// links to one file have two.
+// Key of the directory entry that a rename to `path` replaces: device and inode of the folder, and
+// the last path component; `path` itself if the folder does not exist. Two links to one file have
+// different keys.
 std::string place_of(const std::string& path);
 
 class FileNames {
  public:
   void add(const std::string& path);
-  // The name under which this file was added; null if it was not.
+  // Returns the path under which this file was added, or null. Valid until the set is destroyed.
   const std::string* find(const std::string& path) const;
 
  private:
-  std::unordered_map<std::string, std::string> names_;  // by what the system knows a file by
+  std::unordered_map<std::string, std::string> names_;  // paths as added, by the keys of the file
 };
 
 }  // namespace svdag

@@ -21,14 +21,11 @@ struct FileState {
   bool operator==(const FileState&) const = default;
 };
 
-// State of an open file. NFS clients fetch it whenever a file is opened (close-to-open
-// consistency).
+// Returns the state of an open file; Error (kBadInput) if it cannot be read. NFS clients fetch it
+// from the server whenever a file is opened (close-to-open consistency).
 FileState state_of(const File& file);
 
-// The same of an open descriptor; `path` is for errors.
-FileState state_of(int descriptor, const std::string& path);
-
-// The message about an input file that changed.
-constexpr const char* kChangedInput = "was changed while it was read";
+// Throws Error (kBadInput) if `file` was truncated or written since its state was `before`.
+void require_unchanged(const File& file, const FileState& before);
 
 }  // namespace svdag

@@ -24,7 +24,7 @@ struct MappedFile::Mapping {
            std::less<>()(address, static_cast<const char*>(data) + size);
   }
 
-  // If a file server cannot be reached now, all that was read from it is valid.
+  // False if a file server cannot be reached now: the content read so far is valid.
   bool changed() const noexcept {
     try {
       return state_of(file) != state;
@@ -37,51 +37,52 @@ struct MappedFile::Mapping {
   FileState state;
   void* data;
   size_t size;
-  // Messages of the handler, which may not allocate.
+  // Messages of the signal handler, which must not allocate.
   std::string lost;
   std::unique_ptr<const std::string> written;
 };
 
 namespace {
 
-// Mappings that the signal handler can read without locking or allocating. Further files can be
-// mapped, but a lost page of theirs ends the program without a message.
-std::array<std::atomic<const MappedFile::Mapping*>, 16> known;
+// Mappings that the signal handler can read without locking or allocating. More files can be
+// mapped, but a lost page of those ends the program without a message.
+std::array<std::atomic<const MappedFile::Mapping*>, 16> mappings;
 static_assert(std::atomic<const MappedFile::Mapping*>::is_always_lock_free);
 std::atomic_flag reported;
-std::atomic<const std::string*> changed_before{nullptr};  // message about one file, never freed
-const char* teller = "";
-struct sigaction before_bus, before_segv;
+// Message about one file that had changed when it was unmapped; never freed.
+std::atomic<const std::string*> changed_before{nullptr};
+const char* program_name = "";
+struct sigaction previous_bus, previous_segv;
 
-void say(const char* text) {
+void print(const char* text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
-[[noreturn]] void end_with(const std::string& sentence) {
+[[noreturn]] void exit_with(const std::string& sentence) {
   while (reported.test_and_set()) ::pause();  // another thread has reported and ends the process
-  say(teller);
-  say(": ");
-  say(sentence.c_str());
-  say("\n");
+  print(program_name);
+  print(": ");
+  print(sentence.c_str());
+  print("\n");
   ::_exit(int(ExitCode::kBadInput));
 }
 
-extern "C" void tell_of_lost_page(int number, siginfo_t* info, void*) {
-  const bool sent = info->si_code <= 0;  // by a process: there was no memory access
-  for (const auto& each : known) {
+extern "C" void report_lost_page(int number, siginfo_t* info, void*) {
+  const bool sent = info->si_code <= 0;  // by a process, not by a memory access
+  for (const auto& each : mappings) {
     const MappedFile::Mapping* mapping = each.load();
     if (sent || mapping == nullptr) continue;
-    if (number == SIGBUS && mapping->holds(info->si_addr)) end_with(mapping->lost);
-    if (number == SIGSEGV && mapping->changed()) end_with(*mapping->written);
+    if (number == SIGBUS && mapping->holds(info->si_addr)) exit_with(mapping->lost);
+    if (number == SIGSEGV && mapping->changed()) exit_with(*mapping->written);
   }
-  // The access is repeated and reaches the former handler.
-  ::sigaction(number, number == SIGBUS ? &before_bus : &before_segv, nullptr);
+  // The access is repeated after the return and then reaches the previous handler.
+  ::sigaction(number, number == SIGBUS ? &previous_bus : &previous_segv, nullptr);
   if (sent) ::raise(number);
 }
 
 constexpr const char* kLost = "can no longer be read: it was cut short, or its disk failed";
 
-std::string tell_of(const File& file, const char* sentence) {
+std::string message_about(const File& file, const char* sentence) {
   return Error(ExitCode::kBadInput, sentence, file.path()).what();
 }
 
@@ -92,10 +93,10 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
       state(before),
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
-      lost(tell_of(file, kLost)),
-      written(std::make_unique<const std::string>(tell_of(file, kChangedInput))) {
+      lost(message_about(file, kLost)),
+      written(std::make_unique<const std::string>(message_about(file, kWritten))) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
-  for (auto& each : known) {
+  for (auto& each : mappings) {
     const Mapping* none = nullptr;
     if (each.compare_exchange_strong(none, this)) break;
   }
@@ -106,7 +107,7 @@ MappedFile::Mapping::~Mapping() {
     const std::string* none = nullptr;
     if (changed_before.compare_exchange_strong(none, written.get())) (void)written.release();
   }
-  for (auto& each : known) {
+  for (auto& each : mappings) {
     const Mapping* self = this;
     each.compare_exchange_strong(self, nullptr);
   }
@@ -129,28 +130,28 @@ const std::string& MappedFile::path() const {
 }
 
 void require_mapped_files() {
-  for (const auto& each : known) {
+  for (const auto& each : mappings) {
     const MappedFile::Mapping* mapping = each.load();
     if (mapping != nullptr && mapping->changed()) fail_input(mapping->file.path(), kChangedInput);
   }
 }
 
 const std::string* changed_mapped_file() noexcept {
-  for (const auto& each : known) {
+  for (const auto& each : mappings) {
     const MappedFile::Mapping* mapping = each.load();
     if (mapping != nullptr && mapping->changed()) return mapping->written.get();
   }
   return changed_before;
 }
 
-void tell_of_lost_pages(const char* program) {
-  teller = program;
+void install_lost_page_handlers(const char* program) {
+  program_name = program;
   struct sigaction action = {};
-  action.sa_sigaction = tell_of_lost_page;
+  action.sa_sigaction = report_lost_page;
   action.sa_flags = SA_SIGINFO;
   sigemptyset(&action.sa_mask);
-  ::sigaction(SIGBUS, &action, &before_bus);
-  ::sigaction(SIGSEGV, &action, &before_segv);
+  ::sigaction(SIGBUS, &action, &previous_bus);
+  ::sigaction(SIGSEGV, &action, &previous_segv);
 }
 
 }  // namespace svdag

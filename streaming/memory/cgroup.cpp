@@ -6,15 +6,16 @@
 namespace svdag {
 namespace {
 
-// The lowest limit of group `path` below `root` and of the groups above it. "max" is no limit.
-uint64_t least_limit(const std::string& root, std::string path, const std::string& file) {
-  uint64_t least = UINT64_MAX;
+// The lowest limit of group `path` below `root` and of the groups above it; UINT64_MAX if they have
+// none ("max").
+uint64_t lowest_limit(const std::string& root, std::string path, const std::string& file) {
+  uint64_t lowest = UINT64_MAX;
   for (;;) {
     uint64_t limit = 0;
     if (std::ifstream(root + path + "/" + file) >> limit && limit > 0)
-      least = std::min(least, limit);
+      lowest = std::min(lowest, limit);
     const size_t slash = path.find_last_of('/');
-    if (path.empty() || slash == std::string::npos) return least;
+    if (path.empty() || slash == std::string::npos) return lowest;
     path.erase(slash);
   }
 }
@@ -22,9 +23,9 @@ uint64_t least_limit(const std::string& root, std::string path, const std::strin
 }  // namespace
 
 uint64_t cgroup_memory_limit(const std::string& groups, const std::string& mounted) {
-  // What is limited whether or not the kernel names it.
-  uint64_t least = std::min(least_limit(mounted, "", "memory.max"),
-                            least_limit(mounted + "/memory", "", "memory.limit_in_bytes"));
+  // The limits of the mounted roots apply even if `groups` does not list them.
+  uint64_t lowest = std::min(lowest_limit(mounted, "", "memory.max"),
+                             lowest_limit(mounted + "/memory", "", "memory.limit_in_bytes"));
   std::ifstream in(groups);
   for (std::string line; std::getline(in, line);) {  // NUMBER:CONTROLLERS:PATH
     const size_t first = line.find(':');
@@ -33,12 +34,12 @@ uint64_t cgroup_memory_limit(const std::string& groups, const std::string& mount
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
     const std::string path = line.substr(second + 1);
     if (controllers == ",,") {
-      least = std::min(least, least_limit(mounted, path, "memory.max"));
+      lowest = std::min(lowest, lowest_limit(mounted, path, "memory.max"));
     } else if (controllers.find(",memory,") != std::string::npos) {
-      least = std::min(least, least_limit(mounted + "/memory", path, "memory.limit_in_bytes"));
+      lowest = std::min(lowest, lowest_limit(mounted + "/memory", path, "memory.limit_in_bytes"));
     }
   }
-  return least;
+  return lowest;
 }
 
 }  // namespace svdag

@@ -12,7 +12,7 @@ namespace svdag {
 namespace {
 
 constexpr size_t kHugePage = size_t(1) << 21;
-constexpr size_t kSmallest = 2 * kHugePage;  // smaller blocks: the heap
+constexpr size_t kMinMapped = 2 * kHugePage;  // smaller blocks come from the heap
 
 size_t round_up(size_t bytes) {
   return (bytes + kHugePage - 1) & ~(kHugePage - 1);
@@ -21,31 +21,31 @@ size_t round_up(size_t bytes) {
 }  // namespace
 
 void* map_huge_pages(size_t bytes) {
-  if (bytes < kSmallest) {
+  if (bytes < kMinMapped) {
     void* block = std::malloc(bytes != 0 ? bytes : 1);
-    if (block == nullptr) throw Error(ExitCode::kMemory, "the system has no memory left");
+    if (block == nullptr) throw Error(ExitCode::kMemory, kNoMemory);
     return block;
   }
-  // One page more than needed, and what is not aligned given back.
+  // Maps one huge page more than needed, and unmaps the unaligned ends.
   const size_t size = round_up(bytes);
   void* mapping = mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE,
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapping == MAP_FAILED) throw Error(ExitCode::kMemory, "the system has no memory left");
+  if (mapping == MAP_FAILED) throw Error(ExitCode::kMemory, kNoMemory);
   char* const begin = static_cast<char*>(mapping);
   char* const aligned = reinterpret_cast<char*>(round_up(reinterpret_cast<uintptr_t>(begin)));
   if (aligned != begin) munmap(begin, size_t(aligned - begin));
   munmap(aligned + size, kHugePage - size_t(aligned - begin));
-  madvise(aligned, size, MADV_HUGEPAGE);  // a wish: without it everything works, slower
+  madvise(aligned, size, MADV_HUGEPAGE);  // if it fails, small pages are used
   return aligned;
 }
 
 void unmap_huge_pages(void* block, size_t bytes) noexcept {
-  if (bytes < kSmallest) return std::free(block);
+  if (bytes < kMinMapped) return std::free(block);
   munmap(block, round_up(bytes));
 }
 
 HugePages::HugePages(size_t bytes) : data_(map_huge_pages(bytes)), bytes_(bytes) {
-  if (bytes < kSmallest) std::memset(data_, 0, bytes);
+  if (bytes < kMinMapped) std::memset(data_, 0, bytes);
 }
 
 }  // namespace svdag

@@ -1,7 +1,7 @@
-// Blocks of memory on huge pages, where they are large enough to matter.
+// Blocks of memory on huge pages.
 //
-// The first touch of 4 KiB pages costs more than what is written to them; a huge page is cleared
-// in one go. Blocks below a few megabytes come from the ordinary heap.
+// The page faults of 4 KiB pages cost more than writing their content; a huge page (2 MiB) is
+// cleared at once. Blocks of less than 4 MiB come from the heap.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,13 @@
 
 namespace svdag {
 
-// At least `bytes`; throws Error (kMemory) if the system refuses. Large blocks are zero.
+// Returns a block of at least `bytes`. From 4 MiB on it is aligned to 2 MiB and zeroed; smaller
+// blocks are uninitialized. Throws Error (kMemory) if the system has no memory.
 void* map_huge_pages(size_t bytes);
+// Frees a block of map_huge_pages(bytes), with the same `bytes`.
 void unmap_huge_pages(void* block, size_t bytes) noexcept;
 
-// A zeroed block that frees itself.
+// An owned, zeroed block.
 class HugePages {
  public:
   HugePages() = default;

@@ -1,8 +1,7 @@
-// std::vector for large arrays: on huge pages, and elements are not cleared before they are
-// written.
+// A std::vector for large arrays: on huge pages, and without initializing new elements.
 //
-// A vector of n elements that a loop is about to fill would otherwise be written three times: by
-// the system's zero pages, by the vector, by the loop.
+// A std::vector that a loop fills is written three times: by the kernel, which clears the pages, by
+// the vector and by the loop.
 #pragma once
 
 #include <memory>
@@ -25,7 +24,7 @@ struct HugeAllocator {
   void deallocate(T* p, size_t n) { unmap_huge_pages(p, n * sizeof(T)); }
 
   template <class U>
-  void construct(U*) {}  // not T{}: the loop that fills the vector writes it
+  void construct(U*) {}  // leaves the element uninitialized
   template <class U, class... Args>
   void construct(U* p, Args&&... args) {
     std::construct_at(p, std::forward<Args>(args)...);
@@ -33,7 +32,7 @@ struct HugeAllocator {
   bool operator==(const HugeAllocator&) const { return true; }
 };
 
-// T must be trivial: resize() leaves new elements unspecified.
+// T must be trivial. resize() leaves new elements uninitialized.
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 

@@ -11,19 +11,19 @@
 namespace svdag {
 
 void MemoryBudget::take(uint64_t bytes, const char* purpose) {
-  uint64_t wanted;
-  if (try_take(bytes, &wanted)) return;
-  throw Error(ExitCode::kMemory,
-              "the " + std::string(purpose) + " need " + std::to_string((wanted >> 20) + 1) +
-                  " MiB in all, more than the memory budget of " + std::to_string(limit_ >> 20) +
-                  " MiB: give more with --memory");
+  uint64_t total;
+  if (try_take(bytes, &total)) return;
+  throw Error(ExitCode::kMemory, "the " + std::string(purpose) + " need " +
+                                     std::to_string((total >> 20) + 1) +
+                                     " MiB in total, but the memory budget is " +
+                                     std::to_string(limit_ >> 20) + " MiB: raise --memory");
 }
 
-bool MemoryBudget::try_take(uint64_t bytes, uint64_t* wanted) noexcept {
-  // What does not fit is never counted, not for a moment: another's request would see it.
+bool MemoryBudget::try_take(uint64_t bytes, uint64_t* total) noexcept {
+  // A rejected request is never counted, even for a moment: another thread's request could fail.
   uint64_t before = used_.load(std::memory_order_relaxed), now;
   do {
-    now = *wanted = before + bytes;
+    now = *total = before + bytes;
     if (now > limit_ || now < before) return false;
   } while (!used_.compare_exchange_weak(before, now, std::memory_order_relaxed));
   for (std::atomic<uint64_t>* highest : {&peak_, &lap_peak_}) {
@@ -57,8 +57,8 @@ void MemoryBudget::Reservation::resize(uint64_t bytes, const char* purpose) {
 
 bool MemoryBudget::Reservation::try_resize(uint64_t bytes) noexcept {
   SVDAG_ASSERT(budget_ != nullptr);
-  uint64_t wanted;
-  if (bytes > bytes_ && !budget_->try_take(bytes - bytes_, &wanted)) return false;
+  uint64_t total;
+  if (bytes > bytes_ && !budget_->try_take(bytes - bytes_, &total)) return false;
   if (bytes < bytes_) budget_->give_back(bytes_ - bytes);
   bytes_ = bytes;
   return true;

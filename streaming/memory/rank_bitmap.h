@@ -1,8 +1,8 @@
-// A set of positions with rank queries (Jacobson 1989): from positions to indices.
+// A set of u32 positions with rank queries (Jacobson 1989): maps its positions to 0, 1, 2, ...
 //
-// Notation: rank(i) = number of positions below i in the set, computed from a count beside each 64
-// bits and one popcount. Memory is allocated in chunks of 2^16 positions where a position is set,
-// 1.5 bits per position: a few ranges in a wide space are cheap.
+// Notation: rank(i) = number of positions below i in the set, computed from one count per 64 bits
+// and one popcount. Memory is allocated in chunks of 2^16 positions, only for chunks with a
+// position in the set, and takes 1.5 bits per position: a few ranges in a wide space are cheap.
 // Rejected: a table of u32 per position (20 times the size), a hash table (no order).
 #pragma once
 
@@ -18,26 +18,27 @@ namespace svdag {
 
 class RankBitmap {
  public:
-  // What a set of positions below `end` takes at most.
+  // Largest memory, in bytes, of a set of positions below `end`.
   static constexpr uint64_t most_bytes(uint64_t end) {
     return (end + kChunk - 1) / kChunk * sizeof(Chunk);
   }
-  // `purpose`: of the memory, for an Error (kMemory).
+  // `purpose`: see MemoryBudget::reserve().
   RankBitmap(MemoryBudget* budget, const char* purpose)
       : purpose_(purpose), reservation_(budget->reserve(0, purpose)) {}
 
+  // Adds `i` to the set, before seal(). Error (kMemory) if the budget has no room.
   void set(uint32_t i) {
     const size_t chunk = i / kChunk;
     if (chunk >= chunks_.size() || !chunks_[chunk]) add_chunk(chunk);
     chunks_[chunk]->bits[i % kChunk / 64] |= uint64_t(1) << (i % 64);
   }
-  // Whether `i` is in the set so far.
+  // True if `i` has been added.
   bool has(uint32_t i) const {
     const size_t chunk = i / kChunk;
     return chunk < chunks_.size() && chunks_[chunk] &&
            (chunks_[chunk]->bits[i % kChunk / 64] >> (i % 64) & 1);
   }
-  // No position is set after this; queries are valid only after it.
+  // Ends the construction: no set() afterwards, count() and rank() only afterwards.
   void seal() {
     count_ = 0;
     for (const auto& chunk : chunks_) {
@@ -49,15 +50,16 @@ class RankBitmap {
     }
   }
 
+  // Number of positions in the set.
   uint64_t count() const { return count_; }
-  // Of a position that is in the set.
+  // Number of positions below `i`, which must be in the set.
   uint32_t rank(uint32_t i) const {
     const Chunk& chunk = *chunks_[i / kChunk];
     const size_t word = i % kChunk / 64;
     return chunk.before[word] +
            uint32_t(std::popcount(chunk.bits[word] & ((uint64_t(1) << (i % 64)) - 1)));
   }
-  // visit(position) of all, ascending.
+  // Calls visit(position) for all positions, ascending.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (size_t c = 0; c < chunks_.size(); ++c) {
@@ -72,7 +74,7 @@ class RankBitmap {
   static constexpr size_t kChunk = size_t(1) << 16, kWords = kChunk / 64;
   struct Chunk {
     std::array<uint64_t, kWords> bits{};
-    std::array<uint32_t, kWords> before{};  // set before each word
+    std::array<uint32_t, kWords> before{};  // number of positions in the set before each word
   };
 
   void add_chunk(size_t chunk) {

@@ -1,9 +1,10 @@
 // An array that grows without moving its elements.
 //
-// Segments double in size, so element i is in segment floor(log2(i / first + 1)): two instructions.
-// Large segments use huge pages (streaming/memory/huge_pages.h), which are committed when they are
-// first touched, so a small array stays small. Rejected: std::vector (growing copies all elements
-// and holds them twice), one huge reservation (refused under strict overcommit).
+// Segments double in size, so element i is in segment floor(log2(i / 1024 + 1)): two instructions.
+// Large segments use huge pages (streaming/memory/huge_pages.h), which the system commits at their
+// first touch, so a small array stays small. T must be trivially copyable.
+// Rejected: std::vector (growing copies all elements and holds them twice), one huge mapping
+// (rejected by systems with strict overcommit).
 #pragma once
 
 #include <bit>
@@ -20,6 +21,7 @@ namespace svdag {
 template <class T>
 class SegmentedArray {
  public:
+  // `purpose`: see MemoryBudget::reserve().
   explicit SegmentedArray(MemoryBudget* budget, const char* purpose)
       : purpose_(purpose), reservation_(budget->reserve(0, purpose)) {}
 
@@ -27,6 +29,7 @@ class SegmentedArray {
   T& operator[](size_t i) { return *address(i); }
   const T& operator[](size_t i) const { return *address(i); }
 
+  // Error (kMemory) if the budget or the system has no memory.
   void push_back(const T& value) {
     if (size_ == capacity_) grow();
     if (size_ * sizeof(T) >= reservation_.bytes()) charge();
@@ -34,6 +37,7 @@ class SegmentedArray {
     ++size_;
   }
   void prefetch(size_t i) const { __builtin_prefetch(address(i)); }
+  // Frees all memory.
   void clear() {
     segments_.clear();
     size_ = capacity_ = 0;

@@ -28,34 +28,36 @@ constexpr long kAllowed[] = {
     SYS_futex,          SYS_sched_yield, SYS_rt_sigaction,  SYS_rt_sigreturn,
     SYS_rt_sigprocmask, SYS_close,       SYS_clock_gettime, SYS_lseek,
     SYS_fstat,          SYS_exit,        SYS_exit_group};
-// Calls of abort(): refused, so that it ends as a crash.
-constexpr long kRefused[] = {SYS_getpid, SYS_gettid, SYS_tgkill};
+// Calls of abort(). They fail with EPERM, so that abort() still ends the process with a crash.
+constexpr long kFailing[] = {SYS_getpid, SYS_gettid, SYS_tgkill};
 
 using Program = std::vector<sock_filter>;
 
-void load(uint32_t offset, Program* out) {
+void emit_load(uint32_t offset, Program* out) {
   out->push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offset));
 }
-void answer(uint32_t with, Program* out) {
-  out->push_back(BPF_STMT(BPF_RET | BPF_K, with));
+void emit_return(uint32_t action, Program* out) {
+  out->push_back(BPF_STMT(BPF_RET | BPF_K, action));
 }
-void answer_if(uint32_t value, uint32_t with, Program* out) {
+void emit_return_if_equal(uint32_t value, uint32_t action, Program* out) {
   out->push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1));
-  answer(with, out);
+  emit_return(action, out);
 }
 
 }  // namespace
 
-bool forbid_calls() {
+bool install_call_filter() {
   if (kProcessor == 0) return false;
   Program program;
-  load(offsetof(seccomp_data, arch), &program);
+  emit_load(offsetof(seccomp_data, arch), &program);
   program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kProcessor, 1, 0));
-  answer(SECCOMP_RET_KILL_PROCESS, &program);
-  load(offsetof(seccomp_data, nr), &program);
-  for (const long call : kAllowed) answer_if(uint32_t(call), SECCOMP_RET_ALLOW, &program);
-  for (const long call : kRefused) answer_if(uint32_t(call), SECCOMP_RET_ERRNO | EPERM, &program);
-  answer(SECCOMP_RET_KILL_PROCESS, &program);
+  emit_return(SECCOMP_RET_KILL_PROCESS, &program);
+  emit_load(offsetof(seccomp_data, nr), &program);
+  for (const long call : kAllowed)
+    emit_return_if_equal(uint32_t(call), SECCOMP_RET_ALLOW, &program);
+  for (const long call : kFailing)
+    emit_return_if_equal(uint32_t(call), SECCOMP_RET_ERRNO | EPERM, &program);
+  emit_return(SECCOMP_RET_KILL_PROCESS, &program);
   const sock_fprog filter = {static_cast<unsigned short>(program.size()), program.data()};
   return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;

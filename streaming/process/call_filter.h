@@ -1,10 +1,11 @@
-// The system calls that are left to a child that only computes (streaming/process/limited_child.h).
+// A filter of system calls for a child that only computes (streaming/process/limited_child.h).
 #pragma once
 
 namespace svdag {
 
-// From now on every other call ends this process with SIGSYS, for good. False where the system has
-// no seccomp filters, or no list of ours for its processor.
-bool forbid_calls();
+// Allows this process only the system calls of a computation; any other one ends it with SIGSYS.
+// This cannot be undone. Returns false if the system has no seccomp filters, or the processor is
+// neither x86-64 nor aarch64.
+bool install_call_filter();
 
 }  // namespace svdag

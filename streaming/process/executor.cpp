@@ -38,7 +38,7 @@ void ParallelExecutor::for_each(size_t count, const Task& task) {
     std::vector<std::jthread> threads;
     try {
       for (size_t w = 1; w < std::min(threads_, count); ++w) threads.emplace_back(work, w);
-    } catch (...) {  // no more threads, or no memory for them: the running ones stop soon
+    } catch (...) {  // out of threads or memory: the running threads stop after their task
       next = count;
       throw;
     }

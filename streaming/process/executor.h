@@ -1,5 +1,7 @@
-// Parallelism as a parameter (after madmann91/bvh): algorithms are written once against Executor
-// and run sequentially, on threads, or in tests with random delays that shuffle the schedule.
+// An interface that runs the tasks of a parallel loop (after madmann91/bvh).
+//
+// Algorithms are written once against Executor and run sequentially, on threads, or in tests with
+// delays that shuffle the schedule.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +14,11 @@ class Executor {
   using Task = std::function<void(size_t worker, size_t index)>;
 
   virtual ~Executor() = default;
-  // How many workers may run at once; a task may own the state number `worker` < workers().
+  // Maximum number of concurrent tasks, at least 1. Tasks that run at the same time have different
+  // numbers `worker` < workers(), so a task may use per-worker state.
   virtual size_t workers() const = 0;
-  // Runs task(worker, index) once for every index < count, low indices first, and waits for all.
-  // The first exception of a task stops the rest and is thrown here.
+  // Runs task(worker, index) once for every index < count, starting low indices first, and waits
+  // for all. After the first exception of a task no further ones start, and it is rethrown here.
   virtual void for_each(size_t count, const Task& task) = 0;
 };
 
@@ -27,7 +30,8 @@ class SequentialExecutor : public Executor {
 
 class ParallelExecutor : public Executor {
  public:
-  // `before_task`, if given, runs before each task on its thread (tests: random delays).
+  // `threads`: 0 counts as 1. `before_task`, if given, runs before each task on its thread (tests:
+  // delays).
   explicit ParallelExecutor(size_t threads, std::function<void(size_t index)> before_task = {});
   size_t workers() const override { return threads_; }
   void for_each(size_t count, const Task& task) override;
@@ -39,7 +43,7 @@ class ParallelExecutor : public Executor {
 
 // The number of processors this process may use.
 size_t available_processors();
-// What --threads says; 0: nothing, so all of them.
+// Returns `threads`, or available_processors() if it is 0 (--threads not given).
 inline size_t threads_or_all(size_t threads) {
   return threads != 0 ? threads : available_processors();
 }

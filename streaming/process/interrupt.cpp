@@ -10,9 +10,9 @@ namespace {
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> arrived{0};
-static_assert(std::atomic<int>::is_always_lock_free);  // or a handler must not touch it
+static_assert(std::atomic<int>::is_always_lock_free);  // required in a signal handler
 
-// After the first signal every one that is caught ends the process, whatever the first was.
+// Restores the default action of all caught signals: a second one of any kind ends the process.
 extern "C" void note_signal(int number) {
   arrived.store(number, std::memory_order_relaxed);
   for (const int each : kSignals) {
@@ -31,7 +31,7 @@ void catch_interrupts() {
   sigemptyset(&action.sa_mask);
   for (const int each : kSignals) {
     struct sigaction before;
-    // What is ignored stays so: nohup, and jobs in the background of a script.
+    // Ignored signals stay ignored: nohup, background jobs of a script.
     if (sigaction(each, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(each, &action, nullptr);
   }

@@ -1,24 +1,24 @@
 // Interruption by SIGINT (Ctrl-C), SIGTERM and SIGHUP.
 //
-// The handler only sets a flag; long work checks it at least every tenth of a second and unwinds
-// with an exception, so that files are closed and locks released. A second signal ends the process
-// at once.
+// The handler only sets a flag. Long work checks it at least ten times a second and unwinds with an
+// exception, so that files are closed and locks released. A second signal ends the process at once.
 #pragma once
 
 namespace svdag {
 
-// Thrown by check_interrupt(); not an Error, for nothing went wrong. main() exits with 128 + n.
+// Thrown by check_interrupt(). Not an Error, because nothing failed: run_program() exits with
+// 128 + signal.
 struct Interrupted {
   int signal;
-  bool resumable = false;     // set by who catches it and has saved work
-  const char* how = nullptr;  // to resume, where the program's own words for it do not hold
+  bool resumable = false;     // set by a catch block that has saved work
+  const char* how = nullptr;  // if set: replaces ProgramMessages::resumable
 };
 
-// Installs the handlers. Once, from main().
+// Installs the handlers, except for signals that are ignored. Called once, by main().
 void catch_interrupts();
 // Throws Interrupted if a signal has arrived. Cheap: one relaxed load.
 void check_interrupt();
-// For tests: pretends that `signal` arrived (0: none).
+// For tests: as if `signal` had arrived; 0 clears it.
 void pretend_interrupt(int signal);
 
 }  // namespace svdag

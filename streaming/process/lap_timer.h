@@ -1,4 +1,4 @@
-// Seconds between two laps, for what a report says of its phases.
+// A stopwatch for the phases of a report.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@ namespace svdag {
 
 class LapTimer {
  public:
-  // Since the last lap, or since it was made.
+  // Seconds since the previous call, or since construction.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     const double seconds = std::chrono::duration<double>(now - last_).count();

@@ -25,9 +25,9 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kLongestSentence = 1000;
+constexpr uint64_t kMaxSentence = 1000;  // bytes
 
-// What comes through the pipe: a frame, then its bytes.
+// Header of a message in the pipe; `bytes` bytes follow.
 struct Frame {
   enum Kind : uint32_t { kBlock = 1, kError = 2, kEnd = 3 };
   uint32_t kind;
@@ -35,7 +35,7 @@ struct Frame {
   uint64_t bytes;
 };
 
-// --- In the child. What fails here ends it; the parent finds no end.
+// --- In the child. A failure ends it, and the parent receives no kEnd.
 
 void write_all(int pipe, const void* data, size_t size) {
   for (const char* at = static_cast<const char*>(data); size > 0;) {
@@ -54,17 +54,16 @@ void write_frame(int pipe, Frame::Kind kind, uint32_t code, std::span<const std:
 }
 
 void write_error(int pipe, ExitCode code, const char* sentence) {
-  const size_t size = std::min<size_t>(std::strlen(sentence), kLongestSentence);
+  const size_t size = std::min<size_t>(std::strlen(sentence), kMaxSentence);
   write_frame(pipe, Frame::kError, uint32_t(code), std::as_bytes(std::span(sentence, size)));
 }
 
-// Beyond `soft` a signal is sent; `most` is the hard limit.
-void limit(int resource, uint64_t soft, uint64_t most) {
-  const rlimit value = {soft, most};
+void limit(int resource, uint64_t soft, uint64_t hard) {
+  const rlimit value = {soft, hard};
   if (::setrlimit(__rlimit_resource(resource), &value) != 0) ::_exit(1);
 }
 
-// Bytes of address space that are in use.
+// Size of the address space in use, in bytes.
 uint64_t address_space() {
   unsigned long long pages = 0;
   std::FILE* file = std::fopen("/proc/self/statm", "r");
@@ -73,9 +72,9 @@ uint64_t address_space() {
   return pages * uint64_t(::sysconf(_SC_PAGESIZE));
 }
 
-void give_up_rights(int pipe, const ChildLimits& limits) {
+void apply_limits(int pipe, const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // The handlers are for what the parent has: its outputs, and its files (mapped_file.h).
+  // The parent's handlers protect its outputs and its mapped files.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGBUS, SIGSEGV})
     ::signal(signal, SIG_DFL);
   const uint64_t memory = address_space() + limits.memory;
@@ -86,15 +85,15 @@ void give_up_rights(int pipe, const ChildLimits& limits) {
   if (pipe > 0) ::close_range(0, unsigned(pipe) - 1, 0);
   ::close_range(unsigned(pipe) + 1, ~0U, 0);
   limit(RLIMIT_NOFILE, 0, 0);
-  if (limits.filter && !forbid_calls()) {
+  if (limits.filter && !install_call_filter()) {
     write_error(pipe, ExitCode::kUsage, "--sandbox: this system has no seccomp filters");
     ::_exit(1);
   }
 }
 
-[[noreturn]] void be_child(int pipe, const ChildLimits& limits,
-                           const std::function<void(const BlockSink&)>& work) {
-  give_up_rights(pipe, limits);
+[[noreturn]] void run_child(int pipe, const ChildLimits& limits,
+                            const std::function<void(const BlockSink&)>& work) {
+  apply_limits(pipe, limits);
   try {
     work([pipe](std::span<const std::byte> bytes) {
       for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), kChildBlock)))
@@ -104,7 +103,7 @@ void give_up_rights(int pipe, const ChildLimits& limits) {
   } catch (const Error& error) {
     write_error(pipe, error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    write_error(pipe, ExitCode::kBadInput, "");  // said in words by the parent
+    write_error(pipe, ExitCode::kBadInput, "");  // the parent writes the message
   } catch (...) {
     ::_exit(1);
   }
@@ -113,20 +112,20 @@ void give_up_rights(int pipe, const ChildLimits& limits) {
 
 // --- In the parent.
 
-// The child, ended and waited for at the latest when this is destroyed.
+// The child process. The destructor kills it and waits for its end.
 class Child {
  public:
   Child(const ChildLimits& limits, const std::function<void(const BlockSink&)>& work) {
     std::array<int, 2> ends;
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error(ExitCode::kMemory, "--sandbox: no pipe can be had");
+      throw Error(ExitCode::kMemory, "--sandbox: cannot create a pipe");
     pipe_ = ends[0];
     pid_ = ::fork();
-    if (pid_ == 0) be_child(ends[1], limits, work);
+    if (pid_ == 0) run_child(ends[1], limits, work);
     ::close(ends[1]);
     if (pid_ < 0) {
       ::close(pipe_);
-      throw Error(ExitCode::kMemory, "--sandbox: no process can be had");
+      throw Error(ExitCode::kMemory, "--sandbox: cannot start a process");
     }
   }
   Child(const Child&) = delete;
@@ -136,7 +135,8 @@ class Child {
     if (pid_ > 0) end();
   }
 
-  // Fills `out`; false if the child closes the pipe before, or lets us wait too long.
+  // Fills `out`. Returns false if the child closes the pipe earlier, or sends nothing for ten times
+  // `seconds`.
   bool read(std::span<std::byte> out, uint64_t seconds) {
     while (!out.empty()) {
       check_interrupt();
@@ -153,10 +153,10 @@ class Child {
     return true;
   }
 
-  // Why it has ended, or was ended.
-  std::string fate(const ChildLimits& limits) {
+  // Ends the child and returns the reason for its end.
+  std::string end_reason(const ChildLimits& limits) {
     ::close(std::exchange(pipe_, -1));
-    for (int i = 0; i < 100 && !has_ended(); ++i) {  // a pipe is closed a little before the end
+    for (int i = 0; i < 100 && !has_ended(); ++i) {  // its pipe closes slightly before it ends
       const timespec moment = {0, 10'000'000};
       ::nanosleep(&moment, nullptr);
     }
@@ -164,11 +164,11 @@ class Child {
     if (!WIFSIGNALED(status)) return "it ended without a result";
     switch (WTERMSIG(status)) {
       case SIGSYS:
-        return "it made a system call that no decoder needs";
+        return "it made a forbidden system call";
       case SIGXCPU:
         return "it took more than " + std::to_string(limits.seconds) + " s of processor time";
       case SIGKILL:
-        return "it did not answer, or was killed";
+        return "it did not respond, or was killed";
       default:
         return "it crashed";
     }
@@ -180,7 +180,7 @@ class Child {
     return ::waitid(P_PID, id_t(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
   }
 
-  // A child that has ended already is not reached by the signal: its status stays what it was.
+  // Returns the wait status. If the child has already ended, the signal does not change that.
   int end() {
     ::kill(pid_, SIGKILL);
     int status = 0;
@@ -199,7 +199,7 @@ class Child {
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use) {
   const auto stopped = [&](const std::string& reason) {
-    check_interrupt();  // a terminal interrupts the child, too
+    check_interrupt();  // Ctrl-C on a terminal also ends the child
     fail_input(path, "the decoder was stopped: " + reason);
   };
   Child child(limits, work);
@@ -207,22 +207,22 @@ void run_limited(const ChildLimits& limits, const std::string& path,
   for (;;) {
     Frame frame = {};
     if (!child.read(std::as_writable_bytes(std::span(&frame, 1)), limits.seconds))
-      stopped(child.fate(limits));
+      stopped(child.end_reason(limits));
     if (frame.kind == Frame::kEnd && frame.bytes == 0) return;
-    const bool sound = (frame.kind == Frame::kBlock && frame.bytes <= kChildBlock) ||
-                       (frame.kind == Frame::kError && frame.bytes <= kLongestSentence);
-    if (!sound) stopped("it sent an invalid result");
+    const bool valid = (frame.kind == Frame::kBlock && frame.bytes <= kChildBlock) ||
+                       (frame.kind == Frame::kError && frame.bytes <= kMaxSentence);
+    if (!valid) stopped("it sent an invalid result");
     bytes.resize(size_t(frame.bytes));
-    if (!child.read(bytes, limits.seconds)) stopped(child.fate(limits));
+    if (!child.read(bytes, limits.seconds)) stopped(child.end_reason(limits));
     if (frame.kind == Frame::kBlock) {
       use(bytes);
       continue;
     }
     if (bytes.empty()) stopped("it needs more memory than it may have");
     const ExitCode code = ExitCode(frame.code);
-    const bool known = code == ExitCode::kMemory || code == ExitCode::kUsage;
+    const bool allowed = code == ExitCode::kMemory || code == ExitCode::kUsage;
     const std::string sentence(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    throw Error(known ? code : ExitCode::kBadInput, sentence);
+    throw Error(allowed ? code : ExitCode::kBadInput, sentence);
   }
 }
 

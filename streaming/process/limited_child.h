@@ -1,21 +1,21 @@
-// Work that reads untrusted bytes with code that is not ours, in a process that can only compute.
+// Runs third-party code on untrusted bytes, in a child process that can only compute.
 //
-// run_limited() forks. The child gives up its rights in this order: other files (all descriptors
-// but one pipe are closed, and none can be opened), memory and time beyond its limits (setrlimit),
-// privileges (no_new_privs), and all system calls but the dozen that a decoder of bytes in memory
-// needs (a seccomp filter: read, write, memory, locks, time, exit). It sends its result through the
-// pipe, in blocks, and exits. A crash, an exceeded limit or a forbidden call is one Error for the
-// caller.
+// run_limited() forks. The child limits its memory and processor time (setrlimit), closes all
+// descriptors but one pipe and cannot open any, gives up privileges (no_new_privs), and forbids
+// itself all system calls but the few that a decoder of bytes in memory needs (a seccomp filter:
+// read, write, memory, locks, time, exit). It sends its result through the pipe, in blocks, and
+// exits. A crash, an exceeded limit or a forbidden call is one Error for the caller.
 //
-// The caller treats the blocks as input from a hostile program: their sizes are checked here, their
-// content by the caller.
+// The blocks are input from a possibly hostile program: run_limited() checks their sizes, the
+// caller must check their content.
 //
-// Other threads of the parent do no harm: after fork() the child has one thread, glibc keeps its
-// allocator usable, and `work` uses nothing else that they may have locked (it must create its own
-// MemoryBudget). Rejected: a separate executable (neither a reader in a library nor a test knows
-// where it is installed), one long-lived child (a file could affect the next one), shared memory
-// for the result (a hostile child could change it after the check), ptrace (slow), seccomp's strict
-// mode (memory cannot be allocated).
+// The parent may have other threads: after fork() the child has one thread, glibc keeps its
+// allocator usable, and `work` must not use anything else that they may have locked (it creates its
+// own MemoryBudget).
+// Rejected: a separate executable (neither a reader in a library nor a test knows where it is
+// installed), one long-lived child (a file could affect the next one), shared memory for the result
+// (a hostile child could change it after the check), ptrace (slow), seccomp's strict mode (memory
+// cannot be allocated).
 #pragma once
 
 #include <cstddef>
@@ -27,20 +27,22 @@
 namespace svdag {
 
 struct ChildLimits {
-  uint64_t memory = 0;   // bytes that the child may have beyond what it inherits, used or free
-  uint64_t seconds = 0;  // of processor time; it may keep us waiting ten times as long
-  bool filter = true;  // false: any system call may be made; only crashes and floods are contained
+  uint64_t memory = 0;   // bytes of address space beyond those that the child inherits
+  uint64_t seconds = 0;  // of processor time; the parent waits ten times as long for each read
+  bool filter = true;    // false: all system calls are allowed; the limits still apply
 };
 
 using BlockSink = std::function<void(std::span<const std::byte>)>;
 
-// Bytes of a block at most; longer output is cut into blocks of so many. A multiple of the sizes of
-// points and triangles.
+// Maximum size of a block in bytes; longer output is split into such blocks. A multiple of the
+// sizes of points and triangles.
 constexpr size_t kChildBlock = size_t(72) * 8192;
 
-// Runs work(out) in a limited child and passes its output to `use`. Rethrows an Error of `work`; a
-// child that does not finish is an Error (kBadInput) "`path`: the decoder was stopped: it ...".
-// Error (kUsage) if a filter is requested and the system has none.
+// Runs work(out) in a limited child and passes the blocks of its output to `use`, in order. An
+// Error of `work` is rethrown with its message, and with its code if that is kMemory or kUsage,
+// else as kBadInput. If the child does not finish: Error (kBadInput) "PATH: the decoder was
+// stopped: it ...". Error (kUsage) if a filter is requested and the system has none; Error
+// (kMemory) if no process can be started. If `use` throws, the child is killed.
 void run_limited(const ChildLimits& limits, const std::string& path,
                  const std::function<void(const BlockSink& out)>& work, const BlockSink& use);
 

@@ -14,28 +14,30 @@
 namespace svdag {
 namespace {
 
-int tell(const ProgramWords& words, const char* sentence, int code) {
-  std::fprintf(stderr, "%s: %s\n", words.name, sentence);
+int print_message(const ProgramMessages& messages, const char* sentence, int code) {
+  std::fprintf(stderr, "%s: %s\n", messages.name, sentence);
   return code;
 }
 
-// A file that is written while it is read may cause any error, even an internal one: then the
-// write is reported.
-int print_error(const ProgramWords& words, const std::exception& error) {
-  const auto* known = dynamic_cast<const Error*>(&error);
+// A change of a mapped file may cause any error, even an internal one: the change is then reported
+// instead.
+int print_error(const ProgramMessages& messages, const std::exception& exception) {
+  const auto* error = dynamic_cast<const Error*>(&exception);
   const std::string* changed = changed_mapped_file();
-  if (changed != nullptr && (known == nullptr || known->code() != ExitCode::kBadInput))
-    return tell(words, changed->c_str(), int(ExitCode::kBadInput));
-  if (known != nullptr) return tell(words, known->what(), int(known->code()));
-  if (is_lack_of_memory(error)) return tell(words, words.no_memory, int(ExitCode::kMemory));
-  std::fprintf(stderr, "%s: internal error: %s; please report this\n", words.name, error.what());
+  if (changed != nullptr && (error == nullptr || error->code() != ExitCode::kBadInput))
+    return print_message(messages, changed->c_str(), int(ExitCode::kBadInput));
+  if (error != nullptr) return print_message(messages, error->what(), int(error->code()));
+  if (is_lack_of_memory(exception))
+    return print_message(messages, messages.no_memory, int(ExitCode::kMemory));
+  std::fprintf(stderr, "%s: internal error: %s; please report this\n", messages.name,
+               exception.what());
   return int(ExitCode::kInternal);
 }
 
-// Undoes what the parent process may have set: SIGCHLD ignored, so that no child could be waited
-// for, and a low limit of open files, where a merge has thousands of runs. And what a library may
-// have set when it was loaded: another rounding, denormals taken for zero.
-void settle_inheritance() {
+// Resets what the parent process may have set: an ignored SIGCHLD, with which children cannot be
+// waited for, and a low limit of open files (a merge opens thousands of runs). Also resets what the
+// initialization of a library may have set: the rounding mode, and denormals treated as zero.
+void reset_inherited_state() {
   constexpr rlim_t kOpenFiles = 65536;
   std::fesetenv(FE_DFL_ENV);
   ::signal(SIGCHLD, SIG_DFL);
@@ -47,22 +49,23 @@ void settle_inheritance() {
 
 }  // namespace
 
-int run_program(const ProgramWords& words, const std::function<int()>& work) {
-  settle_inheritance();
-  tell_of_lost_pages(words.name);
+int run_program(const ProgramMessages& messages, const std::function<int()>& work) {
+  reset_inherited_state();
+  install_lost_page_handlers(messages.name);
   try {
     const int result = work();
     if (const std::string* changed = changed_mapped_file(); changed != nullptr)
       throw Error(ExitCode::kBadInput, *changed);
-    // Of a write that failed earlier a last flush knows nothing.
+    // fflush() does not report writes that failed earlier; ferror() does.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;
   } catch (const Interrupted& interrupted) {
-    const char* resumable = interrupted.how != nullptr ? interrupted.how : words.resumable;
-    return tell(words, interrupted.resumable ? resumable : words.stopped, 128 + interrupted.signal);
-  } catch (const std::exception& error) {
-    return print_error(words, error);
+    const char* resumable = interrupted.how != nullptr ? interrupted.how : messages.resumable;
+    return print_message(messages, interrupted.resumable ? resumable : messages.stopped,
+                         128 + interrupted.signal);
+  } catch (const std::exception& exception) {
+    return print_error(messages, exception);
   }
 }
 

@@ -1,7 +1,7 @@
-// What every main() does around the work: the only place where an Error is caught.
+// The common frame of every main(): turns exceptions into a message and an exit code.
 //
-// Results go to standard output, which is flushed here, so that a full disk behind it is an error;
-// what was thrown becomes one sentence on standard error, and an exit code.
+// Results go to standard output, which is flushed here, so that a full disk behind it is an Error.
+// An exception becomes one sentence on standard error.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,16 @@
 
 namespace svdag {
 
-struct ProgramWords {
+// The program's name, and its messages for lack of memory and signals.
+struct ProgramMessages {
   const char* name;
   const char* no_memory = kNoMemory;
-  // After a signal, where nothing and where something can be continued.
-  const char* stopped = "stopped; nothing was written";
-  const char* resumable = stopped;
+  const char* stopped = "stopped; nothing was written";  // by a signal, without saved work
+  const char* resumable = stopped;                       // by a signal, with saved work
 };
 
-// The exit code: that of work(), or of what it threw.
-int run_program(const ProgramWords& words, const std::function<int()>& work);
+// Runs work() and returns the exit code of the process: the result of work(), an Error's code,
+// kMemory for lack of memory, kInternal for other exceptions, or 128 + signal.
+int run_program(const ProgramMessages& messages, const std::function<int()>& work);
 
 }  // namespace svdag

@@ -29,7 +29,8 @@ void Progress::advance(uint64_t steps) {
                           std::chrono::steady_clock::now() - start_)
                           .count();
   int64_t due = next_draw_.load(std::memory_order_relaxed);
-  // The thread that moves the deadline draws, one at a time: a terminal may block for longer.
+  // The thread that advances the deadline draws, unless another one still does: a terminal may
+  // block for longer than the interval.
   if (now < due || !next_draw_.compare_exchange_strong(due, now + 100)) return;
   if (drawing_.test_and_set(std::memory_order_acquire)) return;
   draw(done);
@@ -42,10 +43,11 @@ void Progress::draw(uint64_t done) {
     std::snprintf(count, sizeof count, " %3.0f %%", 100.0 * share(done));
   else if (done > 0)
     std::snprintf(count, sizeof count, " %llu", static_cast<unsigned long long>(done));
-  // The last column stays free, since some terminals wrap when it is written. What is counted
-  // matters more than the end of the name.
-  const size_t room = line_width(stderr) - 1, of_count = std::min(std::strlen(count), room);
-  show(name_.substr(0, room - of_count) + std::string(count, of_count));
+  // The last column stays free, since some terminals wrap when it is written. The name is truncated
+  // before the count.
+  const size_t columns = line_width(stderr) - 1;
+  const size_t count_columns = std::min(std::strlen(count), columns);
+  show(name_.substr(0, columns - count_columns) + std::string(count, count_columns));
 }
 
 void Progress::show(std::string line) {

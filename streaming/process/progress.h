@@ -1,9 +1,9 @@
-// A progress line on stderr: only on a terminal, erased at the end. It names a phase when it
-// begins, and counts its steps at most ten times a second.
+// A progress line on stderr that shows the current phase and its share or number of steps.
+//
+// It appears only on a terminal, is redrawn at most ten times a second, and is erased at the end.
 //
 // The line is redrawn with a carriage return and spaces, without escape sequences, and truncated to
-// the terminal's width, because a wrapped line cannot be redrawn. A dumb terminal shows it only on
-// request.
+// the terminal's width, because a wrapped line cannot be redrawn. TERM=dumb shows it only with kOn.
 #pragma once
 
 #include <atomic>
@@ -20,17 +20,18 @@ class Progress {
   explicit Progress(Mode mode = Mode::kOff);
   ~Progress() { finish(); }
 
-  // Starts a phase of `total` steps (0 = unknown).
+  // Starts a phase of `total` steps; 0: unknown, the steps are counted.
   void phase(const std::string& name, uint64_t total);
-  // Counts steps; safe to call from any thread.
+  // Adds steps that are done. Thread-safe.
   void advance(uint64_t steps = 1);
+  // Erases the line.
   void finish();
-  // The share of the phase that is done, or of what it is an Interval of; 0 if its length is
-  // unknown.
+  // Share of the work that is done, 0 to 1: of the phase, or of the whole if the phase is in an
+  // Interval. A phase with unknown total counts as 0.
   double share() const { return share(done_.load()); }
 
-  // While it lives, every phase is the part from `begin` to `end` of the whole, 0 to 1; or of the
-  // Interval around it. So what is done in many phases of one kind is counted once.
+  // While it exists, every phase covers the range `begin` to `end` (0 to 1) of the whole, or of the
+  // enclosing Interval: many phases then advance one common share.
   class Interval {
    public:
     Interval(Progress* progress, double begin, double end)
@@ -47,7 +48,7 @@ class Progress {
 
    private:
     Progress* progress_;
-    double begin_, size_;  // of what is around it
+    double begin_, size_;  // of the enclosing interval
   };
 
  private:
@@ -61,7 +62,7 @@ class Progress {
   size_t drawn_ = 0;  // columns of the line on the terminal
   std::string name_;
   uint64_t total_ = 0;
-  double begin_ = 0, size_ = 1;  // of the Interval
+  double begin_ = 0, size_ = 1;  // of the current Interval
   std::atomic<uint64_t> done_{0};
   std::atomic<int64_t> next_draw_{0};  // milliseconds since start_
   std::atomic_flag drawing_;

@@ -7,7 +7,7 @@ namespace svdag {
 std::string shell_word(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-  // In the place of a program "a=b" would be an assignment; an option is never there.
+  // As the first word of a command "a=b" would be an assignment. An option never is the first word.
   const bool assigns = !word.starts_with('-') && word.find('=') != std::string::npos;
   const bool plain = word.find_first_not_of(kPlain) == std::string::npos;
   if (!word.empty() && plain && !assigns) return word;

@@ -1,4 +1,4 @@
-// Text to and from other programs.
+// Command lines for sh, and the output of other programs.
 #pragma once
 
 #include <string>
@@ -6,13 +6,13 @@
 
 namespace svdag {
 
-// `word` so that sh reads it as one word.
+// Quotes `word`, where necessary, so that sh reads it as one word.
 std::string shell_word(const std::string& word);
-// All of `words`, with blanks between them.
+// All of `words`, quoted and separated by spaces.
 std::string shell_words(const std::vector<std::string>& words);
-// Lines joined by "; ".
+// The non-empty lines of `text`, joined by "; ".
 std::string one_line(const std::string& text);
-// The last line that is not empty.
+// The last non-empty line of `text`; empty if there is none.
 std::string last_line_of(const std::string& text);
 
 }  // namespace svdag

@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-// 0 without a terminal, or if its width is unknown.
+// Width of the terminal; 0 without a terminal, or if it is unknown.
 size_t columns_of(std::FILE* stream) {
   struct winsize size = {};
   return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
@@ -19,8 +19,8 @@ size_t columns_of(std::FILE* stream) {
 }  // namespace
 
 size_t text_width(std::FILE* stream) {
-  const char* columns_set = std::getenv("COLUMNS");
-  size_t columns = columns_set == nullptr ? 0 : std::strtoul(columns_set, nullptr, 10);
+  const char* variable = std::getenv("COLUMNS");
+  size_t columns = variable == nullptr ? 0 : std::strtoul(variable, nullptr, 10);
   if (columns == 0) columns = columns_of(stream);
   if (columns == 0) columns = 80;
   return std::clamp<size_t>(columns, 40, 100);

@@ -1,4 +1,4 @@
-// The terminal behind a stream: how wide it is, and whether a line on it can be drawn again.
+// Properties of the terminal behind a stream: its width, and whether a line can be redrawn.
 #pragma once
 
 #include <cstddef>
@@ -6,14 +6,14 @@
 
 namespace svdag {
 
-// Columns for text: COLUMNS if set, else the terminal's, else 80; at least 40, and at most 100,
-// beyond which lines are hard to read.
+// Columns for text: $COLUMNS if set, else the terminal's width, else 80; clamped to 40 .. 100,
+// since longer lines are hard to read.
 size_t text_width(std::FILE* stream);
 
-// Columns of a line that is drawn again and again: those of the terminal; 80 if it does not tell.
+// Columns for a line that is redrawn: the terminal's width, or 80 if it is unknown.
 size_t line_width(std::FILE* stream);
 
-// A terminal that moves its cursor; TERM=dumb says that it does not.
+// True if `stream` is a terminal that can move its cursor: not one with TERM=dumb.
 bool is_lively(std::FILE* stream);
 
 }  // namespace svdag

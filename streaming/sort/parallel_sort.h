@@ -1,9 +1,9 @@
-// Sorts an array with several workers: it is split into buckets by its leading digits, all workers
-// dealing at once; then each bucket is small and sorted by one of them
+// The parallel first phase of a sort: all workers together split an array into buckets by leading
+// digits, in ascending order; each bucket is then sorted by one worker
 // (streaming/sort/radix_sort.h).
 //
-// A bucket that is still large, because most records agree in those digits (most nodes have no
-// first child), is split again. The buckets come out as a list in ascending order.
+// A bucket that is still large, because most records agree in a digit (most nodes have no first
+// child), is split again.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,8 @@
 
 namespace svdag {
 
-// Records [0, count) of `at`, which agree in the words before `first` and may use `other` as well.
+// `count` records from `at` on, which agree in the key words before `first`. `other`: as much
+// memory, which may be overwritten.
 template <class Record>
 struct SortBucket {
   Record* at;
@@ -36,32 +37,33 @@ class ParallelSplit {
   ParallelSplit(const RadixSort<Record, Word>& order, Executor* executor)
       : order_(order), executor_(executor) {}
 
-  // Buckets of at most `most` records, or of equal ones, in order. Records may be in either array.
-  std::vector<Bucket> split(Bucket whole, size_t most) {
-    most_ = std::max<size_t>(most, 1);
+  // Splits `whole` into ascending buckets of at most `max_records` records; more only if all are
+  // equal. The records of a bucket may be in either array.
+  std::vector<Bucket> split(Bucket whole, size_t max_records) {
+    max_records_ = std::max<size_t>(max_records, 1);
     buckets_.clear();
     add(whole);
     return std::move(buckets_);
   }
 
  private:
-  static constexpr int kWidest = 10;
-  static constexpr size_t kValues = size_t(1) << kWidest;
+  static constexpr int kMaxBits = 10;
+  static constexpr size_t kValues = size_t(1) << kMaxBits;
   using Counts = std::array<size_t, kValues>;
 
   void add(const Bucket& bucket) {
     RadixDigit digit;
-    if (bucket.count <= most_ || !find_digit(bucket, &digit)) {
+    if (bucket.count <= max_records_ || !find_digit(bucket, &digit)) {
       if (bucket.count > 0) buckets_.push_back(bucket);
       return;
     }
-    const std::vector<size_t> begin = deal(bucket, digit);
+    const std::vector<size_t> begin = distribute(bucket, digit);
     for (size_t d = 0; d < digit.values(); ++d) {
       add({bucket.other + begin[d], bucket.at + begin[d], begin[d + 1] - begin[d], digit.word});
     }
   }
 
-  // Runs task(chunk, records of the chunk) for as many chunks as there are workers.
+  // Runs task(chunk, records of the chunk), with one chunk per worker.
   template <class Task>
   void for_chunks(const Bucket& bucket, const Task& task) {
     const size_t chunks = executor_->workers();
@@ -71,6 +73,7 @@ class ParallelSplit {
     });
   }
 
+  // As RadixSort::find_digit(), in parallel.
   bool find_digit(const Bucket& bucket, RadixDigit* digit) {
     std::vector<uint32_t> bits(executor_->workers());
     for (size_t w = bucket.first; w < order_.words(); ++w) {
@@ -80,15 +83,15 @@ class ParallelSplit {
       uint32_t all = 0;
       for (const uint32_t b : bits) all |= b;
       if (all == 0) continue;
-      const int width = std::clamp(int(std::bit_width(bucket.count)) - 12, 6, kWidest);
+      const int width = std::clamp(int(std::bit_width(bucket.count)) - 12, 6, kMaxBits);
       *digit = order_.digit_at(w, all, width);
       return true;
     }
     return false;
   }
 
-  // Moves the records to bucket.other by their digit; where each value begins there.
-  std::vector<size_t> deal(const Bucket& bucket, const RadixDigit& digit) {
+  // Moves the records to bucket.other, ordered by their digit. Returns where each value begins.
+  std::vector<size_t> distribute(const Bucket& bucket, const RadixDigit& digit) {
     const size_t values = digit.values();
     std::vector<Counts> next(executor_->workers());  // [chunk][value]
     for_chunks(bucket, [&](size_t c, std::span<const Record> records) {
@@ -111,11 +114,12 @@ class ParallelSplit {
 
   const RadixSort<Record, Word>& order_;
   Executor* executor_;
-  size_t most_ = 1;
+  size_t max_records_ = 1;
   std::vector<Bucket> buckets_;
 };
 
-// Cuts a list of buckets into `parts` of about as many records each; where each part begins.
+// Divides a list of buckets into `parts` parts with about the same number of records. Returns the
+// index of the first bucket of each part, and buckets.size() as the last element.
 template <class Record>
 std::vector<size_t> even_parts(std::span<const SortBucket<Record>> buckets, size_t parts) {
   size_t total = 0, before = 0;

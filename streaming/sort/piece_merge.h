@@ -1,14 +1,14 @@
-// The k-way merge of sorted streams of a spill file, by several workers at once.
+// A parallel k-way merge of sorted streams of a spill file.
 //
-// The index of a stream holds the first record of each of its blocks. All blocks of all streams,
+// The index of a stream is the list of the first records of its blocks. All blocks of all streams,
 // ordered by their first records (the *schedule*), are in the order in which a merge needs them
 // (the "prediction sequence" of Hutchinson, Sanders and Vitter). So they are read in this order,
-// each once, ahead of their use. A *piece* holds the records between the first records of two
+// each once, ahead of their use. A *piece* is the range of records between the first records of two
 // blocks of the schedule that are `step` blocks apart: `step` new blocks and the rest of at most
 // one block per stream. Pieces are cut in order, merged by any free worker, and delivered in order.
-// Equal records are ordered by stream and block, so a cut is exact however many there are.
-// Rejected: one range of keys per worker (the second range could only be delivered when the first
-// is done), a reader per stream (twice the memory, and reads out of order).
+// Equal records are ordered by stream and block, so cuts are exact for any number of them.
+// Rejected: one range of keys per worker (the second range could only be delivered after the
+// first), a reader per stream (twice the memory, and reads out of order).
 #pragma once
 
 #include <algorithm>
@@ -29,14 +29,14 @@
 
 namespace svdag {
 
-// Ascending records in a spill file, and the first one of each block.
+// A stream of ascending records in a spill file, and its index.
 template <class Record>
 struct SortedStream {
   SpillStream stream;
-  std::vector<Record> firsts;
+  std::vector<Record> firsts;  // the first record of each block
 };
 
-// Records of a piece that one stream has, in one or more of its blocks.
+// The records that one stream contributes to a piece, from one or more of its blocks.
 template <class Record>
 class PieceSource {
  public:
@@ -64,11 +64,12 @@ class PieceSource {
 template <class Record, class Word>
 class PieceMerge {
  public:
-  // Streams that can be merged, and blocks per piece, with memory for `blocks` blocks: those of the
-  // pieces being merged, what is read ahead, what is left over, and as much for the output.
-  static size_t most_streams(size_t blocks, size_t workers) { return blocks / (2 * workers + 2); }
+  // Maximum number of streams that can be merged with memory for `blocks` blocks: those of the
+  // pieces being merged, of the read-ahead, of the rests, and of the output.
+  static size_t max_streams(size_t blocks, size_t workers) { return blocks / (2 * workers + 2); }
+  // Number of new blocks per piece with that memory, at least 1.
   static size_t step(size_t blocks, size_t streams, size_t workers) {
-    const size_t held = std::min((workers + 1) * streams, blocks);  // of streams, whatever the step
+    const size_t held = std::min((workers + 1) * streams, blocks);  // for streams, with any step
     return std::max<size_t>((blocks - held) / (2 * workers + 1), 1);
   }
 
@@ -83,30 +84,31 @@ class PieceMerge {
     for (uint32_t s = 0; s < streams.size(); ++s) {
       for (uint32_t b = 0; b < streams[s].firsts.size(); ++b) schedule_.push_back({s, b});
     }
-    std::sort(schedule_.begin(), schedule_.end(), [&](const Place& a, const Place& b) {
+    std::sort(schedule_.begin(), schedule_.end(), [&](const BlockId& a, const BlockId& b) {
       if (order_.less(first(a), first(b))) return true;
       if (order_.less(first(b), first(a))) return false;
       return a.stream != b.stream ? a.stream < b.stream : a.block < b.block;
     });
   }
 
-  // take(records) gets all of them in ascending order: one call at a time, by any worker.
-  template <class Take>
-  void run(const Take& take) {
+  // Calls sink(span of records) with all records in ascending order: one call at a time, each on
+  // the thread of any worker.
+  template <class Sink>
+  void run(const Sink& sink) {
     request(step_);
-    std::vector<HugeVector<Record>> rooms(executor_->workers());
+    std::vector<HugeVector<Record>> outputs(executor_->workers());
     std::vector<MemoryBudget::Reservation> reserved;
-    for (HugeVector<Record>& room : rooms) {
-      const size_t most = (step_ + streams_.size()) * file_->block_bytes() / sizeof(Record);
-      reserved.push_back(budget_->reserve(most * sizeof(Record), "merging"));
-      room.reserve(most);
+    for (HugeVector<Record>& output : outputs) {
+      const size_t max_records = (step_ + streams_.size()) * file_->block_bytes() / sizeof(Record);
+      reserved.push_back(budget_->reserve(max_records * sizeof(Record), "merge buffers"));
+      output.reserve(max_records);
     }
     const size_t pieces = (schedule_.size() + step_ - 1) / step_;
     executor_->for_each(pieces, [&](size_t worker, size_t) {
       try {
         check_interrupt();
-        std::optional<Piece> piece = cut();
-        if (piece) merge_piece(&*piece, &rooms[worker], take);
+        std::optional<MergePiece> piece = cut();
+        if (piece) merge_piece(&*piece, &outputs[worker], sink);
       } catch (...) {
         turns_.fail();
         throw;
@@ -115,38 +117,36 @@ class PieceMerge {
   }
 
  private:
-  struct Place {
-    uint32_t stream, block;
+  struct BlockId {
+    uint32_t stream, block;  // indices of the stream, and of the block in its stream
   };
-  // A block in memory, and those of its records that no piece has got yet.
-  struct Block {
-    Place place;
+  // A block in memory, and a range of its records.
+  struct LoadedBlock {
+    BlockId id;
     std::shared_ptr<SpillFetch> fetch;
-    std::span<const Record> left;
+    std::span<const Record> records;
   };
-  struct Piece {
+  struct MergePiece {
     size_t number;
-    std::vector<Block> blocks;  // [left]: what belongs to the piece; by stream and place
+    std::vector<LoadedBlock> blocks;  // the records of the piece; sorted by id
   };
 
-  const Record& first(const Place& place) const {
-    return streams_[place.stream].firsts[place.block];
-  }
+  const Record& first(const BlockId& id) const { return streams_[id.stream].firsts[id.block]; }
 
   // Requests the next `count` blocks of the schedule.
   void request(size_t count) {
-    for (; count > 0 && asked_ < schedule_.size(); --count) {
-      const Place place = schedule_[asked_++];
-      coming_.push_back(fetch(place));
+    for (; count > 0 && requested_ < schedule_.size(); --count) {
+      const BlockId id = schedule_[requested_++];
+      pending_.push_back(fetch(id));
     }
   }
-  // There is room for it among the idle ones, for it may come back where nothing may be thrown.
+  // Reserves a slot of idle_ for the block, because the deleter that returns it must not throw.
   SpillBlock new_block() {
     const std::lock_guard lock(idle_mutex_);
-    idle_.reserve(++blocks_);
+    idle_.reserve(++block_count_);
     return {budget_, file_->block_bytes()};
   }
-  std::shared_ptr<SpillFetch> fetch(const Place& place) {
+  std::shared_ptr<SpillFetch> fetch(const BlockId& id) {
     SpillBlock block;
     {
       const std::lock_guard lock(idle_mutex_);
@@ -154,7 +154,7 @@ class PieceMerge {
     }
     if (!block) block = new_block();
     auto* const fetch =
-        new SpillFetch(file_, streams_[place.stream].stream, place.block, std::move(block));
+        new SpillFetch(file_, streams_[id.stream].stream, id.block, std::move(block));
     return {fetch, [this](SpillFetch* done) {
               SpillBlock memory = done->take_block();
               delete done;
@@ -163,25 +163,25 @@ class PieceMerge {
             }};
   }
 
-  // The next piece; none after another worker has failed here: the blocks are in an invalid state,
-  // and its error is the one to report.
-  std::optional<Piece> cut() {
+  // Returns the next piece. Returns none if another worker has failed here: the state is then
+  // invalid, and that worker reports the error.
+  std::optional<MergePiece> cut() {
     const std::lock_guard lock(cut_mutex_);
     if (cut_failed_) return std::nullopt;
-    cut_failed_ = true;  // until it is done
-    Piece piece = cut_next();
+    cut_failed_ = true;  // if cut_next() throws
+    MergePiece piece = cut_next();
     cut_failed_ = false;
     return piece;
   }
 
-  // Of all blocks at hand what goes before the first record of the next one.
-  Piece cut_next() {
-    Piece piece{cut_ / step_, std::move(open_)};
-    open_.clear();
+  // Returns the records of all loaded blocks that go before the first record of the next block.
+  MergePiece cut_next() {
+    MergePiece piece{cut_ / step_, std::move(rests_)};
+    rests_.clear();
     const size_t until = std::min(cut_ + step_, schedule_.size());
     for (; cut_ < until; ++cut_) {
-      std::shared_ptr<SpillFetch> fetch = std::move(coming_.front());
-      coming_.pop_front();
+      std::shared_ptr<SpillFetch> fetch = std::move(pending_.front());
+      pending_.pop_front();
       const std::span<std::byte> bytes = fetch->wait();
       const auto* const records = reinterpret_cast<const Record*>(bytes.data());
       piece.blocks.push_back(
@@ -189,61 +189,62 @@ class PieceMerge {
     }
     request(step_);
     if (until < schedule_.size()) {
-      for (Block& block : piece.blocks) {
-        const size_t n = before(block, schedule_[until]);
-        if (n < block.left.size()) {
-          open_.push_back(block);
-          open_.back().left = block.left.subspan(n);
-          block.left = block.left.first(n);
+      for (LoadedBlock& block : piece.blocks) {
+        const size_t n = count_before(block, schedule_[until]);
+        if (n < block.records.size()) {
+          rests_.push_back(block);
+          rests_.back().records = block.records.subspan(n);
+          block.records = block.records.first(n);
         }
       }
     }
-    std::sort(piece.blocks.begin(), piece.blocks.end(), [](const Block& a, const Block& b) {
-      return a.place.stream != b.place.stream ? a.place.stream < b.place.stream
-                                              : a.place.block < b.place.block;
-    });
+    std::sort(
+        piece.blocks.begin(), piece.blocks.end(), [](const LoadedBlock& a, const LoadedBlock& b) {
+          return a.id.stream != b.id.stream ? a.id.stream < b.id.stream : a.id.block < b.id.block;
+        });
     return piece;
   }
 
-  // How many records of `block` go before the block at `bound`.
-  size_t before(const Block& block, const Place& bound) const {
-    if (block.place.stream == bound.stream) return block.left.size();
+  // Number of records of `block` that go before block `bound`.
+  size_t count_before(const LoadedBlock& block, const BlockId& bound) const {
+    const std::span<const Record> records = block.records;
+    if (block.id.stream == bound.stream) return records.size();
     const Record& limit = first(bound);
     const auto less = [&](const Record& a, const Record& b) { return order_.less(a, b); };
-    const auto at = block.place.stream < bound.stream
-                        ? std::upper_bound(block.left.begin(), block.left.end(), limit, less)
-                        : std::lower_bound(block.left.begin(), block.left.end(), limit, less);
-    return size_t(at - block.left.begin());
+    const auto at = block.id.stream < bound.stream
+                        ? std::upper_bound(records.begin(), records.end(), limit, less)
+                        : std::lower_bound(records.begin(), records.end(), limit, less);
+    return size_t(at - records.begin());
   }
 
-  template <class Take>
-  void merge_piece(Piece* piece, HugeVector<Record>* room, const Take& take) {
+  template <class Sink>
+  void merge_piece(MergePiece* piece, HugeVector<Record>* output, const Sink& sink) {
     std::vector<PieceSource<Record>> sources;
     for (size_t b = 0; b < piece->blocks.size(); ++b) {
-      if (piece->blocks[b].left.empty()) continue;
+      if (piece->blocks[b].records.empty()) continue;
       const bool same =
-          !sources.empty() && last_stream_of(*piece, b) == piece->blocks[b].place.stream;
+          !sources.empty() && last_stream_before(*piece, b) == piece->blocks[b].id.stream;
       if (!same) sources.emplace_back();
-      sources.back().add(piece->blocks[b].left);
+      sources.back().add(piece->blocks[b].records);
     }
     if (sources.size() == 1) {
-      turns_.take(piece->number, [&] {
-        for (const auto records : sources[0].spans()) take(records);
-        piece->blocks.clear();  // memory for what is read ahead; the next turn may need it
+      turns_.run(piece->number, [&] {
+        for (const auto records : sources[0].spans()) sink(records);
+        piece->blocks.clear();  // frees memory for the read-ahead, which the next turn may need
       });
       return;
     }
-    merge(sources, room);
-    piece->blocks.clear();  // memory for what is read ahead
-    turns_.take(piece->number, [&] {
-      if (!room->empty()) take(std::span<const Record>(*room));
+    merge(sources, output);
+    piece->blocks.clear();  // frees memory for the read-ahead
+    turns_.run(piece->number, [&] {
+      if (!output->empty()) sink(std::span<const Record>(*output));
     });
   }
 
-  // The stream of the last non-empty block before block b.
-  static uint32_t last_stream_of(const Piece& piece, size_t b) {
+  // The stream of the last non-empty block before block b; UINT32_MAX if there is none.
+  static uint32_t last_stream_before(const MergePiece& piece, size_t b) {
     while (b-- > 0) {
-      if (!piece.blocks[b].left.empty()) return piece.blocks[b].place.stream;
+      if (!piece.blocks[b].records.empty()) return piece.blocks[b].id.stream;
     }
     return UINT32_MAX;
   }
@@ -292,17 +293,17 @@ class PieceMerge {
   MemoryBudget* budget_;
   const RadixSort<Record, Word>& order_;
   Executor* executor_;
-  std::vector<Place> schedule_;
+  std::vector<BlockId> schedule_;
 
   std::mutex idle_mutex_;
-  std::vector<SpillBlock> idle_;  // memory to read into; before all that gives it back
-  size_t blocks_ = 0;             // that there are, idle or not
+  std::vector<SpillBlock> idle_;  // memory to read into; outlives the fetches that return theirs
+  size_t block_count_ = 0;        // of all blocks, idle or not
   Turns turns_;
-  std::mutex cut_mutex_;  // all that follows
+  std::mutex cut_mutex_;  // guards all that follows
   bool cut_failed_ = false;
-  size_t asked_ = 0, cut_ = 0;  // places of the schedule
-  std::deque<std::shared_ptr<SpillFetch>> coming_;
-  std::vector<Block> open_;  // with records that no piece has got yet
+  size_t requested_ = 0, cut_ = 0;  // number of blocks of the schedule that were requested, cut
+  std::deque<std::shared_ptr<SpillFetch>> pending_;
+  std::vector<LoadedBlock> rests_;  // records that belong to later pieces
 };
 
 }  // namespace svdag

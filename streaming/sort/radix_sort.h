@@ -2,11 +2,11 @@
 //
 // Notation: n records, key words w = 0, 1, ...; a bucket is a range of records that agree in all
 // bits before a position. Each step finds the first bit in which the bucket's records differ (ranks
-// are small numbers, so most leading bits agree), deals the records into 2^k buckets by the k bits
-// from there on, k such that a few are left in each, and sorts each bucket in turn. Records go back
-// and forth between two arrays, a step per way, so none is ever copied back. Up to 16 records are
-// ranked: how many go before each is counted, without a branch, by 64 bits of key from the first
-// word in which they may differ.
+// are small numbers, so most leading bits agree), distributes the records to 2^k buckets by the k
+// bits from there on, with k such that a few records remain in each, and recurses. Each step moves
+// the records to the other of two arrays, so none is copied back. Up to 16 records are sorted by
+// rank: for each, the number of smaller ones is counted without branches, comparing 64 bits of the
+// key from the first word in which they may differ.
 // Rejected: LSD radix (32 passes over 36-byte records: 6 M keys/s), std::sort alone (15 M keys/s),
 // std::sort for small buckets (every second comparison is a mispredicted branch).
 #pragma once
@@ -20,34 +20,35 @@
 
 namespace svdag {
 
-// `width` bits of a key word from bit `shift` on.
+// `width` bits of key word `word`, from bit `shift` (0 is the lowest) upwards.
 struct RadixDigit {
   size_t word;
   int shift, width;
 
+  // Number of different values.
   size_t values() const { return size_t(1) << width; }
   size_t of(uint32_t key_word) const { return (key_word >> shift) & (values() - 1); }
 };
 
-// `word(record, i)` gives key word i < words.
+// `word(record, i)` returns key word i < words as u32.
 template <class Record, class Word>
 class RadixSort {
  public:
-  static constexpr int kWidest = 10;
+  static constexpr int kMaxBits = 10;
 
   RadixSort(size_t words, Word word) : words_(words), word_(word) {}
 
-  // Sorts n records of `from`, whose words before `first` agree, into `other` if `across`, else in
-  // place; both arrays are used. Records with equal keys may come out in any order.
+  // Sorts n records of `from`, which agree in the words before `first`: into `other` if `across`,
+  // else in place. Overwrites both arrays. Records with equal keys come out in any order.
   void sort(Record* from, Record* other, size_t n, bool across, size_t first = 0) const {
     if (n <= kSmall) return rank(from, other, n, across, first);
-    const int width = std::clamp(int(std::bit_width(n)) - 2, 3, kWidest);
+    const int width = std::clamp(int(std::bit_width(n)) - 2, 3, kMaxBits);
     RadixDigit digit;
     if (!find_digit({from, n}, first, width, &digit)) {
       if (across) std::copy_n(from, n, other);
       return;
     }
-    std::array<size_t, (size_t(1) << kWidest) + 1> end;  // after dealing: where each bucket ends
+    std::array<size_t, (size_t(1) << kMaxBits) + 1> end;  // in the end: where each bucket ends
     std::fill_n(end.begin(), digit.values() + 1, 0);
     for (size_t i = 0; i < n; ++i) ++end[value(from[i], digit) + 1];
     for (size_t d = 0; d < digit.values(); ++d) end[d + 1] += end[d];
@@ -57,7 +58,8 @@ class RadixSort {
     }
   }
 
-  // The first `width` bits in which the records may differ; false if they are all equal.
+  // Finds the first `width` bits in which the records may differ, from word `first` on. Returns
+  // false if all records are equal.
   bool find_digit(std::span<const Record> records, size_t first, int width,
                   RadixDigit* digit) const {
     for (size_t w = first; w < words_; ++w) {
@@ -70,11 +72,12 @@ class RadixSort {
   }
   // Bits of word w in which any of the records differs from `like`.
   uint32_t differing(std::span<const Record> records, const Record& like, size_t w) const {
-    const uint32_t wanted = word_(like, w);
+    const uint32_t reference = word_(like, w);
     uint32_t bits = 0;
-    for (const Record& r : records) bits |= word_(r, w) ^ wanted;
+    for (const Record& r : records) bits |= word_(r, w) ^ reference;
     return bits;
   }
+  // The digit of at most `width` bits that begins with the highest set bit of `bits`.
   static RadixDigit digit_at(size_t w, uint32_t bits, int width) {
     const int top = 32 - std::countl_zero(bits);
     return {w, std::max(top - width, 0), std::min(top, width)};
@@ -83,7 +86,7 @@ class RadixSort {
     return digit.of(word_(r, digit.word));
   }
 
-  // Words w and w + 1 of the key as one number; behind the last word are zeros.
+  // Words w and w + 1 of the key as one number; zeros follow the last word.
   uint64_t prefix(const Record& r, size_t w) const {
     return uint64_t(word_(r, w)) << 32 | (w + 1 < words_ ? word_(r, w + 1) : 0);
   }
@@ -121,8 +124,8 @@ class RadixSort {
     if (!across) std::copy_n(other, n, from);
   }
 
-  // Some of the keys are equal: adds to each rank those of its equals that go before it by the
-  // words from `first` on, or by their place.
+  // Some keys are equal: adds to each rank the number of records with the same key that go before,
+  // by their words from `first` on, or else by their index.
   void break_ties(const Record* from, const uint64_t* keys, size_t n, size_t first,
                   size_t* ranks) const {
     for (size_t i = 1; i < n; ++i) {
@@ -136,7 +139,8 @@ class RadixSort {
   Word word_;
 };
 
-// Sorts `records` ascending. `scratch`, a vector of records, grows to their number.
+// Sorts `records` ascending by `words` key words. `scratch`: a vector of records for temporary
+// data, enlarged to their number if necessary.
 template <class Record, class Word, class Vector>
 void radix_sort(std::span<Record> records, size_t words, Word word, Vector* scratch) {
   if (scratch->size() < records.size()) scratch->resize(records.size());

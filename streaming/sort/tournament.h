@@ -1,10 +1,10 @@
-// Which of many sorted sources has the smallest head: a tree of losers (Knuth, TAOCP 3, 5.4.1).
+// A tree of losers (Knuth, TAOCP 3, 5.4.1) that finds the smallest head of many sorted sources.
 //
-// Every inner node remembers the loser of the match that was played there, so replacing the winner
-// costs one comparison per level, up the path from its leaf. A node holds the first 64 bits of its
-// loser's head as well: they decide most matches without a look at the sources, and without a
-// branch. Rejected: a binary heap (two comparisons per level), a linear search (linear in sources:
-// fine for three, not for three hundred).
+// Every inner node stores the loser of its match, so replacing the winner costs one comparison per
+// level on the path from its leaf to the root. A node also stores the first 64 bits of its loser's
+// head, which decide most matches without reading the sources and without a branch.
+// Rejected: a binary heap (two comparisons per level), a linear search (fine for three sources, not
+// for three hundred).
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,9 @@
 
 namespace svdag {
 
-// `prefix(a)`: of the head of source a, UINT64_MAX if it has ended. `less(a, b)`: whether source a
-// goes before source b where the prefixes are equal; one that has ended goes after all.
+// `prefix(a)` returns the first 64 bits of the head of source a; UINT64_MAX if it has ended.
+// `less(a, b)` is called for equal prefixes and returns whether source a goes before source b; a
+// source that has ended goes last.
 template <class Prefix, class Less>
 class Tournament {
  public:
@@ -23,9 +24,9 @@ class Tournament {
     if (sources > 0) winner_ = sources > 1 ? play(1) : Player{prefix_(0), 0};
   }
 
-  // The source that goes first.
+  // The source with the smallest head. Requires at least one source.
   size_t winner() const { return winner_.source; }
-  // To be called when the winner's head has changed.
+  // Updates the tree after the winner's head has changed.
   void replay() {
     Player contender{prefix_(winner_.source), winner_.source};
     for (size_t node = (contender.source + losers_.size()) / 2; node > 0; node /= 2) {
@@ -48,7 +49,8 @@ class Tournament {
       return less_(a.source, b.source);
     return a.prefix < b.prefix;
   }
-  // Nodes 1 .. n-1 are matches, n .. 2n-1 the sources.
+  // Plays all matches below `node` and returns their winner. Nodes 1 .. n-1 are matches, n .. 2n-1
+  // the sources.
   Player play(size_t node) {
     if (node >= losers_.size()) {
       const size_t source = node - losers_.size();
@@ -62,7 +64,7 @@ class Tournament {
 
   Prefix prefix_;
   Less less_;
-  std::vector<Player> losers_;  // [0] is not used
+  std::vector<Player> losers_;  // [node]; [0] is unused
   Player winner_;
 };
 

@@ -1,4 +1,4 @@
-// Orders one part of the work of concurrent tasks by the numbers of the tasks.
+// Runs one section of each of several concurrent tasks in the order of the tasks' numbers.
 #pragma once
 
 #include <condition_variable>
@@ -9,9 +9,10 @@ namespace svdag {
 
 class Turns {
  public:
-  // Runs work() when all turns before `turn` are over. If one of them failed, work() is not run.
+  // Waits for the end of all turns before `turn` (0, 1, ...), then runs work(). Returns without
+  // running it if a task has failed.
   template <class Work>
-  void take(size_t turn, const Work& work) {
+  void run(size_t turn, const Work& work) {
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return next_ == turn || failed_; });
@@ -27,7 +28,7 @@ class Turns {
     ++next_;
     changed_.notify_all();
   }
-  // A task has failed before its turn: releases all waiting tasks.
+  // To be called if a task fails before its turn: all waiting tasks return.
   void fail() {
     const std::lock_guard lock(mutex_);
     failed_ = true;

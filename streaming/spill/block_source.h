@@ -1,4 +1,4 @@
-// A stream of bytes, read block by block.
+// An interface of byte streams that are read block by block.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace svdag {
 class BlockSource {
  public:
   virtual ~BlockSource() = default;
-  // The payload of the next block, which may be changed in place; empty at the end. Valid until the
-  // next call. Aligned to 64 bytes.
+  // Returns the payload of the next block; empty at the end. Aligned to 64 bytes. The caller may
+  // modify it; valid until the next call.
   virtual std::span<std::byte> next() = 0;
 };
 

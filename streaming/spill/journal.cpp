@@ -11,18 +11,19 @@ namespace svdag {
 namespace {
 
 constexpr size_t kHeader = 16;
-constexpr uint64_t kLongest = uint64_t(1) << 30;
+constexpr uint64_t kMaxPayload = uint64_t(1) << 30;
 
 using Tag = std::array<uint32_t, 2>;  // kind, length
 
-// The checksum covers tag and payload, but is stored between them: the tag is copied to its place
-// meanwhile, next to the payload.
+// The checksum covers tag and payload, but is stored between them: to compute it, the tag is copied
+// to the checksum's position, directly before the payload.
 uint64_t checksum_of(std::span<std::byte> record, const Tag& tag) {
   std::memcpy(record.data() + 8, tag.data(), 8);
   return checksum64(record.subspan(8));
 }
 
-// The record that begins at byte `at`, header included, or nothing if it is not whole.
+// Returns the record that begins at byte `at`, header included; empty if it is incomplete or
+// damaged.
 std::vector<std::byte> read_record(const File& file, uint64_t at, uint64_t size) {
   if (size - at < kHeader) return {};
   std::array<std::byte, kHeader> header;
@@ -31,7 +32,7 @@ std::vector<std::byte> read_record(const File& file, uint64_t at, uint64_t size)
   uint64_t checksum;
   std::memcpy(tag.data(), header.data(), 8);
   std::memcpy(&checksum, header.data() + 8, 8);
-  if (tag[1] > std::min(kLongest, size - at - kHeader)) return {};
+  if (tag[1] > std::min(kMaxPayload, size - at - kHeader)) return {};
   std::vector<std::byte> record(kHeader + tag[1]);
   file.read_at(at + kHeader, std::span(record).subspan(kHeader));
   if (checksum_of(record, tag) != checksum) return {};
@@ -66,7 +67,7 @@ void Journal::append(uint32_t kind, std::span<const std::byte> payload) {
 }
 
 void Journal::write(uint32_t kind, std::span<const std::byte> payload) {
-  if (payload.size() > kLongest)
+  if (payload.size() > kMaxPayload)
     throw Error(ExitCode::kOutput, "cannot hold a record of more than 2^30 bytes", file_.path());
   const Tag tag = {kind, uint32_t(payload.size())};
   std::vector<std::byte> record(kHeader + payload.size());

@@ -1,10 +1,11 @@
 // An append-only list of records that survives the process (after ninja's deps log).
 //
-// A record is kind u32, length u32, checksum u64 (XXH3-64 of kind, length and payload), payload.
-// append() returns after the record is on disk; the caller has synced the data it refers to. After
-// append() has thrown, it throws again: a record after an incomplete one is never read, and after a
-// failed fsync the content of the disk is unknown. Reading stops at the first incomplete record and
-// truncates the file there: a killed process loses at most the record it was writing.
+// A record is kind u32, length u32 (bytes of the payload), checksum u64 (XXH3-64 of kind, length
+// and payload), payload. append() returns when the record is on disk; the caller must have synced
+// the data it refers to. Once append() has thrown, every further call throws the same: a record
+// after an incomplete one would never be read, and after a failed fsync the content of the disk is
+// unknown. Reading stops at the first incomplete or damaged record and truncates the file there: a
+// killed process loses at most the record it was writing.
 #pragma once
 
 #include <cstddef>
@@ -25,10 +26,11 @@ struct JournalRecord {
 
 class Journal {
  public:
-  // `file` is new and empty, or an earlier journal, of which *records gets what is whole.
+  // `file`: empty, or an earlier journal, open for reading and writing. Sets *records to its
+  // complete records.
   Journal(File file, std::vector<JournalRecord>* records);
 
-  // A payload of more than 2^30 bytes is an Error (kOutput).
+  // Error (kOutput) if writing fails or `payload` is larger than 2^30 bytes.
   void append(uint32_t kind, std::span<const std::byte> payload);
 
  private:
@@ -36,7 +38,7 @@ class Journal {
 
   File file_;
   uint64_t end_ = 0;
-  std::exception_ptr failure_;  // of an append
+  std::exception_ptr failure_;  // of the first append that failed
 };
 
 }  // namespace svdag

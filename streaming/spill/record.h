@@ -1,8 +1,8 @@
-// Converts values to bytes and back, for records that only this machine reads again.
+// Converts values to bytes and back, for records that only the same machine reads again.
 //
-// Trivially copyable values are stored as in memory, vectors and strings after their length.
-// Records are checksummed where they are stored, so an invalid one was forged or has another
-// layout: an Error that names its file, thrown before memory is allocated for it.
+// Trivially copyable values are stored as in memory; vectors and strings as their length u64 and
+// their elements. Records have checksums where they are stored, so an invalid one is forged or has
+// another layout: an Error that names its file, thrown before memory is allocated for it.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace svdag {
 
-// A type without padding, whose bytes would be undefined: equal values give equal records.
+// A type without padding bytes, whose content would be undefined: equal values give equal records.
 template <class T>
 concept Recordable = std::is_trivially_copyable_v<T> &&
     (std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
@@ -53,14 +53,15 @@ class RecordWriter {
 
 class RecordReader {
  public:
-  // Errors have `code` and speak of `path`.
+  // `bytes` must outlive the reader. Errors have `code` and name `path`.
   RecordReader(std::span<const std::byte> bytes, std::string path, ExitCode code)
       : bytes_(bytes), path_(std::move(path)), code_(code) {}
 
+  // Throws Error "PATH: is damaged: SENTENCE" unless `condition`.
   void require(bool condition, const char* sentence) const {
     if (!condition) throw Error(code_, std::string("is damaged: ") + sentence, path_);
   }
-  // Nothing may be left.
+  // Throws unless all bytes have been read.
   void finish() const { require(bytes_.empty(), "a record is too long"); }
 
   template <Recordable T>

@@ -14,22 +14,22 @@ namespace {
 
 constexpr const char* kOwner = "owner";
 constexpr const char* kEnding = ".scratch";
-constexpr size_t kLongestName = 255;  // bytes, of Linux's file systems
+constexpr size_t kMaxNameBytes = 255;  // of Linux's file systems
 
 std::string name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
 
-// At most `most` bytes of `name`, which do not end within a character of UTF-8.
-std::string shortened(const std::string& name, size_t most) {
-  if (name.size() <= most) return name;
-  while (most > 0 && (name[most] & 0xC0) == 0x80) --most;
-  return name.substr(0, most);
+// The first `max_bytes` bytes of `name`, or fewer to end between two UTF-8 characters.
+std::string shortened(const std::string& name, size_t max_bytes) {
+  if (name.size() <= max_bytes) return name;
+  while (max_bytes > 0 && (name[max_bytes] & 0xC0) == 0x80) --max_bytes;
+  return name.substr(0, max_bytes);
 }
 
-// The lock is the first file that an owner creates and the last that it removes, except for the
-// probe of file ownership.
-bool holds_others_only(const std::vector<std::string>& names) {
+// True if the folder has files but is not a scratch folder: an owner creates its lock first, except
+// for a probe of file ownership, and removes it last.
+bool has_only_foreign_files(const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), kOwner) != names.end()) return false;
   return !std::all_of(names.begin(), names.end(),
                       [](const std::string& name) { return name.starts_with(Folder::kProbe); });
@@ -39,14 +39,14 @@ bool holds_others_only(const std::vector<std::string>& names) {
 
 std::string ScratchDir::path_for(const std::string& output, const std::string& under) {
   const std::string name = name_of(output);
-  if (under.empty() && (name + kEnding).size() <= kLongestName) return output + kEnding;
+  if (under.empty() && (name + kEnding).size() <= kMaxNameBytes) return output + kEnding;
   const std::string absolute = absolute_path(output);
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx",
                 static_cast<unsigned long long>(checksum64(std::as_bytes(std::span(absolute)))));
   const std::string ending = std::string("-") + hash + kEnding;
   const std::string folder = output.substr(0, output.size() - name.size());
-  return (under.empty() ? folder : under + "/") + shortened(name, kLongestName - ending.size()) +
+  return (under.empty() ? folder : under + "/") + shortened(name, kMaxNameBytes - ending.size()) +
          ending;
 }
 
@@ -54,39 +54,39 @@ bool ScratchDir::in_use(const std::string& path) {
   return is_locked(path + "/" + kOwner);
 }
 
-ScratchDir::ScratchDir(const std::string& path) : folder_(own(path, &owner_)) {}
+ScratchDir::ScratchDir(const std::string& path) : folder_(acquire(path, &lock_)) {}
 
-// A lock counts only if the locked file still has its name: between open and lock the former owner
-// may have removed file and folder, and another process created new ones. A killed owner may take a
-// moment to exit.
-Folder ScratchDir::own(const std::string& path, File* owner) {
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+// A lock is valid only if the locked file still has its name: between open and lock the previous
+// owner may have removed file and folder, and another process may have created new ones. Waits up
+// to a second for a lock, because a killed owner may take a moment to exit.
+Folder ScratchDir::acquire(const std::string& path, File* lock) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   for (;;) {
     Folder folder = Folder::open_private(path);
-    if (!folder.made() && holds_others_only(folder.names()))
-      throw Error(ExitCode::kOutput, "holds other files and is not a scratch folder: move it away",
-                  path);
+    if (!folder.created() && has_only_foreign_files(folder.names()))
+      throw Error(ExitCode::kOutput,
+                  "has other files and is not a scratch folder: move or rename it", path);
     try {
       File file = folder.open_or_create(kOwner);
       if (file.descriptor() < 0) continue;
       if (!file.try_lock()) {
-        if (std::chrono::steady_clock::now() > patience) throw ScratchInUse(path);
+        if (std::chrono::steady_clock::now() > deadline) throw ScratchInUse(path);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;
       }
       if (!folder.holds(file, kOwner)) continue;
-      if (folder.made()) folder.sync();  // the lock's name is on the disk before any other's
-      *owner = std::move(file);
+      if (folder.created()) folder.sync();  // the lock's name is on disk before any other name
+      *lock = std::move(file);
     } catch (const std::exception& error) {
       const bool in_use = dynamic_cast<const ScratchInUse*>(&error) != nullptr;
-      if (folder.made() && !in_use) remove_lock(folder);
+      if (folder.created() && !in_use) remove_lock(folder);
       throw;
     }
     return folder;
   }
 }
 
-// False if it failed: what is left behind the next bake of this output takes over.
+// Returns false if `action` failed: the next bake of this output takes over the remaining files.
 template <class Action>
 bool ScratchDir::attempt(const Action& action) noexcept {
   try {
@@ -98,15 +98,14 @@ bool ScratchDir::attempt(const Action& action) noexcept {
 }
 
 bool ScratchDir::remove_files(const Folder& folder, const std::set<std::string>& names) noexcept {
-  bool gone = true;
-  for (const std::string& name : names) gone &= attempt([&] { folder.remove(name); });
+  bool removed = true;
+  for (const std::string& name : names) removed &= attempt([&] { folder.remove(name); });
   if (!names.empty()) attempt([&] { folder.sync(); });
-  return gone;
+  return removed;
 }
 
-// The lock is removed last, on disk as well: as long as `owner` has its name no other process takes
-// the folder over, files without it count as foreign, and afterwards only an empty folder is
-// removed.
+// Called after all other files have been removed, on disk as well, because files without a lock
+// count as foreign. While the lock exists no other process takes over the folder.
 void ScratchDir::remove_lock(const Folder& folder) noexcept {
   attempt([&] { folder.remove(kOwner); });
   attempt([&] { folder.remove_itself(); });
@@ -114,17 +113,17 @@ void ScratchDir::remove_lock(const Folder& folder) noexcept {
 
 ScratchDir::~ScratchDir() {
   if (kept_) return;
-  // The names of files created here are known, without an allocation; otherwise they are listed.
-  const bool listed = folder_.made() || attempt([&] { made_ = names(); });
-  made_.erase(kOwner);
-  // Beside a file that could not be removed the lock stays, so that it can be seen whose it is.
-  if (remove_files(folder_, made_) && listed) remove_lock(folder_);
+  // If the folder was created here its files are known, without an allocation.
+  const bool listed = folder_.created() || attempt([&] { created_files_ = names(); });
+  created_files_.erase(kOwner);
+  // If a file cannot be removed the lock stays, which marks the folder as scratch.
+  if (remove_files(folder_, created_files_) && listed) remove_lock(folder_);
 }
 
-// A folder that was made here holds nothing else; only one that was taken over must be listed.
+// Only a folder that was taken over must be listed.
 std::set<std::string> ScratchDir::names() const {
-  std::set<std::string> names = made_;
-  if (!folder_.made()) {
+  std::set<std::string> names = created_files_;
+  if (!folder_.created()) {
     for (const std::string& name : folder_.names()) names.insert(name);
   }
   names.erase(kOwner);
@@ -133,13 +132,13 @@ std::set<std::string> ScratchDir::names() const {
 
 File ScratchDir::create(const std::string& name) {
   folder_.remove(name);
-  made_.insert(name);
+  created_files_.insert(name);
   return folder_.create(name);
 }
 
 void ScratchDir::remove(const std::string& name) {
   folder_.remove(name);
-  made_.erase(name);
+  created_files_.erase(name);
 }
 
 void ScratchDir::clear() {

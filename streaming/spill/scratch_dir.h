@@ -1,9 +1,10 @@
-// The private folder in which one bake spills.
+// The private folder for the spilled data of one bake.
 //
-// OUT.svdag.scratch/ beside the output, or under --scratch DIR. The folder has mode 0700 and is
-// owned by the process that holds the flock on its file `owner`; a lock dies with its process, so
-// a folder whose owner was killed can be taken over at once, and a live one never. Files in it are
-// made with O_EXCL | O_NOFOLLOW, mode 0600: nothing that was planted is followed or written to.
+// It is OUT.svdag.scratch/ beside the output, or a folder under --scratch DIR, with mode 0700. Its
+// owner is the process that holds the flock on its file `owner`. A lock ends with its process, so
+// the folder of a killed owner can be taken over at once, and that of a running one never. Files in
+// it are created with O_EXCL | O_NOFOLLOW, mode 0600: planted files and links are neither followed
+// nor written to.
 // Rejected: process ids as locks (they are reused), names under /tmp (shared, often in memory).
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace svdag {
 
-// Another process owns the folder: it may be done later. kUsage, for most people have begun a bake
-// twice by mistake.
+// Another process owns the folder. kUsage, because usually a bake was started twice by mistake; a
+// farm may retry later.
 class ScratchInUse : public Error {
  public:
   explicit ScratchInUse(const std::string& path)
@@ -27,54 +28,56 @@ class ScratchInUse : public Error {
 
 class ScratchDir {
  public:
-  // The folder for `output`: OUTPUT.scratch, or, if `under` is not empty, a folder in `under` named
-  // after the output and a hash of its absolute path, so that many bakes may share `under`. A name
-  // that would be too long for a file system is cut, and has the hash, too.
+  // Path of the folder for `output`: OUTPUT.scratch or, if `under` is not empty, a folder in
+  // `under` named after the output and a hash of its absolute path, so that many bakes may share
+  // `under`. A name of more than 255 bytes is shortened and gets the hash, too.
   static std::string path_for(const std::string& output, const std::string& under);
 
-  // Whether a process owns the folder `path` now.
+  // True if a process owns the folder `path` now.
   static bool in_use(const std::string& path);
 
-  // Creates the folder, or takes it over with all it holds. A folder that another process owns is
-  // ScratchInUse; one that is not ours to use (a link, another user's, no folder,
-  // one with files but without a lock) and one that cannot be made are Errors (kOutput).
+  // Creates the folder, or takes over an existing one with its files. Throws ScratchInUse if
+  // another process owns it; Error (kOutput) if it cannot be created, is a link, is not a folder,
+  // belongs to another user, or has files but no lock.
   explicit ScratchDir(const std::string& path);
   ScratchDir(const ScratchDir&) = delete;
   ScratchDir& operator=(const ScratchDir&) = delete;
-  // Gives the lock back; removes the folder unless keep() was called.
+  // Removes the folder, unless keep() was called, and releases the lock.
   ~ScratchDir();
 
   const std::string& path() const { return folder_.path(); }
+  // True if a regular file of this name exists.
   bool has(const std::string& name) const { return folder_.has(name); }
-  // A new file, open for reading and writing; one of that name that is there is removed first.
+  // Creates a file, replacing one of that name, and opens it for reading and writing.
   File create(const std::string& name);
-  // A file that is there, open for reading and writing.
+  // Opens an existing file for reading and writing.
   File open(const std::string& name) { return folder_.open(name); }
+  // Removes a file, if it exists.
   void remove(const std::string& name);
-  // Removes every file but the lock.
+  // Removes all files except the lock.
   void clear();
-  // Makes the names of files durable.
+  // Makes the creation and removal of files durable.
   void sync() const { folder_.sync(); }
-  // Makes the name of the folder durable.
+  // Makes the creation of the folder durable.
   void sync_itself() const { sync_folder(folder_of(path())); }
-  // From now on the folder outlives this object: something in it can be resumed.
+  // Sets whether the destructor keeps the folder, because its content can be resumed.
   void keep(bool kept = true) { kept_ = kept; }
 
-  // Bytes free on its file system for this user.
+  // Free bytes of the file system that this user may use.
   uint64_t free_bytes() const { return folder_.free_bytes(); }
 
  private:
-  static Folder own(const std::string& path, File* owner);
+  static Folder acquire(const std::string& path, File* lock);
   template <class Action>
   static bool attempt(const Action& action) noexcept;
-  // Whether all are gone.
+  // True if all were removed.
   static bool remove_files(const Folder& folder, const std::set<std::string>& names) noexcept;
   static void remove_lock(const Folder& folder) noexcept;
   std::set<std::string> names() const;
 
-  File owner_;  // before folder_: own() sets both
+  File lock_;  // declared before folder_: acquire() sets both
   Folder folder_;
-  std::set<std::string> made_;  // names of files
+  std::set<std::string> created_files_;  // names
   bool kept_ = false;
 };
 

@@ -31,7 +31,7 @@ Header header_of(const SpillLabel& label) {
 }  // namespace
 
 SpillBlock::SpillBlock(MemoryBudget* budget, size_t bytes)
-    : counted_(budget->reserve(bytes, "spill buffers")),
+    : reservation_(budget->reserve(bytes, "spill buffers")),
       data_(static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)))) {}
 
 uint64_t seal_block(std::span<std::byte> block, const SpillLabel& label) {

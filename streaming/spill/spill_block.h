@@ -1,4 +1,4 @@
-// One block of a spill file: its memory, and the frame by which damage is found.
+// One block of a spill file: its memory, and its header with a checksum.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,27 @@
 
 namespace svdag {
 
-// Memory of one block, aligned as direct transfers need it, and counted.
+// Owned memory of one block, aligned for direct I/O and reserved from a budget.
 class SpillBlock {
  public:
   static constexpr size_t kAlignment = 4096;
 
   SpillBlock() = default;
+  // Error (kMemory) if the budget has no room for `bytes`.
   SpillBlock(MemoryBudget* budget, size_t bytes);
 
   explicit operator bool() const { return data_ != nullptr; }
-  std::span<std::byte> bytes() const { return {data_.get(), size_t(counted_.bytes())}; }
+  std::span<std::byte> bytes() const { return {data_.get(), size_t(reservation_.bytes())}; }
 
  private:
   struct Delete {
     void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t(kAlignment)); }
   };
-  MemoryBudget::Reservation counted_;  // first: taken before the memory is allocated
+  MemoryBudget::Reservation reservation_;  // first: taken before the memory is allocated
   std::unique_ptr<std::byte, Delete> data_;
 };
 
-constexpr size_t kSpillHeader = 64;
+constexpr size_t kSpillHeader = 64;  // bytes
 
 // The identity of a block: its stream and index. Its position in the file is not part of it.
 struct SpillLabel {
@@ -39,12 +40,12 @@ struct SpillLabel {
   uint32_t length = 0;  // payload bytes
 };
 
-// Writes the header for the payload that follows it, and zeros up to the end of the block.
-// Returns the checksum.
+// Writes the header in front of the payload, and zeros after it to the end of the block. Returns
+// the checksum.
 uint64_t seal_block(std::span<std::byte> block, const SpillLabel& label);
-// True if the block is whole and the one that `label` describes. Its checksum becomes zero.
+// True if the block is undamaged and is the one of `label`. Overwrites its checksum with zeros.
 bool open_block(std::span<std::byte> block, const SpillLabel& label);
-// The checksum that a sealed block carries.
+// The checksum stored in a sealed block.
 uint64_t block_checksum(std::span<const std::byte> block);
 
 }  // namespace svdag

@@ -11,7 +11,7 @@
 
 namespace svdag {
 
-// The queue, and which blocks are free.
+// The I/O queue and the list of free blocks.
 class SpillFile::Impl {
  public:
   Impl(File file, size_t bytes, uint32_t first_free, ExitCode damaged)
@@ -27,13 +27,13 @@ class SpillFile::Impl {
                     queue.path());
       return end_++;
     }
-    const uint32_t place = free_.back();
+    const uint32_t position = free_.back();
     free_.pop_back();
-    return place;
+    return position;
   }
 
-  // In an order in which they are reused from first to last. For destructors: without memory for
-  // the list, the blocks are not reused.
+  // The blocks are later reused from first to last. Does not throw, for destructors: without memory
+  // for the list they are not reused.
   void free(const std::vector<uint32_t>& blocks) noexcept {
     const std::lock_guard lock(mutex_);
     try {
@@ -47,7 +47,7 @@ class SpillFile::Impl {
     return uint64_t(end_) * block_bytes;
   }
 
-  // Opens a block that was read; its payload.
+  // Checks a block that was read and returns its payload.
   std::span<std::byte> open(const SpillBlock& block, const SpillStream& stream, uint64_t index) {
     const uint64_t payload = block_bytes - kHeader;
     const uint32_t length = uint32_t(std::min<uint64_t>(payload, stream.bytes - index * payload));
@@ -56,7 +56,7 @@ class SpillFile::Impl {
   }
   [[noreturn]] void fail_damaged() const {
     if (damaged_ == ExitCode::kBadInput)
-      throw Error(damaged_, "is damaged: make it again", queue.path());
+      throw Error(damaged_, "is damaged: create it again", queue.path());
     throw SpoiledScratch(damaged_, "scratch file is damaged", queue.path());
   }
 
@@ -66,7 +66,7 @@ class SpillFile::Impl {
  private:
   mutable std::mutex mutex_;
   std::vector<uint32_t> free_;
-  uint32_t end_;  // blocks from here on were never used
+  uint32_t end_;  // position from which on no block has been used
   ExitCode damaged_;
 };
 
@@ -141,7 +141,7 @@ class SpillWriter::Impl {
   uint64_t bytes() const { return stream_.bytes; }
 
  private:
-  // Continues with a spare block while this one is being written.
+  // Writes the full block and continues with a spare one, if there is one.
   void write_full() {
     if (SpillTransfer* const spare = file_->queue.take_spare(budget_)) {
       std::swap(spare->block, own_.block);
@@ -153,17 +153,17 @@ class SpillWriter::Impl {
     file_->queue.check();
   }
 
-  // If this fails, the transfer must not wait for a write that was never queued.
+  // If this fails, the transfer counts as done, so that no thread waits for it.
   void write(SpillTransfer* transfer) {
     try {
       stream_.blocks.push_back(file_->allocate());
     } catch (...) {
-      file_->queue.take_back(transfer);
+      file_->queue.cancel(transfer);
       throw;
     }
-    transfer->place = stream_.blocks.back();
+    transfer->position = stream_.blocks.back();
     transfer->writes = true;
-    // Sealed here, where the block still is in the cache.
+    // Sealed by this thread, because the block is in its cache.
     const SpillLabel label = {stream_.number, stream_.blocks.size() - 1, uint32_t(filled_)};
     seal_block(transfer->block.bytes(), label);
     filled_ = 0;
@@ -218,7 +218,7 @@ class SpillReader::Impl {
     std::swap(current_, ahead_.block);
     const uint64_t index = index_++;
     request();
-    // Verified by the reader and not by the I/O thread, so that the block is in the reader's cache.
+    // Checked by this thread, not by the I/O thread, so that the block is in its cache.
     return file_->open(current_, stream_, index);
   }
 
@@ -229,7 +229,7 @@ class SpillReader::Impl {
   void request() {
     if (index_ == stream_.blocks.size()) return;
     if (!ahead_.block) ahead_.block = SpillBlock(budget_, file_->block_bytes);
-    ahead_.place = stream_.blocks[index_];
+    ahead_.position = stream_.blocks[index_];
     file_->queue.submit(&ahead_);
   }
 
@@ -237,7 +237,7 @@ class SpillReader::Impl {
   MemoryBudget* budget_;
   const SpillStream stream_;
   size_t index_;        // of the requested block
-  SpillBlock current_;  // what next() gave out
+  SpillBlock current_;  // returned by next()
   SpillTransfer ahead_;
 };
 
@@ -263,7 +263,7 @@ class SpillFetch::Impl {
     stream_.number = stream.number;
     stream_.bytes = stream.bytes;
     transfer_.block = std::move(block);
-    transfer_.place = stream.blocks[index];
+    transfer_.position = stream.blocks[index];
     file_->queue.submit(&transfer_);
   }
   ~Impl() { file_->queue.wait(&transfer_); }
@@ -281,7 +281,7 @@ class SpillFetch::Impl {
 
  private:
   SpillFile::Impl* file_;
-  SpillStream stream_;  // without its blocks
+  SpillStream stream_;  // without the list of its blocks
   uint64_t index_;
   SpillTransfer transfer_;
 };

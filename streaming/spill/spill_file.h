@@ -1,19 +1,19 @@
-// A file of framed blocks: where a bake puts what does not fit in memory.
+// A file of checksummed blocks for data that does not fit in memory.
 //
-// A *stream* is a sequence of bytes with a number of its own. Its blocks are anywhere in the
-// file, so hundreds of streams grow at once in one file, and the blocks of a stream that was freed
-// are used again. Every block has the same size and begins with
+// A *stream* is a sequence of bytes with a unique number. Its blocks may be anywhere in the file,
+// so hundreds of streams can grow in one file at once, and the blocks of a freed stream are reused.
+// Every block has the same size and begins with
 //
 //   magic u32, length u32 (payload bytes), stream u64, index u64 (of the block in its stream),
 //   checksum u64 (XXH3-64 of the whole block, with zeros here), zeros up to 64 bytes
 //
-// and the last block of a stream is filled up with zeros, so that a flipped bit, a stale block and
-// a block of another stream or place are all found (SpoiledScratch: "scratch file is damaged"). The
-// file is opened with O_DIRECT where the system has it: spilled bytes are used once, long after
-// they were written, and would only push the rest out of the page cache. Reading ahead and writing
-// behind run on one thread of the file, so that disk and processor overlap. Rejected: a file per
-// stream (thousands of descriptors), mmap (SIGBUS, and no account of memory), checksums per stream
-// (found too late).
+// The last block of a stream is filled with zeros. A flipped bit, a stale block, and a block of
+// another stream or index are all detected (SpoiledScratch: "scratch file is damaged"). The file is
+// opened with O_DIRECT where the file system supports it: spilled bytes are read once, long after
+// they were written, and would only evict other data from the page cache. Read-ahead and
+// write-behind run on one I/O thread per file, so that disk and processor overlap.
+// Rejected: a file per stream (thousands of descriptors), mmap (SIGBUS, memory not counted),
+// checksums per stream (damage is found too late).
 #pragma once
 
 #include <cstdint>
@@ -29,17 +29,17 @@
 namespace svdag {
 
 struct SpillStream {
-  uint64_t number = 0;           // never used twice in one scratch folder
-  uint64_t bytes = 0;            // payload
-  std::vector<uint32_t> blocks;  // positions of the blocks, in order
+  uint64_t number = 0;           // never reused in one scratch folder
+  uint64_t bytes = 0;            // payload bytes
+  std::vector<uint32_t> blocks;  // positions of its blocks in the file, in blocks
 };
 
 class SpillFile {
  public:
   static constexpr size_t kHeader = kSpillHeader;
 
-  // `block_bytes`, header included: a multiple of 4096. `first_free`: blocks before this one are in
-  // use already (a file that is resumed). `damaged`: the code of the Error about a damaged block;
+  // `block_bytes`: size of a block with its header, a multiple of 4096. `first_free`: position from
+  // which on no block is in use (for a resumed file). `damaged`: exit code for a damaged block;
   // kBadInput for files other than scratch.
   SpillFile(File file, size_t block_bytes, uint32_t first_free = 0,
             ExitCode damaged = ExitCode::kOutput);
@@ -48,13 +48,13 @@ class SpillFile {
   size_t block_bytes() const;
   // Payload bytes of a full block: a multiple of 64.
   size_t payload_bytes() const { return block_bytes() - kHeader; }
-  // Waits for all writes and brings them to disk; a write that failed before is thrown here, too.
+  // Waits for all writes and makes them durable. Throws the error of a write that has failed.
   void sync();
-  // Syncs, and gives an anonymous file the name `path` (File::link_as).
+  // sync(), then File::link_as(path).
   void link_as(const std::string& path);
-  // The blocks of `stream` may be used for others. No reader of it may be alive.
+  // Allows the reuse of the stream's blocks. The stream must have no reader.
   void free(const SpillStream& stream);
-  // Largest size of the file so far, and all that was written to it and read from it.
+  // Largest size of the file so far, and total bytes written and read, with headers.
   uint64_t peak_bytes() const;
   uint64_t written_bytes() const;
   uint64_t read_bytes() const;
@@ -67,22 +67,26 @@ class SpillFile {
   std::unique_ptr<Impl> impl_;
 };
 
-// Appends to one stream. Holds one block from its first byte on; the writers of a file share spare
-// blocks for what is being written, at most one for each writer and four in all, and none where the
-// budget has no room (the writer waits for the disk instead). Streams of one file may be written
-// and read by different threads at once; a writer or reader itself is for one, and dies before the
-// file does. A write that failed fails all that is done with the file afterwards.
+// Appends to one stream.
+//
+// Takes the memory of one block at the first byte. While blocks are being written, the writers of a
+// file share spare blocks: at most one per writer and four per file, and none if the budget has no
+// room (the writer then waits for the disk). Different threads may write and read streams of one
+// file at once, but each writer or reader belongs to one thread at a time, and the file must
+// outlive it. After a failed write, all operations on the file throw its error.
 class SpillWriter {
  public:
   SpillWriter(SpillFile* file, uint64_t stream, MemoryBudget* budget);
   SpillWriter(SpillWriter&&) noexcept;
   SpillWriter& operator=(SpillWriter&&) noexcept;
-  ~SpillWriter();  // without finish(): the stream's blocks are freed
+  ~SpillWriter();  // without finish(): frees the stream's blocks
 
+  // Errors: kOutput if writing fails, kMemory if the budget has no room for one block.
   void append(std::span<const std::byte> bytes);
+  // Bytes appended so far.
   uint64_t bytes() const;
-  // Writes the last block. It is readable at once, and durable after SpillFile::sync(). The memory
-  // goes back to the budget when the writer dies, which waits for that block.
+  // Writes the last block and returns the stream, which can be read at once and is durable after
+  // SpillFile::sync(). The destructor waits for the last block and releases the memory.
   SpillStream finish();
 
  private:
@@ -90,17 +94,17 @@ class SpillWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads one stream, a block ahead. Holds two blocks, one if there is but one.
+// Reads one stream, one block ahead. Takes the memory of two blocks, or one for a single block.
 class SpillReader : public BlockSource {
  public:
-  // `stream` is copied. Begins with block `first` of the stream.
+  // Reads `stream`, which is copied, from its block `first` (0 .. number of blocks) on.
   SpillReader(SpillFile* file, const SpillStream& stream, MemoryBudget* budget, size_t first = 0);
   SpillReader(SpillReader&&) noexcept;
   SpillReader& operator=(SpillReader&&) noexcept;
   ~SpillReader() override;
 
   std::span<std::byte> next() override;
-  // The Error about a damaged block: for who finds that what is in one makes no sense.
+  // Throws the Error for a damaged block: for callers that find invalid content in one.
   [[noreturn]] void fail_damaged() const;
 
  private:
@@ -108,17 +112,17 @@ class SpillReader : public BlockSource {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads one block of a stream, in any order: requested by the constructor, available after wait().
-// take_block() returns the memory.
+// Reads block `index` of a stream into the memory of `block`. The constructor starts the read; the
+// payload is available after wait().
 class SpillFetch {
  public:
   SpillFetch(SpillFile* file, const SpillStream& stream, size_t index, SpillBlock block);
   SpillFetch(SpillFetch&&) noexcept;
   ~SpillFetch();
 
-  // The payload. Aligned to 64 bytes. To be called once.
+  // Waits for the read and returns the payload, aligned to 64 bytes. To be called once.
   std::span<std::byte> wait();
-  // The memory, when the payload is no longer needed.
+  // Returns the memory for reuse; invalidates the payload.
   SpillBlock take_block();
 
  private:

@@ -9,7 +9,7 @@ namespace svdag {
 
 SpillQueue::SpillQueue(File file, size_t block_bytes)
     : file_(std::move(file)), block_bytes_(block_bytes) {
-  file_.use_direct();  // without direct I/O the page cache is used
+  file_.use_direct();  // if unsupported, the page cache is used
 }
 
 SpillQueue::~SpillQueue() {
@@ -17,7 +17,7 @@ SpillQueue::~SpillQueue() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
-  asked_.notify_one();
+  requested_.notify_one();
 }
 
 void SpillQueue::submit(SpillTransfer* transfer) {
@@ -29,13 +29,13 @@ void SpillQueue::submit(SpillTransfer* transfer) {
     transfer->failure = nullptr;
     ++submitted_;
   } catch (...) {
-    take_back(transfer);
+    cancel(transfer);
     throw;
   }
-  asked_.notify_one();
+  requested_.notify_one();
 }
 
-void SpillQueue::take_back(SpillTransfer* transfer) noexcept {
+void SpillQueue::cancel(SpillTransfer* transfer) noexcept {
   const std::lock_guard lock(mutex_);
   transfer->done = true;
   done_.notify_all();
@@ -44,12 +44,12 @@ void SpillQueue::take_back(SpillTransfer* transfer) noexcept {
 void SpillQueue::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    asked_.wait(lock, [&] { return stop_ || !queue_.empty(); });
+    requested_.wait(lock, [&] { return stop_ || !queue_.empty(); });
     if (queue_.empty()) return;
     SpillTransfer* const next = queue_.front();
     queue_.pop_front();
     lock.unlock();
-    carry_out(next);
+    execute(next);
     lock.lock();
     if (next->writes && next->failure && !failure_) {
       failure_ = next->failure;
@@ -61,17 +61,17 @@ void SpillQueue::work() {
   }
 }
 
-void SpillQueue::carry_out(SpillTransfer* transfer) {
+void SpillQueue::execute(SpillTransfer* transfer) {
   const std::span<std::byte> bytes = transfer->block.bytes();
-  const uint64_t offset = uint64_t(transfer->place) * block_bytes_;
+  const uint64_t offset = uint64_t(transfer->position) * block_bytes_;
   try {
     if (transfer->writes) {
-      if (failed_.load(std::memory_order_relaxed)) return;  // the disk is full, and stays so
+      if (failed_.load(std::memory_order_relaxed)) return;  // no further writes after a failure
       file_.write_at(offset, bytes);
       written_.fetch_add(bytes.size(), std::memory_order_relaxed);
     } else {
       const size_t n = file_.read_some_at(offset, bytes);
-      std::fill(bytes.begin() + ptrdiff_t(n), bytes.end(), std::byte(0));  // found as damage
+      std::fill(bytes.begin() + ptrdiff_t(n), bytes.end(), std::byte(0));  // detected as damage
       read_.fetch_add(n, std::memory_order_relaxed);
     }
   } catch (...) {
@@ -119,8 +119,8 @@ void SpillQueue::enter_writer() {
 void SpillQueue::leave_writer() {
   std::unique_lock lock(mutex_);
   --writers_;
-  // Checked after each wait: other writers may leave meanwhile, and those that stay need a spare.
-  while (spares_.size() > std::min(kSpares, writers_)) {
+  // Checked after each wait: other writers may leave meanwhile, and the remaining ones need spares.
+  while (spares_.size() > std::min(kMaxSpares, writers_)) {
     const auto idle = std::ranges::find_if(spares_, [](const auto& spare) { return spare->done; });
     if (idle != spares_.end()) {
       spares_.erase(idle);
@@ -133,7 +133,7 @@ void SpillQueue::leave_writer() {
 SpillTransfer* SpillQueue::take_spare(MemoryBudget* budget) {
   std::unique_lock lock(mutex_);
   const auto idle = [](const std::unique_ptr<SpillTransfer>& spare) { return spare->done; };
-  if (spares_.size() < std::min(kSpares, writers_) && std::ranges::none_of(spares_, idle)) {
+  if (spares_.size() < std::min(kMaxSpares, writers_) && std::ranges::none_of(spares_, idle)) {
     try {
       auto spare = std::make_unique<SpillTransfer>();
       spare->block = SpillBlock(budget, block_bytes_);

@@ -1,6 +1,6 @@
-// The content of a scratch folder cannot be resumed: it is damaged, or of another version of svdag.
-// A caller that may discard it starts anew. A full or failing disk is another Error, because its
-// work can be resumed later.
+// The Error for a scratch folder whose content cannot be resumed: it is damaged, or of another
+// version of svdag. A caller that may discard it starts over. A full or failing disk is a plain
+// Error, because the work can be resumed later.
 #pragma once
 
 #include "streaming/error.h"

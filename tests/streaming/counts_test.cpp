@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-TEST(Counts, WhatFitsIsKeptAndWhatDoesNotIsToldOf) {
+TEST(Counts, LargerThan32BitsAreAnError) {
   EXPECT_EQ(as_u32(0, "runs"), 0U);
   EXPECT_EQ(as_u32(UINT32_MAX, "runs"), UINT32_MAX);
   EXPECT_SVDAG_ERROR(as_u32(uint64_t(1) << 32, "runs"), ExitCode::kMemory,

@@ -12,17 +12,17 @@ TEST(Error, SentenceNamesPathFirstAndByteLast) {
   EXPECT_EQ(error.offset(), 17U);
 }
 
-TEST(Error, SentenceStandsAloneWithoutPathAndOffset) {
+TEST(Error, WithoutPathAndOffsetIsTheSentenceAlone) {
   EXPECT_STREQ(Error(ExitCode::kUsage, "give a number").what(), "give a number");
 }
 
-TEST(Error, NamesOfStrangersReachNoTerminalAsTheyAre) {
+TEST(Error, ReplacesControlCharacters) {
   const Error error(ExitCode::kBadInput, "has no grid \x1b[2J\n\x7f", "red\x1b[31m.vdb");
   EXPECT_STREQ(error.what(), "red?[31m.vdb: has no grid ?[2J??");
   EXPECT_EQ(error.path(), "red\x1b[31m.vdb");
 }
 
-TEST(Error, ControlCharactersOfTwoBytesReachNoTerminalEither) {
+TEST(Error, ReplacesControlCharactersOfTwoBytes) {
   const auto what = [](const char* text) {
     return std::string(Error(ExitCode::kUsage, text).what());
   };
@@ -33,7 +33,7 @@ TEST(Error, ControlCharactersOfTwoBytesReachNoTerminalEither) {
   EXPECT_EQ(what("\xc2\xa0\xc3\x82\xc3\x9b\xc2"), "\xc2\xa0\xc3\x82\xc3\x9b\xc2");
 }
 
-TEST(Error, ShorthandsCarryTheirExitCodes) {
+TEST(Error, ShorthandsHaveTheirExitCodes) {
   EXPECT_SVDAG_ERROR(fail_input("b.obj", "is broken", 3), ExitCode::kBadInput, "b.obj: is broken");
   EXPECT_SVDAG_ERROR(fail_usage("no such rule"), ExitCode::kUsage, "no such rule");
 }

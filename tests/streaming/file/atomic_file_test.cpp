@@ -35,14 +35,14 @@ TEST(AtomicFile, TheOldFileStaysUntilCommit) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-TEST(AtomicFile, AnAbandonedFileLeavesTheOldOneAlone) {
+TEST(AtomicFile, AnUncommittedFileLeavesTheOldOneUnchanged) {
   const TempFolder folder;
   folder.write("out", "old");
   { AtomicFile(folder.file("out")).append("new"); }
   EXPECT_EQ(folder.read("out"), "old");
 }
 
-TEST(AtomicFile, WhoHasTheOldFileOpenKeepsReadingIt) {
+TEST(AtomicFile, AReaderOfTheOldFileKeepsReadingIt) {
   const TempFolder folder;
   const File reader = File::open_read(folder.write("out", "old"));
   AtomicFile file(folder.file("out"));
@@ -62,8 +62,8 @@ TEST(AtomicFile, PermissionsFollowTheUmask) {
   EXPECT_EQ(mode_of(folder.file("out")), 0640U);
 }
 
-// What a file of another thread gets that is made meanwhile.
-TEST(AtomicFile, NobodySeesAnotherUmaskMeanwhile) {
+// commit() must not change the umask, even for a moment: another thread may create files.
+TEST(AtomicFile, CommitDoesNotChangeTheUmaskOfOtherThreads) {
   const TempFolder folder;
   const mode_t before = umask(027);
   {
@@ -71,7 +71,7 @@ TEST(AtomicFile, NobodySeesAnotherUmaskMeanwhile) {
       while (!stop.stop_requested()) AtomicFile(folder.file("out")).commit();
     });
     for (int i = 0; i < 2000; ++i) {
-      const std::string name = folder.file("made");
+      const std::string name = folder.file("other");
       const int fd = open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
       ASSERT_GE(fd, 0);
       close(fd);
@@ -105,7 +105,7 @@ TEST(AtomicFile, ASymlinkIsReplacedAndNotFollowed) {
   EXPECT_FALSE(std::filesystem::is_symlink(folder.file("out")));
 }
 
-TEST(AtomicFile, ALinkThatLeadsNowhereIsReplaced) {
+TEST(AtomicFile, ADanglingSymlinkIsReplaced) {
   const TempFolder folder;
   std::filesystem::create_symlink(folder.file("gone"), folder.file("out"));
   AtomicFile file(folder.file("out"));
@@ -115,7 +115,7 @@ TEST(AtomicFile, ALinkThatLeadsNowhereIsReplaced) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-TEST(AtomicFile, WhatIsNoRegularFileIsRefusedBeforeItIsWritten) {
+TEST(AtomicFile, RejectsTargetsThatAreNotRegularFiles) {
   const TempFolder folder;
   std::filesystem::create_directory(folder.file("folder"));
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
@@ -130,7 +130,7 @@ TEST(AtomicFile, WhatIsNoRegularFileIsRefusedBeforeItIsWritten) {
   EXPECT_EQ(folder.entries(), 4U);
 }
 
-TEST(AtomicFile, WhatIsMadeBeforeTheCommitIsRefusedToo) {
+TEST(AtomicFile, CommitRejectsTargetsCreatedMeanwhile) {
   const TempFolder folder;
   {
     AtomicFile to_folder(folder.file("folder")), to_pipe(folder.file("pipe"));
@@ -143,14 +143,14 @@ TEST(AtomicFile, WhatIsMadeBeforeTheCommitIsRefusedToo) {
   EXPECT_EQ(folder.entries(), 2U);
 }
 
-TEST(AtomicFile, TheLongestNameIsWrittenAndALongerOneRefusedAtOnce) {
+TEST(AtomicFile, WritesTheLongestNameAndRejectsALongerOneAtOnce) {
   const TempFolder folder;
   AtomicFile file(folder.file(std::string(255, 'n')));
   file.append("new");
   file.commit();
   EXPECT_EQ(folder.read(std::string(255, 'n')), "new");
   EXPECT_SVDAG_ERROR(AtomicFile(folder.file(std::string(256, 'n'))), ExitCode::kOutput,
-                     "is too long for the name of a file");
+                     "the file name is too long: choose a shorter one");
 }
 
 }  // namespace

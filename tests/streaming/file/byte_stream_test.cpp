@@ -20,7 +20,7 @@ std::vector<std::string> lines_of(const std::string& text, size_t window) {
   return lines;
 }
 
-// The same by the definition: "\n", "\r\n" and "\r" end a line; so does the end of the file.
+// The lines by definition: "\n", "\r\n", "\r" and the end of the file end a line.
 std::vector<std::string> expected_lines(const std::string& text) {
   std::vector<std::string> lines;
   std::string line;
@@ -39,13 +39,13 @@ std::vector<std::string> expected_lines(const std::string& text) {
 
 using Lines = std::vector<std::string>;
 
-TEST(ByteStream, AllThreeLineEndsAreOne) {
+TEST(ByteStream, AcceptsThreeKindsOfLineEnds) {
   EXPECT_EQ(lines_of("a\nb\r\nc\rd", 64), (Lines{"a", "b", "c", "d"}));
   EXPECT_EQ(lines_of("\n\r\n\r", 64), (Lines{"", "", ""}));
   EXPECT_EQ(lines_of("", 64), Lines{});
 }
 
-TEST(ByteStream, ACrlfAtTheBorderOfTheWindowIsOneLineEnd) {
+TEST(ByteStream, ACrlfAcrossTheEndOfTheWindowIsOneLineEnd) {
   for (size_t window = 1; window <= 8; ++window)
     EXPECT_EQ(lines_of("abc\r\ndef\r\n\r\nx", window), (Lines{"abc", "def", "", "x"})) << window;
 }
@@ -80,7 +80,7 @@ RC_GTEST_PROP(ByteStream, PeekSkipAndReadShowTheBytesOfTheFile, ()) {
   }
 }
 
-TEST(ByteStream, SeesOnlyItsPartOfTheFile) {
+TEST(ByteStream, ReadsOnlyItsRangeOfTheFile) {
   const TempFolder folder;
   const File file = File::open_read(folder.write("a", "0123456789"));
   ByteStream stream(file, 2, 5);
@@ -107,7 +107,7 @@ TEST(ByteStream, ALineThatIsTooLongIsBadInput) {
   EXPECT_SVDAG_ERROR(stream.line(50), ExitCode::kBadInput, "line that is too long");
 }
 
-TEST(ByteStream, AFileThatShrinksMeanwhileEndsEarlier) {
+TEST(ByteStream, EndsEarlierIfTheFileIsTruncatedMeanwhile) {
   const TempFolder folder;
   const File file = File::open_read(folder.write("a", "0123456789"));
   ByteStream stream(file, 0, UINT64_MAX, 4);

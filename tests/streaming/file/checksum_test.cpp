@@ -20,7 +20,7 @@ Hash128 hash128(std::string_view text) {
   return hasher.digest();
 }
 
-// Answers of the Python binding: xxh3_64_hexdigest(text), xxh3_128_hexdigest(text).
+// Expected values from the Python binding: xxh3_64_hexdigest(text), xxh3_128_hexdigest(text).
 TEST(Checksum, KnownAnswers) {
   EXPECT_EQ(checksum64(bytes_of("")), 0x2d06800538d394c2U);
   EXPECT_EQ(checksum64(bytes_of("svdag")), 0xdf60fe86d32bc396U);

@@ -1,4 +1,4 @@
-// A file's ending is known in any case.
+// has_ending() ignores case.
 #include "streaming/file/file_ending.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace svdag {
 namespace {
 
-TEST(FileEnding, IsKnownInAnyCase) {
+TEST(FileEnding, IgnoresCase) {
   for (const char* name : {"a.png", "A.PNG", "a.b.Png", ".png"})
     EXPECT_TRUE(has_ending(name, ".png")) << name;
   for (const char* name : {"", "png", "a.png ", "a.pn", "a.png.gz", "apng"})

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-TEST(FileNames, AFileIsFoundByAllItsNames) {
+TEST(FileNames, AFileIsFoundByAnyPath) {
   const TempFolder folder;
   const std::string a = folder.write("a", "A"), b = folder.write("b", "A");
   std::filesystem::create_symlink(a, folder.file("link"));
@@ -21,7 +21,7 @@ TEST(FileNames, AFileIsFoundByAllItsNames) {
   EXPECT_EQ(names.find(b), nullptr);
 }
 
-TEST(FileNames, AFileThatIsNotThereYetIsKnownByItsPlace) {
+TEST(FileNames, AFileThatDoesNotExistIsFoundByItsDirectoryEntry) {
   const TempFolder folder;
   std::filesystem::create_directory(folder.file("in"));
   std::filesystem::create_directory_symlink(folder.file("in"), folder.file("link"));
@@ -33,7 +33,7 @@ TEST(FileNames, AFileThatIsNotThereYetIsKnownByItsPlace) {
   EXPECT_EQ(names.find(folder.file("in/other")), nullptr);
 }
 
-TEST(FileNames, APlaceIsOfTheNameAndNotOfTheFile) {
+TEST(FileNames, LinksToOneFileHaveDifferentDirectoryEntries) {
   const TempFolder folder;
   const std::string a = folder.write("a", "A");
   std::filesystem::create_hard_link(a, folder.file("b"));
@@ -43,7 +43,7 @@ TEST(FileNames, APlaceIsOfTheNameAndNotOfTheFile) {
   EXPECT_NE(place_of(folder.file("c")), place_of(a));
 }
 
-TEST(FileNames, AFileInAFolderThatIsNotThereIsKnownByItsNameAlone) {
+TEST(FileNames, AFileInAFolderThatDoesNotExistIsFoundByItsPathAlone) {
   const TempFolder folder;
   FileNames names;
   names.add(folder.file("none/a"));

@@ -19,7 +19,7 @@ std::string read_text(const File& file, uint64_t offset, size_t n) {
   return text;
 }
 
-TEST(File, ReadsWhatLiesAtAnOffset) {
+TEST(File, ReadsAtAnOffset) {
   const TempFolder folder;
   const File file = File::open_read(folder.write("a", "0123456789"));
   EXPECT_EQ(file.size(), 10U);
@@ -43,12 +43,12 @@ TEST(File, ReadSomeStopsAtTheEnd) {
   EXPECT_EQ(file.read_some_at(1000, out), 0U);
 }
 
-TEST(File, RefusesWhatIsNotARegularFile) {
+TEST(File, RejectsFilesThatAreNotRegular) {
   const TempFolder folder;
   EXPECT_SVDAG_ERROR(File::open_read(folder.file("none")), ExitCode::kBadInput, "no such file");
   EXPECT_SVDAG_ERROR(File::open_read(folder.path()), ExitCode::kBadInput, "not a regular file");
   EXPECT_SVDAG_ERROR(File::open_read("/dev/zero"), ExitCode::kBadInput, "not a regular file");
-  // A pipe without a writer must be refused, not waited for.
+  // Opening a pipe without a writer must not block.
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
   EXPECT_SVDAG_ERROR(File::open_read(folder.file("pipe")), ExitCode::kBadInput,
                      "not a regular file");
@@ -69,7 +69,7 @@ TEST(File, AnonymousFileIsInvisibleUntilLinked) {
   EXPECT_EQ(folder.read("named"), "abc");
 }
 
-TEST(File, WritesLeaveHolesAsZeros) {
+TEST(File, HolesReadAsZeros) {
   const TempFolder folder;
   File file = File::create_anonymous(folder.path());
   file.write_at(4, bytes_of("x"));
@@ -77,27 +77,27 @@ TEST(File, WritesLeaveHolesAsZeros) {
   EXPECT_EQ(read_text(file, 0, 5), std::string("\0\0\0\0x", 5));
 }
 
-TEST(File, AWriteThatFailsIsAnOutputError) {
+TEST(File, AFailedWriteIsAnOutputError) {
   const TempFolder folder;
   File file = File::open_read(folder.write("read-only", "abc"));
   EXPECT_SVDAG_ERROR(file.write_at(0, bytes_of("x")), ExitCode::kOutput,
                      "read-only: cannot be written");
 }
 
-TEST(File, AFolderThatIsMissingIsAnOutputError) {
+TEST(File, AMissingFolderIsAnOutputError) {
   const TempFolder folder;
   EXPECT_SVDAG_ERROR(File::create_anonymous(folder.file("missing")), ExitCode::kOutput,
                      "missing: cannot write in this folder: no such file or folder");
 }
 
-TEST(File, WhatWeMadeFailsToBeReadAsAnOutputError) {
+TEST(File, AFailedReadOfAnOwnFileIsAnOutputError) {
   const TempFolder folder;
   File file = File::create_anonymous(folder.path());
   file.write_at(0, bytes_of("abc"));
   EXPECT_SVDAG_ERROR(read_text(file, 0, 4), ExitCode::kOutput, "ends too early (at byte 3)");
 }
 
-TEST(File, ATransferThatCannotBeDirectGoesThroughThePageCache) {
+TEST(File, AnUnalignedDirectTransferUsesThePageCache) {
   const TempFolder folder;
   File file = File::create_anonymous(folder.path());
   file.use_direct();
@@ -107,7 +107,7 @@ TEST(File, ATransferThatCannotBeDirectGoesThroughThePageCache) {
   EXPECT_EQ(file.size(), 10U);
 }
 
-TEST(File, ALockIsForOneAtATime) {
+TEST(File, ALockIsExclusive) {
   const TempFolder folder;
   const std::string path = folder.write("a", "A");
   File second = File::open_read(path);
@@ -119,7 +119,7 @@ TEST(File, ALockIsForOneAtATime) {
   EXPECT_TRUE(second.try_lock());
 }
 
-TEST(File, MovingHandsTheDescriptorOn) {
+TEST(File, MovingTransfersTheDescriptor) {
   const TempFolder folder;
   File a = File::open_read(folder.write("a", "A"));
   File b = File::open_read(folder.write("b", "B"));
@@ -130,13 +130,13 @@ TEST(File, MovingHandsTheDescriptorOn) {
   EXPECT_EQ(read_text(a, 0, 1), "B");
 }
 
-TEST(File, FolderOfIsWhatStandsBeforeTheLastSlash) {
+TEST(File, FolderOfIsThePartBeforeTheLastSlash) {
   EXPECT_EQ(folder_of("a"), ".");
   EXPECT_EQ(folder_of("/a"), "/");
   EXPECT_EQ(folder_of("a/b/c"), "a/b");
 }
 
-TEST(File, SameFileSeesThroughNames) {
+TEST(File, SameFileComparesFilesNotNames) {
   const TempFolder folder;
   const std::string a = folder.write("a", "A"), b = folder.write("b", "A");
   std::filesystem::create_symlink(a, folder.file("link"));
@@ -146,8 +146,8 @@ TEST(File, SameFileSeesThroughNames) {
   EXPECT_FALSE(same_file(folder.file("none"), folder.file("none")));
 }
 
-// A lack of system resources is not the file's fault: a farm retries 4 and 5, but never 3.
-TEST(File, TooManyOpenFilesAreNoBadInput) {
+// A lack of system resources is not an error of the file: a farm retries 4 and 5, but not 3.
+TEST(File, TooManyOpenFilesAreAMemoryError) {
   const TempFolder folder;
   const std::string path = folder.write("a", "a");
   rlimit before;

@@ -30,7 +30,7 @@ char byte_at(const MappedFile& file, size_t offset) {
   return *(static_cast<const volatile char*>(file.data()) + offset);
 }
 
-TEST(MappedFile, HoldsTheBytesOfTheFileAndMovesWithThem) {
+TEST(MappedFile, HasTheBytesOfTheFileEvenAfterAMove) {
   const TempFolder folder;
   const std::string text(kSize, 'x');
   MappedFile mapped = map(folder.write("a", text), kSize);
@@ -38,13 +38,13 @@ TEST(MappedFile, HoldsTheBytesOfTheFileAndMovesWithThem) {
   EXPECT_EQ(std::memcmp(moved.data(), text.data(), kSize), 0);
 }
 
-TEST(MappedFile, OfNoBytesIsRefused) {
+TEST(MappedFile, RejectsAnEmptyFile) {
   const TempFolder folder;
   EXPECT_SVDAG_ERROR(map(folder.write("a", ""), 0), ExitCode::kBadInput,
                      "a: cannot be mapped into memory");
 }
 
-// As main() does; `which` of some files loses its pages.
+// Reads some files as a program does, after file `which` was truncated.
 void read_a_lost_page(const TempFolder& folder, int which) {
   std::vector<MappedFile> files;
   for (int i = 0; i < 3; ++i) {
@@ -52,14 +52,14 @@ void read_a_lost_page(const TempFolder& folder, int which) {
     files.push_back(map(path, kSize));
     if (i == which && ::truncate(path.c_str(), 10) != 0) ::_exit(99);
   }
-  tell_of_lost_pages("svdag");
+  install_lost_page_handlers("svdag");
   for (const MappedFile& file : files) {
-    if (byte_at(file, 0) != 'x') ::_exit(98);  // of the page that the file still has a part of
+    if (byte_at(file, 0) != 'x') ::_exit(98);  // in the first page, which still exists
   }
   for (const MappedFile& file : files) byte_at(file, kSize - 1);
 }
 
-TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
+TEST(MappedFile, ALostPageIsReportedWithTheFileName) {
   const TempFolder folder;
   for (const int which : {0, 1, 2}) {
     EXPECT_EXIT(read_a_lost_page(folder, which), testing::ExitedWithCode(int(ExitCode::kBadInput)),
@@ -68,8 +68,8 @@ TEST(MappedFile, ALostPageIsOneSentenceThatNamesTheFile) {
   }
 }
 
-// The rest of a page that the file still has a part of reads as zeros, without a signal.
-TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileThatChanged) {
+// The rest of a truncated file's last page reads as zeros, without a signal.
+TEST(MappedFile, NoOutputIsCommittedWhileAMappedFileHasChanged) {
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
   const std::string output = folder.write("out", "old");
@@ -84,12 +84,12 @@ TEST(MappedFile, NothingIsCommittedThatWasMadeOfAFileThatChanged) {
   EXPECT_EQ(File::open_read(output).size(), 3U);
   AtomicFile file(output);
   file.append("newer");
-  file.commit();  // what was made of others is
+  file.commit();  // works again, since the changed file is not mapped
   EXPECT_EQ(File::open_read(output).size(), 5U);
 }
 
-// In a process of its own, which has seen no other file change.
-TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
+// Runs in a new process, in which no other file has changed.
+TEST(MappedFile, AProgramWhoseFileChangedFails) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TempFolder folder;
   const std::string path = folder.write("a", std::string(kSize, 'x'));
@@ -102,6 +102,7 @@ TEST(MappedFile, AProgramDoesNotEndWellAfterItsFileChanged) {
               "a: was changed while it was read");
 }
 
+// True unless the process exited with kBadInput.
 bool ended_otherwise(int status) {
   return !WIFEXITED(status) || WEXITSTATUS(status) != int(ExitCode::kBadInput);
 }
@@ -116,11 +117,11 @@ void fail_after(bool written, const std::string& path, const std::function<void(
   }));
 }
 
-TEST(MappedFile, ThatWasWrittenIsToBlameForWhatAProgramTripsOver) {
+TEST(MappedFile, AChangeIsReportedInsteadOfTheErrorThatItCaused) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TempFolder folder;
-  const auto whole = [&] { return folder.write("a", std::string(kSize, 'x')); };
-  const auto nowhere = [] {
+  const auto new_file = [&] { return folder.write("a", std::string(kSize, 'x')); };
+  const auto segfault = [] {
     const volatile uintptr_t address = 16;
     *reinterpret_cast<volatile char*>(address) = 1;
   };
@@ -128,28 +129,28 @@ TEST(MappedFile, ThatWasWrittenIsToBlameForWhatAProgramTripsOver) {
   const auto range = [] { throw std::out_of_range("at"); };
   const auto usage = [] { fail_usage("a: has no voxel"); };
   const testing::ExitedWithCode bad(int(ExitCode::kBadInput)), internal(int(ExitCode::kInternal));
-  EXPECT_EXIT(fail_after(true, whole(), nowhere), bad, "a: was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), assertion), bad, "a: was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), range), bad, "a: was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(true, whole(), usage), bad, "a: was changed while it was read\n$");
-  EXPECT_EXIT(fail_after(false, whole(), assertion), internal, "please report");
-  EXPECT_EXIT(fail_after(false, whole(), range), internal, "internal error: at; please report");
-  EXPECT_EXIT(fail_after(false, whole(), nowhere), ended_otherwise, "");
+  EXPECT_EXIT(fail_after(true, new_file(), segfault), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, new_file(), assertion), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, new_file(), range), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(true, new_file(), usage), bad, "a: was changed while it was read\n$");
+  EXPECT_EXIT(fail_after(false, new_file(), assertion), internal, "please report");
+  EXPECT_EXIT(fail_after(false, new_file(), range), internal, "internal error: at; please report");
+  EXPECT_EXIT(fail_after(false, new_file(), segfault), ended_otherwise, "");
 }
 
-TEST(MappedFile, AnotherCauseOfTheSignalEndsTheProcessAsBefore) {
+TEST(MappedFile, ASignalOfAnotherCauseKeepsItsEffect) {
   const TempFolder folder;
   EXPECT_EXIT(
       {
         const MappedFile mapped = map(folder.write("a", "x"), 1);
-        tell_of_lost_pages("svdag");
+        install_lost_page_handlers("svdag");
         raise(SIGBUS);
         ::_exit(int(ExitCode::kBadInput));
       },
       ended_otherwise, "");
 }
 
-TEST(MappedFile, AsManyAsAnybodyLikesAreMapped) {
+TEST(MappedFile, ManyFilesCanBeMapped) {
   const TempFolder folder;
   const std::string path = folder.write("a", "x");
   std::vector<MappedFile> files;

@@ -25,7 +25,7 @@ class Cgroup : public testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(Cgroup, TheGroupOfTheProcessCountsAndNotOnlyTheRoot) {
+TEST_F(Cgroup, TheLimitOfTheProcessGroupCounts) {
   write("groups", "0::/system.slice/job-7");
   write("mounted/memory.max", "max");
   write("mounted/system.slice/memory.max", "max");
@@ -33,7 +33,7 @@ TEST_F(Cgroup, TheGroupOfTheProcessCountsAndNotOnlyTheRoot) {
   EXPECT_EQ(limit(), 314572800U);
 }
 
-TEST_F(Cgroup, TheLeastLimitOnTheWayToTheRootCounts) {
+TEST_F(Cgroup, TheLowestLimitOnThePathToTheRootCounts) {
   write("groups", "0::/a/b/c");
   write("mounted/a/memory.max", "1000");
   write("mounted/a/b/memory.max", "3000");
@@ -41,7 +41,7 @@ TEST_F(Cgroup, TheLeastLimitOnTheWayToTheRootCounts) {
   EXPECT_EQ(limit(), 1000U);
 }
 
-TEST_F(Cgroup, OfVersionOneTheHierarchyOfMemoryIsAsked) {
+TEST_F(Cgroup, InVersionOneTheMemoryHierarchyCounts) {
   write("groups", "5:cpu,cpuacct:/quick\n4:memory:/slurm/uid_1/job_2\n0::/unified");
   write("mounted/memory/memory.limit_in_bytes", "9223372036854771712");
   write("mounted/memory/slurm/uid_1/job_2/memory.limit_in_bytes", "4096");
@@ -49,7 +49,7 @@ TEST_F(Cgroup, OfVersionOneTheHierarchyOfMemoryIsAsked) {
   EXPECT_EQ(limit(), 4096U);
 }
 
-TEST_F(Cgroup, AContainersOwnRootCountsWhereThePathLeadsNowhere) {
+TEST_F(Cgroup, TheRootOfAContainerCountsIfThePathDoesNotExist) {
   write("groups", "0::/docker/0123456789abcdef");
   write("mounted/memory.max", "5000");
   EXPECT_EQ(limit(), 5000U);

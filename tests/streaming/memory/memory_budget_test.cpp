@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
-TEST(MemoryBudget, AReservationIsGivenBackWhenItDies) {
+TEST(MemoryBudget, TheDestructorReleasesAReservation) {
   MemoryBudget budget(100);
   {
     const auto a = budget.reserve(60, "nodes");
@@ -23,26 +23,25 @@ TEST(MemoryBudget, AReservationIsGivenBackWhenItDies) {
   EXPECT_EQ(budget.peak(), 100U);
 }
 
-TEST(MemoryBudget, TheLimitItselfIsAllowedAndOneByteMoreIsAnError) {
+TEST(MemoryBudget, OneByteMoreThanTheLimitIsAnError) {
   MemoryBudget budget(10 * kMiB);
   EXPECT_NO_THROW(budget.reserve(10 * kMiB, "nodes"));
   EXPECT_SVDAG_ERROR(
       budget.reserve(10 * kMiB + 1, "nodes"), ExitCode::kMemory,
-      "the nodes need 11 MiB in all, more than the memory budget of 10 MiB: give more "
-      "with --memory");
+      "the nodes need 11 MiB in total, but the memory budget is 10 MiB: raise --memory");
   EXPECT_EQ(budget.used(), 0U);
 }
 
-TEST(MemoryBudget, AFailedReservationTakesNothingAndCountsNoPeak) {
+TEST(MemoryBudget, AFailedReservationChangesNeitherUseNorPeak) {
   MemoryBudget budget(100);
   const auto held = budget.reserve(50, "nodes");
   EXPECT_THROW(budget.reserve(51, "nodes"), Error);
-  EXPECT_THROW(budget.reserve(UINT64_MAX, "nodes"), Error);  // 50 + it overflows
+  EXPECT_THROW(budget.reserve(UINT64_MAX, "nodes"), Error);  // the sum overflows
   EXPECT_EQ(budget.used(), 50U);
   EXPECT_EQ(budget.peak(), 50U);
 }
 
-TEST(MemoryBudget, TryingBeyondTheLimitChangesNothing) {
+TEST(MemoryBudget, AFailedTryResizeChangesNothing) {
   MemoryBudget budget(100);
   auto held = budget.reserve(50, "nodes");
   EXPECT_FALSE(held.try_resize(101));
@@ -54,7 +53,7 @@ TEST(MemoryBudget, TryingBeyondTheLimitChangesNothing) {
   EXPECT_EQ(budget.peak(), 100U);
 }
 
-TEST(MemoryBudget, APeakOfAPhaseBeginsWithWhatIsHeldAndForgetsThePhaseBefore) {
+TEST(MemoryBudget, TheLapPeakStartsAtTheCurrentUse) {
   MemoryBudget budget(100);
   const auto held = budget.reserve(20, "nodes");
   { const auto passing = budget.reserve(70, "nodes"); }
@@ -65,7 +64,7 @@ TEST(MemoryBudget, APeakOfAPhaseBeginsWithWhatIsHeldAndForgetsThePhaseBefore) {
   EXPECT_EQ(budget.peak(), 90U);
 }
 
-TEST(MemoryBudget, ResizeGrowsShrinksAndKeepsTheOldSizeWhenItFails) {
+TEST(MemoryBudget, AFailedResizeKeepsTheOldSize) {
   MemoryBudget budget(100);
   auto held = budget.reserve(10, "nodes");
   held.resize(90, "nodes");
@@ -90,7 +89,7 @@ TEST(MemoryBudget, MovingAReservationCountsItOnce) {
   EXPECT_EQ(budget.used(), 0U);
 }
 
-TEST(MemoryBudget, ThreadsNeverPassTheLimitTogether) {
+TEST(MemoryBudget, ThreadsTogetherNeverExceedTheLimit) {
   MemoryBudget budget(64);
   {
     std::vector<std::jthread> threads;
@@ -110,7 +109,7 @@ TEST(MemoryBudget, ThreadsNeverPassTheLimitTogether) {
   EXPECT_GE(budget.peak(), 39U);
 }
 
-TEST(MemoryBudget, WhatIsRefusedToOneTakesNothingFromAnother) {
+TEST(MemoryBudget, ARejectedRequestDoesNotFailAnotherOne) {
   MemoryBudget budget(100);
   std::atomic<bool> tries{false};
   const std::jthread greedy([&](const std::stop_token& stop) {

@@ -30,7 +30,7 @@ RC_GTEST_PROP(RankBitmap, RanksAreThoseOfASortedSet, ()) {
   for (const uint32_t i : all) RC_ASSERT(bitmap.rank(i) == rank++);
 }
 
-TEST(RankBitmap, TheLastPositionOfAllIsOneLikeOthers) {
+TEST(RankBitmap, AcceptsVeryLargePositions) {
   MemoryBudget budget;
   RankBitmap bitmap(&budget, "test");
   bitmap.set(0xfffffffe);
@@ -40,7 +40,7 @@ TEST(RankBitmap, TheLastPositionOfAllIsOneLikeOthers) {
   EXPECT_LT(budget.used(), 100'000U);  // two chunks of 65,536
 }
 
-TEST(RankBitmap, ItsMemoryIsCountedAndGivenBack) {
+TEST(RankBitmap, ReservesAndReleasesItsMemory) {
   MemoryBudget budget(50'000);
   {
     RankBitmap bitmap(&budget, "test");

@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-TEST(SegmentedArray, HoldsItsElementsWhileItGrowsAndMovesNone) {
+TEST(SegmentedArray, GrowsWithoutMovingElements) {
   MemoryBudget budget;
   SegmentedArray<uint64_t> array(&budget, "test");
   std::vector<const uint64_t*> addresses;
@@ -21,7 +21,7 @@ TEST(SegmentedArray, HoldsItsElementsWhileItGrowsAndMovesNone) {
   for (size_t i = 0; i < kCount; i += 1000) EXPECT_EQ(&array[i], addresses[i / 1000]);
 }
 
-TEST(SegmentedArray, CountsItsMemoryAndGivesItBack) {
+TEST(SegmentedArray, ReservesAndReleasesItsMemory) {
   MemoryBudget budget;
   SegmentedArray<uint64_t> array(&budget, "test");
   for (size_t i = 0; i < 1'000'000; ++i) array.push_back(i);
@@ -32,13 +32,13 @@ TEST(SegmentedArray, CountsItsMemoryAndGivesItBack) {
   EXPECT_EQ(array.size(), 0U);
 }
 
-TEST(SegmentedArray, StopsAtTheLimitOfTheBudget) {
+TEST(SegmentedArray, CannotExceedTheBudget) {
   MemoryBudget budget(1 << 20);
   SegmentedArray<uint64_t> array(&budget, "test");
   EXPECT_THROW(for (size_t i = 0; i < 1'000'000; ++i) array.push_back(i), Error);
 }
 
-TEST(HugeVector, IsAVectorAboveAndBelowTheSizeOfAHugePage) {
+TEST(HugeVector, WorksAboveAndBelowTheSizeOfAHugePage) {
   for (const size_t count : {0, 1, 1000, 700'000, 3'000'000}) {
     HugeVector<uint64_t> v(count);
     for (size_t i = 0; i < count; ++i) v[i] = ~i;

@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-// Delays that depend on the index only: they shuffle the schedule, not the test.
+// Shuffles the schedule reproducibly: the delay depends only on the index.
 void delay(size_t index) {
   std::this_thread::sleep_for(std::chrono::microseconds(index * 7919 % 200));
 }

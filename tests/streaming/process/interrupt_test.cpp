@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-// The status with which a process of its own ends after `work`.
+// Runs `work` in a child process and returns its wait status.
 int status_of(const std::function<int()>& work) {
   const pid_t child = fork();
   if (child == 0) _exit(work());
@@ -32,7 +32,7 @@ TEST(Interrupt, NothingIsThrownBeforeASignal) {
   EXPECT_EQ(caught(), 0);
   pretend_interrupt(SIGTERM);
   EXPECT_EQ(caught(), SIGTERM);
-  EXPECT_EQ(caught(), SIGTERM);  // for every thread that checks
+  EXPECT_EQ(caught(), SIGTERM);  // again, for every thread that checks
   pretend_interrupt(0);
   EXPECT_EQ(caught(), 0);
 }
@@ -63,7 +63,7 @@ TEST(Interrupt, ASecondSignalOfAnyKindKills) {
   }
 }
 
-TEST(Interrupt, WhatWasIgnoredStaysIgnored) {
+TEST(Interrupt, IgnoredSignalsStayIgnored) {
   const int status = status_of([] {
     signal(SIGHUP, SIG_IGN);
     catch_interrupts();

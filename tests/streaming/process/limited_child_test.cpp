@@ -1,4 +1,4 @@
-// A child computes and sends what it has made; whatever else it does is one sentence.
+// A limited child sends its results; anything else that it does ends it with one message.
 #include "streaming/process/limited_child.h"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ void expect_stopped(const Work& work, const char* reason) {
   if (!kSanitized) EXPECT_SVDAG_ERROR(result_of(work), ExitCode::kBadInput, reason);
 }
 
-TEST(LimitedChild, SendsWhatItMakes) {
+TEST(LimitedChild, SendsItsResults) {
   EXPECT_EQ(result_of([](const BlockSink&) {}), "");
   std::string made(3 * kChildBlock + 7, 'a');
   for (size_t i = 0; i < made.size(); ++i) made[i] = char(i % 251);
@@ -44,13 +44,13 @@ TEST(LimitedChild, SendsWhatItMakes) {
             made);
 }
 
-TEST(LimitedChild, LeavesTheParentAsItWas) {
+TEST(LimitedChild, DoesNotChangeTheParent) {
   int here = 1;
   result_of([&](const BlockSink&) { here = 2; });
   EXPECT_EQ(here, 1);
 }
 
-TEST(LimitedChild, ItsErrorsAreErrorsHere) {
+TEST(LimitedChild, ItsErrorsAreRethrown) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer needs system calls when something is thrown";
   EXPECT_SVDAG_ERROR(
       result_of([](const BlockSink&) { fail_input("x.drc", "has no triangles", 12); }),
@@ -60,14 +60,14 @@ TEST(LimitedChild, ItsErrorsAreErrorsHere) {
       ExitCode::kMemory, "needs more");
 }
 
-TEST(LimitedChild, ACrashIsOneSentence) {
+TEST(LimitedChild, ACrashIsAnError) {
   expect_stopped([](const BlockSink&) { __builtin_trap(); }, "it crashed");
   expect_stopped([](const BlockSink&) { std::abort(); }, "it crashed");
   expect_stopped([](const BlockSink&) { ::_exit(0); }, "it ended without a result");
   expect_stopped([](const BlockSink&) { throw 7; }, "it ended without a result");
 }
 
-TEST(LimitedChild, GetsNoMoreMemoryThanItMay) {
+TEST(LimitedChild, CannotExceedItsMemoryLimit) {
   expect_stopped(
       [](const BlockSink& out) {
         std::vector<std::byte> large(size_t(4) << 30, std::byte(1));
@@ -83,7 +83,7 @@ TEST(LimitedChild, GetsNoMoreMemoryThanItMay) {
   }
 }
 
-TEST(LimitedChild, MayNotSpin) {
+TEST(LimitedChild, CannotExceedItsTimeLimit) {
   expect_stopped(
       [](const BlockSink&) {
         volatile bool forever = true;
@@ -93,8 +93,8 @@ TEST(LimitedChild, MayNotSpin) {
       "it took more than 1 s of processor time");
 }
 
-TEST(LimitedChild, OpensNothingStartsNothingAndReachesNobody) {
-  const char* reason = "it made a system call that no decoder needs";
+TEST(LimitedChild, CannotUseFilesNetworkOrProcesses) {
+  const char* reason = "it made a forbidden system call";
   expect_stopped([](const BlockSink&) { ::open("/etc/passwd", O_RDONLY); }, reason);
   expect_stopped([](const BlockSink&) { ::unlink("/tmp/nothing-of-this-name"); }, reason);
   expect_stopped([](const BlockSink&) { ::socket(AF_INET, SOCK_STREAM, 0); }, reason);
@@ -112,7 +112,7 @@ TEST(LimitedChild, WithoutAFilterItsCrashesAreStillContained) {
                      "x.om: the decoder was stopped: it crashed");
 }
 
-TEST(LimitedChild, HasNoFilesOfItsParent) {
+TEST(LimitedChild, CannotReadFilesOfItsParent) {
   const int secret = ::open("/proc/self/status", O_RDONLY);
   ASSERT_GE(secret, 0);
   EXPECT_EQ(result_of([&](const BlockSink& out) {
@@ -124,7 +124,7 @@ TEST(LimitedChild, HasNoFilesOfItsParent) {
   ::close(secret);
 }
 
-TEST(LimitedChild, EndsWithTheOneWhoWantsNoMore) {
+TEST(LimitedChild, EndsIfTheCallerThrows) {
   struct Enough {};
   const Work endless = [](const BlockSink& out) {
     for (const std::vector<std::byte> block(1000);;) out(block);
@@ -134,9 +134,9 @@ TEST(LimitedChild, EndsWithTheOneWhoWantsNoMore) {
                Enough);
 }
 
-// glibc unlocks its allocator in the child; the one of a sanitizer stays locked by a thread that
+// glibc unlocks its allocator in the child. That of a sanitizer may stay locked by a thread that
 // the child does not have.
-TEST(LimitedChild, OtherThreadsAreNoHarm) {
+TEST(LimitedChild, WorksWithOtherThreadsInTheParent) {
   if (kSanitized) GTEST_SKIP() << "the allocator of a sanitizer may be locked in the child";
   const std::jthread busy([](const std::stop_token& end) {
     while (!end.stop_requested()) std::vector<char>(1000).assign(900, 'x');

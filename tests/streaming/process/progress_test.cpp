@@ -1,4 +1,4 @@
-// What Progress draws.
+// Output of Progress.
 #include "streaming/process/progress.h"
 
 #include <gtest/gtest.h>
@@ -16,16 +16,16 @@ std::string drawn(Progress::Mode mode, uint64_t total, uint64_t steps) {
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(Progress, NamesAPhaseAsItBeginsAndErasesTheLineAtTheEnd) {
+TEST(Progress, ShowsAPhaseAtItsBeginAndErasesTheLineAtTheEnd) {
   EXPECT_EQ(drawn(Progress::Mode::kOn, 0, 0), "\rsplit\r     \r");
 }
 
-TEST(Progress, CountsStepsOrTheirShare) {
+TEST(Progress, ShowsTheCountOrTheShareOfSteps) {
   EXPECT_NE(drawn(Progress::Mode::kOn, 0, 7).find("\rsplit 7"), std::string::npos);
   EXPECT_NE(drawn(Progress::Mode::kOn, 4, 1).find("\rsplit  25 %"), std::string::npos);
 }
 
-TEST(Progress, PhasesOfPartsCountOnceAndNeverGoBack) {
+TEST(Progress, PhasesInIntervalsAdvanceOneShare) {
   testing::internal::CaptureStderr();
   {
     Progress progress(Progress::Mode::kOn);
@@ -42,11 +42,11 @@ TEST(Progress, PhasesOfPartsCountOnceAndNeverGoBack) {
   EXPECT_NE(text.find("\rbin  75 %\rbin  88 %"), std::string::npos) << text;
 }
 
-TEST(Progress, NeedsNoEscapeSequence) {
+TEST(Progress, UsesNoEscapeSequence) {
   EXPECT_EQ(drawn(Progress::Mode::kOn, 4, 1).find('\033'), std::string::npos);
 }
 
-TEST(Progress, SaysNothingUnlessItIsOn) {
+TEST(Progress, IsSilentUnlessEnabled) {
   EXPECT_EQ(drawn(Progress::Mode::kOff, 4, 1), "");
   EXPECT_EQ(drawn(Progress::Mode::kAuto, 4, 1), "");  // stderr is not a terminal here
 }

@@ -17,17 +17,17 @@ namespace {
 
 using Key = std::array<uint32_t, 8>;
 
-enum class Kind { kRandom, kFew, kEqual, kAscending, kDescending };
+enum class KeyOrder { kRandom, kFew, kEqual, kAscending, kDescending };
 
-std::vector<Key> make_keys(Kind kind, size_t count, uint64_t seed) {
+std::vector<Key> make_keys(KeyOrder order, size_t count, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Key> keys(count);
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t number = uint32_t(kind == Kind::kDescending ? count - i : i);
+    const uint32_t number = uint32_t(order == KeyOrder::kDescending ? count - i : i);
     keys[i] = {0, 0, 7, 0, number, 0, 0, 1};
-    if (kind == Kind::kEqual) keys[i][4] = 5;
-    if (kind != Kind::kRandom && kind != Kind::kFew) continue;
-    const uint32_t range = kind == Kind::kRandom ? 1 << 22 : 2;
+    if (order == KeyOrder::kEqual) keys[i][4] = 5;
+    if (order != KeyOrder::kRandom && order != KeyOrder::kFew) continue;
+    const uint32_t range = order == KeyOrder::kRandom ? 1 << 22 : 2;
     for (uint32_t& word : keys[i]) word = random() % 100 < 55 ? uint32_t(random() % range) : 0;
   }
   return keys;
@@ -62,24 +62,24 @@ void expect_sorted_like_std_sort(std::vector<Key> keys, uint64_t bytes, size_t t
   EXPECT_LE(sorter.sort.peak_bytes(), bytes);
 }
 
-TEST(ExternalSort, GivesWhatStdSortGives) {
+TEST(ExternalSort, SortsLikeStdSort) {
   std::mt19937_64 random(1);
-  for (const Kind kind :
-       {Kind::kRandom, Kind::kFew, Kind::kEqual, Kind::kAscending, Kind::kDescending}) {
+  for (const KeyOrder order : {KeyOrder::kRandom, KeyOrder::kFew, KeyOrder::kEqual,
+                               KeyOrder::kAscending, KeyOrder::kDescending}) {
     for (const size_t count : {0, 1, 2, 1000, 70000, 200000}) {
       for (const size_t threads : {1, 2, 5}) {
-        const uint64_t least = threads * ExternalSortRoom::kLeast;
+        const uint64_t min_bytes = threads * ExternalSortRoom::kLeast;
         const size_t size = count < 10 ? count : count + random() % count;
-        expect_sorted_like_std_sort(make_keys(kind, size, random()), least + random() % least,
-                                    threads);
+        expect_sorted_like_std_sort(make_keys(order, size, random()),
+                                    min_bytes + random() % min_bytes, threads);
       }
     }
   }
 }
 
-TEST(ExternalSort, MergesInGroupsWhereRunsAreMany) {
+TEST(ExternalSort, MergesManyStreamsInGroups) {
   Sorter sorter(ExternalSortRoom::kLeast, 1);
-  std::vector<Key> keys = make_keys(Kind::kRandom, 600000, 3);
+  std::vector<Key> keys = make_keys(KeyOrder::kRandom, 600000, 3);
   for (const Key& key : keys) sorter.sort.push(key);
   std::sort(keys.begin(), keys.end());
   EXPECT_TRUE(sorter.finish() == keys);
@@ -87,9 +87,9 @@ TEST(ExternalSort, MergesInGroupsWhereRunsAreMany) {
   EXPECT_LE(sorter.sort.peak_bytes(), ExternalSortRoom::kLeast);
 }
 
-TEST(ExternalSort, WhatFitsIsNotSpilled) {
+TEST(ExternalSort, InputThatFitsIsNotSpilled) {
   Sorter sorter(64 << 20, 2);
-  for (const Key& key : make_keys(Kind::kRandom, 900000, 4)) sorter.sort.push(key);
+  for (const Key& key : make_keys(KeyOrder::kRandom, 900000, 4)) sorter.sort.push(key);
   EXPECT_EQ(sorter.finish().size(), 900000U);
   EXPECT_EQ(sorter.sort.written_bytes(), 0U);
   EXPECT_EQ(sorter.temp.entries(), 0U);
@@ -98,13 +98,13 @@ TEST(ExternalSort, WhatFitsIsNotSpilled) {
 TEST(ExternalSort, WritesAndReadsEachRecordOnce) {
   Sorter sorter(8 << 20, 2);
   const size_t count = 2000000;
-  for (const Key& key : make_keys(Kind::kRandom, count, 5)) sorter.sort.push(key);
+  for (const Key& key : make_keys(KeyOrder::kRandom, count, 5)) sorter.sort.push(key);
   EXPECT_EQ(sorter.finish().size(), count);
   EXPECT_LT(sorter.sort.written_bytes(), count * sizeof(Key) * 11 / 10);
   EXPECT_EQ(sorter.sort.read_bytes(), sorter.sort.written_bytes());
 }
 
-TEST(ExternalSort, TakesItsMemoryFromTheBudgetAndGivesItBack) {
+TEST(ExternalSort, ReservesAndReleasesItsMemory) {
   MemoryBudget budget(4 << 20);
   ParallelExecutor executor(2);
   const auto word = [](const Key& k, size_t i) { return k[i]; };
@@ -116,14 +116,14 @@ TEST(ExternalSort, TakesItsMemoryFromTheBudgetAndGivesItBack) {
   const auto too_large = [&] {
     ExternalSort<Key, decltype(word)> sort({&budget, 5 << 20, &executor, {}}, 8, word);
   };
-  EXPECT_SVDAG_ERROR(too_large(), ExitCode::kMemory, "give more with --memory");
+  EXPECT_SVDAG_ERROR(too_large(), ExitCode::kMemory, "raise --memory");
 }
 
-// No worker waits for the turn of one that has failed.
-TEST(ExternalSort, AnErrorOfTheTakerEndsTheSort) {
+// No worker may wait for the turn of a failed one.
+TEST(ExternalSort, AnErrorOfTheSinkEndsTheSort) {
   for (const size_t count : {100000, 1000000}) {
     Sorter sorter(8 << 20, 3);
-    for (const Key& key : make_keys(Kind::kRandom, count, 6)) sorter.sort.push(key);
+    for (const Key& key : make_keys(KeyOrder::kRandom, count, 6)) sorter.sort.push(key);
     size_t calls = 0;
     const auto fail_soon = [&](std::span<const Key>) {
       if (++calls == 3) throw Error(ExitCode::kOutput, "full");
@@ -132,10 +132,10 @@ TEST(ExternalSort, AnErrorOfTheTakerEndsTheSort) {
   }
 }
 
-// One task after the other, and all of them, as if those after a failed one had begun before it.
-class StubbornExecutor : public Executor {
+// Runs all tasks one after the other, even after a failed one, as if they had started before it.
+class RunAllExecutor : public Executor {
  public:
-  explicit StubbornExecutor(size_t workers) : workers_(workers) {}
+  explicit RunAllExecutor(size_t workers) : workers_(workers) {}
   size_t workers() const override { return workers_; }
   void for_each(size_t count, const Task& task) override {
     std::exception_ptr first;
@@ -153,8 +153,8 @@ class StubbornExecutor : public Executor {
   size_t workers_;
 };
 
-struct StubbornSorter {
-  StubbornSorter(uint64_t bytes, size_t workers)
+struct RunAllSorter {
+  RunAllSorter(uint64_t bytes, size_t workers)
       : executor(workers),
         sort({&budget, bytes, &executor, [this] { return folder.create("spill"); }}, 8,
              [](const Key& k, size_t i) { return k[i]; }) {}
@@ -162,29 +162,29 @@ struct StubbornSorter {
   TempFolder temp;
   Folder folder = Folder::open_private(temp.path());
   MemoryBudget budget;
-  StubbornExecutor executor;
+  RunAllExecutor executor;
   ExternalSort<Key, uint32_t (*)(const Key&, size_t)> sort;
 };
 
-// Who comes after it finds fewer blocks than the pieces need.
-TEST(ExternalSort, ADamagedBlockEndsTheSortForWorkersThatHaveBegunToo) {
-  StubbornSorter sorter(3 * ExternalSortRoom::kLeast, 3);
-  for (const Key& key : make_keys(Kind::kRandom, 100000, 9)) sorter.sort.push(key);
+// The worker after the failed one finds fewer blocks than its piece needs.
+TEST(ExternalSort, ADamagedBlockAlsoEndsWorkersThatHaveStarted) {
+  RunAllSorter sorter(3 * ExternalSortRoom::kLeast, 3);
+  for (const Key& key : make_keys(KeyOrder::kRandom, 100000, 9)) sorter.sort.push(key);
   File spilled = sorter.folder.open("spill");
-  std::byte first;  // of the first block, behind its header: it holds the least keys of its run
+  std::byte first;  // payload byte of the first block, which has the smallest keys of its stream
   spilled.read_at(kSpillHeader, {&first, 1});
   first ^= std::byte(1);
   spilled.write_at(kSpillHeader, {&first, 1});
-  size_t taken = 0;
-  const auto count = [&](std::span<const Key> keys) { taken += keys.size(); };
+  size_t received = 0;
+  const auto count = [&](std::span<const Key> keys) { received += keys.size(); };
   EXPECT_SVDAG_ERROR(sorter.sort.finish(count), ExitCode::kOutput, "scratch file is damaged");
-  EXPECT_EQ(taken, 0U);
+  EXPECT_EQ(received, 0U);
 }
 
-TEST(ExternalSort, HundredsOfWorkersHaveSmallerBlocks) {
+TEST(ExternalSort, WorksWithHundredsOfWorkers) {
   for (const size_t workers : {255, 256, 512}) {
-    StubbornSorter sorter(workers * ExternalSortRoom::kLeast, workers);
-    std::vector<Key> keys = make_keys(Kind::kRandom, 20000, 10), sorted;
+    RunAllSorter sorter(workers * ExternalSortRoom::kLeast, workers);
+    std::vector<Key> keys = make_keys(KeyOrder::kRandom, 20000, 10), sorted;
     for (const Key& key : keys) sorter.sort.push(key);
     sorter.sort.finish(
         [&](std::span<const Key> some) { sorted.insert(sorted.end(), some.begin(), some.end()); });
@@ -194,13 +194,13 @@ TEST(ExternalSort, HundredsOfWorkersHaveSmallerBlocks) {
   }
 }
 
-TEST(PieceMerge, APieceHasABlockEvenWhereThereIsRoomForNone) {
+TEST(PieceMerge, APieceHasAtLeastOneBlock) {
   using Merge = PieceMerge<Key, uint32_t (*)(const Key&, size_t)>;
   EXPECT_EQ(Merge::step(510, 2, 256), 1U);
   EXPECT_EQ(Merge::step(510, 2, 1), (510U - 4) / 3);
 }
 
-// No worker waits for the turn of one that a signal stopped before it had begun.
+// No worker may wait for the turn of one that an interrupt stopped before its start.
 TEST(ExternalSort, AnInterruptEndsTheSort) {
   std::atomic<bool> finishing{false};
   ParallelExecutor executor(2, [&](size_t index) {
@@ -214,7 +214,7 @@ TEST(ExternalSort, AnInterruptEndsTheSort) {
   ExternalSort<Key, uint32_t (*)(const Key&, size_t)> sort(
       {&budget, 8 << 20, &executor, [&] { return folder.create("spill"); }}, 8,
       [](const Key& k, size_t i) { return k[i]; });
-  for (const Key& key : make_keys(Kind::kRandom, 10000, 8)) sort.push(key);
+  for (const Key& key : make_keys(KeyOrder::kRandom, 10000, 8)) sort.push(key);
   finishing = true;
   EXPECT_THROW(sort.finish([](std::span<const Key>) {}), Interrupted);
   pretend_interrupt(0);

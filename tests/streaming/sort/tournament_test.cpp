@@ -8,8 +8,8 @@
 namespace svdag {
 namespace {
 
-// Heads are numbers; the prefix is a tenth of one, so that many are equal.
-TEST(Tournament, GivesTheSmallestHeadAsALinearSearchDoes) {
+// Heads are numbers, and a prefix is a tenth of one, so that many prefixes are equal.
+TEST(Tournament, FindsTheSmallestHeadLikeALinearSearch) {
   constexpr int kEnd = 1000;
   std::mt19937 random(1);
   for (size_t sources = 1; sources < 40; ++sources) {

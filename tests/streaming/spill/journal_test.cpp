@@ -36,7 +36,7 @@ class JournalFile {
   Folder folder_ = Folder::open_private(temp_.path());
 };
 
-// Four records, and the size of the journal after each.
+// Writes four records; returns the size of the journal before the first and after each.
 std::vector<size_t> write_four(JournalFile* file) {
   std::vector<size_t> ends = {0};
   Journal journal = file->open().first;
@@ -62,13 +62,13 @@ TEST(Journal, IsEmptyAtFirst) {
   EXPECT_EQ(file.bytes(), "");
 }
 
-RC_GTEST_PROP(Journal, GivesBackWhatWasAppendedOverManyOpenings,
+RC_GTEST_PROP(Journal, ReadsRecordsAppendedInManySessions,
               (const std::vector<std::pair<uint32_t, std::string>>& records)) {
   JournalFile file;
-  size_t known = 0;
+  size_t count = 0;
   for (const auto& [kind, text] : records) {
     auto [journal, before] = file.open();
-    RC_ASSERT(before.size() == known++);
+    RC_ASSERT(before.size() == count++);
     journal.append(kind, payload_of(text));
   }
   const auto read = file.read();
@@ -79,7 +79,7 @@ RC_GTEST_PROP(Journal, GivesBackWhatWasAppendedOverManyOpenings,
   }
 }
 
-TEST(Journal, CutAnywhereItHoldsTheRecordsBeforeTheCutAndGoesOn) {
+TEST(Journal, TruncatedAnywhereItKeepsCompleteRecordsAndContinues) {
   JournalFile file;
   const auto ends = write_four(&file);
   const std::string whole = file.bytes();
@@ -87,13 +87,13 @@ TEST(Journal, CutAnywhereItHoldsTheRecordsBeforeTheCutAndGoesOn) {
     file.set(whole.substr(0, cut));
     const size_t kept = size_t(std::ranges::upper_bound(ends, cut) - ends.begin()) - 1;
     expect_first(kept, file.read());
-    EXPECT_EQ(file.bytes().size(), ends[kept]) << cut;  // the rest is gone
+    EXPECT_EQ(file.bytes().size(), ends[kept]) << cut;  // the incomplete record was removed
     file.open().first.append(9, payload_of("more"));
     EXPECT_EQ(file.read().size(), kept + 1);
   }
 }
 
-TEST(Journal, AFlippedBitEndsItBeforeItsRecord) {
+TEST(Journal, AFlippedBitEndsItBeforeTheDamagedRecord) {
   JournalFile file;
   const auto ends = write_four(&file);
   const std::string whole = file.bytes();
@@ -105,7 +105,7 @@ TEST(Journal, AFlippedBitEndsItBeforeItsRecord) {
   }
 }
 
-TEST(Journal, ZerosAndGarbageBehindItAreCutOff) {
+TEST(Journal, RemovesZerosAndGarbageAtTheEnd) {
   for (const char fill : {'\0', '\xff', 'a'}) {
     JournalFile file;
     const auto ends = write_four(&file);
@@ -115,34 +115,34 @@ TEST(Journal, ZerosAndGarbageBehindItAreCutOff) {
   }
 }
 
-TEST(Journal, AHugeLengthIsNotBelieved) {
+TEST(Journal, RejectsAHugeLength) {
   TempFolder temp;
   Folder folder = Folder::open_private(temp.path());
   File sparse = folder.create("journal");
   const uint32_t tag[] = {1, 0xffffffff};
   sparse.write_at(0, std::as_bytes(std::span(tag)));
-  sparse.truncate(uint64_t(1) << 33);  // so many bytes do remain
+  sparse.truncate(uint64_t(1) << 33);  // the file is long enough for the length
   std::vector<JournalRecord> records;
   Journal(std::move(sparse), &records);
   EXPECT_TRUE(records.empty());
   EXPECT_EQ(std::filesystem::file_size(temp.file("journal")), 0U);
 }
 
-TEST(Journal, ARecordThatIsTooLongIsToldOfAndNothingIsWritten) {
+TEST(Journal, ARecordThatIsTooLongIsAnErrorAndNotWritten) {
   JournalFile file;
   auto [journal, records] = file.open();
-  const std::byte first{};  // the rest is not looked at
+  const std::byte first{};  // the rest is not read
   const std::span<const std::byte> payload(&first, (size_t(1) << 30) + 1);
   EXPECT_SVDAG_ERROR(journal.append(1, payload), ExitCode::kOutput, "more than 2^30 bytes");
   EXPECT_EQ(file.bytes(), "");
 }
 
-TEST(Journal, NothingIsAppendedAfterAnAppendThatFailed) {
+TEST(Journal, NothingIsAppendedAfterAFailedAppend) {
   JournalFile file;
   auto [journal, records] = file.open();
   journal.append(1, payload_of("first"));
   const std::string before = file.bytes();
-  const std::byte first{};  // the rest is not looked at
+  const std::byte first{};  // the rest is not read
   const std::span<const std::byte> payload(&first, (size_t(1) << 30) + 1);
   EXPECT_SVDAG_ERROR(journal.append(2, payload), ExitCode::kOutput, "more than 2^30 bytes");
   EXPECT_SVDAG_ERROR(journal.append(3, payload_of("third")), ExitCode::kOutput,
@@ -150,7 +150,7 @@ TEST(Journal, NothingIsAppendedAfterAnAppendThatFailed) {
   EXPECT_EQ(file.bytes(), before);
 }
 
-TEST(Journal, AnAppendThatCannotBeWrittenIsAnOutputError) {
+TEST(Journal, AFailedWriteIsAnOutputError) {
   TempFolder temp;
   std::vector<JournalRecord> records;
   Journal journal(File::open_read(temp.write("read-only", "")), &records);

@@ -48,7 +48,7 @@ int status_of(pid_t child) {
   return status;
 }
 
-TEST(ScratchDir, StandsBesideTheOutputOrIsNamedAfterItsAbsolutePath) {
+TEST(ScratchDir, IsBesideTheOutputOrNamedAfterItsAbsolutePath) {
   EXPECT_EQ(ScratchDir::path_for("a/out.svdag", ""), "a/out.svdag.scratch");
   const std::string here = ScratchDir::path_for("out.svdag", "/big");
   EXPECT_EQ(here.substr(0, 15), "/big/out.svdag-");
@@ -57,7 +57,7 @@ TEST(ScratchDir, StandsBesideTheOutputOrIsNamedAfterItsAbsolutePath) {
   EXPECT_NE(ScratchDir::path_for("x/out.svdag", "/big"), here);
 }
 
-TEST(ScratchDir, ALongNameIsCutBetweenTwoCharactersAndStaysItsOwn) {
+TEST(ScratchDir, ALongNameIsShortenedBetweenTwoCharactersAndStaysUnique) {
   const auto name_of = [](const std::string& path) { return fs::path(path).filename().string(); };
   const TempFolder temp;
   for (const std::string& under : {std::string(), temp.file("under")}) {
@@ -79,7 +79,7 @@ TEST(ScratchDir, ALongNameIsCutBetweenTwoCharactersAndStaysItsOwn) {
   ScratchDir made(ScratchDir::path_for(temp.file(std::string(250, 'n')), ""));
 }
 
-TEST(ScratchDir, AnOutputHasOneFolderThroughWhateverLinkItIsReached) {
+TEST(ScratchDir, AnOutputReachedThroughALinkHasTheSameFolder) {
   const TempFolder temp;
   fs::create_directory(temp.file("real"));
   fs::create_directory_symlink(temp.file("real"), temp.file("link"));
@@ -87,7 +87,7 @@ TEST(ScratchDir, AnOutputHasOneFolderThroughWhateverLinkItIsReached) {
             ScratchDir::path_for(temp.file("real/out"), "/big"));
 }
 
-TEST(ScratchDir, FolderAndFilesAreForThisUserOnlyWhateverTheUmask) {
+TEST(ScratchDir, FolderAndFilesAreForThisUserOnlyWithAnyUmask) {
   const TempFolder temp;
   const mode_t before = umask(0);
   ScratchDir dir(temp.file("s"));
@@ -98,7 +98,7 @@ TEST(ScratchDir, FolderAndFilesAreForThisUserOnlyWhateverTheUmask) {
   EXPECT_EQ(mode_of(temp.file("s/spill")), 0600U);
 }
 
-TEST(ScratchDir, AFolderThatStoodOpenIsClosedToOthers) {
+TEST(ScratchDir, ClosesAnExistingFolderToOtherUsers) {
   const TempFolder temp;
   fs::create_directory(temp.file("s"));
   fs::permissions(temp.file("s"), fs::perms::all);
@@ -106,7 +106,7 @@ TEST(ScratchDir, AFolderThatStoodOpenIsClosedToOthers) {
   EXPECT_EQ(mode_of(temp.file("s")), 0700U);
 }
 
-TEST(ScratchDir, FilesAreMadeAnewOpenedAndRemoved) {
+TEST(ScratchDir, FilesAreCreatedOpenedAndRemoved) {
   const TempFolder temp;
   ScratchDir dir(temp.file("s"));
   EXPECT_FALSE(dir.has("a"));
@@ -144,7 +144,7 @@ TEST(ScratchDir, IsRemovedAtTheEndUnlessItIsKept) {
   EXPECT_EQ(temp.entries(), 0U);
 }
 
-TEST(ScratchDir, AFolderPutIntoItIsNotOursAndKeepsOnlyItselfAlive) {
+TEST(ScratchDir, AForeignSubfolderRemainsButNoFile) {
   const TempFolder temp;
   {
     ScratchDir dir(temp.file("s"));
@@ -155,14 +155,14 @@ TEST(ScratchDir, AFolderPutIntoItIsNotOursAndKeepsOnlyItselfAlive) {
   EXPECT_FALSE(fs::exists(temp.file("s/spill")));
 }
 
-TEST(ScratchDir, WhatCannotBeRemovedIsTakenOverByTheNext) {
+TEST(ScratchDir, TheNextOwnerTakesOverFilesThatCouldNotBeRemoved) {
   const TempFolder temp;
   {
     ScratchDir dir(temp.file("s"));
     dir.create("spill");
     dir.create("other");
     fs::remove(temp.file("s/spill"));
-    fs::create_directory(temp.file("s/spill"));  // which is not removed as a file
+    fs::create_directory(temp.file("s/spill"));  // cannot be removed as a file
   }
   EXPECT_TRUE(fs::exists(temp.file("s/owner")));
   EXPECT_FALSE(fs::exists(temp.file("s/other")));
@@ -173,18 +173,18 @@ TEST(ScratchDir, WhatCannotBeRemovedIsTakenOverByTheNext) {
   EXPECT_EQ(temp.entries(), 0U);
 }
 
-TEST(ScratchDir, AFolderOfSomebodysFilesIsRefusedAndLeftAlone) {
+TEST(ScratchDir, AFolderWithForeignFilesIsRejectedUnchanged) {
   const TempFolder folder;
   const std::string path = folder.file("s");
   std::filesystem::create_directory(path);
   folder.write("s/thesis.txt", "years");
   folder.write("s/probe-7.csv", "precious");
-  EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "not a scratch folder");
+  EXPECT_SVDAG_ERROR(ScratchDir{path}, ExitCode::kOutput, "is not a scratch folder");
   EXPECT_EQ(folder.read("s/thesis.txt"), "years");
 }
 
-// Left by a process that was killed while it tested the owner of new files.
-TEST(ScratchDir, WhatAskedForTheOwnerOfFilesIsNobodysFile) {
+// The remains of a process that was killed while it tested the owner of new files.
+TEST(ScratchDir, AProbeOfFileOwnershipIsNotAForeignFile) {
   const TempFolder folder;
   const std::string path = folder.file("s");
   std::filesystem::create_directory(path);
@@ -193,7 +193,7 @@ TEST(ScratchDir, WhatAskedForTheOwnerOfFilesIsNobodysFile) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-TEST(ScratchDir, ALinkOrAFileInItsPlaceIsRefused) {
+TEST(ScratchDir, RejectsALinkOrAFile) {
   const TempFolder temp;
   fs::create_directory(temp.file("elsewhere"));
   fs::create_directory_symlink(temp.file("elsewhere"), temp.file("link"));
@@ -208,7 +208,7 @@ TEST(ScratchDir, ALinkOrAFileInItsPlaceIsRefused) {
                      "no: cannot write in this folder: no such file or folder");
 }
 
-TEST(ScratchDir, AnotherUsersFolderIsRefused) {
+TEST(ScratchDir, RejectsAnotherUsersFolder) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
   const TempFolder temp;
   fs::create_directory(temp.file("s"));
@@ -216,7 +216,7 @@ TEST(ScratchDir, AnotherUsersFolderIsRefused) {
   EXPECT_SVDAG_ERROR(ScratchDir(temp.file("s")), ExitCode::kOutput, "belongs to another user");
 }
 
-TEST(ScratchDir, PlantedNamesAreNeitherFollowedNorWrittenTo) {
+TEST(ScratchDir, PlantedFilesAreNeitherFollowedNorWrittenTo) {
   const TempFolder temp;
   temp.write("precious", "keep");
   fs::create_directory(temp.file("s"));
@@ -228,7 +228,8 @@ TEST(ScratchDir, PlantedNamesAreNeitherFollowedNorWrittenTo) {
     ScratchDir dir(temp.file("s"));
     EXPECT_FALSE(dir.has("link"));
     for (const char* name : {"link", "second", "pipe"})
-      EXPECT_SVDAG_ERROR(dir.open(name), ExitCode::kOutput, "is not a regular file of its own");
+      EXPECT_SVDAG_ERROR(dir.open(name), ExitCode::kOutput,
+                         "is not a regular file, or has other hard links");
     for (const char* name : {"link", "second", "pipe"})
       dir.create(name).write_at(0, bytes_of("spill"));
   }
@@ -238,10 +239,10 @@ TEST(ScratchDir, PlantedNamesAreNeitherFollowedNorWrittenTo) {
   fs::create_directory(temp.file("s"));
   fs::create_symlink(temp.file("precious"), temp.file("s/owner"));
   EXPECT_SVDAG_ERROR(ScratchDir(temp.file("s")), ExitCode::kOutput,
-                     "s/owner: is not a regular file of its own");
+                     "s/owner: is not a regular file, or has other hard links");
 }
 
-TEST(ScratchDir, ASecondOwnerIsRefusedAndChangesNothing) {
+TEST(ScratchDir, ASecondOwnerIsRejectedAndChangesNothing) {
   const TempFolder temp;
   ScratchDir dir(temp.file("s"));
   dir.create("spill").write_at(0, bytes_of("mine"));
@@ -250,10 +251,10 @@ TEST(ScratchDir, ASecondOwnerIsRefusedAndChangesNothing) {
       ScratchDir other(temp.file("s"));
       return 1;
     } catch (const Error& error) {
-      const std::string says = error.what();
-      const bool right = error.code() == ExitCode::kUsage &&
-                         says.find("another bake is using this scratch folder") != says.npos;
-      return right ? 0 : 2;
+      const std::string what = error.what();
+      const bool expected = error.code() == ExitCode::kUsage &&
+                            what.find("another bake is using this scratch folder") != what.npos;
+      return expected ? 0 : 2;
     }
   });
   EXPECT_EQ(status_of(child), 0);
@@ -261,7 +262,7 @@ TEST(ScratchDir, ASecondOwnerIsRefusedAndChangesNothing) {
   EXPECT_EQ(text_of(dir.open("spill")), "mine");
 }
 
-TEST(ScratchDir, IsInUseAsLongAsItsOwnerLives) {
+TEST(ScratchDir, IsInUseWhileItHasAnOwner) {
   const TempFolder temp;
   const std::string path = temp.file("s");
   EXPECT_FALSE(ScratchDir::in_use(path));
@@ -271,19 +272,20 @@ TEST(ScratchDir, IsInUseAsLongAsItsOwnerLives) {
     dir.keep();
   }
   EXPECT_FALSE(ScratchDir::in_use(path));
-  ScratchDir again(path);  // which asking has not changed
+  ScratchDir again(path);  // the test has not changed the folder
 }
 
-TEST(ScratchDir, WhoAsksWhetherItIsInUseIsNoUser) {
+// in_use() takes a shared lock for a moment.
+TEST(ScratchDir, ASharedLockIsNotAnOwner) {
   const TempFolder temp;
   fs::create_directory(temp.file("s"));
-  const int asker = open(temp.write("s/owner", "").c_str(), O_RDONLY | O_CLOEXEC);
-  ASSERT_EQ(flock(asker, LOCK_SH), 0);
+  const int fd = open(temp.write("s/owner", "").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(fd, LOCK_SH), 0);
   EXPECT_FALSE(ScratchDir::in_use(temp.file("s")));
-  close(asker);
+  close(fd);
 }
 
-TEST(ScratchDir, TheFolderOfAKilledOwnerIsTakenOverWithAllItHolds) {
+TEST(ScratchDir, TheFolderOfAKilledOwnerIsTakenOverWithItsFiles) {
   const TempFolder temp;
   const pid_t child = start([&] {
     ScratchDir dir(temp.file("s"));
@@ -296,8 +298,8 @@ TEST(ScratchDir, TheFolderOfAKilledOwnerIsTakenOverWithAllItHolds) {
   EXPECT_EQ(text_of(dir.open("journal")), "half");
 }
 
-// A process that owns the folder makes a file beside it with O_EXCL, and removes that before it
-// gives the folder back: two owners at once would meet there.
+// Each owner creates the file `witness` with O_EXCL and removes it before it releases the folder:
+// two owners at the same time would collide there.
 int own_many_times(const std::string& path, const std::string& witness) {
   for (int owned = 0; owned < 30;) {
     try {
@@ -305,7 +307,7 @@ int own_many_times(const std::string& path, const std::string& witness) {
       const int fd = open(witness.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
       if (fd < 0) return 1;
       close(fd);
-      std::this_thread::yield();  // one that came in by mistake gets its turn
+      std::this_thread::yield();  // lets a second owner run, if there is one by mistake
       if (!dir.has("owner") || unlink(witness.c_str()) != 0) return 2;
       ++owned;
     } catch (const Error& error) {

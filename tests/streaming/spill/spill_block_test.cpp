@@ -21,7 +21,7 @@ bool opens(std::vector<std::byte> block, const SpillLabel& label) {
   return open_block(block, label);
 }
 
-TEST(SpillBlock, HasTheLayoutThatTheHeaderOfSpillFilePromises) {
+TEST(SpillBlock, HasTheLayoutDocumentedInSpillFile) {
   const auto block = sealed({0x1122334455667788, 3, 100});
   const auto number = [&](size_t at, size_t size) {
     uint64_t value = 0;
@@ -36,7 +36,7 @@ TEST(SpillBlock, HasTheLayoutThatTheHeaderOfSpillFilePromises) {
   for (size_t i = 64 + 100; i < 4096; ++i) EXPECT_EQ(block[i], std::byte(0));
 }
 
-TEST(SpillBlock, EveryFlippedBitIsFound) {
+TEST(SpillBlock, EveryFlippedBitIsDetected) {
   for (const SpillLabel label : {SpillLabel{0, 0, 4032}, SpillLabel{7, 1, 4031},
                                  SpillLabel{UINT64_MAX, 2, 1}, SpillLabel{1, UINT64_MAX, 0}}) {
     auto block = sealed(label);
@@ -56,10 +56,10 @@ TEST(SpillBlock, OpensForItsOwnLabelOnly) {
   EXPECT_FALSE(opens(block, {4, 6, 7}));
   EXPECT_FALSE(opens(block, {5, 7, 7}));
   EXPECT_FALSE(opens(block, {5, 6, 8}));
-  EXPECT_FALSE(opens(std::vector<std::byte>(4096), {0, 0, 0}));  // a hole of the file
+  EXPECT_FALSE(opens(std::vector<std::byte>(4096), {0, 0, 0}));  // a hole in the file
 }
 
-TEST(SpillBlock, ItsMemoryIsAlignedAndCounted) {
+TEST(SpillBlock, ItsMemoryIsAlignedAndReserved) {
   MemoryBudget budget(10'000);
   {
     const SpillBlock block(&budget, 8192);

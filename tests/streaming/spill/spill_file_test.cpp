@@ -45,7 +45,7 @@ Bytes read(SpillFile* file, const SpillStream& stream, MemoryBudget* budget) {
   for (auto block = reader.next(); !block.empty(); block = reader.next()) {
     EXPECT_EQ(uintptr_t(block.data()) % 64, 0U);
     bytes.insert(bytes.end(), block.begin(), block.end());
-    std::ranges::fill(block, std::byte(0xaa));  // it is ours
+    std::ranges::fill(block, std::byte(0xaa));  // the caller may modify the block
   }
   EXPECT_TRUE(reader.next().empty());
   return bytes;
@@ -66,15 +66,15 @@ struct Spill {
   SpillFile file;
 };
 
-// Writes streams of the given numbers in turn, a random piece at a time, and compares each when it
-// is read.
+// Writes `streams` streams, numbered from `first` on, in random order and with appends of random
+// sizes; then reads and compares each.
 void write_and_read_interleaved(SpillFile* file, MemoryBudget* budget, uint64_t first,
                                 size_t streams, uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::vector<Bytes> wanted;
+  std::vector<Bytes> expected;
   std::vector<SpillWriter> writers;
   for (size_t s = 0; s < streams; ++s) {
-    wanted.push_back(random_bytes(random() % (5 * file->payload_bytes()), first + s));
+    expected.push_back(random_bytes(random() % (5 * file->payload_bytes()), first + s));
     writers.emplace_back(file, first + s, budget);
   }
   std::vector<SpillStream> done(streams);
@@ -82,21 +82,21 @@ void write_and_read_interleaved(SpillFile* file, MemoryBudget* budget, uint64_t 
     const size_t s = random() % streams;
     if (done[s].number != 0) continue;
     const uint64_t at = writers[s].bytes();
-    const size_t n = std::min<size_t>(wanted[s].size() - at, random() % 3000);
-    writers[s].append(std::span(wanted[s]).subspan(at, n));
-    if (at + n < wanted[s].size()) continue;
+    const size_t n = std::min<size_t>(expected[s].size() - at, random() % 3000);
+    writers[s].append(std::span(expected[s]).subspan(at, n));
+    if (at + n < expected[s].size()) continue;
     done[s] = writers[s].finish();
     --left;
   }
   writers.clear();
   for (size_t s = 0; s < streams; ++s) {
     EXPECT_EQ(done[s].number, first + s);
-    EXPECT_EQ(read(file, done[s], budget), wanted[s]);
+    EXPECT_EQ(read(file, done[s], budget), expected[s]);
     if (s % 2 == 0) file->free(done[s]);
   }
 }
 
-TEST(SpillFile, StreamsComeBackAtEverySizeAroundABlock) {
+TEST(SpillFile, StreamsOfAnySizeAroundABlockAreReadBack) {
   for (const size_t block : {size_t(4096), size_t(3 * 4096)}) {
     Spill spill(block);
     const size_t payload = spill.file.payload_bytes();
@@ -113,7 +113,7 @@ TEST(SpillFile, StreamsComeBackAtEverySizeAroundABlock) {
   }
 }
 
-TEST(SpillFile, AReaderMayBeginWithAnyBlock) {
+TEST(SpillFile, AReaderMayStartAtAnyBlock) {
   Spill spill;
   const Bytes bytes = random_bytes(3 * kPayload + 100, 5);
   const SpillStream stream = spill.write(7, bytes);
@@ -127,7 +127,7 @@ TEST(SpillFile, AReaderMayBeginWithAnyBlock) {
   }
 }
 
-TEST(SpillFile, InterleavedStreamsOfManyThreadsComeBack) {
+TEST(SpillFile, InterleavedStreamsOfManyThreadsAreReadBack) {
   Spill spill;
   {
     std::vector<std::jthread> threads;
@@ -146,17 +146,17 @@ TEST(SpillFile, InterleavedStreamsOfManyThreadsComeBack) {
 RC_GTEST_PROP(SpillFile, AppendsOfAnySizesMakeOneStream, ()) {
   Spill spill;
   const auto sizes = *rc::gen::container<std::vector<size_t>>(any_of<size_t>(0, 9000));
-  Bytes wanted;
+  Bytes expected;
   SpillWriter writer(&spill.file, 1, &spill.budget);
   for (const size_t n : sizes) {
-    const Bytes piece = random_bytes(n, n);
-    writer.append(piece);
-    wanted.insert(wanted.end(), piece.begin(), piece.end());
+    const Bytes bytes = random_bytes(n, n);
+    writer.append(bytes);
+    expected.insert(expected.end(), bytes.begin(), bytes.end());
   }
-  RC_ASSERT(spill.read(writer.finish()) == wanted);
+  RC_ASSERT(spill.read(writer.finish()) == expected);
 }
 
-TEST(SpillFile, IsResumedFromItsStreamsAlone) {
+TEST(SpillFile, CanBeResumedFromTheListOfItsStreams) {
   const TempFolder temp;
   const Folder folder = Folder::open_private(temp.path());
   MemoryBudget budget;
@@ -173,7 +173,7 @@ TEST(SpillFile, IsResumedFromItsStreamsAlone) {
   EXPECT_EQ(read(&file, stream, &budget), bytes);
 }
 
-TEST(SpillFile, ABlockTooManyIsToldOfAndEverybodyGoesOn) {
+TEST(SpillFile, TooManyBlocksAreAnErrorForEachWriter) {
   const TempFolder temp;
   const Folder folder = Folder::open_private(temp.path());
   MemoryBudget budget;
@@ -186,7 +186,7 @@ TEST(SpillFile, ABlockTooManyIsToldOfAndEverybodyGoesOn) {
   EXPECT_SVDAG_ERROR(other.finish(), ExitCode::kOutput, "more than 2^32 - 1 blocks");
 }
 
-TEST(SpillFile, FreedBlocksAreUsedAgainAndThoseOfAnUnfinishedWriterToo) {
+TEST(SpillFile, ReusesBlocksOfFreedStreamsAndUnfinishedWriters) {
   Spill spill;
   const SpillStream first = spill.write(1, random_bytes(4 * kPayload, 1));
   const SpillStream second = spill.write(2, random_bytes(4 * kPayload, 2));
@@ -203,7 +203,7 @@ TEST(SpillFile, FreedBlocksAreUsedAgainAndThoseOfAnUnfinishedWriterToo) {
   EXPECT_EQ(spill.file.read_bytes(), 4 * kBlock);
 }
 
-TEST(SpillFile, BuffersAreCountedAndGivenBack) {
+TEST(SpillFile, ReservesAndReleasesItsBuffers) {
   Spill spill(kBlock, 100 * kBlock);
   const Bytes bytes = random_bytes(10 * kPayload + 1, 1);
   SpillStream stream;
@@ -239,7 +239,7 @@ TEST(SpillFile, ManyWritersShareFourSpareBlocks) {
   EXPECT_EQ(spill.budget.used(), 0U);
 }
 
-TEST(SpillFile, WhereTheBudgetHasNoRoomAWriterWaitsAndAReaderFails) {
+TEST(SpillFile, WithoutMemoryForASecondBlockAWriterWaitsAndAReaderFails) {
   Spill spill(kBlock, kBlock);
   const Bytes bytes = random_bytes(5 * kPayload, 1);
   const SpillStream stream = spill.write(1, bytes);
@@ -254,8 +254,8 @@ void expect_damaged(Spill* spill, const SpillStream& stream) {
   EXPECT_SVDAG_ERROR(spill->read(stream), ExitCode::kOutput, "spill: scratch file is damaged");
 }
 
-// Every bit of a block is flipped in spill_block_test.cpp; here some of each part of it, on disk.
-TEST(SpillFile, FlippedBitsOnDiskAreFound) {
+// spill_block_test.cpp flips every bit of a block; this test flips some bits on disk.
+TEST(SpillFile, FlippedBitsOnDiskAreDetected) {
   Spill spill;
   const Bytes bytes = random_bytes(3 * kPayload + 5, 1);
   const SpillStream stream = spill.write(1, bytes);
@@ -272,7 +272,7 @@ TEST(SpillFile, FlippedBitsOnDiskAreFound) {
   EXPECT_EQ(spill.read(stream), bytes);
 }
 
-TEST(SpillFile, SwappedStaleAndMissingBlocksAreFound) {
+TEST(SpillFile, SwappedStaleAndMissingBlocksAreDetected) {
   Spill spill;
   const Bytes bytes = random_bytes(4 * kPayload, 1);
   const SpillStream one = spill.write(1, bytes), two = spill.write(2, bytes);
@@ -299,7 +299,7 @@ TEST(SpillFile, SwappedStaleAndMissingBlocksAreFound) {
   EXPECT_EQ(spill.read(two), bytes);
 }
 
-TEST(SpillFile, AFileThatWasCutIsFound) {
+TEST(SpillFile, ATruncatedFileIsDetected) {
   Spill spill;
   const SpillStream stream = spill.write(1, random_bytes(4 * kPayload, 1));
   spill.file.sync();
@@ -307,7 +307,7 @@ TEST(SpillFile, AFileThatWasCutIsFound) {
   expect_damaged(&spill, stream);
 }
 
-// In a process of its own, where files may not grow beyond 16 blocks.
+// Runs in a child process, in which files cannot grow beyond 16 blocks.
 int fail_to_write() {
   signal(SIGXFSZ, SIG_IGN);
   const rlimit limit = {16 * kBlock, 16 * kBlock};
@@ -319,9 +319,9 @@ int fail_to_write() {
       work();
       return false;
     } catch (const Error& error) {
-      const std::string says = error.what();
+      const std::string what = error.what();
       return error.code() == ExitCode::kOutput &&
-             says.find("/spill: cannot be written: ") != says.npos;
+             what.find("/spill: cannot be written: ") != what.npos;
     }
   };
   other.append(Bytes(10));
@@ -334,7 +334,7 @@ int fail_to_write() {
   return 0;
 }
 
-TEST(SpillFile, AWriteThatFailsIsToldByAllThatFollows) {
+TEST(SpillFile, AfterAFailedWriteAllOperationsThrowItsError) {
   const pid_t child = fork();
   if (child == 0) _exit(fail_to_write());
   int status = -1;

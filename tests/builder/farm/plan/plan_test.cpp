@@ -106,7 +106,8 @@ TEST_F(Plans, SayWhyTheirFolderCannotBeMade) {
 TEST_F(Plans, HaveAnOutputWhoseNameCanBeGiven) {
   PlanConfig endless = config();
   endless.output = std::string(256, 'x');
-  EXPECT_SVDAG_ERROR(plan_of(endless), ExitCode::kOutput, "is too long for the name of a file");
+  EXPECT_SVDAG_ERROR(plan_of(endless), ExitCode::kOutput,
+                     "the file name is too long: choose a shorter one");
   EXPECT_FALSE(std::filesystem::exists(endless.folder)) << "nothing is left";
 }
 
