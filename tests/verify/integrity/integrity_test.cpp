@@ -131,10 +131,10 @@ TEST(Integrity, WrongCountsInTheHeader) {
 TEST(Integrity, PointersIntoTheMiddleOfANodeOrBeyond) {
   RawDag raw = good_dag();
   raw.words[0][1] += 1;
-  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 1 pointers that hit no node"));
+  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 1 child pointers that are not the start of a node"));
   raw = good_dag();
   raw.words[3][1] = uint32_t(raw.bricks.size());
-  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 pointers that hit no node"));
+  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 child pointers that are not the start of a node"));
 }
 
 TEST(Integrity, SecondRoot) {
