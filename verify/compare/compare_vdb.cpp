@@ -40,14 +40,14 @@ VdbComparer::VdbComparer(const VdbGrid& theirs, CubeWalk* ours, const IndexMap& 
 Block VdbComparer::ours(const LatticePoint& origin) const {
   const LatticePoint corner = map_(VoxelBox{origin, origin + kBlockSide}).min;
   const Block block = ours_->block(corner);
-  if (!map_.turns()) return block;
-  Block turned;
+  if (!map_.changes_axes()) return block;
+  Block permuted;
   for (unsigned bit = 0; bit < 512; ++bit) {
     const unsigned x = bit >> 6, y = bit >> 3 & 7, z = bit & 7;
     const LatticePoint at = map_(origin + LatticePoint(x, y, z)) - corner;
-    if (block.get(unsigned(at.x), unsigned(at.y), unsigned(at.z))) turned.set(x, y, z);
+    if (block.get(unsigned(at.x), unsigned(at.y), unsigned(at.z))) permuted.set(x, y, z);
   }
-  return turned;
+  return permuted;
 }
 
 void VdbComparer::compare_block(VoxelCube cube, const Found& found) {
