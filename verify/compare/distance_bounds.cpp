@@ -91,7 +91,7 @@ class WindowCheck {
     result_.inner += selected && d <= 0.5;
     if (set && !selected) {  // wrong at any distance
       ++result_.extra;
-      show(voxel, false);
+      record_wrong(voxel, false);
     } else if (set) {
       if (d >= upper() - tolerance_) suspects_.push_back({voxel, true, d > upper() + tolerance_});
     } else if (!thin_ && d <= 0.5 + tolerance_ && selected) {
@@ -99,7 +99,7 @@ class WindowCheck {
     }
   }
 
-  void show(const LatticePoint& voxel, bool missing) {
+  void record_wrong(const LatticePoint& voxel, bool missing) {
     if (result_.first.size() < Comparison::kShown) result_.first.push_back({voxel, missing});
   }
 
@@ -130,7 +130,7 @@ class WindowCheck {
       if (!s.certain) ++result_.exact;
       if (wrong) {
         ++(s.set ? result_.extra : result_.missing);
-        show(s.voxel, !s.set);
+        record_wrong(s.voxel, !s.set);
       } else if (s.certain) {
         ++result_.vdb_errors;
       }

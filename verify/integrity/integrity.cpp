@@ -14,7 +14,7 @@ namespace {
 
 using Key = std::array<uint64_t, 8>;
 
-// One pass over the levels, bricks first; `below_*` describes the level below the current one.
+// Checks the levels one after the other, bricks first; `below_*` describes the level below.
 class Inspection {
  public:
   Inspection(const Header& header, const DagView& dag, IntegrityReport* report)
@@ -23,8 +23,8 @@ class Inspection {
   }
 
   void run() {
-    bricks();
-    for (uint32_t level = dag_.brick_level(); level-- > 0;) inner(level);
+    check_bricks();
+    for (uint32_t level = dag_.brick_level(); level-- > 0;) check_nodes(level);
     const uint64_t roots = report_->nodes[0];
     if (roots != (dag_.brick_count == 0 ? 0U : 1U))
       report_->defects.push_back("level 0 has " + std::to_string(roots) + " nodes instead of one");
@@ -41,7 +41,7 @@ class Inspection {
     report_->defects.push_back("level " + std::to_string(level) + " " + what);
   }
 
-  void bricks() {
+  void check_bricks() {
     const uint32_t level = dag_.brick_level();
     report_->nodes[level] = dag_.brick_count;
     below_voxels_.resize(dag_.brick_count);
@@ -57,7 +57,7 @@ class Inspection {
                         " bricks that are empty, repeated or out of order");
   }
 
-  void inner(uint32_t level) {
+  void check_nodes(uint32_t level) {
     const uint32_t* words = dag_.words[level];
     const uint64_t count = dag_.word_count[level];
     const NodeIndex index(words, count);

@@ -73,7 +73,7 @@ TEST_F(DistanceBoundsTest, ThinFilesAreWithinTheInnerBall) {
         for (int64_t i = 0; i < run.count; ++i, ++p[run.axis]) voxels.emplace(p.x, p.y, p.z);
       });
     EXPECT_TRUE(judge(grid, voxels, soup, Rule::kThin).holds());
-    // Voxels within the outer ball only violate this bound.
+    // A voxel that only the outer ball reaches violates this bound.
     EXPECT_FALSE(judge(grid, soup_voxels(grid, soup), soup, Rule::kThin).holds());
   }
 }
@@ -125,7 +125,7 @@ TEST_F(DistanceBoundsTest, VoxelsFarFromEveryTriangleAreExtra) {
 TEST_F(DistanceBoundsTest, DistancesOnABoundAreDecidedExactly) {
   const Grid grid = test_grid(5);
   const int64_t side = int64_t(1) << grid.fraction();
-  // A wall on a voxel plane is at distance 1/2 from both layers; one lattice step beside it, from
+  // On a voxel plane a wall is at distance 1/2 from both layers; one lattice step further, from
   // one.
   for (const int64_t step : {0, 1}) {
     const int64_t x = 16 * side + step;

@@ -230,7 +230,7 @@ TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsSearchedByNodes) {
   EXPECT_TRUE(reports(inspect_raw(raw), "outside the selection"));
 }
 
-TEST(Integrity, ReportsALatticePlaneThatIsNotAMultiple) {
+TEST(Integrity, ReportsALatticePlaneThatIsNotAMultipleOf1024) {
   RawDag raw = good_dag();
   raw.grid.kind = Grid::Kind::kLattice;
   raw.grid.k0 = {-1024, 0, 3072};

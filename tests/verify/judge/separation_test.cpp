@@ -9,8 +9,8 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kReach =
-    9;  // half the side of the grid, in voxels; tetrahedra keep one voxel away from it
+// Half the side of the grid, in voxels; tetrahedra keep one voxel away from the border.
+constexpr int64_t kReach = 9;
 constexpr int kSize = 2 * int(kReach);
 
 // The free voxels that a path over faces reaches from the corner of the grid, which is outside.

@@ -93,8 +93,8 @@ TEST(Thin, ExtremeCoordinatesAgree) {
 
 TEST(Thin, RectanglesBetweenCentresSetHalfOpenRanges) {
   for (int w = 0; w < 3; ++w) {
-    for (const int64_t height :
-         {0, 5, 8, 15}) {  // on a plane, between, at the centres, below the next plane
+    // On a plane, between, at the centres, below the next plane.
+    for (const int64_t height : {0, 5, 8, 15}) {
       LatticePoint p[4];
       for (int i = 0; i < 4; ++i) {
         p[i] = centre(0, 0, 0);
