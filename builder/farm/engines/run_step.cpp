@@ -40,7 +40,7 @@ std::vector<std::string> inputs_of(const Plan& plan, const PlanStep& step) {
   for (const size_t i : step.inputs) {
     const PlanStep& input = plan.steps[i];
     const std::string path = plan.path(input.output);
-    switch (state_of(plan, input, path, false)) {
+    switch (output_state(plan, input, path, false)) {
       case OutputState::kMissing:
         fail_input(path, "is missing: run step " + input.name + " of the plan first");
       case OutputState::kInvalid:
@@ -81,7 +81,7 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
   const auto begin = std::chrono::steady_clock::now();
   StepReport report;
   report.output = output_of(plan, step, config);
-  if (state_of(plan, step, report.output, true) == OutputState::kValid) {
+  if (output_state(plan, step, report.output, true) == OutputState::kValid) {
     report.done_before = true;
     report.receipt = *read_receipt(plan, step);
     return report;

@@ -143,7 +143,7 @@ void Submission::collect() {
   for (size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlanStep& step = plan_.steps[i];
     // Checks every byte: no job would repair a damaged output later.
-    if (state_of(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
+    if (output_state(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
     const size_t array = step.is_shard() && array_size_ > 1 ? number_of(i) / array_size_ : none;
     if (array == none || array != current) {
       jobs_.emplace_back();
@@ -288,7 +288,7 @@ void Submission::wait() const {
   size_t count = 0;
   for (const PlanStep& step : plan_.steps) {
     const bool last = &step == &plan_.steps.back();  // merges have checked the other outputs
-    if (state_of(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
+    if (output_state(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
     if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
   }
   if (count == 0) {

@@ -83,8 +83,8 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   }
 }
 
-OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
-                     bool thorough) {
+OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,
+                         bool thorough) {
   if (!name_exists(path)) return OutputState::kMissing;
   const std::optional<Receipt> receipt = read_receipt(plan, step);
   if (!receipt) return OutputState::kInvalid;

@@ -35,7 +35,7 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step);
 
 // The state of the file `path` as the output of `step`. Reads only its header, or every byte if
 // `thorough`.
-OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
-                     bool thorough);
+OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,
+                         bool thorough);
 
 }  // namespace svdag

@@ -258,7 +258,7 @@ TEST_F(Steps, OfAnOlderPlanAreNotValid) {
   again.shards = 3;
   const Plan plan = plan_of(again);
   for (const PlanStep& step : plan.steps)
-    EXPECT_NE(state_of(plan, step, plan.path(step.output), false), OutputState::kValid);
+    EXPECT_NE(output_state(plan, step, plan.path(step.output), false), OutputState::kValid);
   do_steps(plan);
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
 }
