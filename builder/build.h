@@ -31,6 +31,9 @@ struct ReadySplit {
   SpillFile* triangles = nullptr;  // which holds them
 };
 
+// Default of --checkpoint, in seconds.
+constexpr double kCheckpointSeconds = 30;
+
 struct BuildConfig {
   SceneConfig scene;
   const ReadySplit* ready = nullptr;  // replaces the scene and the options of its grid
@@ -45,7 +48,8 @@ struct BuildConfig {
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   bool name_files = false;  // --report: read the scene's files once more, for their hashes
-  double checkpoint = 30;   // --checkpoint: seconds of work that a killed bake may lose
+  // --checkpoint: seconds of work that a killed bake may lose.
+  double checkpoint = kCheckpointSeconds;
   // --cache: opens the store of cells baked before; empty: no cache.
   std::function<std::unique_ptr<CellStore>(const Grid&, Rule, MemoryBudget*)> open_store;
 };

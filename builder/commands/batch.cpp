@@ -121,7 +121,7 @@ void refuse_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
   for (size_t i = 0; i < jobs.size(); ++i) {
     try {
       for (const std::string& output : outputs_of(jobs[i])) files.write(output);
-      refuse_foreign_name(jobs[i].build.output);
+      reject_foreign_format(jobs[i].build.output);
     } catch (const Error& error) {
       fail_usage(place(batch, i) + error.what());
     }
@@ -145,10 +145,11 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
     }
   } catch (Interrupted& interrupted) {
     if (job.build.unfinished == Unfinished::kRestart)
-      interrupted.how = batch.defaults.build.unfinished == Unfinished::kRestart
-                            ? kResumeForRestart
-                            : "stopped; without \"restart\" in the list, the same command with "
-                              "--resume continues";
+      interrupted.resume_message =
+          batch.defaults.build.unfinished == Unfinished::kRestart
+              ? kResumeForRestart
+              : "stopped; without \"restart\" in the list, the same command with "
+                "--resume continues";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();

@@ -31,7 +31,7 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
 
 // The receipt of the step is that of the kind of file that the plan says.
 void require_same_kind(const PlanStep& step, const std::string& output) {
-  refuse_foreign_name(output);
+  reject_foreign_format(output);
   if (names_run(output) == names_run(step.output)) return;
   fail_usage(output + ": " + step.name +
              (names_run(step.output) ? " makes a run: choose an output that ends in .run"
