@@ -34,7 +34,48 @@ constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
     {"svdag-scene", ""},
 };
 
+// The text between `before` and `after` in `text`; empty if either is missing.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const size_t at = text.find(before);
+  if (at == std::string::npos) return "";
+  const size_t end = text.find(after, at + before.size());
+  if (end == std::string::npos) return "";
+  return text.substr(at + before.size(), end - at - before.size());
+}
+
+// "-r,--resolution,-s,--voxel-size" as "--resolution or --voxel-size".
+std::string alternatives(const std::string& names) {
+  std::string text;
+  for (size_t at = 0; at < names.size();) {
+    const size_t end = std::min(names.find(',', at), names.size());
+    const std::string name = names.substr(at, end - at);
+    if (name.starts_with("--")) text += (text.empty() ? "" : " or ") + name;
+    at = end + 1;
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string plain_usage_error(const std::string& message) {
+  const std::string name = message.substr(0, message.find(": "));
+  if (message.find(": At Most 1 required but received") != std::string::npos)
+    return name + ": is given more than once";
+  if (message.starts_with(name + ": ") && message.ends_with(" missing"))
+    return name + ": the value is missing";
+  const std::string choices = alternatives(between(message, "Exactly 1 option from [", "]"));
+  if (!choices.empty())
+    return (message.ends_with("were given") ? "give only one of " : "give one of ") + choices;
+  const std::string option = between(message + "\n", "Could not convert: ", " = ");
+  if (!option.empty())
+    return option + ": \"" + between(message + "\n", " = ", "\n") + "\" is not a number";
+  const std::string extra = between(message + "\n", " not expected: ", "\n");
+  if (!extra.empty()) return "unexpected argument: " + extra;
+  const size_t excludes = message.find(" excludes ");
+  if (excludes != std::string::npos)
+    return message.substr(0, excludes) + " cannot be combined with " + message.substr(excludes + 10);
+  return message;
+}
 
 std::string elsewhere(std::string_view word) {
   for (const auto& [program, commands] : kPrograms) {

@@ -34,6 +34,10 @@ struct CommandWords {
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments);
 
+// Restates an error message of CLI11 in the style of this program's messages; returns a message that
+// it does not know unchanged. The tests of each program hold the messages that users can get.
+std::string plain_usage_error(const std::string& message);
+
 // The options of a command of CLI11 (App), those in its groups included.
 template <class App>
 std::vector<std::string> option_names(const App& app) {
@@ -66,7 +70,7 @@ std::string explain(const App& app, const std::vector<std::string>& words,
     if (!words.empty() && !command.name.empty() && command.name == words[0])
       whole += " " + command.name;
   }
-  return std::string(error.what()) + "; see " + whole + " --help";
+  return plain_usage_error(error.what()) + "; see " + whole + " --help";
 }
 
 }  // namespace svdag

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Builds the programs, runs the tests tier by tier, and prints the seconds of each tier and one total.
 
-`make test` runs all of them on the release build; `make test-sanitized` (--sanitized) runs the unit tests under ASan
-and UBSan.
+`make test` runs the tests of the release build. `make test-sanitized` (--sanitized) runs those that instrument programs:
+the unit tests under ASan and UBSan, the release build under Valgrind and against a build without optimisation.
 
 Tests are ctest entries with the label of their tier. Their counts are read from GoogleTest's JSON and from the
 summary lines of the Python tests; a program that ends without counts is one failure. SVDAG_SCENES names the folder of
@@ -18,8 +18,10 @@ import time
 import xml.etree.ElementTree as xml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TIERS = [("unit", "unit"), ("command line", "cli"), ("numerical stress", "stress"), ("shared scenes", "shared"),
-         ("faults", "fault")]
+# (preset, [(name of the tier, label)])
+RELEASE = [("release", [("unit", "unit"), ("command line", "cli"), ("numerical stress", "stress"), ("shared scenes", "shared"),
+                        ("faults", "fault")])]
+SANITIZED = [("asan-ubsan", [("sanitizers", "unit")]), ("release", [("Valgrind and -O0", "dynamic")])]
 
 
 class Counts:
@@ -114,7 +116,7 @@ def run(preset, label, environment):
 
 
 def print_tier(tier, seconds, counts=""):
-    print(f"{tier:<16} {seconds:6.0f} s  {counts}", flush=True)
+    print(f"{tier:<17} {seconds:6.0f} s  {counts}", flush=True)
 
 
 def main():
@@ -125,15 +127,15 @@ def main():
         print("0 passed, 1 failed, 0 skipped")
         return 1
     sanitized = sys.argv[1:] == ["--sanitized"]
-    preset, tiers = ("asan-ubsan", [("sanitizers", "unit")]) if sanitized else ("release", TIERS)
     if sanitized:
         environment.pop("SVDAG_SCENES", None)  # real scenes are too slow under ASan
-    print_tier("build", build(preset))
     total = Counts()
-    for tier, label in tiers:
-        counts, seconds = run(preset, label, environment)
-        print_tier(tier, seconds, counts)
-        total += counts
+    for preset, tiers in SANITIZED if sanitized else RELEASE:
+        print_tier(f"build {preset}", build(preset))
+        for tier, label in tiers:
+            counts, seconds = run(preset, label, environment)
+            print_tier(tier, seconds, counts)
+            total += counts
     if scenes is None and not sanitized:
         print("SVDAG_SCENES is not set: tests of real scenes were skipped")
     print(total)

@@ -15,7 +15,7 @@ void info_plan(const InfoCommand& config) {
   print_plan(plan, config.levels);
   size_t done = 0;
   for (const PlanStep& step : plan.steps)
-    done += state_of(plan, step, plan.path(step.output), false) == OutputState::kValid;
+    done += output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
   for (const PlanInput& input : plan.inputs)
     std::printf("  input %s, %s, content %s\n", input.path.c_str(),
                 format_bytes(input.bytes).c_str(), input.hash.c_str());

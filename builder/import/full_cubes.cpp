@@ -15,7 +15,7 @@ void FullCubes::add(const FullCube& cube) {
   if (records_.size() == records_.capacity()) {
     const size_t capacity = std::max<size_t>(1024, 2 * records_.size());
     auto larger = budget_->reserve(capacity * sizeof(uint64_t), "cubes of the file");
-    records_.reserve(capacity);  // both arrays are there while one is copied
+    records_.reserve(capacity);  // both arrays are in memory during the copy
     reserved_ = std::move(larger);
   }
   records_.push_back(morton(LatticePoint(x, y, z)) | uint64_t(cube.log2_side));
@@ -28,7 +28,7 @@ void FullCubes::sort() {
     const Range range = range_of(record);
     if (kept > 0 && range.begin < range_of(records_[kept - 1]).end()) {
       if (range.begin != range_of(records_[kept - 1]).begin) continue;
-      --kept;  // a larger one that begins at the same place
+      --kept;  // a larger cube with the same first voxel
     }
     records_[kept++] = record;
   }

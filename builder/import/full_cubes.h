@@ -1,9 +1,9 @@
-// Cubes that are set as a whole, on their way into an import: what tiles of sparse volumes are.
+// A sorted list of fully set cubes of an import, such as the tiles of sparse volumes.
 //
 // A record is the Morton code of a cube's first voxel, with log2 of its side in the low bits, which
-// are zero in the code of an aligned cube. Sorted, the cubes come in the order in which voxels do;
-// two of them are disjoint or one holds the other, which is then left out. They stay in memory: a
-// cube of 128^3 voxels takes 8 bytes.
+// are zero in the code of an aligned cube. Sorted records are in the Morton order of voxels. Two
+// cubes are disjoint or nested; nested cubes are dropped. The list is held in memory: a cube of any
+// size takes 8 bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace svdag {
 
 class FullCubes {
  public:
-  // Of the voxels begin .. end - 1, by Morton code.
+  // The Morton codes begin .. end() - 1 of the voxels of a cube.
   struct Range {
     uint64_t begin = 0;
     int log2_side = 0;
@@ -27,9 +27,9 @@ class FullCubes {
   explicit FullCubes(MemoryBudget* budget) : budget_(budget) {}
 
   void add(const FullCube& cube);
-  // Ends adding; drops cubes that are within another one.
+  // Call once after the last add(); drops cubes within other cubes.
   void sort();
-  // Afterwards: the cubes in Morton order.
+  // After sort(): the cubes in Morton order.
   size_t size() const { return records_.size(); }
   Range operator[](size_t i) const { return range_of(records_[i]); }
 

@@ -32,7 +32,7 @@ struct NodeWord {
   uint32_t operator()(const NodeRecord& r, size_t i) const { return r.key[i]; }
 };
 
-// What became of the nodes of one level, by rank.
+// Results for the nodes of one level, by rank.
 struct ReducedLevel {
   ReducedLevel(uint64_t count, MemoryBudget* budget)
       : reservation(budget->reserve(count * (sizeof(uint32_t) + sizeof(uint64_t)), kPurpose)),
@@ -41,13 +41,13 @@ struct ReducedLevel {
 
   MemoryBudget::Reservation reservation;
   HugeVector<uint32_t> index;   // 1 + index in the output; 0: the node is empty
-  HugeVector<uint64_t> voxels;  // set below
+  HugeVector<uint64_t> voxels;  // number of set voxels below the node
 };
 
 class GraphReduction {
  public:
-  GraphReduction(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output)
-      : graph_(graph), room_(room), output_(output), brick_level_(graph->grid().levels - 2) {}
+  GraphReduction(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output)
+      : graph_(graph), config_(config), output_(output), brick_level_(graph->grid().levels - 2) {}
 
   uint64_t run() {
     mark();
@@ -59,7 +59,7 @@ class GraphReduction {
  private:
   void mark() {
     for (int level = 0; level <= brick_level_; ++level)
-      marks_.emplace_back(room_.budget, "marks of reached nodes");
+      marks_.emplace_back(config_.budget, "marks of reached nodes");
     marks_[0].set(graph_->root());
     for (int level = 0; level <= brick_level_; ++level) {
       marks_[size_t(level)].seal();
@@ -72,7 +72,7 @@ class GraphReduction {
     }
   }
 
-  // visit(rank, id) of all ids of a level.
+  // Calls visit(rank, id) for all marked ids of a level.
   template <class Visit>
   void for_each_id(int level, const Visit& visit) const {
     uint32_t rank = 0;
@@ -84,7 +84,7 @@ class GraphReduction {
 
   ReducedLevel reduce_bricks() {
     const uint64_t count = marks_[size_t(brick_level_)].count();
-    ReducedLevel level(count, room_.budget);
+    ReducedLevel level(count, config_.budget);
     ExternalSort<BrickRecord, BrickWord> sort(sort_room(count * sizeof(BrickRecord)), 2, {});
     for_each_id(brick_level_, [&](uint32_t rank, uint32_t id) {
       const Brick brick = graph_->brick(id);
@@ -100,7 +100,7 @@ class GraphReduction {
   ReducedLevel reduce_nodes(int number, const ReducedLevel& below) {
     const uint64_t count = marks_[size_t(number)].count();
     const RankBitmap& ranks = marks_[size_t(number) + 1];
-    ReducedLevel level(count, room_.budget);
+    ReducedLevel level(count, config_.budget);
     ExternalSort<NodeRecord, NodeWord> sort(sort_room(count * sizeof(NodeRecord)), 8, {});
     for_each_id(number, [&](uint32_t rank, uint32_t id) {
       const std::array<uint32_t, 8> children = graph_->children(number, id);
@@ -120,7 +120,7 @@ class GraphReduction {
     return level;
   }
 
-  // Ends the sort: equal keys get one index.
+  // Finishes the sort and adds each distinct key to the output; equal keys get one index.
   template <class Sort, class Add>
   void write(Sort* sort, ReducedLevel* level, const Add& add) {
     uint32_t index = 0;
@@ -141,16 +141,16 @@ class GraphReduction {
   template <class Word>
   static NodeKey first_key(const ExternalSort<NodeRecord, Word>&);
 
-  // Room for that many bytes of records, or a quarter of the memory.
+  // Buffers for `bytes` bytes of records, at most config_.sort_bytes.
   ExternalSortRoom sort_room(uint64_t bytes) const {
-    const uint64_t least = 2 * room_.executor->workers() * ExternalSortRoom::kLeast;
-    const uint64_t most = std::max(room_.sort_bytes, least);
-    return {room_.budget, std::clamp(2 * bytes + least, least, most), room_.executor,
-            room_.new_file};
+    const uint64_t min = 2 * config_.executor->workers() * ExternalSortRoom::kLeast;
+    const uint64_t max = std::max(config_.sort_bytes, min);
+    return {config_.budget, std::clamp(2 * bytes + min, min, max), config_.executor,
+            config_.new_file};
   }
 
   NodeGraph* graph_;
-  const ReductionRoom& room_;
+  const ReductionConfig& config_;
   BakeOutput* output_;
   int brick_level_;
   std::vector<RankBitmap> marks_;  // [level]: ids that the root reaches
@@ -158,8 +158,8 @@ class GraphReduction {
 
 }  // namespace
 
-uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output) {
-  return GraphReduction(graph, room, output).run();
+uint64_t reduce_graph(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output) {
+  return GraphReduction(graph, config, output).run();
 }
 
 }  // namespace svdag

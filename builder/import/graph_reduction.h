@@ -1,14 +1,14 @@
-// A DAG of another program becomes the minimal one, level by level, without being unpacked.
+// Reduces a DAG of another program to the minimal one, level by level, without expanding it.
 //
-// Reduction (Kämpe et al. 2013, section 4) of a graph instead of a tree: first the nodes that the
-// root reaches are marked, top-down; then each level, bricks first, is sorted by content, equal
-// nodes get one index and are written, and the level above looks its children up. Sorted content is
-// the canonical order, so the result is the same bytes that a bake of these voxels gives.
+// This is the reduction of Kämpe et al. 2013, section 4, applied to a graph instead of a tree.
+// First the nodes reachable from the root are marked, top-down. Then each level, bricks first, is
+// sorted by content, equal nodes get one index and are written, and the level above looks up the
+// indices of its children. Sorted content is the canonical order, so the result has the same bytes
+// as a bake of these voxels. Empty nodes, and nodes that lead only to empty nodes, are dropped.
 //
-// Memory: a bit and a half per id that is in use, an index and a count per node of two levels;
-// sorting spills (streaming/sort/external_sort.h). Nodes that are empty vanish with all that leads
-// to nothing else. Rejected: postorder with a hash table of nodes, as the bake has it: what the
-// table has spilled must be looked up again for every shared node.
+// Memory: 1.5 bits per id in use, and an index and a voxel count per node of two levels; sorting
+// spills (streaming/sort/external_sort.h). Rejected: postorder with a hash table of nodes, as in
+// the bake: spilled entries of the table must be looked up again for every shared node.
 #pragma once
 
 #include <functional>
@@ -20,14 +20,14 @@
 
 namespace svdag {
 
-struct ReductionRoom {
+struct ReductionConfig {
   MemoryBudget* budget;
   uint64_t sort_bytes;  // maximum size of the buffers of one sort
   Executor* executor;
-  std::function<File()> new_file;  // for what does not fit in memory
+  std::function<File()> new_file;  // creates a scratch file for sorted runs
 };
 
-// Writes all levels to `output` (which the caller finishes); returns the number of set voxels.
-uint64_t reduce_graph(NodeGraph* graph, const ReductionRoom& room, BakeOutput* output);
+// Writes all levels to `output`, which the caller finishes. Returns the number of set voxels.
+uint64_t reduce_graph(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output);
 
 }  // namespace svdag

@@ -22,7 +22,7 @@
 namespace svdag {
 namespace {
 
-// A voxel by the Morton code of its place: its brick above, its bit in the brick in the low 6 bits.
+// A voxel is sorted by its Morton code: the brick's code, then the bit in the brick (low 6 bits).
 struct CodeWord {
   uint32_t operator()(uint64_t code, size_t i) const { return uint32_t(code >> (i == 0 ? 32 : 0)); }
 };
@@ -92,12 +92,12 @@ class Import {
   ImportReport run(NodeGraph* graph) {
     Grid grid = graph->grid();
     if (config_.levels != 0 && config_.levels != grid.levels)
-      fail_usage("-r: the resolution of this file is " +
-                 format_resolution(uint64_t(grid.resolution())));
+      fail_usage("-r: the file has a fixed resolution of " +
+                 format_resolution(uint64_t(grid.resolution())) + ": omit -r");
     DagOutput output(config_.output, grid, Rule::kConservative);
-    const ReductionRoom room{workspace_.budget(), workspace_.shares().sort, executor_,
-                             [this] { return new_file(); }};
-    const uint64_t voxels = reduce_graph(graph, room, &output);
+    const ReductionConfig reduction{workspace_.budget(), workspace_.shares().sort, executor_,
+                                    [this] { return new_file(); }};
+    const uint64_t voxels = reduce_graph(graph, reduction, &output);
     finish(&output, {}, voxels);
     return describe(grid, output);
   }
@@ -109,7 +109,7 @@ class Import {
     sort.emplace(sort_room(), 2, CodeWord());
     DiskNeed(scratch).expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
     FullCubes cubes(budget);
-    uint32_t highest = 0;  // all coordinates, one over the other
+    uint32_t highest = 0;  // bitwise or of all coordinates
     const GridPlacement place = source(
         [&](std::span<const Voxel> voxels) {
           check_interrupt();
@@ -127,7 +127,7 @@ class Import {
     const Grid grid = choose_grid(place, highest);
     DagOutput output(config_.output, grid, Rule::kConservative);
     RunSet set = reduce(grid.levels, cubes, &*sort);
-    sort.reset();  // the merge needs the room
+    sort.reset();  // the merge needs the memory
     const MergeConfig merging = share_for_merge(budget, set.spilled ? scratch : nullptr,
                                                 executor_->workers(), 4 * scratch->block_bytes());
     const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
@@ -156,8 +156,8 @@ class Import {
   }
 
   ExternalSortRoom sort_room() {
-    const uint64_t least = 2 * executor_->workers() * ExternalSortRoom::kLeast;
-    return {workspace_.budget(), std::max(workspace_.shares().sort, least), executor_,
+    const uint64_t min = 2 * executor_->workers() * ExternalSortRoom::kLeast;
+    return {workspace_.budget(), std::max(workspace_.shares().sort, min), executor_,
             [this] { return new_file(); }};
   }
 
@@ -167,13 +167,13 @@ class Import {
     grid.levels = config_.levels != 0 ? config_.levels
                                       : std::max(kMinLevels, int(std::bit_width(needed - 1)));
     if (grid.levels > kMaxLevels || uint64_t(highest) >> grid.levels != 0)
-      fail_usage("-r: the voxels need a grid of " + format_count(uint64_t(highest) + 1) +
-                 " at least");
+      fail_usage("-r: the voxels need a resolution of at least " +
+                 format_count(uint64_t(highest) + 1));
     grid.origin = place.corner;
     grid.voxel_size = place.voxel_size;
-    bool good = std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
-    for (int a = 0; a < 3; ++a) good = good && std::isfinite(grid.origin[a]);
-    if (!good) fail_input(config_.source, "puts its voxels at an impossible place");
+    bool valid = std::isnormal(grid.voxel_size) && grid.voxel_size > 0;
+    for (int a = 0; a < 3; ++a) valid = valid && std::isfinite(grid.origin[a]);
+    if (!valid) fail_input(config_.source, "invalid origin or voxel size of the grid");
     grid.selection = grid.whole();
     return grid;
   }

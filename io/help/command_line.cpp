@@ -142,12 +142,13 @@ std::vector<char*> without_help(const Manual& program, int argc, char** argv) {
   return words;
 }
 
-// "--help build" as "build --help", and --version alone: nothing else of the line is looked at.
-std::vector<char*> asked_first(const CLI::App& program, std::vector<char*> words) {
+// Turns "--help build" into "build --help", and ignores what follows --version.
+std::vector<char*> help_or_version_first(const CLI::App& program, std::vector<char*> words) {
   if (words.size() < 3) return words;
   const std::string_view first = words[1];
   const bool help = program.get_help_ptr()->check_name(std::string(first));
-  const bool version = program.get_version_ptr()->check_name(std::string(first));
+  const CLI::Option* version_option = program.get_version_ptr();
+  const bool version = version_option != nullptr && version_option->check_name(std::string(first));
   if (!help && !version) return words;
   const bool command = help && words[2][0] != '-';
   if (command) std::swap(words[1], words[2]);
@@ -176,7 +177,7 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     return 0;
   }
   std::vector<char*> words = without_help(manual_of(*program), argc, argv);
-  words = asked_first(*program, std::move(words));
+  words = help_or_version_first(*program, std::move(words));
   argc = int(words.size());
   argv = words.data();
   const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
@@ -201,7 +202,13 @@ CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choic
 }
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices) {
-  return suggests(option->check(CLI::IsMember(choices).description("")), choices);
+  const auto check = [choices](const std::string& value) {
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return std::string();
+    std::string list;
+    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+    return "\"" + value + "\" is not one of " + list;
+  };
+  return suggests(option->check(CLI::Validator(check, "")), choices);
 }
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
@@ -216,12 +223,20 @@ CLI::Option* takes_folder(CLI::Option* option) {
   return takes_files(option, {"/"});
 }
 
-CLI::Option* from_to(CLI::Option* option, size_t least, size_t most) {
+CLI::Option* from_to(CLI::Option* option, size_t min, size_t max) {
+  const std::string range = std::to_string(min) + " to " + std::to_string(max);
   std::string text = option->get_description();
   const size_t end = std::min(text.find(" (default"), text.size());
-  text.insert(end, ", " + std::to_string(least) + " to " + std::to_string(most));
+  text.insert(end, ", " + range);
   option->description(text);
-  return option->check(CLI::Range(least, most).description(""));
+  const auto check = [=](const std::string& value) {
+    uint64_t number = 0;
+    const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool inside = read.ec == std::errc() && read.ptr == value.data() + value.size() &&
+                        number >= min && number <= max;
+    return inside ? std::string() : "\"" + value + "\" is not a number from " + range;
+  };
+  return option->check(CLI::Validator(check, ""));
 }
 
 void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& text) {

@@ -29,7 +29,7 @@ CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choic
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
 CLI::Option* takes_folder(CLI::Option* option);
 CLI::Option* takes_whole_number(CLI::Option* option);                  // of 64 bits
-CLI::Option* from_to(CLI::Option* option, size_t least, size_t most);  // whole numbers
+CLI::Option* from_to(CLI::Option* option, size_t min, size_t max);  // whole numbers
 
 // -m, the memory budget of a command, with the text of its help; less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,

@@ -25,7 +25,10 @@ struct FileState {
 // from the server whenever a file is opened (close-to-open consistency).
 FileState state_of(const File& file);
 
-// Throws Error (kBadInput) if `file` was truncated or written since its state was `before`.
-void require_unchanged(const File& file, const FileState& before);
+// The same for a descriptor; `path` is for errors.
+FileState state_of(int descriptor, const std::string& path);
+
+// The message about an input file that changed.
+constexpr const char* kChangedInput = "was changed while it was read";
 
 }  // namespace svdag

@@ -94,7 +94,7 @@ MappedFile::Mapping::Mapping(File whole, size_t bytes, const FileState& before)
       data(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.descriptor(), 0)),
       size(bytes),
       lost(message_about(file, kLost)),
-      written(std::make_unique<const std::string>(message_about(file, kWritten))) {
+      written(std::make_unique<const std::string>(message_about(file, kChangedInput))) {
   if (data == MAP_FAILED) fail_input(file.path(), "cannot be mapped into memory");
   for (auto& each : mappings) {
     const Mapping* none = nullptr;

@@ -69,5 +69,22 @@ TEST(Suggest, SaysNothingOfWhatIsKnownOrNoOption) {
   EXPECT_EQ(explain({}), "");
 }
 
+// The messages on the left are those of CLI11 2.3.
+TEST(PlainUsageError, RestatesTheMessagesOfTheParser) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--size: At Most 1 required but received 2", "--size: is given more than once"},
+      {"--size: 1 required WxH missing", "--size: the value is missing"},
+      {"Exactly 1 option from [-r,--resolution,-s,--voxel-size] is required",
+       "give one of --resolution or --voxel-size"},
+      {"Exactly 1 option from [-r,--resolution,-s,--voxel-size] is required and 2 were given",
+       "give only one of --resolution or --voxel-size"},
+      {"Could not convert: --checkpoint = soon", "--checkpoint: \"soon\" is not a number"},
+      {"--no-cut excludes --resume", "--no-cut cannot be combined with --resume"},
+      {"The following argument was not expected: -5", "unexpected argument: -5"},
+      {"--output is required", "--output is required"},
+  };
+  for (const auto& [message, plain] : cases) EXPECT_EQ(plain_usage_error(message), plain);
+}
+
 }  // namespace
 }  // namespace svdag

@@ -19,27 +19,27 @@ namespace svdag {
 namespace {
 
 struct Judgement : SceneFacts {
-  Sandwich bounds;
+  BoundsComparison bounds;
   bool both_empty = false;  // sampled, but file and scene are empty in the selection
 
   bool ok() const { return grid.defects.empty() && bounds.holds(); }
 };
 
 // The windows that contain bricks drawn from the file and the scene (verify/sample/sample.h).
-Windows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
-                     Judgement* result) {
+BoundsWindows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
+                           Judgement* result) {
   const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), *config.sample, config.seed);
   if (draw.untested() && result->grid.defects.empty()) fail_untested();
   result->both_empty = draw.both_empty();
   std::vector<LatticePoint> voxels;
   for (const uint64_t code : draw.all()) voxels.push_back(cell_of_code(code) * int64_t(kBrickSide));
-  return Windows(file.grid(), voxels);
+  return BoundsWindows(file.grid(), voxels);
 }
 
 // Loads the snapped triangles near any of the windows, or all of them if `all`.
-std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid, const Windows& windows,
-                                       bool all, MemoryBudget::Reservation* held,
-                                       SnapCounts* snapped) {
+std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
+                                       const BoundsWindows& windows, bool all,
+                                       MemoryBudget::Reservation* held, SnapCounts* snapped) {
   std::vector<LatticeTriangle> near;
   *snapped = stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     for (const LatticeTriangle& t : batch) {
@@ -65,8 +65,8 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   progress.phase("reading the scene", 0);
   const auto drawn =
       judged.budget.reserve(config.sample.value_or(0) * kBytesOfDraw, "drawn windows");
-  const Windows windows =
-      config.sample ? draw_windows(config, judged.scene, file, &result) : Windows(grid);
+  const BoundsWindows windows =
+      config.sample ? draw_windows(config, judged.scene, file, &result) : BoundsWindows(grid);
   auto held = judged.budget.reserve(0, "snapped triangles");
   SnapCounts snapped;
   const std::vector<LatticeTriangle> triangles =
@@ -84,30 +84,30 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
 }
 
 void print_text(const DagFile& file, const Judgement& j, bool sampled) {
-  const Sandwich& s = j.bounds;
+  const BoundsComparison& bounds = j.bounds;
   const bool thin = file.rule() == Rule::kThin;
   print_facts(file, j,
               std::string("openvdb: distances of its mesh-to-volume, ") +
                   (thin ? "file in {d <= 1/2}" : "{d <= 1/2} in file in {d <= sqrt(3)/2}"));
-  std::printf("windows    %s %s, %s voxels tested\n", format_count(s.windows).c_str(),
-              sampled ? "sampled" : "(all)", format_count(s.tested).c_str());
-  std::printf("voxels     %s in the file, %s with d <= 1/2\n", format_count(s.file_voxels).c_str(),
-              format_count(s.inner).c_str());
-  print_wrong_voxels(file.grid(), s.missing, s.extra, s.first);
+  std::printf("windows    %s %s, %s voxels tested\n", format_count(bounds.windows).c_str(),
+              sampled ? "sampled" : "(all)", format_count(bounds.tested).c_str());
+  std::printf("voxels     %s in the file, %s with d <= 1/2\n",
+              format_count(bounds.file_voxels).c_str(), format_count(bounds.inner).c_str());
+  print_wrong_voxels(file.grid(), bounds.missing, bounds.extra, bounds.first);
   std::printf("exact      %s on a bound within the error of a float, decided in integers\n",
-              format_count(s.exact).c_str());
-  if (s.vdb_errors > 0)
+              format_count(bounds.exact).c_str());
+  if (bounds.vdb_errors > 0)
     std::printf("openvdb    %s of its distances were too large, as integers prove\n",
-                format_count(s.vdb_errors).c_str());
+                format_count(bounds.vdb_errors).c_str());
   std::printf("%s\n", !j.ok()        ? "not ok: file and scene differ"
                       : j.both_empty ? kNothingToJudge
                                      : "ok: every voxel tested is between the bounds");
 }
 
 void print_json(const DagFile& file, const Judgement& j, bool sampled) {
-  const Sandwich& s = j.bounds;
+  const BoundsComparison& bounds = j.bounds;
   nlohmann::json wrong = nlohmann::json::array();
-  for (const WrongVoxel& w : s.first)
+  for (const WrongVoxel& w : bounds.first)
     wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
   const nlohmann::json json = {{"command", "mesh"},
                                {"file", file.path()},
@@ -122,14 +122,14 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
                                {"invalid_triangles", j.counts.invalid},
                                {"patterns_unmatched", j.counts.unmatched},
                                {"sampled", sampled},
-                               {"windows", s.windows},
-                               {"tested", s.tested},
-                               {"file_voxels", s.file_voxels},
-                               {"inner", s.inner},
-                               {"missing", s.missing},
-                               {"extra", s.extra},
-                               {"decided_exactly", s.exact},
-                               {"openvdb_errors", s.vdb_errors},
+                               {"windows", bounds.windows},
+                               {"tested", bounds.tested},
+                               {"file_voxels", bounds.file_voxels},
+                               {"inner", bounds.inner},
+                               {"missing", bounds.missing},
+                               {"extra", bounds.extra},
+                               {"decided_exactly", bounds.exact},
+                               {"openvdb_errors", bounds.vdb_errors},
                                {"first_wrong", wrong}};
   std::printf("%s\n", json_text(json).c_str());
 }

@@ -51,7 +51,7 @@ void print_text(const VdbGrid& theirs, const Grid& grid, const IndexMap& map,
   std::printf("grid     %s, %s, on level %d (%s^3)%s\n", theirs.name().c_str(),
               theirs.type().c_str(), grid.levels,
               format_resolution(uint64_t(grid.resolution())).c_str(),
-              map.turns() ? ", with other axes" : "");
+              map.changes_axes() ? ", with other axes" : "");
   std::printf("both     %s voxels\nmissing  %s\nextra    %s\n", format_count(c.both).c_str(),
               format_count(c.missing).c_str(), format_count(c.extra).c_str());
   print_voxels("missing", grid, c.first_missing);
@@ -63,8 +63,8 @@ void write_difference(const VdbConfig& config, const VdbComparison& comparison,
                       VdbComparer* comparer) {
   if (comparison.extra > config.write_most)
     throw Error(ExitCode::kUsage,
-                "would get " + std::to_string(comparison.extra) + " voxels, more than " +
-                    std::to_string(config.write_most) + ": give more with --write-most",
+                "would get " + std::to_string(comparison.extra) + " voxels, --write-most is " +
+                    std::to_string(config.write_most) + ": raise --write-most",
                 config.write_diff);
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
   comparer->write_difference(writer.get());

@@ -5,7 +5,7 @@
 namespace svdag {
 namespace {
 
-// With |q| < 1.5 * 2^62 (io/lattice.h) a height is below 2^195, and four times its square below 2^392.
+// With |q| < 1.5 * 2^62 (io/lattice.h) a height is below 2^195, four times its square below 2^392.
 namespace mp = boost::multiprecision;
 using Int = mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>,
                        mp::et_off>;

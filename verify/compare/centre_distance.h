@@ -1,11 +1,11 @@
 // Exact comparison of the distance of a voxel's centre from a triangle with a bound.
 //
 // On the lattice the centre of voxel k is the integer point (2k + 1) * 2^(F-1). The squared
-// distance of a point p from a triangle is (n.(p-a))^2 / n.n if p projects into it, else the smallest
-// squared distance from an edge e = v-u: |p-u|^2 or |p-v|^2 beyond its ends, (|p-u|^2 |e|^2 -
-// ((p-u).e)^2) / |e|^2 between them. All are quotients of integers, compared with a bound by
-// multiplying out. Slow (about a microsecond) but without tolerance: for the few voxels that a
-// float cannot decide.
+// distance of a point p from a triangle is (n.(p-a))^2 / n.n if p projects into it, else the
+// smallest squared distance from an edge e = v-u: |p-u|^2 or |p-v|^2 beyond its ends,
+// (|p-u|^2 |e|^2 - ((p-u).e)^2) / |e|^2 between them. All are quotients of integers, compared with
+// a bound by multiplying out. Slow (about a microsecond) but without tolerance: for the few voxels
+// that a float cannot decide.
 #pragma once
 
 #include "io/triangle.h"

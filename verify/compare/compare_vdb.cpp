@@ -37,24 +37,24 @@ VdbComparer::VdbComparer(const VdbGrid& theirs, CubeWalk* ours, const IndexMap& 
   if (window_ != nullptr && !window_->empty()) their_window_ = map_.back(*window_);
 }
 
-Block VdbComparer::ours(const LatticePoint& origin) const {
+Block VdbComparer::our_block(const LatticePoint& origin) const {
   const LatticePoint corner = map_(VoxelBox{origin, origin + kBlockSide}).min;
   const Block block = ours_->block(corner);
-  if (!map_.turns()) return block;
-  Block turned;
+  if (!map_.changes_axes()) return block;
+  Block permuted;
   for (unsigned bit = 0; bit < 512; ++bit) {
     const unsigned x = bit >> 6, y = bit >> 3 & 7, z = bit & 7;
     const LatticePoint at = map_(origin + LatticePoint(x, y, z)) - corner;
-    if (block.get(unsigned(at.x), unsigned(at.y), unsigned(at.z))) turned.set(x, y, z);
+    if (block.get(unsigned(at.x), unsigned(at.y), unsigned(at.z))) permuted.set(x, y, z);
   }
-  return turned;
+  return permuted;
 }
 
 void VdbComparer::compare_block(VoxelCube cube, const Found& found) {
   if (window_ != nullptr) cube.block.cut(cube.origin, their_window_);
-  const Block mine = ours(cube.origin);
-  const uint64_t both = (cube.block & mine).count();
-  cube.block = cube.block.without(mine);
+  const Block ours = our_block(cube.origin);
+  const uint64_t both = (cube.block & ours).count();
+  cube.block = cube.block.without(ours);
   found(both, cube);
 }
 
@@ -74,7 +74,7 @@ void VdbComparer::split(const VoxelCube& cube, const Found& found) {
         split({cube.origin + at, side, side == kBlockSide ? Block::full() : Block()}, found);
 }
 
-void VdbComparer::extras(const std::function<bool(const LatticePoint&)>& sink) {
+void VdbComparer::visit_extra(const std::function<bool(const LatticePoint&)>& sink) {
   uint64_t cubes = 0;
   ours_->visit(window(), [&](const VoxelCube& cube) {
     if (++cubes % 1024 == 0) check_interrupt();
@@ -108,7 +108,7 @@ VdbComparison VdbComparer::compare(uint64_t max_listed) {
   result.extra = ours_->count_voxels(window()) - result.both;
   const uint64_t to_find = std::min(max_listed, result.extra);
   if (to_find > 0)
-    extras([&](const LatticePoint& voxel) {
+    visit_extra([&](const LatticePoint& voxel) {
       result.first_extra.push_back(voxel);
       return result.first_extra.size() < to_find;
     });
@@ -124,7 +124,7 @@ void VdbComparer::write_difference(VdbWriter* writer) {
     return true;
   });
   writer->begin("extra", theirs_.centres());
-  extras([&](const LatticePoint& voxel) {
+  visit_extra([&](const LatticePoint& voxel) {
     writer->add_voxel(map_.back(voxel));
     return true;
   });

@@ -41,9 +41,9 @@ class VdbComparer {
   using Found = std::function<void(uint64_t both, const VoxelCube& missing)>;
   void split(const VoxelCube& cube, const Found& found);
   void compare_block(VoxelCube cube, const Found& found);
-  Block ours(const LatticePoint& origin) const;
-  // Passes our voxels that theirs lacks to the sink, until it returns false.
-  void extras(const std::function<bool(const LatticePoint& ours)>& sink);
+  Block our_block(const LatticePoint& origin) const;
+  // Passes our voxels that theirs lacks to the sink until it returns false.
+  void visit_extra(const std::function<bool(const LatticePoint& ours)>& sink);
   // The compared box, in our voxels.
   VoxelBox window() const;
 

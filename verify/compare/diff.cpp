@@ -8,6 +8,7 @@
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
+
 size_t DagDiff::Memo::home_slot(Pair pair) const {
   const uint64_t key = uint64_t(pair.a) << 32 | pair.b;
   const unsigned __int128 product =

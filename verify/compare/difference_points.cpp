@@ -27,8 +27,8 @@ void write_difference(DagDiff* diff, const DiffCounts& counts, const Grid& grid,
   const uint64_t points = counts.only_a + counts.only_b;
   if (points > max_points)
     throw Error(ExitCode::kUsage,
-                "would get " + std::to_string(points) + " points, more than " +
-                    std::to_string(max_points) + ": give more with --write-most",
+                "would get " + std::to_string(points) + " points, --write-most is " +
+                    std::to_string(max_points) + ": raise --write-most",
                 path);
   AtomicFile file(path);
   file.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +

@@ -37,7 +37,7 @@ class WindowCheck {
     result_.tested = uint64_t(side.x) * uint64_t(side.y) * uint64_t(side.z);
   }
 
-  Sandwich judge(std::span<const LatticeTriangle> triangles, size_t threads) {
+  BoundsComparison judge(std::span<const LatticeTriangle> triangles, size_t threads) {
     std::vector<LatticeTriangle> near;
     std::vector<Triangle> parts;
     double reach = 0;
@@ -80,7 +80,8 @@ class WindowCheck {
     const Block file = walk_->block(origin);
     for (unsigned i = 0; i < 512; ++i) {
       const LatticePoint voxel = origin + LatticePoint(i >> 6, i >> 3 & 7, i & 7);
-      if (contains(voxel, box_)) check_voxel(voxel, file.words[i >> 6] >> (i & 63) & 1, distances[i]);
+      if (contains(voxel, box_))
+        check_voxel(voxel, file.words[i >> 6] >> (i & 63) & 1, distances[i]);
     }
   }
 
@@ -90,7 +91,7 @@ class WindowCheck {
     result_.inner += selected && d <= 0.5;
     if (set && !selected) {  // wrong at any distance
       ++result_.extra;
-      show(voxel, false);
+      record_wrong(voxel, false);
     } else if (set) {
       if (d >= upper() - tolerance_) suspects_.push_back({voxel, true, d > upper() + tolerance_});
     } else if (!thin_ && d <= 0.5 + tolerance_ && selected) {
@@ -98,7 +99,7 @@ class WindowCheck {
     }
   }
 
-  void show(const LatticePoint& voxel, bool missing) {
+  void record_wrong(const LatticePoint& voxel, bool missing) {
     if (result_.first.size() < Comparison::kShown) result_.first.push_back({voxel, missing});
   }
 
@@ -129,7 +130,7 @@ class WindowCheck {
       if (!s.certain) ++result_.exact;
       if (wrong) {
         ++(s.set ? result_.extra : result_.missing);
-        show(s.voxel, !s.set);
+        record_wrong(s.voxel, !s.set);
       } else if (s.certain) {
         ++result_.vdb_errors;
       }
@@ -154,14 +155,14 @@ class WindowCheck {
   VoxelBox box_;
   LatticePoint blocks_{0};
   std::vector<bool> has_distances_;  // [block]: OpenVDB gave distances for it
-  double tolerance_ = 0;        // of a distance, in voxels
+  double tolerance_ = 0;             // of a distance, in voxels
   std::vector<Suspect> suspects_;
-  Sandwich result_;
+  BoundsComparison result_;
 };
 
 }  // namespace
 
-void Sandwich::append(const Sandwich& later) {
+void BoundsComparison::append(const BoundsComparison& later) {
   windows += later.windows;
   tested += later.tested;
   file_voxels += later.file_voxels;
@@ -174,34 +175,35 @@ void Sandwich::append(const Sandwich& later) {
     if (first.size() < Comparison::kShown) first.push_back(wrong);
 }
 
-Windows::Windows(const Grid& grid)
-    : side_(std::min(kSandwichWindow, grid.resolution())), per_axis_(grid.resolution() / side_) {}
+BoundsWindows::BoundsWindows(const Grid& grid)
+    : side_(std::min(kBoundsWindowSide, grid.resolution())), per_axis_(grid.resolution() / side_) {}
 
-Windows::Windows(const Grid& grid, std::span<const LatticePoint> voxels) : Windows(grid) {
+BoundsWindows::BoundsWindows(const Grid& grid, std::span<const LatticePoint> voxels)
+    : BoundsWindows(grid) {
   drawn_.emplace();
   for (const LatticePoint& voxel : voxels) drawn_->push_back(window_number(voxel));
   std::sort(drawn_->begin(), drawn_->end());
   drawn_->erase(std::unique(drawn_->begin(), drawn_->end()), drawn_->end());
 }
 
-uint64_t Windows::window_number(const LatticePoint& voxel) const {
+uint64_t BoundsWindows::window_number(const LatticePoint& voxel) const {
   const LatticePoint w = voxel / side_;
   return uint64_t((w.x * per_axis_ + w.y) * per_axis_ + w.z);
 }
 
-uint64_t Windows::size() const {
+uint64_t BoundsWindows::size() const {
   return drawn_ ? drawn_->size() : uint64_t(per_axis_ * per_axis_ * per_axis_);
 }
 
-VoxelBox Windows::operator[](uint64_t i) const {
+VoxelBox BoundsWindows::operator[](uint64_t i) const {
   const int64_t number = int64_t(drawn_ ? (*drawn_)[i] : i);
   const LatticePoint w(number / per_axis_ / per_axis_, number / per_axis_ % per_axis_,
                        number % per_axis_);
   return {w * side_, (w + int64_t(1)) * side_};
 }
 
-Sandwich judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,
-                      std::span<const LatticeTriangle> triangles, size_t threads) {
+BoundsComparison judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,
+                              std::span<const LatticeTriangle> triangles, size_t threads) {
   return WindowCheck(walk, grid, rule, window).judge(triangles, threads);
 }
 

@@ -30,7 +30,7 @@
 
 namespace svdag {
 
-struct Sandwich {
+struct BoundsComparison {
   uint64_t windows = 0;
   uint64_t tested = 0;       // voxels in the windows, each compared with both bounds
   uint64_t file_voxels = 0;  // the set ones among them
@@ -42,20 +42,20 @@ struct Sandwich {
   std::vector<WrongVoxel> first;
 
   bool holds() const { return missing == 0 && extra == 0; }
-  void append(const Sandwich& later);
+  void append(const BoundsComparison& later);
 };
 
-constexpr int64_t kSandwichWindow = 512;
+constexpr int64_t kBoundsWindowSide = 512;
 
-// Windows with a side of kSandwichWindow voxels (or the whole grid, if smaller), at multiples of the
-// side, so no two overlap and no voxel is counted twice. They are computed one by one: the list for
-// a grid of 1M^3 would take 400 GB.
-class Windows {
+// BoundsWindows with a side of kBoundsWindowSide voxels (or the whole grid, if smaller), at
+// multiples of the side, so no two overlap and no voxel is counted twice. They are computed one by
+// one: the list for a grid of 1M^3 would take 400 GB.
+class BoundsWindows {
  public:
   // All windows of the grid.
-  explicit Windows(const Grid& grid);
+  explicit BoundsWindows(const Grid& grid);
   // The windows that contain one of these voxels, each once.
-  Windows(const Grid& grid, std::span<const LatticePoint> voxels);
+  BoundsWindows(const Grid& grid, std::span<const LatticePoint> voxels);
 
   uint64_t size() const;
   VoxelBox operator[](uint64_t i) const;
@@ -69,7 +69,7 @@ class Windows {
 
 // Judges the voxels in `window`; `triangles` must contain all that are near it
 // (window_triangles.h).
-Sandwich judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,
-                      std::span<const LatticeTriangle> triangles, size_t threads);
+BoundsComparison judge_window(CubeWalk* walk, const Grid& grid, Rule rule, const VoxelBox& window,
+                              std::span<const LatticeTriangle> triangles, size_t threads);
 
 }  // namespace svdag

@@ -103,10 +103,10 @@ GridFit fit_grid(const VdbGrid& theirs, const Grid& grid, const std::string& pat
   const Placement position(theirs.centres(), level);
   const VoxelBox box = theirs.bounds();
   const Point first = position(box.min);
-  const LatticePoint turned = fit.map(box.min);
+  const LatticePoint unshifted = fit.map(box.min);
   for (int a = 0; a < 3; ++a) {
     if (!(std::abs(first[a]) < 0x1p40)) reject(path, theirs, "it is too far away");
-    fit.map.shift[a] = int64_t(std::nearbyint(first[a])) - turned[a];
+    fit.map.shift[a] = int64_t(std::nearbyint(first[a])) - unshifted[a];
   }
   Point worst(0);
   for (unsigned corner = 0; corner < 8; ++corner) {

@@ -6,8 +6,9 @@
 // between the true map and this one is an affine function, largest at a corner of the box of their
 // voxels, so eight points prove it for all.
 //
-// Far from zero a voxel is only a few steps of a double, or less. Positions are therefore relative to our first centre, not to zero: our own exports match to the last bit, so they fit at
-// any position. Grids of other programs may be off by a few roundings of the coordinates, but by at
+// Far from zero a voxel is only a few steps of a double, or less. Positions are therefore relative
+// to our first centre, not to zero: our own exports match to the last bit, so they fit at any
+// position. Grids of other programs may be off by a few roundings of the coordinates, but by at
 // most 1/8 of a voxel: otherwise the corresponding voxel is ambiguous.
 // Rejected: comparing the matrices entry by entry (an error of 1e-7 in a scale is 0.1 voxel at 1M).
 #pragma once
@@ -16,6 +17,7 @@
 
 namespace svdag {
 
+// The signed permutation of axes and the shift.
 struct IndexMap {
   std::array<int, 3> axis{0, 1, 2};  // their axis a is our axis axis[a]
   std::array<int, 3> sign{1, 1, 1};
@@ -33,7 +35,7 @@ struct IndexMap {
   }
   VoxelBox operator()(const VoxelBox& theirs) const;
   VoxelBox back(const VoxelBox& ours) const;
-  bool turns() const { return axis != std::array{0, 1, 2} || sign != std::array{1, 1, 1}; }
+  bool changes_axes() const { return axis != std::array{0, 1, 2} || sign != std::array{1, 1, 1}; }
 };
 
 struct GridFit {

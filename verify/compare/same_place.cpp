@@ -26,8 +26,8 @@ struct ScaledGrid {
   double reach = 0;  // upper bound of its coordinates
 };
 
-// One way in which grids correspond: the positions that must agree, in voxels from the first and the
-// last plane of each grid, and the kind of grid to which it applies (none: any).
+// One way in which grids correspond: the positions that must agree, in voxels from the first and
+// the last plane of each grid, and the kind of grid to which it applies (none: any).
 struct Alignment {
   double first, last;
   std::optional<Grid::Kind> kind;
@@ -35,7 +35,8 @@ struct Alignment {
 constexpr Alignment kAlignments[] = {
     {0, 0, {}}, {0.5, -0.5, Grid::Kind::kBox}, {-0.5, -0.5, Grid::Kind::kLattice}};
 
-bool is_aligned(const ScaledGrid& a, const ScaledGrid& b, const Alignment& alignment, double tolerance) {
+bool is_aligned(const ScaledGrid& a, const ScaledGrid& b, const Alignment& alignment,
+                double tolerance) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const double moved = b.corner[axis] - a.corner[axis];
     const double first = moved + alignment.first * (b.size - a.size);
@@ -62,7 +63,8 @@ bool same_place(const Grid& a, const Grid& b) {
   if (may_be_float32(a) || may_be_float32(b))
     tolerance = std::max(tolerance, std::min(kFloat32Step * reach, kMaxFloatError));
   for (const Alignment& alignment : kAlignments) {
-    const bool possible = !alignment.kind || (a.kind == *alignment.kind && b.kind == *alignment.kind);
+    const bool possible =
+        !alignment.kind || (a.kind == *alignment.kind && b.kind == *alignment.kind);
     if (possible && is_aligned(in_a, in_b, alignment, tolerance)) return true;
   }
   return false;

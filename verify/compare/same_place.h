@@ -20,8 +20,8 @@
 
 namespace svdag {
 
-// The relative error of a few roundings of a double, and the largest error accepted, in voxels: a grid
-// farther from zero has no known position and matches only a grid with equal numbers.
+// The relative error of a few roundings of a double, and the largest error accepted, in voxels: a
+// grid farther from zero has no known position and matches only a grid with equal numbers.
 constexpr double kRounding = 0x1p-50, kMaxRounding = 1.0 / 8;
 
 bool same_place(const Grid& a, const Grid& b);

@@ -14,7 +14,7 @@ namespace {
 
 using Key = std::array<uint64_t, 8>;
 
-// One pass over the levels, bricks first; `below_*` describes the level below the current one.
+// Checks the levels one after the other, bricks first; `below_*` describes the level below.
 class Inspection {
  public:
   Inspection(const Header& header, const DagView& dag, IntegrityReport* report)
@@ -23,8 +23,8 @@ class Inspection {
   }
 
   void run() {
-    bricks();
-    for (uint32_t level = dag_.brick_level(); level-- > 0;) inner(level);
+    check_bricks();
+    for (uint32_t level = dag_.brick_level(); level-- > 0;) check_nodes(level);
     const uint64_t roots = report_->nodes[0];
     if (roots != (dag_.brick_count == 0 ? 0U : 1U))
       report_->defects.push_back("level 0 has " + std::to_string(roots) + " nodes instead of one");
@@ -41,14 +41,14 @@ class Inspection {
     report_->defects.push_back("level " + std::to_string(level) + " " + what);
   }
 
-  void bricks() {
+  void check_bricks() {
     const uint32_t level = dag_.brick_level();
     report_->nodes[level] = dag_.brick_count;
     below_voxels_.resize(dag_.brick_count);
     uint64_t unordered = 0, last = 0;
     for (uint64_t i = 0; i < dag_.brick_count; ++i) {
       const uint64_t brick = dag_.bricks[i];
-      if (brick <= last) ++unordered;  // the first brick is compared with 0, so it must not be empty
+      if (brick <= last) ++unordered;  // `last` is 0 first, so an empty brick is never in order
       last = brick;
       below_voxels_[i] = uint64_t(std::popcount(brick));
     }
@@ -57,7 +57,7 @@ class Inspection {
                         " bricks that are empty, repeated or out of order");
   }
 
-  void inner(uint32_t level) {
+  void check_nodes(uint32_t level) {
     const uint32_t* words = dag_.words[level];
     const uint64_t count = dag_.word_count[level];
     const NodeIndex index(words, count);
@@ -106,7 +106,9 @@ class Inspection {
     if (unordered > 0)
       defect(level,
              "has " + std::to_string(unordered) + " nodes that are repeated or out of order");
-    if (invalid > 0) defect(level, "has " + std::to_string(invalid) + " child pointers that are not the start of a node");
+    if (invalid > 0)
+      defect(level,
+             "has " + std::to_string(invalid) + " child pointers to words where no node begins");
     uint64_t marked = 0;
     for (const uint64_t bits : used) marked += uint64_t(std::popcount(bits));
     if (marked < below_voxels_.size())
@@ -123,8 +125,8 @@ class Inspection {
 
 // Searches for a voxel outside the selection.
 //
-// Descends only into cubes that the border of the selection cuts, and once per node and way of
-// cutting: a floor in the border's plane has few nodes, but an enormous number of cubes.
+// Descends only into cubes that the border of the selection cuts, and once per node and pattern
+// of cut borders: a floor in the border's plane has few nodes, but an enormous number of cubes.
 class OutsideSearch {
  public:
   explicit OutsideSearch(const DagView& dag) : dag_(dag), searched_(dag.levels) {}
@@ -160,8 +162,8 @@ class OutsideSearch {
     return false;
   }
 
-  // The borders of the selection (six bits) that run through the inside of a cube. They do so at the
-  // same position in all cubes of a level, because cubes begin at multiples of their side.
+  // The borders of the selection (six bits) that run through the inside of a cube. They do so at
+  // the same position in all cubes of a level, because cubes begin at multiples of their side.
   static unsigned borders_inside(const VoxelBox& cut, int64_t side) {
     unsigned bits = 0;
     for (int a = 0; a < 3; ++a) {
@@ -192,12 +194,12 @@ class OutsideSearch {
   }
 
   const DagView& dag_;
-  // [level], per node: the ways of cutting already searched, one bit for each of the 2^6.
+  // [level], per node: the patterns of cut borders already searched, one bit for each of the 2^6.
   std::vector<std::unordered_map<uint32_t, uint64_t>> searched_;
 };
 
-// Checks the corner's lattice plane k0, a multiple of 1024 so that cells of up to 1024 voxels have the
-// same content in every grid of the lattice. A box has no such planes.
+// Checks the corner's lattice plane k0, a multiple of 1024 so that cells of up to 1024 voxels have
+// the same content in every grid of the lattice. A box has no such planes.
 void check_lattice(const Header& header, std::vector<std::string>* defects) {
   const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
   for (const int64_t k0 : header.k0) {

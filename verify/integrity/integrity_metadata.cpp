@@ -1,5 +1,5 @@
-// Compares the metadata's JSON with the header (docs/format.md, "Metadata"): field by field, so that
-// a defect names its field, then byte for byte, because JSON has many texts for one value.
+// Compares the metadata's JSON with the header (docs/format.md, "Metadata"): field by field, so
+// that a defect names its field, then byte for byte, because JSON has many texts for one value.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -40,7 +40,8 @@ constexpr int kMaxDepth = 2;  // the selection inside the grid inside the object
 // The beginning of an untrusted text.
 std::string beginning(const std::string& text) {
   size_t end = std::min<size_t>(text.size(), 40);
-  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // inside a UTF-8 character
+  // No cut inside a UTF-8 character.
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;
   return text.substr(0, end) + (end < text.size() ? "..." : "");
 }
 
@@ -77,7 +78,7 @@ std::vector<std::string> metadata_defects(const Header& header, std::string_view
   const auto on_event = [&](int depth, json::parse_event_t event, json& parsed) {
     repeated.on_event(event, parsed);
     too_deep = too_deep || depth > kMaxDepth + 1;
-    return !too_deep;  // dropped, so that printing it cannot exhaust the stack
+    return !too_deep;  // a value that is too deep is dropped: printing it could exhaust the stack
   };
   const json found = json::parse(metadata, on_event, /*allow_exceptions=*/false);
   if (too_deep) return {"the metadata is nested too deep"};

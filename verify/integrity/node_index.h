@@ -29,7 +29,7 @@ class NodeIndex {
   bool is_start(uint64_t word) const {
     return word / 64 < starts_.size() && (starts_[word / 64] >> (word % 64) & 1U) != 0;
   }
-  // The number of nodes that begin before `word`, which is the number of the node that begins there.
+  // The number of nodes that begin before `word`: the index of a node that begins there.
   uint64_t rank(uint64_t word) const {
     const uint64_t below = starts_[word / 64] & ((uint64_t(1) << (word % 64)) - 1);
     return before_[word / 64] + uint64_t(std::popcount(below));

@@ -14,8 +14,8 @@ using Int256 = boost::multiprecision::int256_t;
 
 constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
 
-// The axis that gives few and long columns; any axis is correct. It is the smallest component of the
-// normal or, if tied (walls, segments), the longest side of the box. Doubles suffice.
+// The axis that gives few and long columns; any axis is correct. It is the smallest component of
+// the normal or, if tied (walls, segments), the longest side of the box. Doubles suffice.
 int best_axis(const LatticeTriangle& t) {
   const Point a(t.v[1] - t.v[0]), b(t.v[2] - t.v[0]);
   const Point n(std::abs(a.y * b.z - a.z * b.y), std::abs(a.z * b.x - a.x * b.z),

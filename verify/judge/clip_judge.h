@@ -7,13 +7,13 @@
 // Notation: w is the column axis, u and v the other two. A column is a closed square of side S in
 // (u, v). The triangle clipped by a column's four half-spaces is a convex polygon, and the w of its
 // points form a closed interval [a, b]; the cells ceil(a/S)-1 .. floor(b/S) of the column are
-// occupied, including both neighbours where an end is on a cell plane. A linear function on a convex
-// polygon takes its extremes at corners, and the corners are
+// occupied, including both neighbours where an end is on a cell plane. A linear function on a
+// convex polygon takes its extremes at corners, and the corners are
 //   (1) vertices of the triangle inside the closed square,
 //   (2) crossings of an edge with a line u = k*S or v = m*S, inside the closed square,
 //   (3) where n_w != 0: corners (k*S, m*S) of the square inside the projected triangle.
-// If n_w = 0 the projected triangle is a segment (or a point), which contains a corner of the square
-// only where an edge does, so (1) and (2) suffice. Segments and points need no special case.
+// If n_w = 0 the projected triangle is a segment (or a point), which contains a corner of the
+// square only where an edge does, so (1) and (2) suffice. Segments and points need no special case.
 //
 // All three are rationals of the original integers (nothing is clipped twice, so nothing grows).
 // With |q| < 2^41: differences < 2^42; n_w = twice the projected area <= 2^84; (2) divides 84 bits

@@ -1,8 +1,8 @@
 // Exact quotients of integers: the arithmetic of the judge's clipping.
 //
-// The coordinates of a cut are rational numbers. The judge never compares two of them: it only needs
-// the voxel at or below a minimum, and ceil and floor are monotone, so ceil(min of all) = min of all
-// ceils. One division per point, no tolerance, no common denominator.
+// The coordinates of a cut are rational numbers. The judge never compares two of them: it only
+// needs the voxel at or below a minimum, and ceil and floor are monotone, so ceil(min of all) = min
+// of all ceils. One division per point, no tolerance, no common denominator.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,7 @@ JudgeChoice::Kind parse_judge(const std::string& name) {
   for (const auto kind : {JudgeChoice::Kind::kInteger, JudgeChoice::Kind::kCgal}) {
     if (name == name_of(kind)) return kind;
   }
-  fail_usage("unknown judge \"" + name + "\": choose integer or cgal");
+  fail_usage("--judge " + name + ": unknown judge: choose integer, cgal or openvdb");
 }
 
 const char* name_of(JudgeChoice::Kind kind) {

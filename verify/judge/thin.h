@@ -6,10 +6,10 @@
 // occurs, k is set iff for some axis w the segment of length S through c + d along w crosses the
 // triangle. After the shift no centre is exactly on a plane or edge, so "crosses" is unambiguous.
 //
-// Idea: the segments of one axis w form lines of centres, and a line that meets the triangle crosses
-// it in one point, so in one segment. Enumerate the lines, as a scan converter enumerates pixels,
-// and compute the point by division. Let u < v be the other two axes; then e_u dominates e_v, and
-// every tie is resolved by a half-open comparison:
+// Idea: the segments of one axis w form lines of centres, and a line that meets the triangle
+// crosses it in one point, so in one segment. Enumerate the lines, as a scan converter enumerates
+// pixels, and compute the point by division. Let u < v be the other two axes; then e_u dominates
+// e_v, and every tie is resolved by a half-open comparison:
 //   row    V + e_v is between the ends of an edge  iff  min v <= V < max v
 //   pixel  U + e_u is right of an edge's crossing  iff  U >= crossing: the row's own e_v moves the
 //          crossing by a multiple of e_v only, less than e_u

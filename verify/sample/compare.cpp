@@ -84,8 +84,8 @@ void collect_nodes(const DagView& dag, uint32_t tile_level, uint32_t level, uint
 }
 
 // Merges the two sorted lists: one entry per tile that occurs in either.
-std::vector<TileWork> plan_work(std::span<const TileTriangle> triangles,
-                                std::span<const TileNode> nodes) {
+std::vector<TileWork> merge_tile_lists(std::span<const TileTriangle> triangles,
+                                       std::span<const TileNode> nodes) {
   std::vector<TileWork> work;
   size_t t = 0, n = 0;
   while (t < triangles.size() || n < nodes.size()) {
@@ -183,7 +183,7 @@ Comparison compare_all(const DagView& dag, const Grid& grid,
   std::vector<TileNode> nodes;
   const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
   if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
-  const std::vector<TileWork> work = plan_work(lists, nodes);
+  const std::vector<TileWork> work = merge_tile_lists(lists, nodes);
 
   progress.phase("comparing", work.size());
   std::vector<TileComparison> comparisons;

@@ -27,7 +27,7 @@ struct WrongVoxel {
 struct Comparison {
   static constexpr size_t kShown = 8;
 
-  uint64_t bricks = 0;        // bricks compared; in a full comparison, those not empty on both sides
+  uint64_t bricks = 0;  // bricks compared; in a full comparison, those not empty on both sides
   uint64_t wrong_bricks = 0;  // those with a missing or an extra voxel
   uint64_t judge_voxels = 0;
   uint64_t file_voxels = 0;

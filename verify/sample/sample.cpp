@@ -31,8 +31,8 @@ void BrickSample::add(const LatticeTriangle& triangle, Judge& judge) {
           size_t(end - codes_.begin()));
 }
 
-// begin .. end are the sampled bricks inside `cell`, which is 2^height bricks wide, that the triangle
-// may touch.
+// begin .. end are the sampled bricks inside `cell`, which is 2^height bricks wide, that the
+// triangle may touch.
 void BrickSample::descend(const LatticeTriangle& triangle, Judge& judge, uint64_t cell, int height,
                           size_t begin, size_t end) {
   if (begin == end) return;
@@ -102,10 +102,12 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   BrickSample sample(grid, std::move(codes));
   std::vector<LatticeTriangle> gathered;
   const auto flush = [&] {
-    executor.for_each((gathered.size() + kTaskTriangles - 1) / kTaskTriangles, [&](size_t worker, size_t task) {
-      const size_t end = std::min(gathered.size(), (task + 1) * kTaskTriangles);
-      for (size_t i = task * kTaskTriangles; i < end; ++i) sample.add(gathered[i], *judges[worker]);
-    });
+    executor.for_each((gathered.size() + kTaskTriangles - 1) / kTaskTriangles,
+                      [&](size_t worker, size_t task) {
+                        const size_t end = std::min(gathered.size(), (task + 1) * kTaskTriangles);
+                        for (size_t i = task * kTaskTriangles; i < end; ++i)
+                          sample.add(gathered[i], *judges[worker]);
+                      });
     progress.advance(gathered.size());
     gathered.clear();
   };

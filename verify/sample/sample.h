@@ -1,13 +1,14 @@
 // Compares a random sample of bricks: judges a large file in bounded time and memory.
 //
-// Half of the bricks are drawn uniformly from the DAG's occupied bricks (these show extra voxels and
-// missing neighbours), half from the scene (scene_draw.h; these show bricks that are missing
+// Half of the bricks are drawn uniformly from the DAG's occupied bricks (these show extra voxels
+// and missing neighbours), half from the scene (scene_draw.h; these show bricks that are missing
 // altogether, which no draw from the file can). The scene is then streamed again and tested against
 // the sampled bricks only: their sorted list of Morton codes is an octree, in which each triangle
 // descends as long as it touches the cell, exactly.
 // Statistical statements are made per kind of draw: the union of the bricks that the file has and
 // those that it lacks cannot be sampled uniformly.
-// Rejected: holding the scene in memory (it may not fit), testing every triangle against every brick.
+// Rejected: holding the scene in memory (it may not fit), testing every triangle against every
+// brick.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +41,8 @@ struct BrickDraw {
 BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
                       uint64_t seed);
 
-// Memory of one draw while its brick is drawn and compared: its position, several copies of its code,
-// and the brick; or its window.
+// Memory of one draw while its brick is drawn and compared: its position, several copies of its
+// code, and the brick; or its window.
 constexpr uint64_t kBytesOfDraw = 64;
 
 // Throws the Error (kUsage) for an untested sample.

@@ -83,8 +83,8 @@ BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, 
 
 void fail_untested() {
   fail_usage(
-      "--sample: nothing could be drawn, so nothing was tested: the file has no voxel, and no "
-      "triangle was found in its grid: leave --sample out to compare all");
+      "--sample: no brick to draw: the file has no voxels, and no triangle was found in its grid: "
+      "omit --sample to compare all bricks");
 }
 
 }  // namespace svdag

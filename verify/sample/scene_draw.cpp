@@ -119,9 +119,9 @@ class ClippedTriangle {
 
   Point low_, high_;
   std::array<Point, 3> corners_;
-  Polygon cut_;        // empty if the triangle is entirely inside or entirely outside
+  Polygon cut_;  // empty if the triangle is entirely inside or entirely outside
   bool meets_selection_ = true;
-  Segment edge_{};     // the part of the longest edge inside; a point if none is
+  Segment edge_{};  // the part of the longest edge inside; a point if none is
   double area_ = 0;
 };
 
@@ -132,8 +132,8 @@ struct MeasureDraws {
   size_t next = 0;
 };
 
-// Draws a third of the positions by each measure (the first ones get the remainder); a measure without
-// weight leaves its share to the next.
+// Draws a third of the positions by each measure (the first ones get the remainder); a measure
+// without weight leaves its share to the next.
 void draw_positions(std::array<MeasureDraws, kMeasures>* draws, uint64_t count, Random& random) {
   uint64_t left = 0;
   for (size_t m = 0; m < kMeasures; ++m) {
@@ -151,7 +151,8 @@ void draw_positions(std::array<MeasureDraws, kMeasures>* draws, uint64_t count, 
 
 std::vector<uint64_t> SceneDraw::all() const {
   std::vector<uint64_t> all;
-  for (const std::vector<uint64_t>& drawn : codes) all.insert(all.end(), drawn.begin(), drawn.end());
+  for (const std::vector<uint64_t>& drawn : codes)
+    all.insert(all.end(), drawn.begin(), drawn.end());
   return all;
 }
 
@@ -176,7 +177,8 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
       for (size_t m = 0; m < kMeasures; ++m) {
         MeasureDraws& drawn = draws[m];
         drawn.passed += clipped.weight(Measure(m));
-        for (; drawn.next < drawn.positions.size() && drawn.positions[drawn.next] < drawn.passed; ++drawn.next)
+        for (; drawn.next < drawn.positions.size() && drawn.positions[drawn.next] < drawn.passed;
+             ++drawn.next)
           result.codes[m].push_back(clipped.draw(Measure(m), random));
       }
     }

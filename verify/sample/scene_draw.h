@@ -10,8 +10,8 @@
 // so no draw misses it. The first two draws are independent and uniform: k of n points in wrong
 // bricks bound the share of that area, or length, that is in wrong bricks. The third is a search
 // and bounds nothing.
-// Rejected: a single measure. By area no needle is ever drawn, by length a carpet of small triangles
-// hides a plane, by number a tessellated screw hides the walls.
+// Rejected: a single measure. By area no needle is ever drawn, by length a carpet of small
+// triangles hides a plane, by number a tessellated screw hides the walls.
 #pragma once
 
 #include <array>
@@ -34,8 +34,8 @@ struct SceneDraw {
 };
 
 // Makes `count` draws, a third by each measure; a measure without weight (a scene without area, a
-// scene of points) passes its draws to the next. The result is empty only if no triangle was found in
-// the selection. Streams the scene twice.
+// scene of points) passes its draws to the next. The result is empty only if no triangle was found
+// in the selection. Streams the scene twice.
 SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Random& random);
 
 }  // namespace svdag

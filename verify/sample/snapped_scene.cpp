@@ -50,8 +50,8 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
 
 std::string snap_defect(double recorded, const SnapCounts& whole_scene) {
   if (recorded == 0 || recorded == whole_scene.largest_move) return {};
-  return "the header says that the snap moved the scene by up to " + format_double(recorded) +
-         " voxels, it is " + format_double(whole_scene.largest_move);
+  return "the header records a largest snap of " + format_double(recorded) + " voxels, but it is " +
+         format_double(whole_scene.largest_move);
 }
 
 GridJudgement judge_grid(const Grid& grid, const Box& bounds) {

@@ -24,7 +24,8 @@ Polygon cut_to_box(Polygon polygon, const Point& low, const Point& high);
 // least a voxel away from every centre in the window.
 bool is_near(const LatticeTriangle& triangle, const VoxelBox& window, int fraction);
 
-// Appends the triangle, whole or cut, to *out; raises *reach to its largest coordinate before the cut.
+// Appends the triangle, whole or cut, to *out; raises *reach to its largest coordinate before the
+// cut.
 void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, int fraction,
                       std::vector<Triangle>* out, double* reach);
 

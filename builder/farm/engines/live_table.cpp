@@ -20,15 +20,15 @@ double seconds(Clock::duration duration) {
 }  // namespace
 
 LiveTable::LiveTable(const Plan& plan, bool live, bool quiet)
-    : plan_(plan), live_(live && !quiet), quiet_(quiet), begin_(Clock::now()), next_(begin_) {}
+    : plan_(plan), live_(live && !quiet), quiet_(quiet), begin_(Clock::now()), next_draw_(begin_) {}
 
 void LiveTable::print(size_t step, const StepRow& row) {
   if (quiet_) return;
   const PlanStep& s = plan_.steps[step];
   if (row.state == StepState::kDone) {
     if (live_) return;
-    if (row.already) {
-      std::printf("%-10s is done already\n", s.name.c_str());
+    if (row.done_before) {
+      std::printf("%-10s already done\n", s.name.c_str());
       return;
     }
     std::printf("%-10s done in %.1f s (planned %.1f s)", s.name.c_str(), row.seconds,
@@ -38,18 +38,18 @@ void LiveTable::print(size_t step, const StepRow& row) {
                   format_bytes(s.predicted.memory).c_str(),
                   format_bytes(row.receipt->bytes).c_str());
     std::printf("\n");
-  } else if (row.state == StepState::kWaiting && row.others) {
+  } else if (row.state == StepState::kWaiting && row.elsewhere) {
     clear();
-    std::printf("%-10s is being done by another process: waiting for it\n", s.name.c_str());
+    std::printf("%-10s waiting: another process is running it\n", s.name.c_str());
   } else {
     clear();
-    std::printf("%-10s %s with exit code %d\n", s.name.c_str(),
-                row.state == StepState::kFailed ? "failed" : "is tried again: it ended", row.code);
+    std::printf("%-10s failed with exit code %d%s\n", s.name.c_str(), row.code,
+                row.state == StepState::kFailed ? "" : ": retrying");
   }
   std::fflush(stdout);
 }
 
-// Cut where the terminal ends: clear() takes back as many rows as there were lines.
+// Truncates to the width of the terminal, since clear() assumes that a line is one row.
 template <class... Values>
 void LiveTable::line(const char* format, Values... values) {
   char text[160];
@@ -59,8 +59,8 @@ void LiveTable::line(const char* format, Values... values) {
 }
 
 void LiveTable::draw(const std::vector<StepRow>& rows) {
-  if (!live_ || Clock::now() < next_) return;
-  next_ = Clock::now() + std::chrono::milliseconds(100);
+  if (!live_ || Clock::now() < next_draw_) return;
+  next_draw_ = Clock::now() + std::chrono::milliseconds(100);
   clear();
   size_t done = 0, failed = 0;
   double planned = 0, planned_done = 0;
@@ -88,16 +88,16 @@ void LiveTable::finish(const std::vector<StepRow>& rows) {
   if (quiet_) return;
   double cpu = 0;
   uint64_t memory = 0;
-  size_t done = 0, already = 0;
+  size_t done = 0, done_before = 0;
   for (const StepRow& row : rows) {
     done += row.state == StepState::kDone;
-    already += row.already;
-    if (!row.receipt || row.already) continue;
+    done_before += row.done_before;
+    if (!row.receipt || row.done_before) continue;
     cpu += row.receipt->cpu;
     memory = std::max(memory, row.receipt->memory);
   }
   const std::string before =
-      already == 0 ? "" : " (" + std::to_string(already) + " of them before)";
+      done_before == 0 ? "" : " (" + std::to_string(done_before) + " already done)";
   std::printf(
       "%zu of %zu steps done%s in %.1f s: %.1f CPU seconds, at most %s of memory in a step\n", done,
       rows.size(), before.c_str(), seconds(Clock::now() - begin_), cpu,

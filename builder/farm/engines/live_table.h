@@ -1,5 +1,5 @@
-// Progress of a running plan: on a terminal a table of the running steps and a line of sums,
-// redrawn in place; otherwise a line for each step that ends.
+// Progress display of a running plan. On a terminal, a table of the running steps and a line of
+// totals, redrawn in place; otherwise a line per step that ends.
 #pragma once
 
 #include <sys/types.h>
@@ -17,10 +17,10 @@ enum class StepState { kWaiting, kRunning, kDone, kFailed };
 struct StepRow {
   StepState state = StepState::kWaiting;
   int attempts = 0;
-  bool others = false;                              // another process does it, and is waited for
-  std::chrono::steady_clock::time_point next_look;  // when to check that it still does
-  int code = 0;                                     // of the last attempt
-  bool already = false;                             // was done before this run
+  bool elsewhere = false;                            // another process runs the step
+  std::chrono::steady_clock::time_point next_check;  // when to check that it still runs
+  int code = 0;                                      // exit code of the last attempt
+  bool done_before = false;                          // was done before this run
   pid_t process = 0;
   std::chrono::steady_clock::time_point begin;
   double seconds = 0;
@@ -29,12 +29,12 @@ struct StepRow {
 
 class LiveTable {
  public:
-  // `live`: draws on stderr. `quiet`: prints nothing.
+  // If `live`, draws a table on stderr; if `quiet`, prints nothing.
   LiveTable(const Plan& plan, bool live, bool quiet);
 
-  // Prints a step that has ended.
+  // Prints a line about a step that ended or that another process runs.
   void print(size_t step, const StepRow& row);
-  // At most ten times a second.
+  // Draws at most ten times a second.
   void draw(const std::vector<StepRow>& rows);
   void clear();
   void finish(const std::vector<StepRow>& rows);
@@ -45,8 +45,8 @@ class LiveTable {
 
   const Plan& plan_;
   bool live_, quiet_;
-  size_t lines_ = 0;  // drawn
-  std::chrono::steady_clock::time_point begin_, next_;
+  size_t lines_ = 0;  // number of lines drawn
+  std::chrono::steady_clock::time_point begin_, next_draw_;
 };
 
 }  // namespace svdag

@@ -18,7 +18,7 @@ namespace svdag {
 namespace {
 
 constexpr const char* kOwnImage = "/proc/self/exe";
-constexpr const char* kDeleted = " (deleted)";  // behind the name of a file that is gone
+constexpr const char* kDeleted = " (deleted)";  // the kernel appends this to a deleted file's name
 
 class FileActions {
  public:
@@ -36,7 +36,7 @@ class FileActions {
   posix_spawn_file_actions_t actions_;
 };
 
-// Opened here and not by the child, so that an Error names the log, not the program.
+// Opened here, not by the child, so that an Error names the log instead of the program.
 class LogFile {
  public:
   explicit LogFile(const std::string& path)
@@ -107,10 +107,11 @@ void stop_processes(const std::vector<pid_t>& processes) {
   for (const pid_t process : processes) wait_for(process);
 }
 
-Answer ask_process(const std::vector<std::string>& command) {
+ProcessResult run_process(const std::vector<std::string>& command) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(ExitCode::kOutput, "cannot be started: no pipe", command[0]);
+    throw Error(ExitCode::kOutput, "cannot be started: the pipe for its output cannot be created",
+                command[0]);
   FileActions actions;
   actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
   actions.duplicate(ends[1], STDOUT_FILENO);
@@ -124,17 +125,17 @@ Answer ask_process(const std::vector<std::string>& command) {
     throw;
   }
   ::close(ends[1]);
-  Answer answer;
+  ProcessResult result;
   char buffer[4096];
   for (;;) {
     const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
-    answer.output.append(buffer, size_t(n));
+    result.output.append(buffer, size_t(n));
   }
   ::close(ends[0]);
-  answer.code = wait_for(process);
-  return answer;
+  result.code = wait_for(process);
+  return result;
 }
 
 std::string own_program() {
@@ -150,7 +151,7 @@ std::string own_image() {
   return error || path.ends_with(kDeleted) ? kOwnImage : path;
 }
 
-std::string from_anywhere(const std::string& path) {
+std::string absolute_unresolved(const std::string& path) {
   std::error_code error;
   const auto absolute = std::filesystem::absolute(path, error);
   return error ? path : absolute.string();
@@ -158,7 +159,7 @@ std::string from_anywhere(const std::string& path) {
 
 std::string program_on_hosts(const std::string& program) {
   if (program.empty()) return own_program();
-  return program.find('/') == std::string::npos ? program : from_anywhere(program);
+  return program.find('/') == std::string::npos ? program : absolute_unresolved(program);
 }
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// Other programs: started, watched, ended.
+// Child processes: start, poll, run to completion, terminate; paths of programs.
 #pragma once
 
 #include <sys/types.h>
@@ -8,36 +8,37 @@
 
 namespace svdag {
 
-// Starts `command` (a path or a name on PATH, and arguments) in a process group of its own, so that
-// Ctrl-C reaches it only through us, with empty input; what it says is appended to the file `log`.
-// Error (kOutput) if the log cannot be written, or the command not be started.
+// Starts `command` (a path or a name on PATH, then arguments) with empty stdin; stdout and stderr
+// are appended to the file `log`. The process gets its own process group, so that Ctrl-C reaches
+// only this process. Throws Error (kOutput) if the log cannot be opened or the command not started.
 pid_t start_process(const std::vector<std::string>& command, const std::string& log);
 
-// True once the process has ended; *code is then its exit code, or 128 + n if signal n ended it.
+// Returns true if the process has ended; *code is then its exit code, or 128 + n if killed by
+// signal n.
 bool has_ended(pid_t process, int* code);
 
-// Stops all of them (SIGTERM), and waits until they have exited.
+// Sends SIGTERM to all processes and waits until they have exited.
 void stop_processes(const std::vector<pid_t>& processes);
 
-struct Answer {
+struct ProcessResult {
   int code = 0;
   std::string output;  // stdout and stderr
 };
 
-// Runs `command` to its end. Error (kOutput) if it cannot be started.
-Answer ask_process(const std::vector<std::string>& command);
+// Runs `command` and waits for it. Throws Error (kOutput) if it cannot be started.
+ProcessResult run_process(const std::vector<std::string>& command);
 
-// This program's own file, or the one that took its name since (an upgrade).
+// Path of this program's file, even if another file has replaced it (an upgrade).
 std::string own_program();
 
-// What starts this very program: its file, or, where another took its name, the image that runs.
+// A path that starts exactly this program: its file, or /proc/self/exe if the file was replaced.
 std::string own_image();
 
-// `path` as an absolute path. Links are resolved on the host, so they are kept, and so is "..".
-std::string from_anywhere(const std::string& path);
+// `path` as an absolute path. Links and ".." are kept, since hosts may resolve them differently.
+std::string absolute_unresolved(const std::string& path);
 
-// What hosts start for `program`: a name without a folder is looked up on their PATH; empty: this
-// program.
+// The command that starts `program` on other hosts: a name without a folder is looked up on their
+// PATH; an empty name means this program.
 std::string program_on_hosts(const std::string& program);
 
 }  // namespace svdag

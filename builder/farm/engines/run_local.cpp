@@ -22,9 +22,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Time = std::filesystem::file_time_type;
 
-constexpr int kAttempts = 2;
-constexpr auto kLook = std::chrono::milliseconds(20);  // between two looks at the processes
-constexpr auto kLookAtOthers = std::chrono::milliseconds(500);  // and at what others do
+constexpr int kMaxAttempts = 2;
+constexpr auto kPollInterval = std::chrono::milliseconds(20);            // of our processes
+constexpr auto kElsewherePollInterval = std::chrono::milliseconds(500);  // of other processes
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -37,8 +37,8 @@ uint64_t size_of(const std::string& log) {
   return none ? 0 : size;
 }
 
-// The last line after byte `begin` of a log; the text before it is of earlier attempts.
-std::string last_words(const std::string& log, uint64_t begin) {
+// The last line after byte `begin` of a log; the text before that is of earlier attempts.
+std::string last_line_since(const std::string& log, uint64_t begin) {
   const File file = File::open_read(log);
   const uint64_t size = file.size();
   std::string text(std::min<uint64_t>(size - std::min(size, begin), 4096), ' ');
@@ -46,13 +46,12 @@ std::string last_words(const std::string& log, uint64_t begin) {
   return last_line_of(text);
 }
 
-// Why a step failed that said nothing.
-std::string reason_of(int code) {
-  if (code <= 128) return "it said nothing, exit code " + std::to_string(code);
-  return "it was ended by signal " + std::to_string(code - 128) +
-         (code == 128 + SIGKILL
-              ? ", often because no memory was left: run fewer steps at once with -j"
-              : "");
+// The reason reported for a failed step that printed no message.
+std::string reason_from_code(int code) {
+  if (code <= 128) return "no message, exit code " + std::to_string(code);
+  return "killed by signal " + std::to_string(code - 128) +
+         (code == 128 + SIGKILL ? ", often for lack of memory: run fewer steps at once with -j"
+                                : "");
 }
 
 class Runner {
@@ -61,8 +60,8 @@ class Runner {
       : plan_(plan),
         config_(config),
         rows_(plan.steps.size()),
-        written_(plan.steps.size()),
-        said_(plan.steps.size()),
+        receipt_times_(plan.steps.size()),
+        log_begins_(plan.steps.size()),
         table_(plan, config.table, config.quiet) {}
 
   void run() {
@@ -70,8 +69,8 @@ class Runner {
       while (!is_over()) {
         check_interrupt();
         start_ready();
-        std::this_thread::sleep_for(kLook);
-        for (size_t i = 0; i < rows_.size(); ++i) look_after(i);
+        std::this_thread::sleep_for(kPollInterval);
+        for (size_t i = 0; i < rows_.size(); ++i) poll(i);
         table_.draw(rows_);
       }
     } catch (...) {
@@ -100,19 +99,19 @@ class Runner {
     });
   }
 
-  // Starts what can be started; last what was others' when it was looked at before.
+  // Starts ready steps, last those that another process ran when they were last checked.
   void start_ready() {
-    fail_what_lacks_inputs();
+    fail_dependents();
     size_t started = running();
-    for (const bool others : {false, true}) {
+    for (const bool elsewhere : {false, true}) {
       for (size_t i = 0; i < rows_.size() && started < config_.processes; ++i) {
-        if (rows_[i].others == others && is_ready(i)) started += start_or_wait(i);
+        if (rows_[i].elsewhere == elsewhere && is_ready(i)) started += start_or_wait(i);
       }
     }
   }
 
-  // Never started: the code of such a step stays 0.
-  void fail_what_lacks_inputs() {
+  // Fails the steps whose inputs failed. They are never started, so their code stays 0.
+  void fail_dependents() {
     for (size_t i = 0; i < rows_.size(); ++i) {
       const auto& inputs = plan_.steps[i].inputs;
       const auto failed = [&](size_t input) { return rows_[input].state == StepState::kFailed; };
@@ -121,28 +120,27 @@ class Runner {
   }
 
   bool is_ready(size_t i) const {
-    if (rows_[i].state != StepState::kWaiting || Clock::now() < rows_[i].next_look) return false;
+    if (rows_[i].state != StepState::kWaiting || Clock::now() < rows_[i].next_check) return false;
     const auto& inputs = plan_.steps[i].inputs;
     return std::all_of(inputs.begin(), inputs.end(),
                        [&](size_t input) { return rows_[input].state == StepState::kDone; });
   }
 
-  // Returns false if another process does the step: no process of ours then waits for it instead of
-  // doing another step.
+  // Returns false if another process runs the step. No process is started that would only wait.
   bool start_or_wait(size_t i) {
     StepConfig step;
     step.scratch = config_.scratch;
-    const bool others = is_being_done(plan_, plan_.steps[i], step);
-    others ? wait_for_others(i) : start(i);
-    return !others;
+    const bool elsewhere = runs_elsewhere(plan_, plan_.steps[i], step);
+    elsewhere ? wait_for_other_process(i) : start(i);
+    return !elsewhere;
   }
 
-  void wait_for_others(size_t i) {
+  void wait_for_other_process(size_t i) {
     StepRow& row = rows_[i];
     row.state = StepState::kWaiting;
-    row.next_look = Clock::now() + kLookAtOthers;
-    if (row.others) return;  // said before
-    row.others = true;
+    row.next_check = Clock::now() + kElsewherePollInterval;
+    if (row.elsewhere) return;  // already printed
+    row.elsewhere = true;
     table_.print(i, row);
   }
 
@@ -153,34 +151,34 @@ class Runner {
     command.push_back("--quiet");
     if (!config_.scratch.empty()) command.push_back("--scratch=" + config_.scratch);
     row.begin = Clock::now();
-    written_[i] = last_write(i);
-    make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty
-    said_[i] = size_of(log_of(i));
+    receipt_times_[i] = receipt_time(i);
+    make_folder(plan_.path("logs"));  // a copy of a plan may lack empty folders
+    log_begins_[i] = size_of(log_of(i));
     row.process = start_process(command, log_of(i));
     row.state = StepState::kRunning;
     ++row.attempts;
   }
 
-  // Of the step's receipt; the earliest time without a receipt.
-  Time last_write(size_t i) const {
+  // Modification time of the step's receipt; Time::min() if it does not exist.
+  Time receipt_time(size_t i) const {
     std::error_code none;
     return std::filesystem::last_write_time(receipt_path(plan_, plan_.steps[i]), none);
   }
 
-  void look_after(size_t i) {
+  void poll(size_t i) {
     StepRow& row = rows_[i];
     if (row.state != StepState::kRunning || !has_ended(row.process, &row.code)) return;
     row.seconds = seconds_since(row.begin);
     if (row.code == 0) {
       row.state = StepState::kDone;
       row.receipt = read_receipt(plan_, plan_.steps[i]);
-      row.already = written_[i] != Time::min() && written_[i] == last_write(i);
-    } else if (row.code == int(kDoneElsewhere)) {
+      row.done_before = receipt_times_[i] != Time::min() && receipt_times_[i] == receipt_time(i);
+    } else if (row.code == int(kRunsElsewhere)) {
       --row.attempts;
-      return wait_for_others(i);
-    } else if (may_pass(row.code) && row.attempts < kAttempts) {
+      return wait_for_other_process(i);
+    } else if (is_temporary_failure(row.code) && row.attempts < kMaxAttempts) {
       row.state = StepState::kWaiting;
-      row.others = false;
+      row.elsewhere = false;
     } else {
       row.state = StepState::kFailed;
     }
@@ -195,29 +193,29 @@ class Runner {
       first = std::min(first, i);
     }
     if (failed == 0) return;
-    std::string said = last_words(log_of(first), said_[first]);
-    if (said.starts_with("svdag: ")) said = said.substr(7);
-    if (said.empty()) said = reason_of(rows_[first].code);
+    std::string reason = last_line_since(log_of(first), log_begins_[first]);
+    if (reason.starts_with("svdag: ")) reason = reason.substr(7);
+    if (reason.empty()) reason = reason_from_code(rows_[first].code);
     throw Error(ExitCode(rows_[first].code),
                 (failed == 1 ? "" : std::to_string(failed) + " steps failed, first ") +
-                    plan_.steps[first].name + " failed: " + said + " (" + log_of(first) + ")");
+                    plan_.steps[first].name + " failed: " + reason + " (" + log_of(first) + ")");
   }
 
   std::string log_of(size_t i) const { return plan_.path("logs/" + plan_.steps[i].name + ".log"); }
 
   const Plan& plan_;
   const RunLocalConfig& config_;
-  std::vector<StepRow> rows_;   // by step
-  std::vector<Time> written_;   // when the receipts were, before the steps began
-  std::vector<uint64_t> said_;  // bytes of the logs, before the steps began
+  std::vector<StepRow> rows_;         // by step
+  std::vector<Time> receipt_times_;   // before the steps were started
+  std::vector<uint64_t> log_begins_;  // sizes of the logs before the steps were started
   LiveTable table_;
 };
 
 }  // namespace
 
-bool may_pass(int code) {
+bool is_temporary_failure(int code) {
   return code == int(ExitCode::kOutput) || code == int(ExitCode::kMemory) ||
-         code == int(kDoneElsewhere) || code > 128;
+         code == int(kRunsElsewhere) || code > 128;
 }
 
 void run_local(const Plan& plan, const RunLocalConfig& config) {

@@ -40,12 +40,12 @@ std::vector<std::string> inputs_of(const Plan& plan, const PlanStep& step) {
   for (const size_t i : step.inputs) {
     const PlanStep& input = plan.steps[i];
     const std::string path = plan.path(input.output);
-    switch (state_of(plan, input, path, false)) {
+    switch (output_state(plan, input, path, false)) {
       case OutputState::kMissing:
-        fail_input(path, "is missing: " + input.name + " of the plan was not done");
+        fail_input(path, "is missing: run step " + input.name + " of the plan first");
       case OutputState::kInvalid:
-        fail_input(path, "is not what " + input.name +
-                             " of this plan makes (another plan's, an older one, or damaged): do " +
+        fail_input(path, "not the output of step " + input.name +
+                             " of this plan (of another or older plan, or damaged): run step " +
                              input.name + " again");
       case OutputState::kValid:
         paths.push_back(path);
@@ -72,7 +72,7 @@ std::string output_of(const Plan& plan, const PlanStep& step, const StepConfig& 
 
 }  // namespace
 
-bool is_being_done(const Plan& plan, const PlanStep& step, const StepConfig& config) {
+bool runs_elsewhere(const Plan& plan, const PlanStep& step, const StepConfig& config) {
   return ScratchDir::in_use(ScratchDir::path_for(output_of(plan, step, config), config.scratch));
 }
 
@@ -81,18 +81,18 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
   const auto begin = std::chrono::steady_clock::now();
   StepReport report;
   report.output = output_of(plan, step, config);
-  if (state_of(plan, step, report.output, true) == OutputState::kValid) {
-    report.kept = true;
+  if (output_state(plan, step, report.output, true) == OutputState::kValid) {
+    report.done_before = true;
     report.receipt = *read_receipt(plan, step);
     return report;
   }
-  make_folder(plan.path("runs"));  // a copy of a plan may lack what was empty
+  make_folder(plan.path("runs"));  // a copy of a plan may lack empty folders
   const auto work = step.is_shard() ? bake_shard : merge_inputs;
   try {
     report.receipt = work(plan, step, config, report.output, executor, progress);
   } catch (const ScratchInUse& in_use) {
-    throw Error(kDoneElsewhere,
-                "another process is doing " + step.name + " in this scratch folder: wait for it",
+    throw Error(kRunsElsewhere,
+                "another process is running " + step.name + " in this scratch folder: wait for it",
                 in_use.path());
   }
   report.receipt.seconds =

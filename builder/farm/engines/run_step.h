@@ -1,10 +1,10 @@
-// Does one step of a plan: bakes a shard, or merges the outputs of other steps.
+// Runs one step of a plan: bakes a shard, or merges the outputs of other steps.
 //
-// A step may run any number of times, on any machine, also twice at once: a valid output is kept,
-// any other replaced, and outputs appear complete. A killed shard is resumed if its scratch folder
-// still exists; scratch of another plan, or damaged scratch, is discarded, and the shard starts
-// anew. If another process is doing the step in the same scratch folder, that is an Error with its
-// own code, since nothing has failed.
+// A step may run any number of times, on any machine, even twice at once: a valid output is kept,
+// any other is replaced, and outputs appear complete. A killed shard is resumed if its scratch
+// folder still exists; scratch that is damaged or of another plan is discarded, and the shard
+// starts over. If another process runs the step in the same scratch folder, this throws an Error
+// with an exit code of its own.
 #pragma once
 
 #include "builder/farm/plan/receipt.h"
@@ -14,29 +14,29 @@
 
 namespace svdag {
 
-// Another process does the step (EX_TEMPFAIL of sysexits.h): not a failure, so that an engine that
-// counts attempts does not count this one.
-constexpr ExitCode kDoneElsewhere{75};
+// Another process runs the step (EX_TEMPFAIL of sysexits.h). This is not a failure: engines do not
+// count it as an attempt.
+constexpr ExitCode kRunsElsewhere{75};
 
 struct StepConfig {
-  std::string output;     // empty: the place in the plan
-  uint64_t memory = 0;    // 0: as planned
-  std::string scratch;    // the folder for scratch folders; empty: the output's
-  double checkpoint = 0;  // of a shard: as in BuildConfig; 0: as there
+  std::string output;     // empty: the output in the plan's folder
+  uint64_t memory = 0;    // bytes; 0: as planned
+  std::string scratch;    // the folder for scratch folders; empty: the output's folder
+  double checkpoint = 0;  // of a shard, as in BuildConfig; 0: the default of BuildConfig
   bool restart = false;   // discard the saved work of a killed shard
 };
 
 struct StepReport {
   std::string output;
-  bool kept = false;  // it was done already
+  bool done_before = false;  // a valid output was kept
   Receipt receipt;
 };
 
-// Whether a process does this step now, in this scratch folder.
-bool is_being_done(const Plan& plan, const PlanStep& step, const StepConfig& config);
+// Whether a process is running this step in this scratch folder.
+bool runs_elsewhere(const Plan& plan, const PlanStep& step, const StepConfig& config);
 
-// `plan` must have its bins if the step is a shard. An input that is missing, damaged or not of
-// this plan is an Error (kBadInput).
+// `plan` must have its bins if the step is a shard. Throws Error (kBadInput) if an input is
+// missing, damaged or not of this plan.
 StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& config,
                     Executor* executor, Progress* progress);
 

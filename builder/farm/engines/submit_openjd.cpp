@@ -14,31 +14,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
+constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr int kMinSeconds = 600;
-constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the step that a task does
+constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the shard or merge of a task
 
-// Open Job Description wants relative defaults of paths.
+// Open Job Description requires default paths to be relative.
 std::string relative_to(const std::string& folder, const std::string& path) {
   std::error_code error;
   const auto relative = std::filesystem::relative(path, folder, error);
   return error ? path : relative.string();
 }
 
-// Names are templates, too, and short.
+// Job names have a limited length, and "{{" in them would begin a variable.
 std::string job_name(const Plan& plan) {
-  constexpr size_t kLongest = 128;
+  constexpr size_t kMaxLength = 128;
   const std::string name = "svdag " + plan.steps.back().output;
-  return name.size() > kLongest || name.find("{{") != std::string::npos ? "svdag" : name;
+  return name.size() > kMaxLength || name.find("{{") != std::string::npos ? "svdag" : name;
 }
 
-// Steps that may run at the same time, as one step of the template with a task each.
+// Steps of the plan that may run concurrently: a step of the template with a task for each.
 struct Stage {
   std::string name;
   std::vector<size_t> steps;
 };
 
-// The shards, then the merges by their height over them.
+// The shards, then the merges by their height above the shards.
 std::vector<Stage> stages_of(const Plan& plan) {
   std::vector<size_t> height;
   std::map<size_t, Stage> stages;
@@ -94,9 +94,9 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 }  // namespace
 
 std::string openjd_template(const Plan& plan, const OpenJdConfig& options) {
-  OpenJdConfig config = options;  // as hosts see it, who work in folders of their own
+  OpenJdConfig config = options;  // with absolute paths, since hosts run in other folders
   config.program = program_on_hosts(options.program);
-  if (!options.scratch.empty()) config.scratch = from_anywhere(options.scratch);
+  if (!options.scratch.empty()) config.scratch = absolute_unresolved(options.scratch);
   for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
     require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};

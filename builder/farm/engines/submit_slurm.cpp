@@ -18,52 +18,52 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kUsualArray = 1000;     // tasks, where Slurm does not say how many it allows
-constexpr size_t kLargestArray = 10000;  // a list of more would be too long for a command line
-constexpr double kTimeFactor = 4;  // of the predicted seconds, which are those of another machine
+constexpr size_t kDefaultArraySize = 1000;  // if Slurm does not report MaxArraySize
+constexpr size_t kMaxArraySize = 10000;     // a longer task list may not fit in a command line
+constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr uint64_t kMinMinutes = 10;
 constexpr uint64_t kMiB = uint64_t(1) << 20;
-constexpr auto kPoll = std::chrono::milliseconds(500);
-constexpr int kPatience = 120;  // polls that squeue may fail for in a row
+constexpr auto kPollInterval = std::chrono::milliseconds(500);
+constexpr int kMaxFailedPolls = 120;  // consecutive failures of squeue
 
-// The steps of one sbatch.
+// The steps submitted by one sbatch.
 struct Job {
   std::string name;
   std::vector<size_t> steps;  // shards, or one merge
-  std::string script;         // its path
+  std::string script;         // path of the job script
   uint64_t memory = 0;
   size_t threads = 1;
   double seconds = 0;
   std::string id;  // once submitted
 };
 
-Answer ask_sbatch(const std::vector<std::string>& command) {
+ProcessResult run_sbatch(const std::vector<std::string>& command) {
   try {
-    return ask_process(command);
+    return run_process(command);
   } catch (const Error& error) {
-    fail_usage(std::string(error.what()) + ": is Slurm installed here?");
+    fail_usage(std::string(error.what()) + ": is Slurm installed?");
   }
 }
 
-// The largest power of ten of which every remainder may be the number of a task; 1 where Slurm has
-// no arrays.
+// The largest power of ten that is at most MaxArraySize (task numbers are 0 .. size - 1); 1 if
+// Slurm has no arrays.
 size_t array_size() {
-  Answer answer;
+  ProcessResult result;
   try {
-    answer = ask_process({"scontrol", "show", "config"});
-  } catch (const Error&) {  // not installed beside sbatch
-    return kUsualArray;
+    result = run_process({"scontrol", "show", "config"});
+  } catch (const Error&) {  // scontrol is not installed
+    return kDefaultArraySize;
   }
-  const size_t at = answer.code == 0 ? answer.output.find("MaxArraySize") : std::string::npos;
-  const size_t digits = answer.output.find_first_of("0123456789", at);
-  if (at == std::string::npos || digits == std::string::npos) return kUsualArray;
-  const uint64_t most = std::strtoull(answer.output.c_str() + digits, nullptr, 10);
+  const size_t at = result.code == 0 ? result.output.find("MaxArraySize") : std::string::npos;
+  const size_t digits = result.output.find_first_of("0123456789", at);
+  if (at == std::string::npos || digits == std::string::npos) return kDefaultArraySize;
+  const uint64_t max_size = std::strtoull(result.output.c_str() + digits, nullptr, 10);
   size_t size = 1;
-  while (size < kLargestArray && 10 * size <= most) size *= 10;
+  while (size < kMaxArraySize && 10 * size <= max_size) size *= 10;
   return size;
 }
 
-// "3" and "5-7" for 3, 5, 6, 7: the tasks of an array.
+// The tasks of an array as sbatch lists them: "3,5-7" for 3, 5, 6, 7.
 std::string task_list(const std::vector<size_t>& numbers) {
   std::string list;
   for (size_t begin = 0, end; begin < numbers.size(); begin = end) {
@@ -74,24 +74,25 @@ std::string task_list(const std::vector<size_t>& numbers) {
   return list;
 }
 
-// Slurm takes a % in the name of a log for the begin of a pattern.
-std::string without_patterns(const std::string& path) {
+// Escapes % in the path of a log, where it begins a pattern of Slurm.
+std::string escape_patterns(const std::string& path) {
   std::string text;
   for (const char c : path) text += c == '%' ? "%%" : std::string(1, c);
   return text;
 }
 
-// What becomes of jobs, and what the user may do about it; `ids` have commas between them.
-void tell_queued(const char* why, std::string ids) {
-  std::fprintf(stderr, "svdag: %swhat was submitted goes on (squeue --jobs=%s)", why, ids.c_str());
+// Reports that the jobs `ids` (separated by commas) stay queued.
+void report_queued(const char* prefix, std::string ids) {
+  std::fprintf(stderr, "svdag: %ssubmitted jobs stay queued: list them with squeue --jobs=%s",
+               prefix, ids.c_str());
   std::replace(ids.begin(), ids.end(), ',', ' ');
-  std::fprintf(stderr, " until it is done, or cancelled (scancel %s)\n", ids.c_str());
+  std::fprintf(stderr, ", cancel them with scancel %s\n", ids.c_str());
 }
 
 class Submission {
  public:
   Submission(const Plan& plan, const SlurmConfig& config)
-      : plan_(plan), config_(config), array_(array_size()) {}
+      : plan_(plan), config_(config), array_size_(array_size()) {}
 
   void run() {
     collect();
@@ -99,12 +100,12 @@ class Submission {
       if (!config_.quiet) std::printf("every step of the plan is done\n");
       return;
     }
-    make_folder(plan_.path("logs"));  // a copy of a plan may lack what was empty
+    make_folder(plan_.path("logs"));  // a copy of a plan may lack empty folders
     submit_all();
     if (config_.wait) wait();
   }
-  // Of the jobs that were submitted, with commas between them.
-  std::string jobs() const {
+  // The ids of the submitted jobs, separated by commas.
+  std::string job_ids() const {
     std::string ids;
     for (const Job& job : jobs_) {
       if (!job.id.empty()) ids += (ids.empty() ? "" : ",") + job.id;
@@ -117,9 +118,9 @@ class Submission {
   void add(size_t step, Job* job) const;
   // Shards are the first steps of a plan.
   static size_t number_of(size_t shard) { return shard + 1; }
-  size_t task_of(size_t shard) const { return number_of(shard) % array_; }
+  size_t task_of(size_t shard) const { return number_of(shard) % array_size_; }
   bool is_array(const Job& job) const {
-    return array_ > 1 && plan_.steps[job.steps.front()].is_shard();
+    return array_size_ > 1 && plan_.steps[job.steps.front()].is_shard();
   }
   std::string log_of(const Job& job) const;
   void submit_all();
@@ -131,24 +132,24 @@ class Submission {
 
   const Plan& plan_;
   const SlurmConfig& config_;
-  size_t array_;  // shards whose numbers agree but for the remainder go in one array
+  size_t array_size_;  // an array holds the shards with the same number / array_size_
   std::vector<Job> jobs_;
-  std::map<size_t, std::string> ids_;  // of the steps that were submitted: "12" or "12_3"
+  std::map<size_t, std::string> ids_;  // by submitted step: "12" or "12_3"
 };
 
 void Submission::collect() {
   const size_t none = SIZE_MAX;
-  size_t current = none;  // array of the last job
+  size_t current = none;  // number of the last job's array
   for (size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlanStep& step = plan_.steps[i];
-    // Every byte: what is damaged would stay so, for no job would do it again.
-    if (state_of(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
-    const size_t array = step.is_shard() && array_ > 1 ? number_of(i) / array_ : none;
+    // Checks every byte: no job would repair a damaged output later.
+    if (output_state(plan_, step, plan_.path(step.output), true) == OutputState::kValid) continue;
+    const size_t array = step.is_shard() && array_size_ > 1 ? number_of(i) / array_size_ : none;
     if (array == none || array != current) {
       jobs_.emplace_back();
-      jobs_.back().name = array == none
-                              ? step.name
-                              : "shards-" + std::to_string(std::max<size_t>(1, array * array_));
+      jobs_.back().name =
+          array == none ? step.name
+                        : "shards-" + std::to_string(std::max<size_t>(1, array * array_size_));
     }
     current = array;
     add(i, &jobs_.back());
@@ -163,7 +164,7 @@ void Submission::add(size_t i, Job* job) const {
   job->seconds = std::max(job->seconds, step.predicted.seconds);
 }
 
-// One step, by the task of the array that runs it.
+// The script of a job: runs one step, in an array that of its task.
 std::string Submission::script_of(const Job& job) const {
   const PlanStep& step = plan_.steps[job.steps.front()];
   std::vector<std::string> words = plan_.command(step);
@@ -174,11 +175,11 @@ std::string Submission::script_of(const Job& job) const {
     command += " \"$((SLURM_ARRAY_TASK_ID + " +
                std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) + "))\"";
   if (!config_.scratch.empty())
-    command += " --scratch " + shell_word(from_anywhere(config_.scratch));
+    command += " --scratch " + shell_word(absolute_unresolved(config_.scratch));
   return "#!/bin/sh\n" + command +
          "\n"
          "code=$?\n"
-         "# What may pass (disk, memory, another process, a signal) is tried again, no other.\n"
+         "# Retries temporary failures only: disk, memory, another process, a signal.\n"
          "case $code in\n"
          "  4 | 5 | 75 | 12[89] | 1[3-9]? | 2[0-9][0-9])\n"
          "    if [ \"${SLURM_RESTART_COUNT:-0}\" -lt 2 ]; then\n"
@@ -196,24 +197,24 @@ std::string Submission::dependencies_of(const Job& job) const {
   return list;
 }
 
-// Each shard's log bears the shard's own number: that of its array in front of the task's, which
-// has leading zeros then.
+// Each shard's log is named by the shard's number: the number of its array, then that of the task
+// with leading zeros.
 std::string Submission::log_of(const Job& job) const {
   std::string name = job.name;
   if (is_array(job)) {
-    const size_t array = number_of(job.steps.front()) / array_;
-    const size_t digits = std::to_string(array_).size() - 1;
+    const size_t array = number_of(job.steps.front()) / array_size_;
+    const size_t digits = std::to_string(array_size_).size() - 1;
     name =
         shard_name(array == 0 ? "%a" : std::to_string(array) + "%" + std::to_string(digits) + "a");
   }
-  return without_patterns(plan_.folder) + "/logs/" + name + ".slurm.log";
+  return escape_patterns(plan_.folder) + "/logs/" + name + ".slurm.log";
 }
 
 void Submission::submit_all() {
   try {
     for (Job& job : jobs_) submit(&job);
   } catch (const Error&) {
-    if (const std::string ids = jobs(); !ids.empty()) tell_queued("", ids);
+    if (const std::string ids = job_ids(); !ids.empty()) report_queued("", ids);
     throw;
   }
 }
@@ -247,11 +248,11 @@ void Submission::submit(Job* job) {
   }
   command.insert(command.end(), config_.options.begin(), config_.options.end());
   command.push_back(job->script);
-  const Answer answer = ask_sbatch(command);
-  if (answer.code != 0)  // it may pass: a limit of jobs, a controller that restarts
-    throw Error(ExitCode::kOutput, "sbatch refused " + job->name + ": " + one_line(answer.output));
-  const std::string line =
-      last_line_of(answer.output);  // ID[;CLUSTER], behind what sbatch warns of
+  const ProcessResult result = run_sbatch(command);
+  if (result.code != 0)  // may be temporary: a job limit, a restart of the controller
+    throw Error(ExitCode::kOutput, "sbatch rejected " + job->name + ": " + one_line(result.output));
+  // ID[;CLUSTER], after any warnings of sbatch
+  const std::string line = last_line_of(result.output);
   job->id = line.substr(0, line.find(';'));
   for (const size_t i : job->steps)
     ids_[i] = array ? job->id + "_" + std::to_string(task_of(i)) : job->id;
@@ -261,33 +262,33 @@ void Submission::submit(Job* job) {
   std::fflush(stdout);
 }
 
-// Whether one of the jobs is still queued or runs.
+// Whether one of the jobs is queued or running.
 bool Submission::any_queued(const std::string& ids) const {
-  const Answer answer =
-      ask_process({"squeue", "--noheader", "--array", "--jobs=" + ids, "--format=%T"});
-  // squeue knows nothing of jobs that ended a while ago, and calls them invalid.
-  if (answer.code != 0 && answer.output.find("Invalid job id") == std::string::npos)
-    throw Error(ExitCode::kOutput, "squeue failed: " + one_line(answer.output));
-  return answer.code == 0 && answer.output.find_first_not_of(" \n") != std::string::npos;
+  const ProcessResult result =
+      run_process({"squeue", "--noheader", "--array", "--jobs=" + ids, "--format=%T"});
+  // squeue reports jobs that ended a while ago as invalid.
+  if (result.code != 0 && result.output.find("Invalid job id") == std::string::npos)
+    throw Error(ExitCode::kOutput, "squeue failed: " + one_line(result.output));
+  return result.code == 0 && result.output.find_first_not_of(" \n") != std::string::npos;
 }
 
 void Submission::wait() const {
-  const std::string ids = jobs();
+  const std::string ids = job_ids();
   for (int failures = 0;;) {
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kPollInterval);
     check_interrupt();
     try {
       if (!any_queued(ids)) break;
       failures = 0;
-    } catch (const Error&) {  // a controller that restarts answers a while later
-      if (++failures > kPatience) throw;
+    } catch (const Error&) {  // the controller may be restarting
+      if (++failures > kMaxFailedPolls) throw;
     }
   }
   std::string missing;
   size_t count = 0;
   for (const PlanStep& step : plan_.steps) {
-    const bool last = &step == &plan_.steps.back();  // the others were read by the merges
-    if (state_of(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
+    const bool last = &step == &plan_.steps.back();  // merges have checked the other outputs
+    if (output_state(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
     if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
   }
   if (count == 0) {
@@ -295,17 +296,17 @@ void Submission::wait() const {
     return;
   }
   throw Error(ExitCode::kOutput, "the jobs ended, but " + std::to_string(count) +
-                                     " steps of the plan were not done, first " + missing +
+                                     " steps of the plan are not done, first " + missing +
                                      ": see " + plan_.path("logs/") +
-                                     "; submitting again does only what is missing");
+                                     ", then submit again to run only the missing steps");
 }
 
-void tell_interrupted(const std::string& ids) {
+void report_interrupted(const std::string& ids) {
   if (ids.empty()) {
-    std::fprintf(stderr, "svdag: stopped; nothing was submitted\n");
+    std::fprintf(stderr, "svdag: stopped; no job was submitted\n");
     return;
   }
-  tell_queued("stopped; ", ids);
+  report_queued("stopped; ", ids);
 }
 
 }  // namespace
@@ -315,7 +316,7 @@ void submit_slurm(const Plan& plan, const SlurmConfig& config) {
   try {
     submission.run();
   } catch (const Interrupted&) {
-    tell_interrupted(submission.jobs());
+    report_interrupted(submission.job_ids());
     throw;
   }
 }

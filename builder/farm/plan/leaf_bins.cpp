@@ -8,28 +8,28 @@ namespace svdag {
 namespace {
 
 constexpr size_t kBatch = 4096;     // triangles read at once
-constexpr uint64_t kMaxCopies = 3;  // of a triangle, on average, by one dealing
+constexpr uint64_t kMaxCopies = 3;  // mean copies of a triangle that dividing a bin may make
 
-class Dealer {
+class LeafBinner {
  public:
-  Dealer(const Grid& grid, const LeafConfig& config, Scratch* scratch, SpillFile* out)
+  LeafBinner(const Grid& grid, const LeafConfig& config, Scratch* scratch, SpillFile* out)
       : grid_(grid), config_(config), scratch_(scratch), out_(out) {}
 
-  void deal(SplitScene* scene) {
+  void run(SplitScene* scene) {
     if (!scene->tree) {
-      for (const TriangleBin& bin : scene->bins) place(scratch_->triangles(), bin);
+      for (const TriangleBin& bin : scene->bins) divide_or_copy(scratch_->triangles(), bin);
       return;
     }
     TriangleBins bins = bins_below(Cube(), scene->tree->triangles());
     for (uint64_t i = 0; i < scene->tree->triangles(); ++i) bins.add(scene->tree->triangle(i));
     scene->tree.reset();
-    place_all(bins.finish());
+    divide_all(bins.finish());
   }
 
-  std::vector<TriangleBin> take() { return std::move(leaves_); }
+  std::vector<TriangleBin> take_leaves() { return std::move(leaves_); }
 
  private:
-  // The level of the cube that the bin was made for; that of the bin may be smaller.
+  // The level of the cube that the bin was made for. bin.cube may be a smaller cube within it.
   int level_of(const TriangleBin& bin) const {
     int level = grid_.levels;
     while (level > 0 && bin.range.end - bin.range.begin > uint64_t(1) << 3 * (grid_.levels - level))
@@ -37,25 +37,26 @@ class Dealer {
     return level;
   }
 
-  // A surface in 4^depth parts: no deeper than makes them light.
+  // Only as deep as needed for light bins, if a surface has triangles in 4^depth of the cubes.
   TriangleBins bins_below(const Cube& cube, uint64_t triangles) const {
-    const int most = std::min(TriangleBins::depth_for(config_.open_bytes, *scratch_, grid_, cube),
-                              std::max(1, config_.deepest - cube.level));
+    const int max_depth =
+        std::min(TriangleBins::depth_for(config_.open_bytes, *scratch_, grid_, cube),
+                 std::max(1, config_.max_level - cube.level));
     int depth = 1;
-    while (depth < most && config_.light << (2 * depth) < triangles) ++depth;
+    while (depth < max_depth && config_.light << (2 * depth) < triangles) ++depth;
     return TriangleBins(grid_, cube, depth, scratch_->passing(), scratch_);
   }
 
-  void place_all(const std::vector<TriangleBin>& bins) {
+  void divide_all(const std::vector<TriangleBin>& bins) {
     for (const TriangleBin& bin : bins) {
-      place(scratch_->passing(), bin);
+      divide_or_copy(scratch_->passing(), bin);
       scratch_->passing()->free(bin.stream);
     }
   }
 
-  void place(SpillFile* from, const TriangleBin& bin) {
+  void divide_or_copy(SpillFile* from, const TriangleBin& bin) {
     const int level = level_of(bin);
-    if (bin.triangles <= config_.light || level >= config_.deepest) return copy(from, bin);
+    if (bin.triangles <= config_.light || level >= config_.max_level) return copy(from, bin);
     const Cube made_for = ancestor(bin.cube, level);
     std::vector<TriangleBin> parts;
     {
@@ -65,7 +66,7 @@ class Dealer {
     }
     uint64_t copies = 0;
     for (const TriangleBin& part : parts) copies += part.triangles;
-    if (copies <= kMaxCopies * bin.triangles) return place_all(parts);
+    if (copies <= kMaxCopies * bin.triangles) return divide_all(parts);
     for (const TriangleBin& part : parts) scratch_->passing()->free(part.stream);
     copy(from, bin);
   }
@@ -100,20 +101,20 @@ class Dealer {
 std::vector<TriangleBin> make_leaf_bins(SplitScene* scene, const Grid& grid,
                                         const LeafConfig& config, Scratch* scratch,
                                         SpillFile* out) {
-  Dealer dealer(grid, config, scratch, out);
-  dealer.deal(scene);
-  return dealer.take();
+  LeafBinner binner(grid, config, scratch, out);
+  binner.run(scene);
+  return binner.take_leaves();
 }
 
 std::vector<TriangleBin> bins_of(const std::vector<TriangleBin>& bins, const CellRange& cells,
                                  int levels) {
   const int shift = 3 * (levels - cells.level);
   const uint64_t begin = cells.begin << shift, end = cells.end << shift;
-  std::vector<TriangleBin> met;
+  std::vector<TriangleBin> overlapping;
   for (const TriangleBin& bin : bins) {
-    if (bin.range.begin < end && bin.range.end > begin) met.push_back(bin);
+    if (bin.range.begin < end && bin.range.end > begin) overlapping.push_back(bin);
   }
-  return met;
+  return overlapping;
 }
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// The merges of a plan: a tree of neighbours, so that each makes the run of one contiguous part.
+// The merge tree of a plan: each merge reads neighbouring runs and writes one contiguous grid part.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace svdag {
 
-// A merge, by the numbers of what it reads: 0 .. leaves-1 are the leaves, then the merges in the
-// order of the list. The last merge reads, directly or not, all.
+// The inputs of each merge, by number: 0 .. leaves-1 are the leaves; then come the merges in list
+// order. The last merge is the root.
 using MergeTree = std::vector<std::vector<size_t>>;
 
-// As even as `fan_in` (at least 2) allows; one merge at least.
+// As even as possible, with at most `fan_in` (>= 2) inputs per merge and at least one merge.
 MergeTree merge_tree(size_t leaves, size_t fan_in);
 
 }  // namespace svdag

@@ -21,7 +21,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 4;  // changes when a key, or what the index holds, does
+constexpr int kFormat = 4;  // changes with the keys of plan.json and the contents of the index
+
+constexpr const char* kOtherVersion =
+    "written by another version of svdag: create the plan again with svdag plan";
 
 [[noreturn]] void fail_plan(const Plan& plan, const std::string& sentence) {
   fail_input(plan.path(kPlanJson), sentence);
@@ -55,7 +58,7 @@ struct GetJson {
   void operator()(const char* name, uint64_t& value) const { value = count_of(in, name); }
   void operator()(const char* name, Grid::Kind& kind) const {
     const std::string text = in.at(name);
-    if (text != "box" && text != "lattice") fail_plan(plan, "unknown kind of grid: " + text);
+    if (text != "box" && text != "lattice") fail_plan(plan, "unknown kind of grid (" + text + ")");
     kind = text == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
   }
   void operator()(const char* name, Point& v) const {
@@ -111,10 +114,11 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   step.name = json.at("name");
   step.output = json.at("output");
   if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
-    fail_plan(plan, "a step leads out of the plan's folder: " + step.output);
+    fail_plan(plan, "step " + step.name + " writes outside the plan folder (" + step.output + ")");
   step.threads = count_of(json, "threads");
   if (step.threads < 1 || step.threads > kMostThreads)
-    fail_plan(plan, "step " + step.name + " has an impossible number of threads");
+    fail_plan(plan, "step " + step.name + " has an invalid number of threads (" +
+                        std::to_string(step.threads) + ")");
   step.predicted = get_prediction(json.at("predicted"));
   if (json.contains("cells")) {
     const Json& cells = json.at("cells");
@@ -126,39 +130,37 @@ PlanStep get_step(const Json& json, const Plan& plan) {
         step.cells.end > uint64_t(1) << 3 * level)
       fail_plan(plan, "the cells of step " + step.name + " are not in the grid");
     if (!is_shard_name(step.name))
-      fail_plan(plan, "the shard " + step.name + " has no name of one");
+      fail_plan(plan, "shard " + step.name + ": its name does not begin with " + kShardPrefix);
     return step;
   }
   for (const Json& name : json.at("inputs")) {
     const auto input = std::find_if(plan.steps.begin(), plan.steps.end(),
                                     [&](const PlanStep& other) { return other.name == name; });
     if (input == plan.steps.end())
-      fail_plan(plan, "step " + step.name +
-                          " needs a step that does not precede it: " + name.get<std::string>());
+      fail_plan(plan, "step " + step.name + " reads the output of " + name.get<std::string>() +
+                          ", which is not an earlier step");
     step.inputs.push_back(size_t(input - plan.steps.begin()));
   }
-  if (step.inputs.empty()) fail_plan(plan, "the merge " + step.name + " has no inputs");
+  if (step.inputs.empty()) fail_plan(plan, "merge " + step.name + " has no inputs");
   return step;
 }
 
 void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   const Json json = Json::parse(text);
-  if (json.at("format") != kFormat)
-    fail_plan(*plan, "is of another version of svdag: make the plan again");
+  if (json.at("format") != kFormat) fail_plan(*plan, kOtherVersion);
   for (const Json& input : json.at("inputs"))
     plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
   plan->description = json.at("description");
-  if (!is_of_this_algorithm(plan->description))
-    fail_plan(*plan, "is of another version of svdag: make the plan again");
+  if (!is_of_this_algorithm(plan->description)) fail_plan(*plan, kOtherVersion);
   visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
-  if (!plan->grid.is_possible()) fail_plan(*plan, "has an impossible grid");
+  if (!plan->grid.is_possible()) fail_plan(*plan, "invalid grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
   plan->cells = count_of(json.at("one_bake"), "cells");
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
-  if (plan->steps.empty()) fail_plan(*plan, "has no steps");
+  if (plan->steps.empty()) fail_plan(*plan, "the plan has no steps");
 }
 
 std::string without_slashes(std::string path) {
@@ -238,7 +240,7 @@ Plan load_plan(const std::string& folder, bool with_bins) {
     fail_input(path, std::string("is damaged: ") + error.what());
   } catch (const Error& error) {
     if (!error.path().empty()) throw;
-    fail_input(path, error.what());  // of a number (io/json_number.h)
+    fail_input(path, error.what());  // from io/json_number.h
   }
   Hasher128 hasher;
   hasher.update(std::as_bytes(std::span(text)));
@@ -251,7 +253,7 @@ const PlanStep& find_step(const Plan& plan, const std::string& name) {
   for (const PlanStep& step : plan.steps) {
     if (step.name == name) return step;
   }
-  fail_usage("the plan has no step " + name);
+  fail_usage("the plan has no step " + name + ": svdag info PLAN --levels lists its steps");
 }
 
 }  // namespace svdag

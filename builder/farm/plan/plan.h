@@ -1,13 +1,13 @@
-// A plan: a bake after its split, and the steps that finish it.
+// A plan: the split of a bake, and the steps that finish it.
 //
-//   PLAN/plan.json   for people and engines: the scene, the grid, every step and what it will take
+//   PLAN/plan.json   for people and engines: scene, grid, every step and its prediction
 //   PLAN/index       the bins of the triangles; plan.json has its hash
 //   PLAN/triangles   the snapped triangles (builder/farm/plan/leaf_bins.h)
-//   PLAN/runs/       what the steps make, and a receipt of each (builder/farm/plan/receipt.h)
-//   PLAN/logs/       what they said
+//   PLAN/runs/       the outputs of the steps, and a receipt of each (builder/farm/plan/receipt.h)
+//   PLAN/logs/       the messages of the steps
 //
-// Nothing but runs/ and logs/ changes once plan.json is there. Its bytes hash to the plan's name in
-// receipts: a run of another plan, or of this one before it was made anew, is known as such. A step
+// Once plan.json exists, only runs/ and logs/ change. The hash of plan.json identifies the plan in
+// receipts, so a run of another plan, or of an older plan in the same folder, is detected. A step
 // reads the plan and the outputs of the steps before it, never the scene.
 #pragma once
 
@@ -20,22 +20,22 @@
 
 namespace svdag {
 
-// What a step will take.
+// The predicted cost of a step.
 struct Prediction {
-  double cpu = 0;  // seconds of all threads
-  double seconds = 0;
-  uint64_t budget = 0;   // its --memory
-  uint64_t memory = 0;   // peak: the budget and what is beside it
-  uint64_t output = 0;   // bytes of its file
-  uint64_t scratch = 0;  // bytes, at most
+  double cpu = 0;        // seconds, summed over threads
+  double seconds = 0;    // wall time
+  uint64_t budget = 0;   // its --memory, in bytes
+  uint64_t memory = 0;   // peak in bytes: budget + kBesideBudget
+  uint64_t output = 0;   // bytes of the output file
+  uint64_t scratch = 0;  // max bytes
 };
 
 struct PlanStep {
   std::string name;            // "shard-3", "merge-1"
-  CellRange cells;             // of a shard; of a merge: none
-  uint64_t triangles = 0;      // that a shard reads
-  std::vector<size_t> inputs;  // steps of which a merge reads the outputs; a shard has none
-  std::string output;          // in the plan's folder
+  CellRange cells;             // of a shard; unused by a merge
+  uint64_t triangles = 0;      // number of triangles that a shard reads
+  std::vector<size_t> inputs;  // steps whose outputs a merge reads; empty for a shard
+  std::string output;          // path relative to the plan's folder
   size_t threads = 1;
   Prediction predicted;
 
@@ -57,33 +57,33 @@ struct Plan {
   Rule rule = Rule::kConservative;
   SplitCounts counts;
   double one_bake_cpu = 0;      // seconds, predicted
-  size_t cells = 0;             // that are not empty
-  std::vector<PlanStep> steps;  // each after its inputs; shards first, in order
+  size_t cells = 0;             // number of non-empty cells
+  std::vector<PlanStep> steps;  // shards first, in order; each merge after its inputs
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
 
   size_t shards() const;
   std::string path(const std::string& name) const { return folder + "/" + name; }
-  // The command line of a step, without the program.
+  // The arguments of svdag that run a step.
   std::vector<std::string> command(const PlanStep& step) const;
 };
 
-// Error (kUsage) if `path` is not valid UTF-8, and so cannot be stored in JSON.
+// Throws Error (kUsage) if `path` is not valid UTF-8 and cannot be stored in JSON.
 void require_utf8(const std::string& path);
 // Whether `path` is the folder of a plan.
 bool is_plan(const std::string& path);
-// A plan that is damaged is an Error (kBadInput).
+// Throws Error (kBadInput) if the plan is damaged.
 Plan load_plan(const std::string& folder, bool with_bins);
 // Writes index and plan.json, in this order; sets plan->hash.
 void save_plan(Plan* plan);
 // plan.json as text.
 std::string plan_json(const Plan& plan, const std::string& index_hash);
 
-// The step of this name, or Error (kUsage).
+// Throws Error (kUsage) if the plan has no step of this name.
 const PlanStep& find_step(const Plan& plan, const std::string& name);
 
 constexpr const char* kPlanTriangles = "triangles";
-constexpr uint64_t kBesideBudget = uint64_t(64) << 20;  // memory of a bake beside its budget
+constexpr uint64_t kBesideBudget = uint64_t(64) << 20;  // memory of a bake outside its budget
 
 }  // namespace svdag

@@ -16,13 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_planned(const std::string& folder, const std::string& name, const std::string& output) {
-  static const std::set<std::string> kAtFirst = {"plan.scratch", "runs", "logs"};
-  static const std::set<std::string> kLater = {"index", kPlanTriangles, "openjd.json"};
-  if (name.starts_with('.') || kAtFirst.contains(name)) return true;  // hidden: never overwritten
-  // runs/ is created before the files: without it they do not belong to a plan.
+bool belongs_to_plan(const std::string& folder, const std::string& name,
+                     const std::string& output) {
+  static const std::set<std::string> kCreatedFirst = {"plan.scratch", "runs", "logs"};
+  static const std::set<std::string> kCreatedLater = {"index", kPlanTriangles, "openjd.json"};
+  // Hidden files are accepted: no step overwrites them.
+  if (name.starts_with('.') || kCreatedFirst.contains(name)) return true;
+  // runs/ is created before the other files: without it they do not belong to a plan.
   if (!fs::is_directory(folder + "/runs")) return false;
-  return kLater.contains(name) || name == output || name == output + ".scratch";
+  return kCreatedLater.contains(name) || name == output || name == output + ".scratch";
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ bool is_planned(const std::string& folder, const std::string& name, const std::s
 bool make_folder(const std::string& path) {
   if (::mkdir(path.c_str(), 0777) == 0) return true;
   if (errno == EEXIST) return false;
-  fail_call(ExitCode::kOutput, "this folder cannot be made", path, errno);
+  fail_call(ExitCode::kOutput, "the folder cannot be created", path, errno);
 }
 
 std::vector<std::string> own_files(const std::string& folder) {
@@ -46,15 +48,15 @@ std::vector<std::string> files_of(const Plan& plan) {
   return files;
 }
 
-void refuse_strange_files(const std::string& folder, const std::string& output) {
-  // A folder that does not exist or cannot be listed: writing to it will report that.
+void reject_foreign_files(const std::string& folder, const std::string& output) {
+  // If the folder does not exist or cannot be listed, writing to it reports the error.
   std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
        entry.increment(none)) {
     const std::string name = entry->path().filename().string();
-    if (!is_planned(folder, name, output))
-      fail_usage(folder + " holds " + name +
-                 ", which does not belong to a plan: choose another folder");
+    if (!belongs_to_plan(folder, name, output))
+      fail_usage(folder + ": contains " + name +
+                 ", which is not a file of a plan: choose another folder");
   }
 }
 

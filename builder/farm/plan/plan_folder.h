@@ -1,4 +1,4 @@
-// The folder of a plan: what is in it, and what may be in it before the plan is.
+// The folder of a plan: its files, and the files that planning accepts in it.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace svdag {
 
-// True if it was not there, and is now. Error (kOutput) if it cannot be made.
+// Creates the folder; returns false if it exists. Throws Error (kOutput) if it cannot be created.
 bool make_folder(const std::string& path);
 
-// The plan's own three files, as paths.
+// Paths of plan.json, the index and the triangles.
 std::vector<std::string> own_files(const std::string& folder);
-// All files of a plan: its own, and what its steps make, with the receipts.
+// All files of a plan: own_files(), outputs of steps and receipts.
 std::vector<std::string> files_of(const Plan& plan);
 
-// Error (kUsage) if the folder, if there is one, holds what no planning has left in it. A planning
-// that was killed may have left all but plan.json, and a plan without it may have been run;
-// `output` is the name of the finished file.
-void refuse_strange_files(const std::string& folder, const std::string& output);
+// Throws Error (kUsage) if the folder exists and holds files that do not belong to a plan. A killed
+// planner may have left everything but plan.json, and if plan.json was removed, the plan may have
+// been run. `output` is the name of the finished file.
+void reject_foreign_files(const std::string& folder, const std::string& output);
 
 }  // namespace svdag

@@ -32,11 +32,11 @@ void load_index(const std::string& hash, Plan* plan) {
   std::vector<std::byte> bytes(file.size());
   file.read_at(0, bytes);
   if (hash_of(bytes) != hash)
-    fail_input(file.path(), "is not the index of this plan: make the plan again");
+    fail_input(file.path(), "does not match plan.json: create the plan again with svdag plan");
   RecordReader in(bytes, file.path(), ExitCode::kBadInput);
   uint64_t block_bytes = 0;
   in.get(&block_bytes);
-  in.require(Scratch::is_block_size(block_bytes), "impossible size of blocks");
+  in.require(Scratch::is_block_size(block_bytes), "invalid block size");
   plan->block_bytes = size_t(block_bytes);
   plan->bins = get_bins(&in, plan->grid.levels);
   in.finish();

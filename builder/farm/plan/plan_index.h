@@ -1,4 +1,4 @@
-// The bins of a plan as bytes, of which plan.json has the hash.
+// The index of a plan: its bins as a binary file, whose hash is in plan.json.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace svdag {
 
 // Writes PLAN/index; returns the hash of its bytes.
 std::string save_index(const Plan& plan);
-// Sets plan->block_bytes and plan->bins. One that is not what was saved is an Error (kBadInput).
+// Sets plan->block_bytes and plan->bins. Throws Error (kBadInput) if the file does not have `hash`.
 void load_index(const std::string& hash, Plan* plan);
 
 }  // namespace svdag

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr uint64_t kLargestReceipt = 1 << 16;
+constexpr uint64_t kMaxReceiptBytes = 1 << 16;
 constexpr uint64_t kCheckMemory = uint64_t(64) << 20;
 
 std::string content_of_run(const std::string& path, bool thorough) {
@@ -34,7 +34,7 @@ std::string content_of_dag(const std::string& path, bool thorough) {
     header = check_dag(file);
   } else {
     file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
-    if (header.file_bytes != file.size()) fail_input(path, "is cut short");
+    if (header.file_bytes != file.size()) fail_input(path, "is truncated");
   }
   return to_hex(header.content_hash);
 }
@@ -63,7 +63,7 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   const std::string path = receipt_path(plan, step);
   if (!name_exists(path)) return {};
   const File file = File::open_read(path);
-  std::string text(std::min(file.size(), kLargestReceipt), ' ');
+  std::string text(std::min(file.size(), kMaxReceiptBytes), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   try {
     const Json json = Json::parse(text);
@@ -83,8 +83,8 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   }
 }
 
-OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
-                     bool thorough) {
+OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,
+                         bool thorough) {
   if (!name_exists(path)) return OutputState::kMissing;
   const std::optional<Receipt> receipt = read_receipt(plan, step);
   if (!receipt) return OutputState::kInvalid;

@@ -1,10 +1,10 @@
 // The receipt of a finished step of a plan: PLAN/runs/STEP.json.
 //
 // A receipt identifies the plan by its hash and the output by the hash of its content, which is
-// also in the output's header. Output and receipt are written in this order, each atomically, so a
-// receipt and a file of that content prove the step done, whatever the file's origin; a run of
-// another plan, of an older one in the same folder, or of another step has another hash. Rejected:
-// the plan's hash in the run (equal parts of equal scenes would have unequal runs).
+// also in the output's header. The output is written before the receipt, each atomically, so a
+// receipt and a file with that content hash prove that the step is done, whatever the origin of the
+// file. A run of another plan, of an older plan in the same folder, or of another step has another
+// hash. Rejected: the plan's hash in the run (equal parts of equal scenes would have unequal runs).
 #pragma once
 
 #include <optional>
@@ -23,18 +23,19 @@ struct Receipt {
 };
 
 enum class OutputState {
-  kMissing,  // no file
-  kInvalid,  // a file, but not known to be what this step of this plan makes
+  kMissing,
+  kInvalid,  // the file exists, but no receipt of this plan has its hash
   kValid,
 };
 
 std::string receipt_path(const Plan& plan, const PlanStep& step);
 void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receipt);
-// None if the receipt does not exist, is of another plan, or cannot be read.
+// Returns nothing if the receipt is missing, of another plan or step, or cannot be parsed.
 std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step);
 
-// Looks at the file `path` as the output of `step`: at its header alone, or at every byte.
-OutputState state_of(const Plan& plan, const PlanStep& step, const std::string& path,
-                     bool thorough);
+// The state of the file `path` as the output of `step`. Reads only its header, or every byte if
+// `thorough`.
+OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,
+                         bool thorough);
 
 }  // namespace svdag

@@ -1,6 +1,6 @@
-// How the steps of a plan are called: "shard-3", "merge-1", each kind numbered from 1 on.
+// Names of the steps of a plan: "shard-3", "merge-1", each kind numbered from 1.
 //
-// A number may also be what another program puts in the place of one.
+// A number given as a string may be a placeholder that another program replaces.
 #pragma once
 
 #include <cstddef>

@@ -10,15 +10,15 @@ double PowerLaw::operator()(double x) const {
 }
 
 PowerLaw power_law(double quarter_x, double quarter_y, double x, double y) {
-  constexpr double kApart = 1.2;
+  constexpr double kMinRatio = 1.2;  // of the two points
   if (x <= 0 || y <= 0) return {};
   PowerLaw law = {x, y, 1};
-  if (quarter_x > 0 && quarter_y > 0 && x > kApart * quarter_x)
+  if (quarter_x > 0 && quarter_y > 0 && x > kMinRatio * quarter_x)
     law.exponent = std::clamp(std::log(y / quarter_y) / std::log(x / quarter_x), 0.0, 1.0);
   return law;
 }
 
-Growth::Growth(const std::vector<Drawn>& drawn) : sums_{0} {
+Growth::Growth(const std::vector<DrawnCell>& drawn) : sums_{0} {
   for (const auto& [cell, growth, times] : drawn) {
     for (int i = 0; i < times; ++i) {
       cells_.push_back(cell);
@@ -28,7 +28,7 @@ Growth::Growth(const std::vector<Drawn>& drawn) : sums_{0} {
 }
 
 double Growth::at(uint64_t cell) const {
-  const size_t near = std::min(kNear, cells_.size());
+  const size_t near = std::min(kNeighbours, cells_.size());
   if (near == 0) return 1;
   const size_t after =
       size_t(std::lower_bound(cells_.begin(), cells_.end(), cell) - cells_.begin());

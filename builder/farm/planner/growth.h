@@ -1,4 +1,4 @@
-// Growth of counts from a coarse survey to the grid's own level, estimated from a sample.
+// Growth of counts from a coarse survey to the grid's level, estimated from a sample.
 #pragma once
 
 #include <cstddef>
@@ -14,32 +14,33 @@ struct PowerLaw {
   double operator()(double x) const;
 };
 
-// Through (quarter_x, quarter_y) and (x, y). The exponent is between 0 and 1, for finer voxels
-// repeat themselves no less; 1 where the points are too near to each other to tell. Without a
-// sample: y = x.
+// The power law through (quarter_x, quarter_y) and (x, y). The exponent is clamped to [0, 1], since
+// finer voxels repeat at least as much; it is 1 if the points are too close to determine it.
+// Without a sample: y = x.
 PowerLaw power_law(double quarter_x, double quarter_y, double x, double y);
 
-// How much more the cells of a scene cost at the grid's level than in the coarse survey.
+// The ratio of a cell's cost at the grid's level to its cost in the coarse survey.
 class Growth {
  public:
-  // A cell that was drawn so many times.
-  struct Drawn {
+  // A cell of the sample, which was drawn `times` times.
+  struct DrawnCell {
     uint64_t cell;
     double growth;
     int times;
   };
 
-  // `drawn` in the order of cells. Without any, nothing grows.
-  explicit Growth(const std::vector<Drawn>& drawn = {});
+  // `drawn` must be sorted by cell. An empty sample gives growth 1.
+  explicit Growth(const std::vector<DrawnCell>& drawn = {});
 
-  // The mean of the kNear drawings nearest to `cell`, half of them on either side if there are.
+  // The mean of the kNeighbours draws nearest to `cell` in Morton order, half of them on either
+  // side where possible.
   double at(uint64_t cell) const;
 
-  static constexpr size_t kNear = 8;
+  static constexpr size_t kNeighbours = 8;
 
  private:
-  std::vector<uint64_t> cells_;  // of each drawing
-  std::vector<double> sums_;     // of their growths: of none, of one, of two ...
+  std::vector<uint64_t> cells_;  // of each draw
+  std::vector<double> sums_;     // prefix sums of their growths
 };
 
 }  // namespace svdag

@@ -22,18 +22,18 @@
 namespace svdag {
 namespace {
 
-constexpr int kDeepestBins = 6;             // as the cells
-constexpr uint64_t kBinsPerShard = 8;       // a shard reads an eighth too much at each end
-constexpr uint64_t kLightBin = 4096;        // triangles: finer bins are not worth their blocks
+constexpr int kMaxBinLevel = 6;             // level of the cells
+constexpr uint64_t kBinsPerShard = 8;       // a shard reads up to 1/8 too much at each end
+constexpr uint64_t kMinLightBin = 4096;     // triangles: smaller bins waste blocks
 constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
-constexpr size_t kSmallestBlock = 1 << 14;
+constexpr size_t kMinBlockBytes = 1 << 14;
 
-void refuse_a_plan(const std::string& folder) {
+void reject_existing_plan(const std::string& folder) {
   if (is_plan(folder))
-    fail_usage(folder + " holds a plan, and plans do not change: choose another folder");
+    fail_usage(folder + ": contains a plan, which cannot be changed: choose another folder");
 }
 
-// Names that a plan could not write down are refused before there is work to lose.
+// Rejects names that cannot be stored in a plan, before any work is done.
 void require_names(const PlanConfig& config) {
   const SceneConfig& scene = config.build.scene;
   require_utf8(config.folder);
@@ -43,15 +43,15 @@ void require_names(const PlanConfig& config) {
     for (const std::string& name : names) require_utf8(name);
 }
 
-// Where a plan spills: apart from the bake of the same output, which may have left work to
-// resume.
+// Scratch folder of the planner, which differs from that of a bake of the same output, since that
+// may hold work to resume.
 std::string scratch_path(const PlanConfig& config) {
   const std::string name =
       config.folder.empty() ? config.build.output + ".dry-run" : config.folder + "/plan";
   return ScratchDir::path_for(name, config.build.scratch);
 }
 
-// From a scene to a plan; one function per phase.
+// Turns a scene into a plan; one function per phase.
 class Planner {
  public:
   Planner(const PlanConfig& config, Progress* progress)
@@ -60,7 +60,7 @@ class Planner {
         workspace_(scratch_path(config), config.build.memory, 1),
         vertices_(workspace_.vertices()),
         scene_(config.build.scene, workspace_.budget(), &vertices_) {
-    make_room();
+    clear_scratch();
   }
 
   Plan run() {
@@ -73,7 +73,7 @@ class Planner {
   }
 
  private:
-  void make_room();
+  void clear_scratch();
   void read_scene();
   void describe_inputs();
   void survey();
@@ -88,7 +88,7 @@ class Planner {
   Workspace workspace_;
   SpillSpace vertices_;
   Scene scene_;
-  InputWatch inputs_;  // of the scene
+  InputWatch inputs_;  // the scene's files
   std::unique_ptr<SpillFile> triangles_;
   PilotConfig pilot_config_;
   Pilot pilot_;
@@ -96,14 +96,14 @@ class Planner {
   Plan plan_;
 };
 
-// What a killed plan left behind goes; a bake whose output has the name of this scratch does not.
-// Another process may have finished its plan before it gave the scratch folder back.
-void Planner::make_room() {
-  if (!config_.folder.empty()) refuse_a_plan(config_.folder);
+// Empties the scratch folder that a killed planner left, but not that of an unfinished bake. The
+// folder is checked again, since its previous owner may have finished a plan.
+void Planner::clear_scratch() {
+  if (!config_.folder.empty()) reject_existing_plan(config_.folder);
   if (!workspace_.has_unfinished_bake()) return workspace_.folder()->clear();
   workspace_.folder()->keep();
   fail_usage(workspace_.folder()->path() +
-             " holds an unfinished bake: finish it, or choose another --scratch");
+             ": contains an unfinished bake: finish it, or choose another --scratch");
 }
 
 void Planner::read_scene() {
@@ -119,7 +119,7 @@ void Planner::read_scene() {
   describe_inputs();
   progress_->phase("split", 0);
   SplitConfig split_config;
-  split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kDeepestBins);
+  split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kMaxBinLevel);
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
@@ -127,13 +127,14 @@ void Planner::read_scene() {
   plan_.counts = scene.counts;
   if (scene.counts.scene.triangles == 0)
     fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");
-  progress_->phase("deal triangles", 0);
+  progress_->phase("distribute triangles", 0);
   LeafConfig leaf;
-  leaf.light = std::max(kLightBin, scene.counts.scene.triangles / (kBinsPerShard * config_.shards));
-  leaf.deepest = std::min(kDeepestBins, plan_.grid.levels - 2);
+  leaf.light =
+      std::max(kMinLightBin, scene.counts.scene.triangles / (kBinsPerShard * config_.shards));
+  leaf.max_level = std::min(kMaxBinLevel, plan_.grid.levels - 2);
   leaf.open_bytes = workspace_.shares().open_bins;
   plan_.block_bytes = std::clamp(std::bit_floor(size_t(leaf.light * kBytesPerTriangle / 4)),
-                                 kSmallestBlock, workspace_.scratch()->block_bytes());
+                                 kMinBlockBytes, workspace_.scratch()->block_bytes());
   triangles_ = std::make_unique<SpillFile>(config_.folder.empty()
                                                ? workspace_.folder()->create(kPlanTriangles)
                                                : File::create_anonymous(config_.folder),
@@ -182,13 +183,14 @@ void Planner::add_shards(const std::vector<ShardWork>& works) {
   }
 }
 
-// The share of nodes that shards have in common is 0 for one shard and measured for all; between,
-// it is interpolated in the logarithm of their number.
+// Merging removes the nodes that shards have in common. The fraction that remains is 1 for one
+// shard and measured for all shards; between, its logarithm is interpolated linearly in the
+// logarithm of the number of shards.
 void Planner::add_merges(const std::vector<ShardWork>& works) {
   const size_t shards = works.size();
-  std::vector<NodeCounts> found;   // by step
-  std::vector<NodeCounts> summed;  // of its shards
-  std::vector<size_t> leaves(shards, 1);
+  std::vector<NodeCounts> found;          // unique in the output, by step
+  std::vector<NodeCounts> summed;         // sums over the shards below, by step
+  std::vector<size_t> leaves(shards, 1);  // number of shards below, by step
   NodeCounts all;
   for (const ShardWork& work : works) {
     found.push_back(work.found);
@@ -196,7 +198,7 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
     all.nodes += work.found.nodes;
     all.bricks += work.found.bricks;
   }
-  const double most = std::log(double(std::max<size_t>(2, shards)));
+  const double log_shards = std::log(double(std::max<size_t>(2, shards)));
   const double node_share = std::min(1.0, pilot_.found.nodes / std::max(1.0, all.nodes));
   const double brick_share = std::min(1.0, pilot_.found.bricks / std::max(1.0, all.bricks));
   const MergeTree tree = merge_tree(shards, config_.fan_in);
@@ -211,9 +213,9 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
       sum = {sum.nodes + summed[i].nodes, sum.bricks + summed[i].bricks};
       count += leaves[i];
     }
-    const double way = std::log(double(count)) / most;
+    const double exponent = std::log(double(count)) / log_shards;
     found.push_back(
-        {sum.nodes * std::pow(node_share, way), sum.bricks * std::pow(brick_share, way)});
+        {sum.nodes * std::pow(node_share, exponent), sum.bricks * std::pow(brick_share, exponent)});
     summed.push_back(sum);
     leaves.push_back(count);
     const bool last = m + 1 == tree.size();
@@ -224,10 +226,10 @@ void Planner::add_merges(const std::vector<ShardWork>& works) {
   }
 }
 
-// The triangles get their name, then the index, then what says that the plan is whole.
+// plan.json is written last: it marks the plan as complete.
 void Planner::save() {
   progress_->phase("save", 0);
-  refuse_a_plan(config_.folder);  // of a planner with another --scratch, who was faster
+  reject_existing_plan(config_.folder);  // written meanwhile by a planner with another --scratch
   make_folder(plan_.path("runs"));
   make_folder(plan_.path("logs"));
   triangles_->link_as(plan_.path(kPlanTriangles));
@@ -244,28 +246,28 @@ void discard_dry_run(const BuildConfig& build) {
   if (!std::filesystem::exists(path, none) || ScratchDir::in_use(path)) return;
   try {
     ScratchDir folder(path);
-    if (folder.has(kJournalName)) folder.keep();  // of a bake whose output has such a name
-  } catch (const Error&) {                        // of another process or user: it may stay
+    if (folder.has(kJournalName)) folder.keep();  // of a bake whose output has this name
+  } catch (const Error&) {                        // of another process or user: is kept
   }
 }
 
 Plan make_plan(const PlanConfig& config, Progress* progress) {
   PlanConfig own = config;
-  bool made = false;
+  bool created = false;
   if (!own.folder.empty()) {
     while (own.folder.size() > 1 && own.folder.ends_with('/')) own.folder.pop_back();
     own.folder = absolute_path(own.folder);
-    refuse_a_plan(own.folder);
+    reject_existing_plan(own.folder);
     require_names(own);
-    refuse_strange_files(own.folder, own.output);
-    made = make_folder(own.folder);
+    reject_foreign_files(own.folder, own.output);
+    created = make_folder(own.folder);
   }
   try {
-    // The last step writes the output: an impossible name is reported before any work.
+    // The last step writes the output: an invalid name is reported before any work.
     if (!own.folder.empty()) AtomicFile::check(own.folder + "/" + own.output);
     return Planner(own, progress).run();
   } catch (...) {
-    if (made) (void)!::rmdir(own.folder.c_str());  // unless there is something in it
+    if (created) (void)!::rmdir(own.folder.c_str());  // fails if the folder is not empty
     throw;
   }
 }

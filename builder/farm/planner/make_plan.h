@@ -1,4 +1,4 @@
-// Makes a plan: reads the scene, predicts its bake, and divides it into steps.
+// Makes a plan: reads the scene, predicts the cost of its bake, and divides the bake into steps.
 #pragma once
 
 #include <string>
@@ -9,20 +9,19 @@
 namespace svdag {
 
 struct PlanConfig {
-  BuildConfig build;   // without its output; `memory` is the most that planning and a step may have
-  std::string folder;  // of the plan, where nothing is yet; empty: the plan is made but not saved
+  BuildConfig build;  // its output is unused if `folder` is set; `memory` limits planning and steps
+  std::string folder;  // of the plan, new or empty; if "", the plan is made but not saved
   size_t shards = 1;
-  size_t fan_in = 16;  // runs that one merge reads
+  size_t fan_in = 16;  // max runs that one merge reads
   size_t step_threads = 1;
   std::string output;  // name of the finished file in the plan's folder
 };
 
-// Removes what a killed dry run of this bake has left in its scratch folder: the bake itself spills
-// elsewhere and would not come upon it. A folder that a process owns, or that is of no dry run,
-// stays.
+// Removes the scratch folder of a killed dry run of this bake, which the bake itself does not use.
+// A folder in use by a process, or of a bake, is kept.
 void discard_dry_run(const BuildConfig& build);
 
-// Error (kUsage) if the folder holds a plan already, or files that are of no plan.
+// Throws Error (kUsage) if the folder holds a plan, or files that do not belong to a plan.
 Plan make_plan(const PlanConfig& config, Progress* progress);
 
 }  // namespace svdag

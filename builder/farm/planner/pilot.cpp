@@ -10,15 +10,15 @@ namespace svdag {
 namespace {
 
 constexpr int kLevelsCoarser = 4;
-constexpr int kCoarsestPilot = 10;  // below, bricks are too few to tell
-constexpr int kFinestPilot = 14;    // finer levels are estimated from the sample alone
-constexpr int kCellLevel = 6;       // as builder/bake/bake.cpp
-constexpr int kDeepestCells = 8;
-constexpr double kSampleShare = 0.03;  // of the coarse cost
-constexpr size_t kMaxSamples = 512, kFewestSamples = 8;
-constexpr int kPart = 4;  // one drawn cell in so many is in the smaller sample, too
+constexpr int kMinPilotLevel = 10;  // coarser surveys have too few bricks
+constexpr int kMaxPilotLevel = 14;  // finer levels are estimated from the sample alone
+constexpr int kCellLevel = 6;       // as in builder/bake/bake.cpp
+constexpr int kMaxCellLevel = 8;
+constexpr double kSampleShare = 0.03;  // of the cells
+constexpr size_t kMaxSamples = 512, kMinSamples = 8;
+constexpr int kSubsetStride = 4;  // every 4th drawn cell is also in the smaller sample
 // Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
-constexpr double kUnsurveyed = 7.05e-6;
+constexpr double kUnsurveyedTriangle = 7.05e-6;
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,
@@ -31,19 +31,19 @@ NodeCounts counts_of(Survey* survey) {
   return {double(survey->nodes()), double(survey->bricks())};
 }
 
-// The coarse survey: cost and work of each cell.
-struct Coarse {
+// The coarse survey: the work of each cell, and totals.
+struct CoarseSurvey {
   std::map<uint64_t, Work> cells;
   std::map<uint64_t, size_t> bin_of;  // cell -> index of its bin
-  std::vector<size_t> heavy;          // bins that were left out
+  std::vector<size_t> heavy;          // bins too heavy to survey
   Work work;
   NodeCounts found;
 };
 
-Coarse survey_coarsely(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
-                       const SurveyConfig& config, MemoryBudget* budget) {
+CoarseSurvey survey_coarsely(const Grid& grid, const std::vector<TriangleBin>& bins,
+                             SpillFile* file, const SurveyConfig& config, MemoryBudget* budget) {
   Survey survey(grid, config, budget);
-  Coarse coarse;
+  CoarseSurvey coarse;
   for (size_t b = 0; b < bins.size(); ++b) {
     const bool counted = survey.count(file, bins[b], {}, [&](uint64_t cell, const Work& work) {
       coarse.cells[cell] += work;
@@ -56,12 +56,12 @@ Coarse survey_coarsely(const Grid& grid, const std::vector<TriangleBin>& bins, S
   return coarse;
 }
 
-// Cells at equal distances along the sum of costs, and how often each was drawn.
-std::map<uint64_t, int> draw(const Coarse& coarse) {
+// Draws cells at equal intervals of the cumulative cost; returns the number of draws of each.
+std::map<uint64_t, int> draw(const CoarseSurvey& coarse) {
   double all = 0;
   for (const auto& [cell, work] : coarse.cells) all += cpu_of(work);
   const size_t count =
-      std::clamp(size_t(kSampleShare * double(coarse.cells.size())), kFewestSamples, kMaxSamples);
+      std::clamp(size_t(kSampleShare * double(coarse.cells.size())), kMinSamples, kMaxSamples);
   std::map<uint64_t, int> drawn;
   double before = 0, next = 0.5;
   for (const auto& [cell, work] : coarse.cells) {
@@ -71,32 +71,33 @@ std::map<uint64_t, int> draw(const Coarse& coarse) {
   return drawn;
 }
 
-// The drawn cells at one level of detail, and a part of them, each with a table of its own.
+// Survey of the drawn cells at one level of detail, and unique nodes of all of them and of a
+// subset, counted with separate tables.
 struct Sample {
-  NodeCounts found, found_in_part;
+  NodeCounts found, found_in_subset;
   std::map<uint64_t, Work> cells;
 };
 
 Sample survey_sample(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
-                     const SurveyConfig& config, const Coarse& coarse,
+                     const SurveyConfig& config, const CoarseSurvey& coarse,
                      const std::map<uint64_t, int>& drawn, MemoryBudget* budget) {
-  Survey survey(grid, config, budget), smaller(grid, config, budget);
-  std::set<size_t> wanted_bins;
-  std::set<uint64_t> part;
+  Survey survey(grid, config, budget), subset_survey(grid, config, budget);
+  std::set<size_t> sampled_bins;
+  std::set<uint64_t> subset;
   int index = 0;
   for (const auto& [cell, times] : drawn) {
-    wanted_bins.insert(coarse.bin_of.at(cell));
-    if (index++ % kPart == 0) part.insert(cell);
+    sampled_bins.insert(coarse.bin_of.at(cell));
+    if (index++ % kSubsetStride == 0) subset.insert(cell);
   }
-  survey.share_with(&smaller, [&](uint64_t cell) { return part.contains(cell); });
+  survey.add_subset(&subset_survey, [&](uint64_t cell) { return subset.contains(cell); });
   Sample sample;
-  for (const size_t b : wanted_bins) {
+  for (const size_t b : sampled_bins) {
     survey.count(
         file, bins[b], [&](uint64_t cell) { return drawn.contains(cell); },
         [&](uint64_t cell, const Work& work) { sample.cells[cell] += work; });
   }
   sample.found = counts_of(&survey);
-  sample.found_in_part = counts_of(&smaller);
+  sample.found_in_subset = counts_of(&subset_survey);
   return sample;
 }
 
@@ -109,37 +110,37 @@ double ratio(double fine, double coarse) {
 Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
                 const PilotConfig& config, MemoryBudget* budget) {
   Pilot pilot;
-  const int finest_cells = std::max(0, std::min(kDeepestCells, grid.levels - 6));
-  pilot.cell_level = std::min(finest_cells, config.shards > 256 ? kCellLevel + 1 : kCellLevel);
-  pilot.level =
-      std::min(grid.levels, std::clamp(grid.levels - kLevelsCoarser,
-                                       std::max(kCoarsestPilot, finest_cells + 3), kFinestPilot));
-  Coarse coarse;
+  const int max_cell_level = std::max(0, std::min(kMaxCellLevel, grid.levels - 6));
+  pilot.cell_level = std::min(max_cell_level, config.shards > 256 ? kCellLevel + 1 : kCellLevel);
+  pilot.level = std::min(grid.levels,
+                         std::clamp(grid.levels - kLevelsCoarser,
+                                    std::max(kMinPilotLevel, max_cell_level + 3), kMaxPilotLevel));
+  CoarseSurvey coarse;
   for (;; ++pilot.cell_level) {
     coarse = survey_coarsely(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level),
                              budget);
-    double dearest = 0;
-    for (const auto& [cell, work] : coarse.cells) dearest = std::max(dearest, cpu_of(work));
+    double max_cost = 0;
+    for (const auto& [cell, work] : coarse.cells) max_cost = std::max(max_cost, cpu_of(work));
     const double share = cpu_of(coarse.work) / double(config.shards);
-    if (dearest < share / 4 || pilot.cell_level == finest_cells) break;
+    if (max_cost < share / 4 || pilot.cell_level == max_cell_level) break;
   }
   const std::map<uint64_t, int> drawn = draw(coarse);
-  const Sample fine =
+  const Sample fine_sample =
       survey_sample(grid, bins, file, survey_config(config, grid.levels, pilot.cell_level), coarse,
                     drawn, budget);
-  const Sample same =
+  const Sample coarse_sample =
       survey_sample(grid, bins, file, survey_config(config, pilot.level, pilot.cell_level), coarse,
                     drawn, budget);
-  // Cells are drawn in proportion to cost, so the mean of their ratios is that of all cells
-  // between.
-  std::vector<Growth::Drawn> growths;
-  for (const auto& [cell, work] : fine.cells)
+  // Cells are drawn in proportion to cost, so the mean of their ratios estimates the ratio of the
+  // costs of all cells between them.
+  std::vector<Growth::DrawnCell> growths;
+  for (const auto& [cell, work] : fine_sample.cells)
     growths.push_back({cell, ratio(cpu_of(work), cpu_of(coarse.cells.at(cell))), drawn.at(cell)});
   pilot.growth = Growth(growths);
-  pilot.nodes = power_law(same.found_in_part.nodes, fine.found_in_part.nodes, same.found.nodes,
-                          fine.found.nodes);
-  pilot.bricks = power_law(same.found_in_part.bricks, fine.found_in_part.bricks, same.found.bricks,
-                           fine.found.bricks);
+  pilot.nodes = power_law(coarse_sample.found_in_subset.nodes, fine_sample.found_in_subset.nodes,
+                          coarse_sample.found.nodes, fine_sample.found.nodes);
+  pilot.bricks = power_law(coarse_sample.found_in_subset.bricks, fine_sample.found_in_subset.bricks,
+                           coarse_sample.found.bricks, fine_sample.found.bricks);
   pilot.found = {pilot.nodes(coarse.found.nodes), pilot.bricks(coarse.found.bricks)};
   for (const auto& [cell, work] : coarse.cells) {
     const Work fine_work = work * pilot.growth.at(cell);
@@ -148,7 +149,7 @@ Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFil
   }
   for (const size_t b : coarse.heavy) {
     const uint64_t cell = bins[b].range.begin >> 3 * (grid.levels - pilot.cell_level);
-    pilot.cells.push_back({cell, kUnsurveyed * double(bins[b].triangles)});
+    pilot.cells.push_back({cell, kUnsurveyedTriangle * double(bins[b].triangles)});
   }
   std::sort(pilot.cells.begin(), pilot.cells.end(),
             [](const CellCost& a, const CellCost& b) { return a.cell < b.cell; });

@@ -1,21 +1,21 @@
 // The pilot: estimates the cost of a bake, cell by cell, before it runs.
 //
-// The whole scene is surveyed a few levels coarser, which takes a few per cent of the bake and
-// shows how work is distributed. Then a few cells, drawn with probability proportional to their
-// coarse cost, are surveyed at the grid's own level, which shows how work grows. Growth cannot be
-// extrapolated from coarse surveys: per doubling a scan costs 1.3 times as much while its triangles
-// are smaller than voxels, and more than 3 times when they are not. It also varies within a scene
-// (the plane memo answers floors, but not curtains): a cell grows as the drawn cells nearest to it
-// along the Morton curve.
+// A survey of the whole scene, a few levels coarser, takes a few per cent of the bake and shows how
+// work is distributed. Then a few cells, drawn with probability proportional to their coarse cost,
+// are surveyed at the grid's level, which shows how work grows. Growth cannot be extrapolated from
+// coarse surveys: when the resolution doubles, a scan costs 1.3 times as much while its triangles
+// are smaller than voxels, and more than 3 times when they are larger. Growth also varies within a
+// scene (the plane memo handles floors, but not curtains), so the growth of a cell is estimated
+// from the drawn cells nearest to it along the Morton curve.
 //
 // Work is additive, unique nodes are not: a larger part of a scene repeats itself more, at a rate
 // that depends on the level. So the sample is evaluated in two sizes, all of it and a quarter, at
-// both levels. Of n cells u(n) ~ n^b nodes are unique (Heaps' law), with an exponent for each
-// level; so the number of unique fine nodes is a power law of the number of unique coarse ones. The
-// two sizes determine it, and it is applied to the coarse survey of the whole scene, or of a shard.
-// No constant is fitted. Rejected: the ratio of the sample for all cells (planes repeat their
-// bricks: three times too many), and a power with a fitted exponent (half right for nodes or
-// bricks, never for both).
+// both levels. n cells have u(n) ~ n^b unique nodes (Heaps' law), with an exponent b for each
+// level; so the number of unique fine nodes is a power law of the number of unique coarse nodes.
+// The two sizes determine the law, which is applied to the coarse survey of the whole scene or of a
+// shard. No constant is fitted. Rejected: one ratio for all cells (planes repeat their bricks:
+// three times too many), and a power with a fitted exponent (off by half for either nodes or
+// bricks).
 #pragma once
 
 #include "builder/farm/planner/balance.h"
@@ -33,20 +33,20 @@ struct PilotConfig {
 
 struct Pilot {
   int cell_level = 0;
-  std::vector<CellCost> cells;  // CPU seconds at the grid's own level
-  Work work;                    // of the whole scene, at the grid's own level
+  std::vector<CellCost> cells;  // CPU seconds at the grid's level
+  Work work;                    // of the whole scene, at the grid's level
   NodeCounts found;             // unique, of the whole scene
   int level = 0;                // of the coarse survey
-  // From there to the grid's level.
+  // From the coarse survey to the grid's level.
   Growth growth;
-  PowerLaw nodes, bricks;  // unique ones
+  PowerLaw nodes, bricks;  // of unique nodes and bricks
 };
 
 Pilot run_pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
                 const PilotConfig& config, MemoryBudget* budget);
 
-// What each of `shards` finds by itself: more in sum than the whole scene, for shards repeat each
-// other.
+// The work and the unique nodes of each shard. The sum of the nodes exceeds that of the whole
+// scene, since shards have nodes in common.
 std::vector<ShardWork> survey_shards(const Grid& grid, const std::vector<TriangleBin>& bins,
                                      SpillFile* file, const PilotConfig& config, const Pilot& pilot,
                                      const std::vector<CellRange>& shards, MemoryBudget* budget);

@@ -6,29 +6,29 @@
 namespace svdag {
 namespace {
 
-// As tests/bench/plan.py --calibrate prints them.
-constexpr double kStart = 0.0103;            // of a process
+// Seconds, as printed by tests/bench/plan.py --calibrate.
+constexpr double kStart = 0.0103;            // start of a process
 constexpr double kSceneTriangle = 875.6e-9;  // read, snapped, sorted into cells and prepared
 constexpr double kPlanTriangle = 478.9e-9;   // read from a bin and prepared
-constexpr double kDivided = 305.1e-9;        // a cube
-constexpr double kComputed = 346.4e-9;       // a node of the plane memo
-constexpr double kFound = 397.1e-9;          // a node that is new: numbered, sorted, written
+constexpr double kDivided = 305.1e-9;        // a cube divided
+constexpr double kComputed = 346.4e-9;       // a node computed for the plane memo
+constexpr double kFound = 397.1e-9;          // a unique node: numbered, sorted, written
 constexpr double kMergeRead = 102.7e-9;
 constexpr double kNodeInFile = 22.7;  // bytes of a node in a .svdag
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
-constexpr double kCheckpoint = 30;  // seconds after which a bake saves what it has
+constexpr double kCheckpoint = 30;  // seconds between two checkpoints of a bake
 
-// Any bake goes through with so much.
-uint64_t least_budget(size_t threads) {
+// A budget with which any bake succeeds.
+uint64_t min_budget(size_t threads) {
   return (64 + 16 * threads) * kMiB;
 }
 
 uint64_t budget_for(double need, const StepLimits& limits) {
-  const uint64_t least = least_budget(limits.threads);
-  const uint64_t most = limits.memory != 0 ? std::max(limits.memory, least) : UINT64_MAX;
+  const uint64_t min = min_budget(limits.threads);
+  const uint64_t max = limits.memory != 0 ? std::max(limits.memory, min) : UINT64_MAX;
   const double whole = std::ceil(need / double(kMiB)) * double(kMiB);
-  return std::clamp(uint64_t(std::min(whole, 1e18)), least, most);
+  return std::clamp(uint64_t(std::min(whole, 1e18)), min, max);
 }
 
 }  // namespace
@@ -42,8 +42,8 @@ double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles
 }
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
-  // A table is half of the budget, a bin's triangles a quarter (builder/bake/bake.cpp); what is
-  // known of nodes is an estimate.
+  // A table gets half of the budget, a bin's triangles a quarter (builder/bake/bake.cpp). The
+  // margin covers errors of the estimated node counts.
   constexpr double kMargin = 1.5, kPerNode = 84, kPerBrick = 48, kPerTriangle = 400;
   const double tables = 2 * (kPerNode * shard.found.nodes + kPerBrick * shard.found.bricks);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);
@@ -61,11 +61,11 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
 
 Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool last,
                          const StepLimits& limits) {
-  constexpr double kMap = 4, kMargin = 1.5;  // bytes of a number in a map
+  constexpr double kRankBytes = 4, kMargin = 1.5;
   Prediction p;
   p.cpu = kStart + kMergeRead * read.keys();
-  p.seconds = p.cpu;  // a merge is one stream
-  const double maps = 2 * kMap * read.keys();
+  p.seconds = p.cpu;  // a merge uses one thread
+  const double maps = 2 * kRankBytes * read.keys();
   p.budget = budget_for(kMargin * 2 * maps, limits);
   p.memory = p.budget + kBesideBudget;
   p.output = uint64_t(last ? kNodeInFile * made.nodes + 8 * made.bricks : made.run_bytes());

@@ -1,10 +1,10 @@
-// From counted work to seconds, memory and disk.
+// Cost model: predicts seconds, memory and disk from counted work.
 //
 // The model is linear in triangles, cubes divided, nodes computed for the plane memo and nodes
-// found (builder/farm/planner/survey.h); its constants were fitted to bakes of generated scenes
-// alone, on one machine (tests/bench/plan.py --calibrate does it again, and judges them on other
-// scenes). Seconds are those of that machine; shares between shards are right on any. Memory is no
-// guess: it is what a step is allowed, and it keeps within that.
+// found (builder/farm/planner/survey.h). Its constants were fitted to bakes of generated scenes on
+// one machine (tests/bench/plan.py --calibrate repeats this, and validates them on other scenes).
+// Seconds are those of that machine; the ratios between shards hold on any machine. Memory is a
+// limit, not an estimate: a step stays within it.
 #pragma once
 
 #include "builder/farm/plan/plan.h"
@@ -23,26 +23,27 @@ struct NodeCounts {
 // CPU seconds of voxelizing.
 double cpu_of(const Work& work);
 
-// What a step may have.
+// Limits of the resources of a step.
 struct StepLimits {
   size_t threads = 1;
-  uint64_t memory = 0;  // its --memory, at most
+  uint64_t memory = 0;  // max --memory in bytes; 0: no limit
 };
 
 struct ShardWork {
   Work work;
-  NodeCounts found;           // in the shard alone
+  NodeCounts found;           // unique in the shard
   uint64_t triangles = 0;     // in the bins that it reads
-  uint64_t heaviest_bin = 0;  // of them
+  uint64_t heaviest_bin = 0;  // triangles of the heaviest of these bins
 };
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits);
 
-// A merge of runs with `read` keys to one file with `made`.
+// A merge of runs with `read` keys in total to a file with `made` keys; `last`: the file is the
+// .svdag.
 Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool last,
                          const StepLimits& limits);
 
-// CPU seconds of a bake in one piece, of a scene of so many triangles.
+// CPU seconds of baking a scene of `triangles` triangles without a plan.
 double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles);
 
 }  // namespace svdag

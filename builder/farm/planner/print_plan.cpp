@@ -9,9 +9,10 @@
 namespace svdag {
 namespace {
 
-struct Sums {
+struct Totals {
   double cpu = 0, longest = 0;
-  uint64_t memory = 0, output = 0, scratch = 0;  // memory and scratch: of the one that takes most
+  uint64_t memory = 0, scratch = 0;  // max of one step
+  uint64_t output = 0;
   size_t steps = 0;
 
   void add(const Prediction& p) {
@@ -24,15 +25,15 @@ struct Sums {
   }
 };
 
-void print_sums(const char* what, const Sums& sums) {
+void print_totals(const char* what, const Totals& totals) {
   std::printf(
-      "  %3zu %s: %.2f CPU seconds, the longest takes %.2f s; memory at most %s; they write %s%s\n",
-      sums.steps, what, sums.cpu, sums.longest, format_bytes(sums.memory).c_str(),
-      format_bytes(sums.output).c_str(),
-      sums.scratch != 0 ? (", scratch at most " + format_bytes(sums.scratch)).c_str() : "");
+      "  %3zu %s: %.2f CPU seconds, the longest takes %.2f s; memory at most %s; output %s%s\n",
+      totals.steps, what, totals.cpu, totals.longest, format_bytes(totals.memory).c_str(),
+      format_bytes(totals.output).c_str(),
+      totals.scratch != 0 ? (", scratch at most " + format_bytes(totals.scratch)).c_str() : "");
 }
 
-// Seconds from the first step to the last if there is a machine for every step.
+// Seconds of the longest chain of steps: the time of the plan with a machine per step.
 double critical_path(const Plan& plan) {
   std::vector<double> ends;
   for (const PlanStep& step : plan.steps) {
@@ -60,15 +61,15 @@ void print_steps(const Plan& plan) {
 }  // namespace
 
 void print_plan(const Plan& plan, bool steps) {
-  Sums shards, merges;
+  Totals shards, merges;
   for (const PlanStep& step : plan.steps) (step.is_shard() ? shards : merges).add(step.predicted);
   std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(),
               plan.one_bake_cpu);
-  print_sums(shards.steps == 1 ? "shard" : "shards", shards);
-  print_sums(merges.steps == 1 ? "merge" : "merges", merges);
+  print_totals(shards.steps == 1 ? "shard" : "shards", shards);
+  print_totals(merges.steps == 1 ? "merge" : "merges", merges);
   std::printf("  with a machine per step: %.2f s\n", critical_path(plan));
   if (steps) print_steps(plan);
 }

@@ -1,14 +1,14 @@
-// A plan for people, on stdout.
+// Prints a plan for people, on stdout.
 #pragma once
 
 #include "builder/farm/plan/plan.h"
 
 namespace svdag {
 
-// The sums; with `steps`, also what each step will take and its command.
+// Prints the totals; with `steps`, also the prediction and the command of each step.
 void print_plan(const Plan& plan, bool steps);
 
-// Prints a plan of one shard as the bake to `output` that it predicts.
+// Prints the prediction of a bake to `output`, from a plan of one shard.
 void print_bake(const Plan& plan, const std::string& output);
 
 }  // namespace svdag

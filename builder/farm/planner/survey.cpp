@@ -13,7 +13,8 @@ namespace {
 
 constexpr size_t kBatch = 4096;  // triangles read at once
 
-// Towards minus infinity: an error of less than one unit of the coarse lattice, far below a voxel.
+// Rounds towards minus infinity. The error is less than a unit of the coarse lattice, far below a
+// voxel.
 LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
   for (LatticePoint& v : triangle.v) {
     for (int a = 0; a < 3; ++a) v[a] >>= shift;
@@ -49,7 +50,7 @@ Grid coarser_grid(const Grid& grid, int level) {
   return coarse;
 }
 
-// The table, the descent into it, and what they have counted.
+// The node table, the descent that fills it, and their counts.
 class Survey::Baker {
  public:
   Baker(const Grid& grid, const SurveyConfig& config, MemoryBudget* budget)
@@ -98,7 +99,7 @@ Survey::Survey(const Grid& grid, const SurveyConfig& config, MemoryBudget* budge
 
 Survey::~Survey() = default;
 
-bool Survey::count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted,
+bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter,
                    const Visit& visit) {
   if (bin.triangles * sizeof(LatticeTriangle) > config_.triangle_bytes) return false;
   const int shift = fine_.levels + fine_.fraction() - grid_.levels - grid_.fraction();
@@ -115,18 +116,18 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const Wanted& wanted
   CellCursor cursor(tree, config_.descent.overlap());
   for (const Cube& cell : tree.occupied_cells()) {
     const uint64_t code = morton(cell.coordinate);
-    if (wanted && !wanted(code)) continue;
+    if (filter && !filter(code)) continue;
     const Work before = baker_->work();
     baker_->run(cell, cursor.list(cell));
     visit(code, baker_->work() - before);
-    if (part_ != nullptr && wanted_by_part_(code)) part_->baker_->run(cell, cursor.list(cell));
+    if (subset_ != nullptr && in_subset_(code)) subset_->baker_->run(cell, cursor.list(cell));
   }
   return true;
 }
 
-void Survey::share_with(Survey* part, Wanted wanted) {
-  part_ = part;
-  wanted_by_part_ = std::move(wanted);
+void Survey::add_subset(Survey* subset, CellFilter in_subset) {
+  subset_ = subset;
+  in_subset_ = std::move(in_subset);
 }
 
 uint64_t Survey::nodes() {

@@ -1,4 +1,4 @@
-// Plans of tests.
+// Helpers to make and run plans in tests.
 #pragma once
 
 #include "builder/farm/engines/run_step.h"

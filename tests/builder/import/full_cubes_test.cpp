@@ -1,4 +1,4 @@
-// Cubes on their way into an import are counted as they take memory.
+// Memory accounting of the full cubes of an import.
 #include "builder/import/full_cubes.h"
 
 #include <gtest/gtest.h>

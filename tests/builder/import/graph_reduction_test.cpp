@@ -1,4 +1,4 @@
-// A DAG of another program becomes the one of its voxels, by its nodes.
+// Reducing a DAG of another program gives the minimal DAG of its voxels.
 #include "builder/import/graph_reduction.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,7 @@
 namespace svdag {
 namespace {
 
-// The tree of some bricks as a graph: a node for every cube, numbered in the order of a map, and
-// nodes without anything below.
+// The unreduced tree of some bricks, with a node for every cube, including empty bricks.
 class TreeGraph : public NodeGraph {
  public:
   TreeGraph(const BrickMap& bricks, int levels) : grid_(unit_grid(levels)) {
@@ -68,7 +67,7 @@ TEST(GraphReduction, GivesTheBytesOfTheVoxelsWithAnyMemory) {
   const std::string expected = reduce_bricks(bricks, levels, UINT64_MAX, &runs);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(12) << 20, true), expected);
-  // Bricks without voxels, and what leads to nothing else, are not there.
+  // Empty bricks, and nodes that lead only to them, are dropped.
   for (uint32_t x = 0; x < 200; ++x) bricks.try_emplace({x, 100, 77}, 0);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
 }
@@ -93,7 +92,7 @@ class FullGraph : public NodeGraph {
   Brick brick(uint32_t) override { return 0xff; }
 };
 
-TEST(GraphReduction, TimeFollowsTheNodesAndNotTheVoxels) {
+TEST(GraphReduction, TimeDependsOnNodesNotVoxels) {
   const TempFolder folder;
   FullGraph graph;
   SequentialExecutor executor;

@@ -1,4 +1,4 @@
-// Voxels and cubes of another program become a grid that is as small as they allow.
+// Import of voxels and cubes: choice of the grid, errors, and equality of cubes and voxels.
 #include "builder/import/import.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& ou
       config, &executor);
 }
 
-TEST(ImportVoxels, TheGridIsAsSmallAsItsVoxelsAndItsFileAllow) {
+TEST(ImportVoxels, TheGridIsTheSmallestForTheVoxelsAndTheFile) {
   const TempFolder folder;
   const std::string out = folder.file("a.svdag");
   EXPECT_EQ(import_list({{0, 0, 0}}, out, 0).grid.levels, 3);
@@ -43,17 +43,18 @@ TEST(ImportVoxels, TheGridIsAsSmallAsItsVoxelsAndItsFileAllow) {
   EXPECT_EQ(import_list({{5, 5, 5}, {5, 5, 5}}, out, 0).voxels, 1U);
 }
 
-TEST(ImportVoxels, VoxelsOutsideOfTheGridAreRefusedAndTheOldFileStays) {
+TEST(ImportVoxels, RejectsVoxelsOutsideOfTheGridAndKeepsTheOldFile) {
   const TempFolder folder;
   const std::string out = folder.write("a.svdag", "old");
-  EXPECT_SVDAG_ERROR(import_list({{0, 16, 0}}, out, 4), ExitCode::kUsage, "17 at least");
+  EXPECT_SVDAG_ERROR(import_list({{0, 16, 0}}, out, 4), ExitCode::kUsage,
+                     "a resolution of at least 17");
   EXPECT_SVDAG_ERROR(import_list({{0, 0, 0}}, out, 4, {Point(0), 0, 0}), ExitCode::kBadInput,
-                     "voxels.npz: puts its voxels at an impossible place");
+                     "voxels.npz: invalid origin or voxel size of the grid");
   EXPECT_EQ(folder.read("a.svdag"), "old");
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-TEST(ImportVoxels, NothingIsKeptOfASourceThatWasWrittenMeanwhile) {
+TEST(ImportVoxels, RejectsASourceThatChangesDuringTheImport) {
   const TempFolder folder;
   const std::string source = folder.write("voxels.npz", "one");
   const File file = File::open_read(source);
@@ -121,7 +122,7 @@ TEST(ImportVoxels, ACubeAsLargeAsTheGridIsFull) {
   }
 }
 
-TEST(ImportVoxels, MoreVoxelsThanTheDiskCanSortAreRefusedBeforeTheFirst) {
+TEST(ImportVoxels, RejectsMoreVoxelsThanTheDiskCanSortBeforeReading) {
   const TempFolder folder;
   ImportConfig config;
   config.output = folder.file("a.svdag");

@@ -145,7 +145,7 @@ class Export(unittest.TestCase):
         BAKERY.run("svdag", "export", "named.svdag", "-o", "ended.dag.bin")
         self.assertTrue((BAKERY.folder / "ended2k.basic_dag.dag.bin").exists())
         wrong = "atrium64k.basic_dag.dag.bin"
-        self.assertIn("names a grid of 64K^3", BAKERY.run("svdag", "export", "named.svdag", "-o", wrong, "--format", "hashdag", code=2))
+        self.assertIn("the name says 64K^3, but the grid has 2K^3", BAKERY.run("svdag", "export", "named.svdag", "-o", wrong, "--format", "hashdag", code=2))
         self.assertFalse((BAKERY.folder / wrong).exists())
 
     def test_a_position_that_floats_cannot_store_is_rejected(self):

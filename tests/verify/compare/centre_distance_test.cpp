@@ -1,4 +1,4 @@
-// The exact comparison of a centre's distance: right on the bounds, to the last lattice step.
+// Tests of the exact comparison of a centre's distance: correct to the last lattice step.
 #include "verify/compare/centre_distance.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr int64_t kSide = int64_t(1) << kFraction, kHalf = kSide / 2;
 const LatticePoint kVoxel(7, 8, 9);
 const LatticePoint kCentre = kVoxel * kSide + kHalf;
 
-// Points near the centre, by offsets in lattice steps.
+// A triangle by its offsets from the centre, in lattice steps.
 LatticeTriangle around(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
   return {{kCentre + a, kCentre + b, kCentre + c}};
 }
@@ -23,7 +23,7 @@ bool within(const LatticeTriangle& t, int quarters) {
   return centre_within(t, kVoxel, kFraction, quarters);
 }
 
-TEST(CentreDistance, AFaceOfTheCubeIsHalfAVoxelAwayAndNotAStepMore) {
+TEST(CentreDistance, AFaceOfTheCubeIsHalfAVoxelAway) {
   const int64_t far = 100 * kSide;
   const auto plane = [&](int64_t z) {
     return around({-far, -far, z}, {far, -far, z}, {0, far, z});
@@ -34,14 +34,14 @@ TEST(CentreDistance, AFaceOfTheCubeIsHalfAVoxelAwayAndNotAStepMore) {
   EXPECT_FALSE(within(plane(-kHalf - 1), 1));
 }
 
-TEST(CentreDistance, ACornerOfTheCubeIsOnTheOuterBallAndNotAStepMore) {
+TEST(CentreDistance, ACornerOfTheCubeIsOnTheOuterBall) {
   const LatticePoint corner(kHalf, -kHalf, kHalf), beyond = corner * int64_t(3);
   EXPECT_TRUE(within(around(corner, beyond, beyond), 3));
   EXPECT_TRUE(within(around(corner, corner, corner), 3));
   EXPECT_FALSE(within(around(corner + LatticePoint(1, 0, 0), beyond, beyond), 3));
 }
 
-TEST(CentreDistance, AnEdgeIsAsFarAsItsMiddle) {
+TEST(CentreDistance, ALongEdgeIsMeasuredAtItsMiddle) {
   const int64_t far = 1000 * kSide;
   const LatticePoint up(0, 0, far), down(0, 0, -far), out(far, far, 0);
   EXPECT_TRUE(
@@ -50,7 +50,7 @@ TEST(CentreDistance, AnEdgeIsAsFarAsItsMiddle) {
       around(up + LatticePoint(kHalf + 1, 0, 0), down + LatticePoint(kHalf + 1, 0, 0), out), 1));
 }
 
-// Against long double, on all sorts of triangles, where that can tell.
+// Compares with sampled distances in long double, except where they are too close to the bound.
 TEST(CentreDistance, AgreesWithDistancesInLongDouble) {
   using Vector = std::array<long double, 3>;
   std::mt19937_64 random(1);
@@ -66,7 +66,7 @@ TEST(CentreDistance, AgreesWithDistancesInLongDouble) {
         p[a] = kCentre[a] + int64_t(random() % uint64_t(2 * reach)) - reach;
     if (i % 7 == 0) t.v[2] = t.v[1];
     if (i % 11 == 0) t.v[2] = t.v[1] = t.v[0];
-    long double least = INFINITY;  // by sampling: an upper bound that comes close
+    long double smallest = INFINITY;  // squared, by sampling: a close upper bound
     constexpr int kSteps = 160;
     for (int u = 0; u <= kSteps; ++u)
       for (int v = 0; u + v <= kSteps; ++v) {
@@ -76,14 +76,14 @@ TEST(CentreDistance, AgreesWithDistancesInLongDouble) {
                           (long double)(t.v[1][a] - kCentre[a]) * u +
                           (long double)(t.v[2][a] - kCentre[a]) * v) /
                          kSteps / kSide;
-        least = std::min(least, dot(p, p));
+        smallest = std::min(smallest, dot(p, p));
       }
     const long double slack = 0.1L * (long double)(reach / kSide);
     for (const int quarters : {1, 3}) {
-      if (std::sqrt(least) <= std::sqrt(0.25L * quarters)) {
+      if (std::sqrt(smallest) <= std::sqrt(0.25L * quarters)) {
         EXPECT_TRUE(within(t, quarters));
         ++near;
-      } else if (std::sqrt(least) > std::sqrt(0.25L * quarters) + slack) {
+      } else if (std::sqrt(smallest) > std::sqrt(0.25L * quarters) + slack) {
         EXPECT_FALSE(within(t, quarters));
       }
     }

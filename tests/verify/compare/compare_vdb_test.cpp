@@ -1,4 +1,5 @@
-// A DAG against a VDB grid: the counts of set arithmetic, with tiles, levels and turned axes.
+// Tests that comparing a DAG with a VDB grid gives the counts of set arithmetic, with tiles, levels
+// and permuted axes.
 #include "verify/compare/compare_vdb.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ Sizes sizes_of(const VdbComparison& c) {
   return {c.both, c.missing, c.extra};
 }
 
-// What sets say: `theirs` mapped to our voxels.
+// By set arithmetic, with `theirs` mapped to our voxels.
 Sizes expected(const VoxelSet& ours, const FakeVdb& theirs, const IndexMap& map,
                const VoxelBox& window) {
   Sizes sizes;
@@ -59,54 +60,53 @@ class CompareSmallVdb : public CompareVdb {
   CompareSmallVdb() : CompareVdb(5) {}
 };
 
-TEST_F(CompareVdb, TheSameVoxelsAreTheSame) {
+TEST_F(CompareVdb, EqualVoxelSetsAreTheSame) {
   const VdbComparison result = compare({voxel_centres(grid_), voxels_});
   EXPECT_TRUE(result.same());
   EXPECT_EQ(result.both, voxels_.size());
 }
 
-TEST_F(CompareVdb, EachDroppedVoxelIsExtraAndEachAddedOneIsMissing) {
+TEST_F(CompareVdb, ARemovedVoxelIsExtraAndAnAddedOneIsMissing) {
   VoxelSet changed = voxels_;
-  const auto dropped = *changed.begin();
+  const auto removed = *changed.begin();
   changed.erase(changed.begin());
   changed.emplace(200, 201, 202);
   const VdbComparison result = compare({voxel_centres(grid_), changed});
   EXPECT_EQ(sizes_of(result), (Sizes{voxels_.size() - 1, 1, 1}));
   ASSERT_EQ(result.first_extra.size(), 1U);
   EXPECT_EQ(result.first_extra[0],
-            LatticePoint(std::get<0>(dropped), std::get<1>(dropped), std::get<2>(dropped)));
+            LatticePoint(std::get<0>(removed), std::get<1>(removed), std::get<2>(removed)));
   ASSERT_EQ(result.first_missing.size(), 1U);
   EXPECT_EQ(result.first_missing[0], LatticePoint(200, 201, 202));
 }
 
-// The header's number of voxels is not trusted.
-TEST_F(CompareVdb, VoxelsAreCountedWhateverTheHeaderSays) {
+TEST_F(CompareVdb, TheHeadersNumberOfVoxelsIsNotTrusted) {
   VoxelSet fewer = voxels_;
   fewer.erase(fewer.begin());
-  for (const uint64_t said : {uint64_t(0), fewer.size(), voxels_.size() + 1}) {
+  for (const uint64_t recorded : {uint64_t(0), fewer.size(), voxels_.size() + 1}) {
     RawDag raw = raw_dag(grid_, voxels_);
-    raw.voxels = said;
+    raw.voxels = recorded;
     const RawFile stale(raw);
     const FakeVdb theirs(voxel_centres(grid_), fewer);
     CubeWalk walk(stale.view(), uint32_t(grid_.levels));
     VdbComparer comparer(theirs, &walk, fit_grid(theirs, grid_, "x").map, nullptr);
-    EXPECT_EQ(sizes_of(comparer.compare(0)), (Sizes{fewer.size(), 0, 1})) << said;
+    EXPECT_EQ(sizes_of(comparer.compare(0)), (Sizes{fewer.size(), 0, 1})) << recorded;
   }
 }
 
-TEST_F(CompareVdb, ADroppedLeafIsSeen) {
+TEST_F(CompareVdb, ARemovedLeafIsExtra) {
   VoxelSet changed;
   const auto [lx, ly, lz] = *voxels_.begin();
-  uint64_t dropped = 0;
+  uint64_t removed = 0;
   for (const auto& [x, y, z] : voxels_) {
     const bool in_leaf = x >> 3 == lx >> 3 && y >> 3 == ly >> 3 && z >> 3 == lz >> 3;
-    in_leaf ? void(++dropped) : void(changed.emplace(x, y, z));
+    in_leaf ? void(++removed) : void(changed.emplace(x, y, z));
   }
   EXPECT_EQ(sizes_of(compare({voxel_centres(grid_), changed})),
-            (Sizes{voxels_.size() - dropped, 0, dropped}));
+            (Sizes{voxels_.size() - removed, 0, removed}));
 }
 
-TEST_F(CompareSmallVdb, AnyTurnAndShiftGivesTheCountsOfSets) {
+TEST_F(CompareSmallVdb, AnyOrientationAndShiftGivesTheCountsOfSets) {
   std::mt19937_64 random(1);
   std::array<int, 3> axis{0, 1, 2};
   do {
@@ -114,7 +114,7 @@ TEST_F(CompareSmallVdb, AnyTurnAndShiftGivesTheCountsOfSets) {
       const std::array<int, 3> sign{mirror & 1 ? -1 : 1, mirror & 2 ? -1 : 1, mirror & 4 ? -1 : 1};
       const LatticePoint zero(int64_t(random() % 40), int64_t(random() % 40), 17);
       const auto centres = turned_centres(grid_, axis, sign, zero);
-      // Ours as they see it, with some voxels lost and some added.
+      // Our voxels in their index space, with some removed and some added.
       const IndexMap map = fit_grid(FakeVdb(centres, {{0, 0, 0}}), grid_, "x").map;
       VoxelSet theirs;
       for (const auto& [x, y, z] : voxels_) {
@@ -128,7 +128,7 @@ TEST_F(CompareSmallVdb, AnyTurnAndShiftGivesTheCountsOfSets) {
   } while (std::next_permutation(axis.begin(), axis.end()));
 }
 
-TEST_F(CompareVdb, AWindowComparesNothingElse) {
+TEST_F(CompareVdb, OnlyTheWindowIsCompared) {
   VoxelSet theirs = bodies(8, 5);
   theirs.insert(voxels_.begin(), voxels_.end());
   const FakeVdb fake(turned_centres(grid_, {1, 2, 0}, {1, -1, 1}, {0, 255, 0}), theirs,
@@ -140,11 +140,11 @@ TEST_F(CompareVdb, AWindowComparesNothingElse) {
   }
 }
 
-TEST(CompareVdbTiles, TilesAreComparedWithoutBeingUnpacked) {
+TEST(CompareVdbTiles, TilesOfAllSizesAreCompared) {
   const Grid grid = test_grid(9);
   VoxelSet voxels;
   add_box(&voxels, {{128, 0, 128}, {256, 128, 256}});  // a whole tile
-  add_box(&voxels, {{0, 0, 0}, {16, 8, 8}});           // two of the smallest
+  add_box(&voxels, {{0, 0, 0}, {16, 8, 8}});           // two tiles of the smallest size
   voxels.emplace(300, 301, 302);                       // one voxel of a tile
   const RawFile file(raw_dag(grid, voxels));
   CubeWalk walk(file.view(), 9);
@@ -179,11 +179,11 @@ TEST(CompareVdbTiles, TilesAreComparedWithoutBeingUnpacked) {
   EXPECT_EQ(result.missing, tile - 1 + large);
   EXPECT_EQ(result.extra, 512U);
   EXPECT_EQ(result.first_extra.front(), LatticePoint(8, 0, 0));
-  // A missing tile: nothing of it may be called the same.
+  // Without one of the tiles, all its voxels are extra.
   const std::vector<VoxelCube> fewer(tiles.begin() + 1, tiles.end());
   const Tiles lacking(grid, fewer);
-  VdbComparer again(lacking, &walk, fit_grid(lacking, grid, "x").map, nullptr);
-  EXPECT_EQ(again.compare(0).extra, 512U + tile);
+  VdbComparer without_tile(lacking, &walk, fit_grid(lacking, grid, "x").map, nullptr);
+  EXPECT_EQ(without_tile.compare(0).extra, 512U + tile);
 }
 
 }  // namespace

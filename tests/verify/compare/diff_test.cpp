@@ -1,4 +1,4 @@
-// The difference of two DAGs is that of their voxel sets, at the coarser resolution of the two.
+// Tests that the difference of two DAGs is that of their voxel sets, at the coarser resolution.
 #include "verify/compare/diff.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ void expect_difference(const Grid& grid_a, const VoxelSet& a, const Grid& grid_b
   EXPECT_EQ(seen_b, only_b);
 }
 
-TEST(DagDiff, CountsAndListsWhatOnlyOneHas) {
+TEST(DagDiff, CountsAndListsTheVoxelsOfOnlyOne) {
   for (int levels = 3; levels <= 8; ++levels) {
     const Grid grid = test_grid(levels);
     const VoxelSet a = soup_voxels(grid, random_soup(grid, 40, uint64_t(levels), 20));
@@ -64,7 +64,7 @@ TEST(DagDiff, CountsAndListsWhatOnlyOneHas) {
   }
 }
 
-TEST(DagDiff, OfDifferentResolutionsIsAtTheCoarser) {
+TEST(DagDiff, ComparesDifferentResolutionsAtTheCoarser) {
   for (int levels = 3; levels <= 6; ++levels) {
     for (int finer = 1; finer <= 4; ++finer) {
       const Grid grid = test_grid(levels), fine_grid = test_grid(levels + finer);
@@ -78,7 +78,7 @@ TEST(DagDiff, OfDifferentResolutionsIsAtTheCoarser) {
   }
 }
 
-TEST(DagDiff, StopsWhereTheSinkHasHadEnough) {
+TEST(DagDiff, StopsWhenTheSinkReturnsFalse) {
   const Grid grid = test_grid(6);
   const VoxelSet a = soup_voxels(grid, random_soup(grid, 40, 1, 20));
   const RawFile file_a(raw_dag(grid, a)), file_b(raw_dag(grid, {}));
@@ -89,7 +89,7 @@ TEST(DagDiff, StopsWhereTheSinkHasHadEnough) {
   EXPECT_EQ(visits, 3);
 }
 
-TEST(Brick, VoxelOfABitIsTheInverseOfBitOfAVoxel) {
+TEST(Brick, VoxelIsTheInverseOfBit) {
   for (unsigned bit = 0; bit < 64; ++bit) {
     const auto [x, y, z] = brick_voxel(bit);
     EXPECT_EQ(brick_bit(x, y, z), bit);

@@ -1,4 +1,5 @@
-// Grids lie on ours with swapped and mirrored axes, and nothing that is off by more is let through.
+// Tests that grids with permuted and mirrored axes are mapped to ours, and that all others are
+// rejected.
 #include "verify/compare/index_map.h"
 
 #include <gtest/gtest.h>
@@ -48,35 +49,35 @@ TEST(IndexMap, ABoxIsMappedVoxelByVoxel) {
   EXPECT_EQ(map.back(image), box);
 }
 
-TEST(IndexMap, TheLevelWithVoxelsOfThatSizeIsChosen) {
+TEST(IndexMap, TheLevelWithVoxelsOfTheSameSizeIsChosen) {
   const Grid grid = test_grid(6);
   for (int levels = 3; levels <= 6; ++levels)
     EXPECT_EQ(fit_grid(fake(voxel_centres(level_grid(grid, levels))), grid, "x").levels, levels);
 }
 
-TEST(IndexMap, AHalfVoxelIsRefused) {
+TEST(IndexMap, AShiftByHalfAVoxelIsRejected) {
   const Grid grid = test_grid(6);
   IndexToWorld centres = voxel_centres(grid);
-  centres.origin = grid.corner();  // centres where our corners are
+  centres.origin = grid.corner();  // their centres are our corners
   EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage,
                      "its voxel centres are (");
 }
 
-TEST(IndexMap, AScaleThatDriftsOverTheWholeGridIsRefused) {
+TEST(IndexMap, AScaleErrorThatAddsUpOverTheGridIsRejected) {
   const Grid grid = test_grid(6);
   IndexToWorld centres = voxel_centres(grid);
   for (Point& axis : centres.axes) axis *= 1 + 1e-7;
-  EXPECT_EQ(fit_grid(fake(centres, 1000), grid, "x").levels, 6);  // 0.0001 voxel at its end
+  EXPECT_EQ(fit_grid(fake(centres, 1000), grid, "x").levels, 6);  // 0.0001 voxels at the far end
   EXPECT_SVDAG_ERROR(fit_grid(fake(centres, 1'000'000), grid, "x"), ExitCode::kUsage, "away from");
 }
 
-// The grid of a scene of this size there.
+// The grid of a cubic scene with this corner and size.
 Grid grid_at(const Point& low, double size, int levels) {
   return divide_box({low, low + size}, levels);
 }
 
-TEST(IndexMap, OurOwnCentresFitWhereverTheyLie) {
-  // With 64K voxels those at 1e12 are smaller than a step of a double.
+TEST(IndexMap, OurOwnCentresFitAtAnyPosition) {
+  // At 1e12 a voxel of 1/64K is smaller than a step of a double.
   for (const Point low : {Point(1e12, 0, 5), Point(-1e15, 1e6, 0.1), Point(1841111.4, 5e6, -191)}) {
     for (const int levels : {10, 16, 20}) {
       const Grid grid = grid_at(low, 1, levels);
@@ -84,14 +85,14 @@ TEST(IndexMap, OurOwnCentresFitWhereverTheyLie) {
         const int64_t side = int64_t(1) << own;
         const GridFit fit = fit_grid(fake(voxel_centres(level_grid(grid, own)), side), grid, "x");
         EXPECT_EQ(fit.levels, own);
-        EXPECT_FALSE(fit.map.turns());
+        EXPECT_FALSE(fit.map.changes_axes());
         EXPECT_EQ(fit.map.shift, LatticePoint(0));
       }
     }
   }
 }
 
-TEST(IndexMap, AnySizeThatADoubleHoldsFits) {
+TEST(IndexMap, AnySizeWithinTheRangeOfDoubleFits) {
   for (const double size : {1e-300, 1e-160, 1e160, 1e300}) {
     const Grid grid = grid_at(Point(size, 0, -size), size, 10);
     const auto centres = turned_centres(grid, {2, 0, 1}, {-1, 1, -1}, {60, 3, 50});
@@ -102,7 +103,7 @@ TEST(IndexMap, AnySizeThatADoubleHoldsFits) {
   }
 }
 
-TEST(IndexMap, AFewRoundingsOfTheCoordinatesFitAndAQuarterOfAVoxelDoesNot) {
+TEST(IndexMap, AFewRoundingsFitButAQuarterOfAVoxelDoesNot) {
   const double low = 1e11;
   const Grid grid = grid_at(Point(low, 0, 0), 1, 10);
   const double step = std::nextafter(low, 2 * low) - low;
@@ -117,14 +118,14 @@ TEST(IndexMap, AFewRoundingsOfTheCoordinatesFitAndAQuarterOfAVoxelDoesNot) {
                      "voxel centres are (0.2");
 }
 
-TEST(IndexMap, RoundingsThatMayHideAVoxelAreNone) {
+TEST(IndexMap, RoundingsOfHalfAVoxelAreRejected) {
   const Grid grid = grid_at(Point(1e12, 0, 0), 1, 12);
   IndexToWorld centres = voxel_centres(grid);
   centres.origin.x = std::nextafter(centres.origin.x, 2e12);  // half a voxel
   EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "voxel centres are (");
 }
 
-TEST(IndexMap, OtherSizesTurnsAndShearsAreRefused) {
+TEST(IndexMap, OtherSizesRotationsAndShearsAreRejected) {
   const Grid grid = test_grid(6);
   IndexToWorld centres = voxel_centres(grid);
   for (Point& axis : centres.axes) axis *= 3.0;
@@ -134,9 +135,9 @@ TEST(IndexMap, OtherSizesTurnsAndShearsAreRefused) {
   EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "no level of it");
   centres = voxel_centres(grid);
   centres.axes[1] = Point(0.3, 0.4, 0);
-  EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "turned");
+  EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "rotated");
   centres.axes[1] = centres.axes[0];
-  EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "turned");
+  EXPECT_SVDAG_ERROR(fit_grid(fake(centres), grid, "x"), ExitCode::kUsage, "rotated");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Grids are in the same place up to rounding, and up to float32 where a file may have kept that.
+// Tests that grids match up to rounding, and up to float32 where a file may have stored that.
 #include "verify/compare/same_place.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-// `side` is no float32 at any resolution below.
+// Not a float32, and no voxel size derived from it below is one.
 constexpr double kSide = 1.1;
 
 Box cube(double low, double side = kSide) {
@@ -31,8 +31,8 @@ Grid scaled(Grid grid, double factor) {
   return grid;
 }
 
-// As SymVox keeps it: corners of the box and the side as float32.
-Grid through_floats(Grid grid) {
+// Rounds the corners of the box and the side to float32, as SymVox stores them.
+Grid stored_as_float32(Grid grid) {
   const double side = std::ldexp(grid.voxel_size, grid.levels);
   for (int axis = 0; axis < 3; ++axis) {
     const double middle =
@@ -43,7 +43,7 @@ Grid through_floats(Grid grid) {
   return grid;
 }
 
-// Both orders must say the same.
+// Checks that the result does not depend on the order.
 bool same(const Grid& a, const Grid& b) {
   EXPECT_EQ(same_place(a, b), same_place(b, a));
   return same_place(a, b);
@@ -58,7 +58,7 @@ TEST(SamePlace, OneResolutionAllowsAMillionthOfAVoxel) {
       for (const double voxels : {2e-6, 0.01, 0.5, 0.92, 1.0, -0.92})
         EXPECT_FALSE(same(grid, moved(grid, voxels, axis))) << voxels;
     }
-    // The far end of the grid moves by N times the difference.
+    // The far end of the grid moves by N times the difference in voxel size.
     const double n = double(grid.resolution());
     EXPECT_TRUE(same(grid, scaled(grid, 1 + 0.5e-6 / n)));
     for (const double voxels : {3e-6, 0.5, 0.9})
@@ -67,7 +67,7 @@ TEST(SamePlace, OneResolutionAllowsAMillionthOfAVoxel) {
   EXPECT_FALSE(same(bake(10), scaled(bake(10), 1.0005)));
 }
 
-TEST(SamePlace, DivisionsOfOneBoxAtAnyTwoResolutions) {
+TEST(SamePlace, DivisionsOfOneBoxMatchAtAnyTwoResolutions) {
   for (const double low : {0.0, 0.3, -7.7, 1e6}) {
     for (int a = kMinLevels; a <= kMaxLevels; ++a) {
       for (int b = kMinLevels; b <= a; ++b) EXPECT_TRUE(same(bake(a, low), bake(b, low)));
@@ -75,7 +75,7 @@ TEST(SamePlace, DivisionsOfOneBoxAtAnyTwoResolutions) {
   }
 }
 
-TEST(SamePlace, DivisionsOfOtherBoxes) {
+TEST(SamePlace, DivisionsOfDifferentBoxesDoNotMatch) {
   const Grid fine = bake(10), coarse = bake(9);
   for (const double voxels : {1e-5, 0.25, 0.5, -0.5, 1.0})
     EXPECT_FALSE(same(fine, moved(coarse, voxels))) << voxels;
@@ -83,16 +83,16 @@ TEST(SamePlace, DivisionsOfOtherBoxes) {
   EXPECT_FALSE(same(fine, divide_box(cube(0.3, kSide * 1.00001), 9)));
 }
 
-TEST(SamePlace, LevelsOfAGrid) {
+TEST(SamePlace, AGridMatchesItsLevels) {
   const Grid fine = bake(10), level = level_grid(fine, 8);
   EXPECT_TRUE(same(fine, level));
   EXPECT_FALSE(same(fine, moved(level, 1e-5)));
   EXPECT_FALSE(same(fine, scaled(level, 1 + 1e-6)));
-  // It is not what a bake of that resolution gives.
+  // A bake of that resolution has another grid.
   EXPECT_FALSE(same(level, bake(8)));
 }
 
-TEST(SamePlace, LatticesWithVoxelsOfTwiceTheSize) {
+TEST(SamePlace, LatticesMatchAtTwiceTheVoxelSize) {
   const Box box = {Point(1, 2, 3), Point(70, 71, 72)};
   const Grid fine = cover_lattice(box, 0.1), coarse = cover_lattice(box, 0.2);
   ASSERT_EQ(fine.levels, coarse.levels + 1);
@@ -103,7 +103,7 @@ TEST(SamePlace, LatticesWithVoxelsOfTwiceTheSize) {
   EXPECT_FALSE(same(fine, next));
 }
 
-// A way of comparing is for grids that are of its kind: else grids fit by accident.
+// An alignment applies only to grids of its kind; otherwise grids could match by accident.
 TEST(SamePlace, BoxesAndLatticesAreNotMixed) {
   Grid fine = bake(10), coarse = bake(10);
   fine.origin = Point(-0.25);
@@ -116,13 +116,13 @@ TEST(SamePlace, BoxesAndLatticesAreNotMixed) {
     coarse.kind = b;
     return same(fine, coarse);
   };
-  // Boxes of whose first centres one is 0 and one 1/2; as lattices both have a plane at -1/2.
+  // As boxes, the first centres are 0 and 1/2; as lattices, both have a plane at -1/2.
   EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kBox));
   EXPECT_FALSE(kinds(Grid::Kind::kBox, Grid::Kind::kLattice));
   EXPECT_FALSE(kinds(Grid::Kind::kLattice, Grid::Kind::kBox));
 }
 
-TEST(SamePlace, FarFromZeroRoundingIsNoVoxel) {
+TEST(SamePlace, FarFromZeroAWholeVoxelIsNotRounding) {
   for (const double corner : {0x1p50, 0x1p51, 0x1p52}) {
     Grid grid = bake(3);
     grid.voxel_size = 1;
@@ -130,40 +130,40 @@ TEST(SamePlace, FarFromZeroRoundingIsNoVoxel) {
     EXPECT_TRUE(same(grid, grid));
     for (const double voxels : {1.0, 2.0, 4.0}) EXPECT_FALSE(same(grid, moved(grid, voxels)));
   }
-  Grid beyond = bake(3);  // corner and size overflow when one is divided by the other
+  Grid beyond = bake(3);  // the quotient of corner and size overflows
   beyond.origin = Point(1e300);
   beyond.voxel_size = 1e-300;
   EXPECT_TRUE(same(beyond, beyond));
 }
 
-TEST(SamePlace, WhatFloatsKeepNearZero) {
+TEST(SamePlace, NearZeroFloat32PositionsMatch) {
   for (const double low : {0.0, 0.3, -kSide / 2, -7.7}) {
     for (const int levels : {3, 10, 16}) {
-      const Grid grid = bake(levels, low), kept = through_floats(grid);
-      EXPECT_TRUE(same(grid, kept)) << low << ", " << levels;
-      EXPECT_FALSE(same(grid, moved(kept, 0.2)));
+      const Grid grid = bake(levels, low), stored = stored_as_float32(grid);
+      EXPECT_TRUE(same(grid, stored)) << low << ", " << levels;
+      EXPECT_FALSE(same(grid, moved(stored, 0.2)));
     }
   }
   const Grid middle = bake(20, -kSide / 2);
-  EXPECT_TRUE(same(middle, through_floats(middle)));
-  EXPECT_TRUE(same(bake(16), through_floats(level_grid(bake(16), 12))));
+  EXPECT_TRUE(same(middle, stored_as_float32(middle)));
+  EXPECT_TRUE(same(bake(16), stored_as_float32(level_grid(bake(16), 12))));
 }
 
-TEST(SamePlace, WhatOnlyFloatsMayDo) {
-  // The same distance between two bakes cannot be rounding.
-  const Grid grid = bake(16), kept = through_floats(grid);
-  const double voxels = (kept.origin.y - grid.origin.y) / grid.voxel_size;
+TEST(SamePlace, Float32ErrorsOfOtherGridsDoNotMatch) {
+  // Between two bakes the same distance cannot be rounding.
+  const Grid grid = bake(16), stored = stored_as_float32(grid);
+  const double voxels = (stored.origin.y - grid.origin.y) / grid.voxel_size;
   ASSERT_GT(std::abs(voxels), 1e-5);
   EXPECT_FALSE(same(grid, moved(grid, voxels)));
 }
 
-TEST(SamePlace, FloatsThatCannotPlaceAVoxel) {
-  const Grid grid = bake(16, 1e5), kept = through_floats(grid);
-  ASSERT_GT(std::abs(kept.origin.x - grid.origin.x), grid.voxel_size / 8);
-  EXPECT_FALSE(same(grid, kept));
+TEST(SamePlace, Float32PositionsFarFromZeroDoNotMatch) {
+  const Grid grid = bake(16, 1e5), stored = stored_as_float32(grid);
+  ASSERT_GT(std::abs(stored.origin.x - grid.origin.x), grid.voxel_size / 8);
+  EXPECT_FALSE(same(grid, stored));
 }
 
-TEST(SamePlace, HugeAndTinyWorlds) {
+TEST(SamePlace, HugeAndTinyGridsMatchThemselves) {
   for (const double side : {1e-290, 1e300}) {
     const Grid grid = divide_box({Point(0), Point(side)}, 20);
     EXPECT_TRUE(same(grid, grid));

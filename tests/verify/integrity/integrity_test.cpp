@@ -1,4 +1,4 @@
-// Every way in which a file can be sound and still not be the minimal canonical DAG is named.
+// Tests that every way in which a valid file can fail to be the minimal canonical DAG is reported.
 #include "verify/integrity/integrity.h"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ IntegrityReport inspect_raw(const RawDag& raw) {
   return inspect(file.header(), file.view(), file.metadata());
 }
 
-// Whether one of the defects contains `words`.
-::testing::AssertionResult names(const IntegrityReport& report, const std::string& words) {
+// Succeeds if one of the defects contains `words`.
+::testing::AssertionResult reports(const IntegrityReport& report, const std::string& words) {
   std::string all;
   for (const std::string& defect : report.defects) {
     if (defect.find(words) != std::string::npos) return ::testing::AssertionSuccess();
@@ -65,21 +65,21 @@ TEST(Integrity, HandMadeFileIsAcceptedByTheReader) {
   EXPECT_TRUE(inspect(file.header(), file.view(), file.metadata()).sound());
 }
 
-TEST(Integrity, BricksOutOfOrderOrRepeatedOrEmpty) {
+TEST(Integrity, ReportsBricksOutOfOrderOrRepeatedOrEmpty) {
   RawDag raw = good_dag();
   std::swap(raw.bricks[3], raw.bricks[4]);
-  EXPECT_TRUE(names(inspect_raw(raw), "level 4 has 1 bricks that are empty, repeated"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "level 4 has 1 bricks that are empty, repeated"));
   raw = good_dag();
   raw.bricks[4] = raw.bricks[3];
-  EXPECT_TRUE(names(inspect_raw(raw), "bricks that are empty, repeated"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "bricks that are empty, repeated"));
   raw = good_dag();
   raw.bricks[0] = 0;
-  EXPECT_TRUE(names(inspect_raw(raw), "bricks that are empty, repeated"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "bricks that are empty, repeated"));
 }
 
-TEST(Integrity, NodesOutOfOrder) {
-  // Two nodes of level 3 with one child each, exchanged together with the pointers to them: the
-  // same voxels, every node used, only the order is wrong.
+TEST(Integrity, ReportsNodesOutOfOrder) {
+  // Swaps the two nodes of level 1 and the pointers to them: the voxels are the same and every node
+  // is used, only the order is wrong.
   RawDag raw = raw_dag(test_grid(4), {{0, 0, 0}, {8, 8, 8}, {12, 12, 13}});
   ASSERT_EQ(raw.nodes[1], 2U);
   std::vector<uint32_t>& words = raw.words[1];
@@ -89,13 +89,13 @@ TEST(Integrity, NodesOutOfOrder) {
   for (size_t i = 1; i < raw.words[0].size(); ++i)
     raw.words[0][i] = raw.words[0][i] == 0 ? 5 - first : 0;
   const IntegrityReport report = inspect_raw(raw);
-  EXPECT_TRUE(names(report, "level 1 has 1 nodes that are repeated or out of order"));
+  EXPECT_TRUE(reports(report, "level 1 has 1 nodes that are repeated or out of order"));
   EXPECT_EQ(report.defects.size(), 1U);
   EXPECT_EQ(report.voxels, 3U);
 }
 
 TEST(Integrity, RepeatedNodeIsNotReduced) {
-  // Both children of the root are equal, and each has a copy of its own.
+  // Both children of the root are equal, but each is stored separately.
   RawDag raw = raw_dag(test_grid(4), {{0, 0, 0}, {8, 8, 8}});
   ASSERT_EQ(raw.nodes[1], 1U);
   const std::vector<uint32_t> node = raw.words[1];
@@ -103,7 +103,7 @@ TEST(Integrity, RepeatedNodeIsNotReduced) {
   raw.nodes[1] = 2;
   raw.words[0][2] = uint32_t(node.size());
   const IntegrityReport report = inspect_raw(raw);
-  EXPECT_TRUE(names(report, "level 1 has 1 nodes that are repeated or out of order"));
+  EXPECT_TRUE(reports(report, "level 1 has 1 nodes that are repeated or out of order"));
   EXPECT_EQ(report.defects.size(), 1U);
 }
 
@@ -111,55 +111,57 @@ TEST(Integrity, UnusedBrickAndUnusedNodeAreNotMinimal) {
   RawDag raw = good_dag();
   raw.bricks.push_back(~uint64_t(0));
   ++raw.nodes.back();
-  EXPECT_TRUE(names(inspect_raw(raw), "level 4 has 1 nodes that no node uses"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "level 4 has 1 nodes that no node uses"));
   raw = good_dag();
   const uint32_t last = uint32_t(raw.bricks.size() - 1);
   for (const uint32_t word : {0x01U, last}) raw.words[3].push_back(word);
   ++raw.nodes[3];
-  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 nodes that no node uses"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "level 3 has 1 nodes that no node uses"));
 }
 
-TEST(Integrity, WrongCountsInTheHeader) {
+TEST(Integrity, ReportsWrongCountsInTheHeader) {
   RawDag raw = good_dag();
   ++raw.voxels;
-  EXPECT_TRUE(names(inspect_raw(raw), "the header counts " + std::to_string(raw.voxels)));
+  EXPECT_TRUE(reports(inspect_raw(raw), "the header counts " + std::to_string(raw.voxels)));
   raw = good_dag();
   ++raw.nodes[2];
-  EXPECT_TRUE(names(inspect_raw(raw), "level 2 has"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "level 2 has"));
 }
 
-TEST(Integrity, PointersIntoTheMiddleOfANodeOrBeyond) {
+TEST(Integrity, ReportsPointersIntoTheMiddleOfANodeOrBeyond) {
   RawDag raw = good_dag();
   raw.words[0][1] += 1;
-  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 1 pointers that hit no node"));
+  EXPECT_TRUE(
+      reports(inspect_raw(raw), "level 0 has 1 child pointers to words where no node begins"));
   raw = good_dag();
   raw.words[3][1] = uint32_t(raw.bricks.size());
-  EXPECT_TRUE(names(inspect_raw(raw), "level 3 has 1 pointers that hit no node"));
+  EXPECT_TRUE(
+      reports(inspect_raw(raw), "level 3 has 1 child pointers to words where no node begins"));
 }
 
-TEST(Integrity, SecondRoot) {
+TEST(Integrity, ReportsASecondRoot) {
   RawDag raw = good_dag();
   raw.words[0].insert(raw.words[0].end(), {0x80U, 0U});
   ++raw.nodes[0];
-  EXPECT_TRUE(names(inspect_raw(raw), "level 0 has 2 nodes instead of one"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "level 0 has 2 nodes instead of one"));
 }
 
-TEST(Integrity, VoxelOutsideTheSelection) {
+TEST(Integrity, ReportsAVoxelOutsideTheSelection) {
   RawDag raw = good_dag();
   raw.grid.bounded = true;
   EXPECT_TRUE(inspect_raw(raw).sound());
   raw.grid.selection.max.y = 33;
-  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "outside the selection"));
 }
 
-TEST(Integrity, SelectionsAreHeldAgainstEveryVoxel) {
+TEST(Integrity, EveryVoxelIsCheckedAgainstTheSelection) {
   std::mt19937_64 random(5);
   int sound = 0;
   for (int round = 0; round < 600; ++round) {
     const int levels = 3 + round % 4;
     VoxelSet voxels;
     const int64_t at = int64_t(random() % 6);
-    for (int i = 0; i < 3; ++i)  // near each other, so that small selections hold all
+    for (int i = 0; i < 3; ++i)  // close together, so that small selections contain all
       voxels.emplace(at + int64_t(random() % 3), at + int64_t(random() % 3), int64_t(random() % 3));
     RawDag raw = raw_dag(test_grid(levels), voxels);
     raw.grid.bounded = true;
@@ -179,8 +181,8 @@ TEST(Integrity, SelectionsAreHeldAgainstEveryVoxel) {
   EXPECT_LT(sound, 580);
 }
 
-// A pattern that repeats, cut off at the selection, and then with one voxel beside it.
-TEST(Integrity, NodesThatRepeatAreCutBySelectionsInManyWays) {
+// A repeating pattern clipped to the selection, first exactly, then with one voxel outside.
+TEST(Integrity, SharedNodesAreCutBySelectionsInManyWays) {
   std::mt19937_64 random(9);
   for (int round = 0; round < 60; ++round) {
     VoxelBox box;
@@ -209,8 +211,8 @@ TEST(Integrity, NodesThatRepeatAreCutBySelectionsInManyWays) {
   }
 }
 
-// 2^40 voxels in the border's plane, twenty nodes: an answer takes time by nodes.
-TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsAskedByNodes) {
+// 2^40 voxels in the border's plane but 19 nodes: the time must follow the nodes.
+TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsSearchedByNodes) {
   RawDag raw;
   raw.grid = test_grid(20);
   raw.grid.bounded = true;
@@ -221,38 +223,38 @@ TEST(Integrity, AFloorAlongTheBorderOfTheSelectionIsAskedByNodes) {
   raw.grid.selection.max.y = 1;
   EXPECT_TRUE(inspect_raw(raw).sound());
   raw.grid.selection.max.x -= 1;
-  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "outside the selection"));
   raw.grid.selection.max.x += 1;
   raw.grid.selection.min.y = 1;
   raw.grid.selection.max.y = 2;
-  EXPECT_TRUE(names(inspect_raw(raw), "outside the selection"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "outside the selection"));
 }
 
-TEST(Integrity, LatticePlaneOfTheCorner) {
+TEST(Integrity, ReportsALatticePlaneThatIsNotAMultipleOf1024) {
   RawDag raw = good_dag();
   raw.grid.kind = Grid::Kind::kLattice;
   raw.grid.k0 = {-1024, 0, 3072};
   EXPECT_TRUE(inspect_raw(raw).sound());
   for (const int64_t k0 : {1, -1, 512, 1025}) {
     raw.grid.k0.y = k0;
-    EXPECT_TRUE(names(inspect_raw(raw), "k0 of the grid's corner is " + std::to_string(k0) +
-                                            ", not a multiple of 1024"));
+    EXPECT_TRUE(reports(inspect_raw(raw), "k0 of the grid's corner is " + std::to_string(k0) +
+                                              ", not a multiple of 1024"));
   }
 }
 
-TEST(Integrity, LatticePlaneOfABox) {
+TEST(Integrity, ReportsALatticePlaneOfABox) {
   RawDag raw = good_dag();
   raw.grid.k0.z = 1024;
-  EXPECT_TRUE(names(inspect_raw(raw), "the grid is a box, but has a lattice plane k0 = 1024"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "the grid is a box, but has a lattice plane k0 = 1024"));
 }
 
-TEST(Integrity, SnapLargerThanHalfALatticeStep) {
+TEST(Integrity, ReportsASnapLargerThanHalfALatticeStep) {
   RawDag raw = good_dag();
   raw.largest_snap = 0.25;
-  EXPECT_TRUE(names(inspect_raw(raw), "largest snap"));
+  EXPECT_TRUE(reports(inspect_raw(raw), "largest snap"));
 }
 
-TEST(Integrity, MetadataThatSaysSomethingElse) {
+TEST(Integrity, ReportsMetadataThatDiffersFromTheHeader) {
   const RawDag raw = good_dag();
   const RawFile file(raw);
   const std::string voxels = "\"voxels\":" + std::to_string(raw.voxels);
@@ -264,7 +266,7 @@ TEST(Integrity, MetadataThatSaysSomethingElse) {
   EXPECT_TRUE(metadata_defects(file.header(), file.metadata()).empty());
   EXPECT_EQ(with(voxels, voxels + "1").size(), 1U);
   EXPECT_EQ(with("\"box\"", "\"lattice\"").size(), 1U);
-  EXPECT_EQ(with("\"rule\":", "\"ruler\":").size(), 2U);  // one lacks, one is unknown
+  EXPECT_EQ(with("\"rule\":", "\"ruler\":").size(), 2U);  // one key is missing, one unknown
   EXPECT_EQ(with("\"levels\":", "\"levels\":7,\"levels\":"),
             std::vector<std::string>{"the metadata has the key \"levels\" twice"});
   EXPECT_EQ(with("\"corner\":", "\"corner\":0,\"corner\":"),
@@ -278,8 +280,8 @@ TEST(Integrity, MetadataThatSaysSomethingElse) {
             std::vector<std::string>{"the metadata is not a JSON object"});
 }
 
-// Of one value JSON has many texts, and the format one.
-TEST(Integrity, MetadataThatSaysTheSameInOtherWords) {
+// JSON has many texts for one value; the format allows one.
+TEST(Integrity, ReportsEqualMetadataInAnotherText) {
   const RawFile file(good_dag());
   const std::string line(file.metadata());
   std::string spaced = line, real = line;
@@ -293,7 +295,7 @@ TEST(Integrity, MetadataThatSaysTheSameInOtherWords) {
   }
 }
 
-TEST(Integrity, MetadataThatIsNestedDeeperThanAnyStack) {
+TEST(Integrity, ReportsMetadataThatIsNestedTooDeep) {
   const RawFile file(good_dag());
   for (const char* key : {"\"levels\":", "\"corner\":", "\"voxels\":"}) {
     std::string text(file.metadata());
@@ -307,7 +309,7 @@ TEST(Integrity, MetadataThatIsNestedDeeperThanAnyStack) {
   text.replace(at, text.find(',', at) - at, "\"" + std::string(100000, 'x') + "\"");
   const auto defects = metadata_defects(file.header(), text);
   ASSERT_EQ(defects.size(), 1U);
-  EXPECT_LT(defects[0].size(), 200U) << "a long value is cut";
+  EXPECT_LT(defects[0].size(), 200U) << "a long value is truncated";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The judge's clipper against closed forms, and against rational clipping voxel by voxel.
+// Tests of the judge's clipper: against closed forms, and voxel by voxel against rational clipping.
 #include "verify/judge/clip_judge.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ std::vector<LatticeTriangle> box_soup(const LatticePoint& low, const LatticePoin
   return soup;
 }
 
-TEST(Occupancy, PointFillsEightFourTwoOrOneVoxels) {
+TEST(ClipJudge, PointSetsEightFourTwoOrOneVoxels) {
   const auto count = [](const LatticePoint& p) {
     return clipped_voxels({{p, p, p}}, kShift, kWindow).size();
   };
@@ -50,21 +50,21 @@ TEST(Occupancy, PointFillsEightFourTwoOrOneVoxels) {
   EXPECT_EQ(count(scaled(1, 2, 3) + LatticePoint(5, 5, 5)), 1U);
 }
 
-TEST(Occupancy, CornerDiagonalFillsSevenNPlusEightVoxels) {
+TEST(ClipJudge, CornerDiagonalSetsSevenNPlusEightVoxels) {
   for (int64_t n = 1; n <= 20; ++n) {
     const LatticeTriangle t{{scaled(0, 0, 0), scaled(n, n, n), scaled(n, n, n)}};
     EXPECT_EQ(clipped_voxels(t, kShift, kWindow).size(), size_t(7 * n + 8));
   }
 }
 
-TEST(Occupancy, CornerTriangleFillsTwoCSquaredPlusNineCPlusEightVoxels) {
+TEST(ClipJudge, CornerTriangleSetsTwoCSquaredPlusNineCPlusEightVoxels) {
   for (int64_t c = 1; c <= 30; ++c) {
     const LatticeTriangle t{{scaled(c, 0, 0), scaled(0, c, 0), scaled(0, 0, c)}};
     EXPECT_EQ(clipped_voxels(t, kShift, kWindow).size(), size_t(2 * c * c + 9 * c + 8));
   }
 }
 
-TEST(Occupancy, BoxShellIsTwoVoxelsThickOnPlanesAndOneBetween) {
+TEST(ClipJudge, BoxShellIsTwoVoxelsThickOnPlanesAndOneBetween) {
   const int64_t a = 5, b = 7, c = 9;
   EXPECT_EQ(soup_voxels(box_soup(scaled(0, 0, 0), scaled(a, b, c))).size(),
             size_t((a + 2) * (b + 2) * (c + 2) - (a - 2) * (b - 2) * (c - 2)));
@@ -73,7 +73,7 @@ TEST(Occupancy, BoxShellIsTwoVoxelsThickOnPlanesAndOneBetween) {
             size_t((a + 1) * (b + 1) * (c + 1) - (a - 1) * (b - 1) * (c - 1)));
 }
 
-TEST(Occupancy, AgreesWithRationalClippingOnEveryFamilyAndAxis) {
+TEST(ClipJudge, AgreesWithRationalClippingOnEveryFamilyAndAxis) {
   std::mt19937_64 random(1);
   for (int family = 0; family < kFamilies; ++family) {
     for (int i = 0; i < 60; ++i) {
@@ -89,7 +89,7 @@ TEST(Occupancy, AgreesWithRationalClippingOnEveryFamilyAndAxis) {
   }
 }
 
-TEST(Occupancy, LargeTrianglesAgreeWithRationalClippingInSmallWindows) {
+TEST(ClipJudge, LargeTrianglesAgreeWithRationalClippingInSmallWindows) {
   std::mt19937_64 random(2);
   const int shift = 23;
   int occupied = 0;
@@ -103,10 +103,10 @@ TEST(Occupancy, LargeTrianglesAgreeWithRationalClippingInSmallWindows) {
       ASSERT_EQ(clipped_voxels(t, shift, window, axis), expected) << i << ", axis " << axis;
     }
   }
-  EXPECT_GT(occupied, 30);  // the windows do see triangles
+  EXPECT_GT(occupied, 30);  // enough windows are not empty
 }
 
-TEST(Occupancy, EveryAxisGivesTheSameVoxels) {
+TEST(ClipJudge, EveryAxisGivesTheSameVoxels) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 2000; ++i) {
     const LatticeTriangle t = family_triangle(random, i % kFamilies, 40 * kSide);
@@ -116,22 +116,22 @@ TEST(Occupancy, EveryAxisGivesTheSameVoxels) {
   }
 }
 
-TEST(Occupancy, WindowsCutTheWholeWithoutChangingIt) {
+TEST(ClipJudge, WindowsTogetherGiveTheWhole) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
     const LatticeTriangle t = family_triangle(random, i % kFamilies, 20 * kSide);
-    VoxelSet pieces;
+    VoxelSet joined;
     for (int x = -32; x < 32; x += 16) {
       for (int y = -32; y < 32; y += 16) {
         const LatticePoint low(x, y, -32);
-        pieces.merge(clipped_voxels(t, kShift, {low, low + LatticePoint(16, 16, 64)}));
+        joined.merge(clipped_voxels(t, kShift, {low, low + LatticePoint(16, 16, 64)}));
       }
     }
-    ASSERT_EQ(pieces, clipped_voxels(t, kShift, {LatticePoint(-32), LatticePoint(32)})) << i;
+    ASSERT_EQ(joined, clipped_voxels(t, kShift, {LatticePoint(-32), LatticePoint(32)})) << i;
   }
 }
 
-TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
+TEST(ClipJudge, CoarserCellsAreTheParents) {
   std::mt19937_64 random(5);
   const VoxelBox whole{LatticePoint(-64), LatticePoint(64)};
   for (int i = 0; i < 500; ++i) {
@@ -145,7 +145,7 @@ TEST(Occupancy, CoarserCellsAreExactlyTheParents) {
   }
 }
 
-TEST(Occupancy, TouchesIsTheOneCellWindow) {
+TEST(ClipJudge, TouchesIsTheOneCellWindow) {
   const auto judge = make_judge({});
   const LatticeTriangle t{{scaled(0, 0, 0), scaled(4, 0, 0), scaled(0, 4, 0)}};
   EXPECT_TRUE(judge->touches(t, kShift, {0, 0, 0}));
@@ -155,8 +155,8 @@ TEST(Occupancy, TouchesIsTheOneCellWindow) {
   EXPECT_FALSE(judge->touches(t, kShift, {3, 3, 0}));
 }
 
-// Winding, order of vertices and whole-voxel translation change nothing.
-RC_GTEST_PROP(Occupancy, IsInvariant, (uint64_t seed, uint8_t family)) {
+// The result does not depend on winding, order of vertices or a whole-voxel translation.
+RC_GTEST_PROP(ClipJudge, IsInvariant, (uint64_t seed, uint8_t family)) {
   std::mt19937_64 random(seed);
   const LatticeTriangle t = family_triangle(random, family % kFamilies, 6 * kSide);
   const VoxelSet voxels = clipped_voxels(t, kShift, kWindow);

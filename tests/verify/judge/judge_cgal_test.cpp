@@ -1,4 +1,4 @@
-// The two judges agree, triangle by triangle and in both comparisons.
+// Tests that the two judges agree, triangle by triangle, and in full and sampled comparisons.
 #include "verify/judge/judge_cgal.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 #ifndef SVDAG_HAS_CGAL
 
-TEST(CgalJudge, IsRefusedWhereItIsNotBuilt) {
+TEST(CgalJudge, IsRejectedInABuildWithoutCgal) {
   EXPECT_SVDAG_ERROR(make_cgal_judge(Rule::kThin), ExitCode::kUsage, "built without CGAL");
 }
 
@@ -23,10 +23,10 @@ TEST(CgalJudge, IsRefusedWhereItIsNotBuilt) {
 constexpr VoxelBox kWindow{LatticePoint(-64), LatticePoint(64)};
 constexpr JudgeChoice::Kind kCgal = JudgeChoice::Kind::kCgal;
 
-// Both judges of both rules on one triangle; counts what they set.
+// Compares both judges with both rules, one triangle at a time, and counts the voxels they set.
 class Agreement {
  public:
-  ::testing::AssertionResult holds(const LatticeTriangle& t, int shift, const VoxelBox& window) {
+  ::testing::AssertionResult check(const LatticeTriangle& t, int shift, const VoxelBox& window) {
     for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
       Judge& integer = *integer_[size_t(rule)];
       Judge& cgal = *cgal_[size_t(rule)];
@@ -37,8 +37,8 @@ class Agreement {
     }
     return ::testing::AssertionSuccess();
   }
-  size_t touched() const { return set_[0]; }
-  size_t crossed() const { return set_[1]; }
+  size_t conservative() const { return set_[0]; }
+  size_t thin() const { return set_[1]; }
 
  private:
   using Pair = std::array<std::unique_ptr<Judge>, 2>;
@@ -54,14 +54,14 @@ TEST(CgalJudge, AgreesOnEveryFamilyAndSize) {
     for (int i = 0; i < 60; ++i) {
       const int64_t reach = std::array<int64_t, 3>{kSide, 3 * kSide, 10 * kSide}[size_t(i % 3)];
       const LatticeTriangle t = family_triangle(random, family, reach);
-      ASSERT_TRUE(judges.holds(t, kShift, kWindow)) << "family " << family << ", triangle " << i;
+      ASSERT_TRUE(judges.check(t, kShift, kWindow)) << "family " << family << ", triangle " << i;
     }
-    EXPECT_GT(judges.touched(), 100U);
-    EXPECT_EQ(judges.crossed() == 0, family >= 3 && family <= 5);  // those of zero area
+    EXPECT_GT(judges.conservative(), 100U);
+    EXPECT_EQ(judges.thin() == 0, family >= 3 && family <= 5);  // the families of zero area
   }
 }
 
-TEST(CgalJudge, AgreesOnSliversOfARealLattice) {
+TEST(CgalJudge, AgreesOnSliversOnAFineLattice) {
   std::mt19937_64 random(2);
   const int shift = 23;
   Agreement judges;
@@ -72,12 +72,12 @@ TEST(CgalJudge, AgreesOnSliversOfARealLattice) {
     }
     t.v[2] = t.v[0] + (t.v[1] - t.v[0]) / int64_t(3);
     t.v[2][i % 3] += int64_t(random() % 3);  // aspect 10^7 and more
-    ASSERT_TRUE(judges.holds(t, shift, kWindow)) << i;
+    ASSERT_TRUE(judges.check(t, shift, kWindow)) << i;
   }
-  EXPECT_GT(judges.touched(), 1000U);
+  EXPECT_GT(judges.conservative(), 1000U);
 }
 
-TEST(CgalJudge, AgreesOnGiantsInsideAndBeyond128Bits) {
+TEST(CgalJudge, AgreesOnGiantsWithinAndBeyond128Bits) {
   std::mt19937_64 random(3);
   const int shift = 23;
   const VoxelBox window{LatticePoint(-6), LatticePoint(6)};
@@ -86,13 +86,13 @@ TEST(CgalJudge, AgreesOnGiantsInsideAndBeyond128Bits) {
     LatticeTriangle t = random_giant(random, i % 2 == 0);
     if (i % 3 != 0) t.v[2] = -t.v[0] - t.v[1] + LatticePoint(int64_t(random() % 100000000));
     if (i % 5 == 0) t.v[2] = t.v[0];  // a long segment
-    ASSERT_TRUE(judges.holds(t, shift, window)) << i;
+    ASSERT_TRUE(judges.check(t, shift, window)) << i;
   }
-  EXPECT_GT(judges.touched(), 1000U);
-  EXPECT_GT(judges.crossed(), 500U);
+  EXPECT_GT(judges.conservative(), 1000U);
+  EXPECT_GT(judges.thin(), 500U);
 }
 
-// The judged file of each rule, seen by both comparisons with CGAL, and with one voxel taken out.
+// For each rule, both comparisons with CGAL find the one voxel that the file lacks.
 TEST(CgalJudge, ComparesWholeFilesAndSamplesOfBothRules) {
   const Grid grid = test_grid(6);
   const auto soup = random_soup(grid, 25, 4, 12);
@@ -101,14 +101,14 @@ TEST(CgalJudge, ComparesWholeFilesAndSamplesOfBothRules) {
     VoxelSet voxels;
     for (const LatticeTriangle& t : soup)
       voxels.merge(judged_voxels(*integer, t, grid.fraction(), grid.selection));
-    const size_t right = voxels.size();
-    ASSERT_GT(right, 100U);
+    const size_t expected = voxels.size();
+    ASSERT_GT(expected, 100U);
     voxels.erase(voxels.begin());
     const RawFile file(raw_dag(grid, voxels));
     ParallelExecutor executor(2);
     Progress progress;
     const Comparison all = compare_all(file.view(), grid, soup, {kCgal, rule}, executor, progress);
-    EXPECT_EQ(all.judge_voxels, right);
+    EXPECT_EQ(all.judge_voxels, expected);
     EXPECT_EQ(all.missing, 1U);
     EXPECT_EQ(all.extra, 0U);
 
@@ -118,7 +118,7 @@ TEST(CgalJudge, ComparesWholeFilesAndSamplesOfBothRules) {
     const auto judge = make_judge({kCgal, rule});
     for (const LatticeTriangle& t : soup) sample.add(t, *judge);
     const Comparison sampled = sample.compare(file.view());
-    EXPECT_EQ(sampled.judge_voxels, right);
+    EXPECT_EQ(sampled.judge_voxels, expected);
     EXPECT_EQ(sampled.missing, 1U);
   }
 }

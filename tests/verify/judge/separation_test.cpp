@@ -1,4 +1,4 @@
-// A closed mesh separates its inside from its outside: no path of free voxels leads across.
+// Tests that a thin closed mesh separates inside from outside: no path of free voxels crosses it.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -9,25 +9,26 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kReach = 9;  // voxels from the middle; tetrahedra stay inside by one voxel
+// Half the side of the grid, in voxels; tetrahedra keep one voxel away from the border.
+constexpr int64_t kReach = 9;
 constexpr int kSize = 2 * int(kReach);
 
-// Free voxels that a path over faces reaches from the corner of the grid, where no mesh is.
+// The free voxels that a path over faces reaches from the corner of the grid, which is outside.
 class Flood {
  public:
   explicit Flood(const VoxelSet& walls) : state_(size_t(kSize * kSize * kSize), 0) {
     for (const auto& [x, y, z] : walls) at({x, y, z}) = kWall;
-    std::vector<LatticePoint> open{LatticePoint(-kReach)};
-    at(open.back()) = kReached;
-    while (!open.empty()) {
-      const LatticePoint from = open.back();
-      open.pop_back();
+    std::vector<LatticePoint> pending{LatticePoint(-kReach)};
+    at(pending.back()) = kReached;
+    while (!pending.empty()) {
+      const LatticePoint from = pending.back();
+      pending.pop_back();
       for (int i = 0; i < 6; ++i) {
         LatticePoint to = from;
         to[i / 2] += i % 2 ? 1 : -1;
         if (to[i / 2] < -kReach || to[i / 2] >= kReach || at(to) != 0) continue;
         at(to) = kReached;
-        open.push_back(to);
+        pending.push_back(to);
       }
     }
   }
@@ -42,9 +43,9 @@ class Flood {
   std::vector<char> state_;
 };
 
-using Plane = SymbolicForm<Int128>;  // coordinates below 2^27 keep it below 2^85
+using Plane = SymbolicForm<Int128>;  // with coordinates below 2^27 its values are below 2^85
 
-// A tetrahedron and, opposite to each corner, the plane of a face.
+// planes[i] is that of the face opposite to corners[i].
 struct Tetrahedron {
   std::array<LatticePoint, 4> corners;
   std::array<Plane, 4> planes;
@@ -52,7 +53,7 @@ struct Tetrahedron {
   LatticeTriangle face(size_t i) const {
     return {{corners[(i + 1) % 4], corners[(i + 2) % 4], corners[(i + 3) % 4]}};
   }
-  // Whether the moved point is inside; a flat tetrahedron has no inside.
+  // True if the symbolically shifted point is inside; a flat tetrahedron contains no point.
   bool contains(const LatticePoint& p) const {
     for (size_t i = 0; i < 4; ++i) {
       const Int128 at_corner = planes[i].value_at(corners[i]);
@@ -77,7 +78,7 @@ TEST(Separation, ThinShellsOf1500TetrahedraHaveNoLeak) {
   const VoxelBox window{LatticePoint(-kReach), LatticePoint(kReach)};
   uint64_t tested = 0, leaks = 0;
   for (int i = 0; i < 1500; ++i) {
-    const int shift = 1 + i % 4 * 7;  // 2 lattice steps a voxel: all ties; up to 2^22
+    const int shift = 1 + i % 4 * 7;  // from 2 lattice steps a voxel, where all tests tie, to 2^22
     const Tetrahedron t = random_tetrahedron(random, shift);
     VoxelSet walls;
     for (size_t f = 0; f < 4; ++f) walls.merge(thin_set(t.face(f), shift, window));
@@ -93,7 +94,7 @@ TEST(Separation, ThinShellsOf1500TetrahedraHaveNoLeak) {
   }
   EXPECT_EQ(leaks, 0U);
   EXPECT_GT(tested, 20000U);
-  std::printf("%llu voxels inside were tested\n", static_cast<unsigned long long>(tested));
+  std::printf("%llu inside voxels tested\n", static_cast<unsigned long long>(tested));
 }
 
 }  // namespace

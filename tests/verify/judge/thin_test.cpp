@@ -1,4 +1,4 @@
-// The judge of the rule thin against the rule's definition, and what the rule promises.
+// Tests of the judge of the rule thin: against the rule's definition, and the rule's properties.
 #include "verify/judge/thin.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ LatticePoint centre(int64_t x, int64_t y, int64_t z) {
   return centre_of({x, y, z}, kShift);
 }
 
-// How often the triangles together set each voxel along axis w alone.
+// The number of times that the triangles set each voxel by segments of axis w.
 std::map<std::tuple<int64_t, int64_t, int64_t>, int> hits(const std::vector<LatticeTriangle>& soup,
                                                           int w) {
   std::map<std::tuple<int64_t, int64_t, int64_t>, int> count;
@@ -63,7 +63,7 @@ TEST(Thin, LargeTrianglesAgreeInSmallWindows) {
   int occupied = 0;
   for (int i = 0; i < 600; ++i) {
     LatticeTriangle t = random_giant(random, i % 3 == 0);
-    // The first two decide that the plane passes a centre, exactly or nearly.
+    // The centroid is a voxel's centre, or a third of a lattice step beside it.
     if (i % 2 == 0) t.v[2] = -t.v[0] - t.v[1] + (int64_t(3) << 22) + int64_t(random() % 2);
     const VoxelBox window{LatticePoint(-3), LatticePoint(3)};
     const VoxelSet expected = symbolic_voxels(t, shift, window);
@@ -73,7 +73,7 @@ TEST(Thin, LargeTrianglesAgreeInSmallWindows) {
   EXPECT_GT(occupied, 60);
 }
 
-TEST(Thin, CornersOfTheAllowedRangeAgree) {
+TEST(Thin, ExtremeCoordinatesAgree) {
   std::mt19937_64 random(4);
   const int shift = 23;
   for (const int64_t limit : {(int64_t(1) << 41) - 1, int64_t(1) << 41, (int64_t(1) << 62) - 1}) {
@@ -82,7 +82,7 @@ TEST(Thin, CornersOfTheAllowedRangeAgree) {
       for (LatticePoint& p : t.v) {
         for (int a = 0; a < 3; ++a) p[a] = random() % 2 ? limit : -limit;
       }
-      // Through the middle of the window, by way of one more vertex.
+      // An edge through the middle of the window.
       if (i % 2 == 0) t.v[2] = -t.v[0];
       if (i % 4 == 0) t.v[2].x = (t.v[2].x >> shift << shift) + (int64_t(1) << (shift - 1));
       const VoxelBox window{LatticePoint(-2), LatticePoint(2)};
@@ -91,9 +91,10 @@ TEST(Thin, CornersOfTheAllowedRangeAgree) {
   }
 }
 
-TEST(Thin, RectanglesBetweenCentresFillHalfOpenRanges) {
+TEST(Thin, RectanglesBetweenCentresSetHalfOpenRanges) {
   for (int w = 0; w < 3; ++w) {
-    for (const int64_t height : {0, 5, 8, 15}) {  // on a plane, between, at the centres
+    // On a plane, between, at the centres, below the next plane.
+    for (const int64_t height : {0, 5, 8, 15}) {
       LatticePoint p[4];
       for (int i = 0; i < 4; ++i) {
         p[i] = centre(0, 0, 0);
@@ -113,7 +114,7 @@ TEST(Thin, RectanglesBetweenCentresFillHalfOpenRanges) {
 
 TEST(Thin, FanAroundACentreSetsItsVoxelExactlyOnceAlongEachAxis) {
   const LatticePoint hub = centre(2, 3, 4);
-  // A ring in a plane through the hub that is tilted against all axes; edges run through centres.
+  // A ring in a plane through the hub, oblique to all axes; its edges pass through centres.
   const LatticePoint a(3 * kSide, -kSide, 0), b(0, 2 * kSide, -kSide);
   const LatticePoint ring[8] = {a, a + b, b, b - a, -a, -a - b, -b, a - b};
   std::vector<LatticeTriangle> fan;
@@ -132,7 +133,7 @@ TEST(Thin, FanAroundACentreSetsItsVoxelExactlyOnceAlongEachAxis) {
   }
 }
 
-TEST(Thin, LineThroughClosedMeshEntersAsOftenAsItLeaves) {
+TEST(Thin, LineCrossesAClosedMeshAnEvenNumberOfTimes) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 300; ++i) {
     const LatticeTriangle base = family_triangle(random, 8 * (i % 2), 5 * kSide);
@@ -166,17 +167,17 @@ TEST(Thin, SetsOnlyVoxelsThatTheTriangleTouches) {
   }
 }
 
-// Cutting an edge at a lattice point of it, winding, order of vertices, whole-voxel translation,
-// and cutting the window change nothing.
+// The result does not depend on winding, order of vertices, a whole-voxel translation, a division
+// of the window, or a split of an edge at a lattice point.
 RC_GTEST_PROP(Thin, IsInvariant, (uint64_t seed, uint8_t family)) {
   std::mt19937_64 random(seed);
   LatticeTriangle t = family_triangle(random, family % kFamilies, 6 * kSide);
   const VoxelSet voxels = thin_set(t, kShift, kWindow);
   RC_ASSERT(thin_set({{t.v[2], t.v[1], t.v[0]}}, kShift, kWindow) == voxels);
   RC_ASSERT(thin_set({{t.v[1], t.v[2], t.v[0]}}, kShift, kWindow) == voxels);
-  VoxelSet pieces = thin_set(t, kShift, {LatticePoint(-64), LatticePoint(64, 1, 64)});
-  pieces.merge(thin_set(t, kShift, {LatticePoint(-64, 1, -64), LatticePoint(64)}));
-  RC_ASSERT(pieces == voxels);
+  VoxelSet joined = thin_set(t, kShift, {LatticePoint(-64), LatticePoint(64, 1, 64)});
+  joined.merge(thin_set(t, kShift, {LatticePoint(-64, 1, -64), LatticePoint(64)}));
+  RC_ASSERT(joined == voxels);
   LatticeTriangle moved = t;
   for (LatticePoint& p : moved.v) p += LatticePoint(3, -5, 7) * kSide;
   VoxelSet back;

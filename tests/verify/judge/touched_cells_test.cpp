@@ -1,4 +1,4 @@
-// The touched cells are those whose closed cube meets the closed box, exactly.
+// Tests that the touched cells are exactly those whose closed cube meets the closed box.
 #include "verify/judge/touched_cells.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ bool is_touched(int64_t k, int64_t low, int64_t high, int shift) {
   return k * side <= high && (k + 1) * side >= low;
 }
 
-TEST(TouchedCells, AreThoseOfTheDefinitionOnEachAxis) {
+TEST(TouchedCells, MatchTheDefinitionOnEachAxis) {
   for (int shift = 0; shift <= 3; ++shift) {
     for (int64_t low = -20; low <= 20; ++low) {
       for (int64_t high = low; high <= 20; ++high) {
@@ -24,14 +24,14 @@ TEST(TouchedCells, AreThoseOfTheDefinitionOnEachAxis) {
   }
 }
 
-TEST(TouchedCells, AreCutToTheWindow) {
+TEST(TouchedCells, AreClippedToTheWindow) {
   const VoxelBox window{{0, -2, 3}, {4, 9, 5}};
   // On each axis: beyond both ends, within, on a plane of the window.
   const LatticeBox box{{-100, 8, 24}, {100, 11, 24}};
   EXPECT_EQ(touched_cells(box, 3, window), (VoxelBox{{0, 0, 3}, {4, 2, 4}}));
 }
 
-TEST(TouchedCells, AreNoneWhereTheWindowIsMissed) {
+TEST(TouchedCells, AreNoneIfTheWindowIsMissed) {
   const VoxelBox window{{0, 0, 0}, {4, 4, 4}};
   EXPECT_FALSE(touched_cells({{32, 5, 5}, {40, 6, 6}}, 3, window).empty());  // touches plane 4
   EXPECT_TRUE(touched_cells({{33, 5, 5}, {40, 6, 6}}, 3, window).empty());
@@ -39,7 +39,7 @@ TEST(TouchedCells, AreNoneWhereTheWindowIsMissed) {
   EXPECT_TRUE(touched_cells({{5, -9, 5}, {6, -1, 6}}, 3, window).empty());
 }
 
-TEST(TouchedCells, HoldFarFromZero) {
+TEST(TouchedCells, AreExactFarFromZero) {
   const int64_t far = (int64_t(1) << 61) + 1;
   EXPECT_EQ(first_touched(far, 20), int64_t(1) << 41);
   EXPECT_EQ(first_touched(far - 1, 20), (int64_t(1) << 41) - 1);

@@ -1,4 +1,4 @@
-// All bricks: a right file agrees, and every single wrong voxel is found where it is.
+// Tests of the full comparison: a correct file agrees, and every wrong voxel is found and located.
 #include "verify/sample/compare.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ Comparison compare(const Grid& grid, const std::vector<LatticeTriangle>& soup,
   return compare_all(file.view(), grid, soup, {}, executor, progress);
 }
 
-TEST(Compare, RightFileAgreesOnEveryGrid) {
+TEST(Compare, CorrectFileAgreesOnEveryGrid) {
   for (int levels = 3; levels <= 8; ++levels) {
     const Grid grid = test_grid(levels);
     const auto soup = random_soup(grid, 60, uint64_t(levels), 20);
@@ -34,21 +34,21 @@ TEST(Compare, TrianglesAcrossManyTilesAgree) {
   EXPECT_TRUE(compare(grid, soup, soup_voxels(grid, soup)).agrees());
 }
 
-TEST(Compare, EachLostVoxelIsMissingAndEachAddedOneIsExtra) {
+TEST(Compare, ARemovedVoxelIsMissingAndAnAddedOneIsExtra) {
   const Grid grid = test_grid(7);
   const auto soup = random_soup(grid, 40, 3, 30);
   VoxelSet voxels = soup_voxels(grid, soup);
-  const auto lost = *std::next(voxels.begin(), ptrdiff_t(voxels.size() / 2));
-  voxels.erase(lost);
+  const auto removed = *std::next(voxels.begin(), ptrdiff_t(voxels.size() / 2));
+  voxels.erase(removed);
   const Comparison missing = compare(grid, soup, voxels);
   ASSERT_EQ(missing.missing, 1U);
   EXPECT_EQ(missing.extra, 0U);
   EXPECT_EQ(missing.wrong_bricks, 1U);
   const LatticePoint& at = missing.first.at(0).voxel;
-  EXPECT_EQ(std::make_tuple(at.x, at.y, at.z), lost);
+  EXPECT_EQ(std::make_tuple(at.x, at.y, at.z), removed);
   EXPECT_TRUE(missing.first[0].missing);
 
-  voxels.insert(lost);
+  voxels.insert(removed);
   int64_t z = 0;
   while (voxels.count({100, 100, z}) != 0) ++z;
   voxels.emplace(100, 100, z);
@@ -82,16 +82,16 @@ TEST(Compare, OnlyTheSelectionCounts) {
   EXPECT_EQ(compare(grid, soup, all).extra, all.size() - selected.size());
 }
 
-TEST(Compare, ThreadsDoNotChangeTheAnswer) {
+TEST(Compare, ThreadsDoNotChangeTheResult) {
   const Grid grid = test_grid(8);
   const auto soup = random_soup(grid, 9000, 8, 3);
-  const VoxelSet right = soup_voxels(grid, soup);
+  const VoxelSet expected = soup_voxels(grid, soup);
   VoxelSet voxels;
-  for (const auto& [x, y, z] : right) {
+  for (const auto& [x, y, z] : expected) {
     if ((x + y + z) % 5 != 0) voxels.emplace(x, y, z);
   }
   const Comparison one = compare(grid, soup, voxels, 1), three = compare(grid, soup, voxels, 3);
-  EXPECT_EQ(one.missing, right.size() - voxels.size());
+  EXPECT_EQ(one.missing, expected.size() - voxels.size());
   EXPECT_EQ(one.missing, three.missing);
   EXPECT_EQ(one.wrong_bricks, three.wrong_bricks);
   ASSERT_EQ(one.first.size(), three.first.size());

@@ -1,5 +1,5 @@
-// Sampled bricks: judged as in a full comparison, drawn from the whole file, and able to find
-// errors.
+// Tests of sampled bricks: they are judged as in a full comparison, drawn from the whole file and
+// scene, and find errors.
 #include "verify/sample/sample.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::vector<uint64_t> all_codes(const Grid& grid) {
   return codes;
 }
 
-TEST(CellCode, GoesThereAndBack) {
+TEST(CellCode, IsInvertible) {
   EXPECT_EQ(cell_code({1, 0, 0}), 4U);
   EXPECT_EQ(cell_code({0, 1, 0}), 2U);
   EXPECT_EQ(cell_code({0, 0, 1}), 1U);
@@ -30,7 +30,7 @@ TEST(CellCode, GoesThereAndBack) {
   }
 }
 
-TEST(BrickSample, AllBricksTogetherAreTheFullComparison) {
+TEST(BrickSample, ASampleOfAllBricksEqualsTheFullComparison) {
   const Grid grid = test_grid(7);
   for (const int64_t side : {2, 30, 300}) {
     const auto soup = random_soup(grid, 50, uint64_t(side), side);
@@ -47,7 +47,7 @@ TEST(BrickSample, AllBricksTogetherAreTheFullComparison) {
   }
 }
 
-TEST(BrickSample, FewBricksGetExactlyTheirVoxels) {
+TEST(BrickSample, ASmallSampleGetsExactlyItsVoxels) {
   const Grid grid = test_grid(7);
   const auto soup = random_soup(grid, 300, 9, 40);
   const VoxelSet voxels = soup_voxels(grid, soup);
@@ -66,7 +66,7 @@ TEST(BrickSample, FewBricksGetExactlyTheirVoxels) {
 TEST(SampleDag, DrawsEachOccupiedBrickEquallyOften) {
   const Grid grid = test_grid(5);
   VoxelSet voxels;
-  for (int i = 0; i < 8; ++i) voxels.emplace(4 * i, 0, 0);  // 8 equal bricks: one in the DAG
+  for (int i = 0; i < 8; ++i) voxels.emplace(4 * i, 0, 0);  // 8 equal bricks, shared in the DAG
   voxels.emplace(31, 31, 31);
   voxels.emplace(0, 17, 30);
   const RawFile file(raw_dag(grid, voxels));
@@ -78,7 +78,7 @@ TEST(SampleDag, DrawsEachOccupiedBrickEquallyOften) {
   EXPECT_TRUE(drawn.count(cell_code({7, 7, 7})));
 }
 
-// A small closed scene as a file, so that the streaming half is the real one.
+// A small closed scene, streamed from a file.
 class SampledScene : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -86,7 +86,7 @@ class SampledScene : public ::testing::Test {
   }
   void write(const std::string& off) { path_ = folder_.write("scene.off", off); }
   Scene scene() { return Scene({{path_}, {}, false}, &budget_); }
-  // The right voxels, from triangles that are snapped but not streamed brick by brick.
+  // The expected voxels, by clipping every triangle over the whole selection.
   VoxelSet voxels(const Grid& grid) {
     VoxelSet set;
     stream_snapped(scene(), grid, [&](std::span<const LatticeTriangle> batch) {
@@ -107,29 +107,29 @@ class SampledScene : public ::testing::Test {
   MemoryBudget budget_;
 };
 
-TEST_F(SampledScene, RightFileAgreesAndBothHalvesAreDrawn) {
+TEST_F(SampledScene, CorrectFileAgreesAndBothHalvesAreDrawn) {
   const Grid grid = divide_box(scene().bounds(), 7);
   const SampleComparison result = compare(grid, voxels(grid), 2000);
   EXPECT_TRUE(result.comparison.agrees());
   EXPECT_GT(result.comparison.bricks, 500U);
   EXPECT_EQ(result.file.draws, 1000U);
   for (const DrawnBricks& drawn : result.scene) EXPECT_NEAR(double(drawn.draws), 333, 1);
-  // Of an empty file only the scene's half can be drawn.
+  // From an empty file nothing can be drawn; the scene's half remains.
   const SampleComparison empty = compare(grid, {}, 2000);
   EXPECT_GT(empty.comparison.bricks, 300U);
   EXPECT_GT(empty.comparison.wrong_bricks, empty.comparison.bricks / 2);
   EXPECT_EQ(empty.file.draws, 0U);
 }
 
-TEST_F(SampledScene, OneDrawIsTheScenesAndSeesAnEmptyFile) {
+TEST_F(SampledScene, ASingleDrawIsFromTheSceneAndDetectsAnEmptyFile) {
   const Grid grid = divide_box(scene().bounds(), 7);
   const SampleComparison result = compare(grid, {}, 1);
   EXPECT_EQ(result.comparison.bricks, 1U);
   EXPECT_EQ(result.comparison.wrong_bricks, 1U);
 }
 
-// Scope of the bounds: completely missing bricks are not bricks of the file.
-TEST_F(SampledScene, MissingBricksAreSeenByTheScenesDrawsAlone) {
+// Limit of the file's draws: a completely missing brick is not among the file's bricks.
+TEST_F(SampledScene, MissingBricksAreFoundOnlyByTheScenesDraws) {
   const Grid grid = divide_box(scene().bounds(), 7);
   VoxelSet lacking = voxels(grid);
   std::erase_if(lacking, [](const auto& v) { return std::get<0>(v) < 64; });
@@ -138,9 +138,9 @@ TEST_F(SampledScene, MissingBricksAreSeenByTheScenesDrawsAlone) {
   for (const DrawnBricks& drawn : result.scene) EXPECT_GT(drawn.wrong, 0U);
 }
 
-// Two walls, 8 x 8 and 8 x 24: a file without the smaller lacks a quarter of the area, and of the
-// longest edges what 8 sqrt(2) is of them all.
-TEST_F(SampledScene, WrongDrawsAreTheShareOfAreaAndLength) {
+// Two walls, 8 x 8 and 8 x 24: a file without the smaller one lacks a quarter of the area, and the
+// share sqrt(2) / (sqrt(2) + sqrt(10)) of the length of the longest edges.
+TEST_F(SampledScene, WrongDrawsEstimateTheShareOfAreaAndLength) {
   write(
       "OFF\n8 4 0\n0 0 0\n8 0 0\n8 8 0\n0 8 0\n0 0 24\n8 0 24\n8 24 24\n0 24 24\n"
       "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
@@ -157,7 +157,7 @@ TEST_F(SampledScene, WrongDrawsAreTheShareOfAreaAndLength) {
   EXPECT_NEAR(share(Measure::kTriangle), 0.5, 0.05);
 }
 
-// No area, and one triangle among many: only by its length is a needle drawn.
+// A needle has no area and is one triangle of many: only the draw by length finds it.
 TEST_F(SampledScene, NeedlesWithoutAreaAreDrawn) {
   std::string corners, faces;
   constexpr int kDots = 5000;
@@ -182,7 +182,7 @@ TEST_F(SampledScene, NeedlesWithoutAreaAreDrawn) {
   EXPECT_EQ(result.scene[size_t(Measure::kArea)].wrong, 0U);
 }
 
-// The part of the scene in the bounds is drawn from, however small it is.
+// Only the part of the scene in the bounds is drawn from, however small it is.
 TEST_F(SampledScene, EveryDrawIsWithinTheBounds) {
   Grid grid = divide_box(scene().bounds(), 8);
   grid.bounded = true;
@@ -200,11 +200,11 @@ TEST_F(SampledScene, EveryDrawIsWithinTheBounds) {
   }
 }
 
-TEST_F(SampledScene, NothingDrawnIsNoAnswerUnlessNothingIsThere) {
+TEST_F(SampledScene, WithoutDrawsTheResultIsUntestedOrBothEmpty) {
   write("OFF\n3 1 0\n0 0 0\n0 8 8\n8 0 8\n3 0 1 2\n");
   Grid grid = divide_box(scene().bounds(), 6);
   grid.bounded = true;
-  // Inside the triangle's box, where the triangle is not.
+  // Inside the triangle's box, but away from the triangle.
   grid.selection = {LatticePoint(0, 0, 40), LatticePoint(4, 4, 44)};
   EXPECT_TRUE(compare(grid, {}, 10).untested);
   EXPECT_FALSE(compare(grid, {}, 10).both_empty);
@@ -215,11 +215,11 @@ TEST_F(SampledScene, NothingDrawnIsNoAnswerUnlessNothingIsThere) {
   EXPECT_FALSE(compare(grid, {}, 10).untested);
 }
 
-TEST_F(SampledScene, FindsErrorsThatAreNotRare) {
+TEST_F(SampledScene, FindsFrequentErrors) {
   const Grid grid = divide_box(scene().bounds(), 7);
-  const VoxelSet right = voxels(grid);
-  VoxelSet lacking, exceeding = right;
-  for (const auto& [x, y, z] : right) {
+  const VoxelSet expected = voxels(grid);
+  VoxelSet lacking, exceeding = expected;
+  for (const auto& [x, y, z] : expected) {
     if (((x >> 2) + (y >> 2) + (z >> 2)) % 20 != 0) lacking.emplace(x, y, z);
   }
   for (int64_t i = 0; i < 128; i += 4) exceeding.emplace(i, i, 127);
@@ -238,7 +238,7 @@ TEST_F(SampledScene, GridThatCutsTheSceneIsReported) {
   EXPECT_FALSE(judgement.recomputed);
   ASSERT_EQ(judgement.defects.size(), 1U);
   EXPECT_NE(judgement.defects[0].find("does not hold the scene: on x"), std::string::npos);
-  moved.bounded = true;  // then the scene may reach out of it
+  moved.bounded = true;  // then the scene may extend beyond the grid
   EXPECT_TRUE(judge_grid(moved, box).defects.empty());
   const Grid lattice = cover_lattice(box, 0.125);
   EXPECT_TRUE(judge_grid(lattice, box).recomputed);

@@ -1,4 +1,4 @@
-// What the judge says of a scene by its snap, held against what a bake and its header say.
+// Compares the judge's largest move by the snap with that of a bake and that in a header.
 #include "verify/sample/snapped_scene.h"
 
 #include <gtest/gtest.h>
@@ -32,27 +32,27 @@ class SnappedSceneTest : public ::testing::Test {
   MemoryBudget budget_;
 };
 
-TEST_F(SnappedSceneTest, TheLargestMoveIsThatOfABakeToTheLastBit) {
+TEST_F(SnappedSceneTest, TheLargestMoveEqualsThatOfABake) {
   const Grid grid = divide_box(Scene(config_, &budget_).bounds(), 8);
   EXPECT_GT(baked(grid), 0);
   EXPECT_EQ(judged(grid).largest_move, baked(grid));
   int different = 0;
   for (const double at : {0.05, 0.2, 0.4, 0.6, 0.8}) {
-    const Grid part = select_bounds(grid, {Point(at), Point(at + 0.02)});
-    EXPECT_EQ(judged(part).largest_move, baked(part)) << at;
-    different += baked(part) != baked(grid);
+    const Grid bounded = select_bounds(grid, {Point(at), Point(at + 0.02)});
+    EXPECT_EQ(judged(bounded).largest_move, baked(bounded)) << at;
+    different += baked(bounded) != baked(grid);
   }
-  EXPECT_GT(different, 0);  // only triangles that the selection may need are tested
+  EXPECT_GT(different, 0);  // only triangles near the selection are counted
 }
 
-TEST_F(SnappedSceneTest, AnotherMoveInTheHeaderIsADefectAndNoneIsNoClaim) {
+TEST_F(SnappedSceneTest, ADifferentMoveInTheHeaderIsADefectButZeroIsUnrecorded) {
   SnapCounts counts;
   counts.largest_move = 0x1p-25;
   EXPECT_EQ(snap_defect(0x1p-25, counts), "");
   EXPECT_EQ(snap_defect(0, counts), "");
   EXPECT_EQ(snap_defect(0x1p-26, counts),
-            "the header says that the snap moved the scene by up to 1.4901161193847656e-08 voxels, "
-            "it is 2.9802322387695312e-08");
+            "the header records a largest snap of 1.4901161193847656e-08 voxels, "
+            "but it is 2.9802322387695312e-08");
 }
 
 }  // namespace

@@ -32,19 +32,19 @@ class Engines : public ::testing::Test {
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
   }
-  // The requested commands, a line each.
-  std::string asked() const { return read_bytes(folder_.file("asked")); }
-  ptrdiff_t times_asked(const std::string& shard) const {
-    std::istringstream lines(asked());
+  // The last argument of each command that was started, one per line.
+  std::string started_commands() const { return read_bytes(folder_.file("commands")); }
+  ptrdiff_t start_count(const std::string& shard) const {
+    std::istringstream lines(started_commands());
     return std::count(std::istream_iterator<std::string>(lines), {}, shard);
   }
-  // The sbatch calls of `submit`, a line each; a job's number is that of its line.
+  // The sbatch calls of submit(); the id of a job is the number of its call, from 1.
   std::vector<std::string> submitted(const SlurmConfig& config = {}) const {
-    const std::string log = folder_.file("asked");
+    const std::string log = folder_.file("commands");
     std::filesystem::remove(log);
     program("sbatch", "echo \"$@\" >> " + log + "; wc -l < " + log);
     submit(config);
-    std::istringstream lines(asked());
+    std::istringstream lines(started_commands());
     std::vector<std::string> jobs;
     for (std::string line; std::getline(lines, line);) jobs.push_back(line);
     return jobs;
@@ -58,7 +58,7 @@ class Engines : public ::testing::Test {
   }
   void run(const std::string& script) const {
     RunLocalConfig config;
-    config.program = program("svdag", "echo \"$4\" >> " + folder_.file("asked") + "\n" + script);
+    config.program = program("svdag", "echo \"$4\" >> " + folder_.file("commands") + "\n" + script);
     config.processes = 2;
     config.quiet = true;
     run_local(plan_, config);
@@ -70,54 +70,54 @@ class Engines : public ::testing::Test {
 
 TEST_F(Engines, RunEveryStepAfterItsInputs) {
   run("");
-  const std::string lines = asked();
+  const std::string lines = started_commands();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()));
   EXPECT_LT(lines.find("1\n"), lines.find("merge-1"));
   EXPECT_LT(lines.find("merge-1"), lines.find("merge-3"));
   EXPECT_LT(lines.find("merge-2"), lines.find("merge-3"));
 }
 
-TEST_F(Engines, TryAgainOnceWhatMayPass) {
+TEST_F(Engines, RetryTemporaryFailuresOnce) {
   const std::string flag = folder_.file("flag");
   run("[ \"$4\" != 2 ] || [ -e " + flag + " ] || { touch " + flag + "; exit 4; }");
-  const std::string lines = asked();
+  const std::string lines = started_commands();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 1);
 }
 
-TEST_F(Engines, CountNoAttemptAtAStepThatAnotherProcessDoes) {
-  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("asked") + ") = 4 ] || exit 75");
-  EXPECT_EQ(times_asked("2"), 4);
+TEST_F(Engines, CountNoAttemptWhileAnotherProcessRunsTheStep) {
+  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("commands") + ") = 4 ] || exit 75");
+  EXPECT_EQ(start_count("2"), 4);
 }
 
-TEST_F(Engines, DoTheOtherStepsWhileAnotherProcessDoesOne) {
+TEST_F(Engines, RunOtherStepsWhileAnotherProcessRunsOne) {
   std::optional<ScratchDir> others(plan_.path(plan_.steps[0].output) + ".scratch");
   const std::jthread end([&] {
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (times_asked("merge-2") == 0 && std::chrono::steady_clock::now() < patience)
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (start_count("merge-2") == 0 && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     others.reset();
   });
   run("");
-  const std::string lines = "\n" + asked();
+  const std::string lines = "\n" + started_commands();
   EXPECT_GT(lines.find("\n1\n"), lines.find("\nmerge-2\n")) << lines;
-  EXPECT_EQ(times_asked("1"), 1) << "no process is started in vain";
+  EXPECT_EQ(start_count("1"), 1) << "no process is started only to wait";
 }
 
-// Shard 2 fails by itself, each time when another process has just begun it.
-TEST_F(Engines, CountTheAttemptsThatFailWhileAnotherProcessBeginsTheStep) {
+// Shard 2 fails each time just after another process has started it.
+TEST_F(Engines, CountAttemptsThatFailWhileAnotherProcessStartsTheStep) {
   const std::string scratch = plan_.path(plan_.steps[1].output) + ".scratch";
   const std::string owner = scratch + "/owner";
-  const std::string tries = "$(grep -c '^2$' " + folder_.file("asked") + ")";
+  const std::string tries = "$(grep -c '^2$' " + folder_.file("commands") + ")";
   EXPECT_SVDAG_ERROR(run("[ \"$4\" = 2 ] && [ " + tries + " -le 5 ] || exit 0\n" +  //
                          "mkdir -p " + scratch + "\n" +                             //
                          "flock " + owner + " sleep 1 &\n" +                        //
                          "while flock -n " + owner + " true; do :; done\n" +        //
                          "exit 4"),
                      ExitCode::kOutput, "shard-2 failed");
-  EXPECT_EQ(times_asked("2"), 2);
+  EXPECT_EQ(start_count("2"), 2);
 }
 
-TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {
+TEST_F(Engines, RejectTemplatesWithInvalidUtf8) {
   Plan moved = plan_;
   moved.folder += "/caf\xe9";
   EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is not valid UTF-8");
@@ -131,30 +131,30 @@ TEST_F(Engines, ATemplateLeadsToItsPlanOrIsRefused) {
   std::filesystem::current_path(here);
 }
 
-TEST_F(Engines, LeaveOutWhatCannotBeDoneAndTellWhy) {
+TEST_F(Engines, SkipDependentsOfAFailedStepAndReportIt) {
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 2 ] || { echo 'svdag: it is broken' >&2; exit 3; }"),
                      ExitCode::kBadInput, "shard-2 failed: it is broken");
-  const std::string lines = asked();
+  const std::string lines = started_commands();
   EXPECT_NE(lines.find("merge-2"), std::string::npos) << "merge-2 does not need shard-2";
   EXPECT_EQ(lines.find("merge-1"), std::string::npos);
   EXPECT_EQ(lines.find("merge-3"), std::string::npos);
 }
 
-TEST_F(Engines, GiveUpWhatFailsTwice) {
+TEST_F(Engines, FailAStepThatFailsTwice) {
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -9 $$"), ExitCode(128 + 9),
-                     "shard-1 failed: it was ended by signal 9, often because no memory was left");
+                     "shard-1 failed: killed by signal 9, often for lack of memory");
 }
 
-TEST_F(Engines, TellWhatWasSaidThisTimeOnly) {
+TEST_F(Engines, ReportOnlyMessagesOfThisRun) {
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || { echo 'svdag: it is broken'; exit 3; }"),
                      ExitCode::kBadInput, "shard-1 failed: it is broken");
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -11 $$"), ExitCode(128 + 11),
-                     "shard-1 failed: it was ended by signal 11 (");
+                     "shard-1 failed: killed by signal 11 (");
   EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || exit 3"), ExitCode::kBadInput,
-                     "shard-1 failed: it said nothing, exit code 3 (");
+                     "shard-1 failed: no message, exit code 3 (");
 }
 
-TEST_F(Engines, MakeTheFoldersThatACopyOfAPlanLacks) {
+TEST_F(Engines, CreateFoldersThatACopyOfAPlanLacks) {
   for (const char* name : {"logs", "runs"}) std::filesystem::remove_all(plan_.path(name));
   run("");
   EXPECT_TRUE(std::filesystem::exists(plan_.path("logs/shard-1.log")));
@@ -169,7 +169,7 @@ TEST_F(Engines, NameTheLogThatCannotBeWritten) {
   EXPECT_SVDAG_ERROR(run(""), ExitCode::kOutput, "logs/shard-1.log: cannot be opened: ");
 }
 
-TEST_F(Engines, SubmitAnArrayOfShardsAndMergesThatWaitForTheirs) {
+TEST_F(Engines, SubmitAnArrayOfShardsAndMergesWithDependencies) {
   SlurmConfig config;
   config.options = {"--partition=bake"};
   const std::vector<std::string> jobs = submitted(config);
@@ -182,7 +182,7 @@ TEST_F(Engines, SubmitAnArrayOfShardsAndMergesThatWaitForTheirs) {
   EXPECT_NE(jobs[3].find("--dependency=afterok:2:3 "), std::string::npos) << jobs[3];
 }
 
-TEST_F(Engines, SubmitOnlyWhatIsMissing) {
+TEST_F(Engines, SubmitOnlyMissingSteps) {
   for (const size_t i : {0, 1, 3}) do_step(plan_, plan_.steps[i]);
   do_step(plan_, find_step(plan_, "merge-1"));
   const std::vector<std::string> jobs = submitted();
@@ -191,7 +191,7 @@ TEST_F(Engines, SubmitOnlyWhatIsMissing) {
   EXPECT_NE(jobs[1].find("afterok:1_3 "), std::string::npos) << jobs[1];
 }
 
-// The words of `line` that begin with `option`, without it.
+// The value of the first word of `line` that begins with `option`; "none" without one.
 std::string value_of(const std::string& line, const std::string& option) {
   const size_t at = line.find(option);
   return at == std::string::npos
@@ -201,20 +201,20 @@ std::string value_of(const std::string& line, const std::string& option) {
 
 class LargePlans : public Engines {
  protected:
-  // A plan of so many shards, of which nothing is ever done.
+  // Makes a plan that is never run.
   void prepare(size_t shards) {
     PlanConfig config = plan_config(folder_.file("scene.stl"), 5, folder_.file("large"), shards);
     config.fan_in = 1000;
     plan_ = plan_of(config);
   }
-  // What task `task` of the job `line` would run.
+  // The output of task `task` of the job that the sbatch call `line` submits.
   std::string run_by(const std::string& line, const std::string& task) const {
     const std::string script = line.substr(line.find_last_of(' ') + 1);
-    return ask_process({"env", "SLURM_ARRAY_TASK_ID=" + task, "sh", script}).output;
+    return run_process({"env", "SLURM_ARRAY_TASK_ID=" + task, "sh", script}).output;
   }
 };
 
-TEST_F(LargePlans, GoInArraysOfAThousandWhereSlurmDoesNotSayMore) {
+TEST_F(LargePlans, UseArraysOfAThousandWithoutAReportedLimit) {
   prepare(2005);
   program("scontrol", "exit 1");
   SlurmConfig config;
@@ -235,7 +235,7 @@ TEST_F(LargePlans, GoInArraysOfAThousandWhereSlurmDoesNotSayMore) {
   EXPECT_NE((last + ":").find(":3_5:"), std::string::npos) << last;
 }
 
-TEST_F(LargePlans, GoInArraysAsSmallAsSlurmWants) {
+TEST_F(LargePlans, UseArraysWithinTheLimitOfSlurm) {
   prepare(25);
   program("scontrol", "echo 'Slurm data'; echo 'MaxArraySize            = 55'");
   const std::vector<std::string> jobs = submitted();
@@ -244,7 +244,7 @@ TEST_F(LargePlans, GoInArraysAsSmallAsSlurmWants) {
   EXPECT_EQ(value_of(jobs[2], "--array="), "0-5");
 }
 
-TEST_F(LargePlans, GoShardByShardWhereSlurmHasNoArrays) {
+TEST_F(LargePlans, UseAJobPerShardIfSlurmHasNoArrays) {
   prepare(3);
   program("scontrol", "echo 'MaxArraySize            = 0'");
   SlurmConfig config;
@@ -256,23 +256,23 @@ TEST_F(LargePlans, GoShardByShardWhereSlurmHasNoArrays) {
   EXPECT_EQ(value_of(jobs[3], "--dependency="), "afterok:1:2:3");
 }
 
-TEST_F(Engines, SayWhatSbatchSays) {
+TEST_F(Engines, ReportTheErrorOfSbatch) {
   program("sbatch", "echo 'sbatch: error: no such partition' >&2; exit 1");
   EXPECT_SVDAG_ERROR(submit({}), ExitCode::kOutput, "no such partition");
 }
 
-TEST_F(Engines, TellWhatIsQueuedWhenSbatchRefusesTheRest) {
+TEST_F(Engines, ReportQueuedJobsWhenSbatchRejectsTheRest) {
   program("sbatch",
           "for last; do :; done\n"
           "case $last in *merge-2*) exit 1;; *merge-1*) echo 8;; *) echo 7;; esac\n");
   ::testing::internal::CaptureStderr();
-  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kOutput, "sbatch refused merge-2");
+  EXPECT_SVDAG_ERROR(submit({}), ExitCode::kOutput, "sbatch rejected merge-2");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(),
-            "svdag: what was submitted goes on (squeue --jobs=7,8) until it is done, or cancelled "
-            "(scancel 7 8)\n");
+            "svdag: submitted jobs stay queued: list them with squeue --jobs=7,8, cancel them with "
+            "scancel 7 8\n");
 }
 
-TEST_F(Engines, NameLogsInAFolderWithAPercentSign) {
+TEST_F(Engines, EscapeAPercentSignInPathsOfLogs) {
   const std::string folder = folder_.file("50%away");
   std::filesystem::rename(plan_.folder, folder);
   plan_.folder = folder;
@@ -281,7 +281,7 @@ TEST_F(Engines, NameLogsInAFolderWithAPercentSign) {
   EXPECT_NE(jobs[0].find("/50%%away/logs/shard-%a.slurm.log "), std::string::npos) << jobs[0];
 }
 
-TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
+TEST_F(Engines, GiveOtherHostsAbsolutePaths) {
   const auto described = [&](const std::string& program, const std::string& scratch) {
     OpenJdConfig config;
     config.program = program;
@@ -296,11 +296,11 @@ TEST_F(Engines, LeadOtherHostsToTheProgramAndTheScratchFolder) {
   const std::string here = std::filesystem::current_path().string() + "/";
   EXPECT_EQ(described("bin/svdag", "spill"), std::pair(here + "bin/svdag", here + "spill"));
   EXPECT_EQ(described("svdag", "/spill"), std::pair(std::string("svdag"), std::string("/spill")));
-  EXPECT_EQ(described("svdag", "/link/../spill").second, "/link/../spill");  // of the host's link
+  EXPECT_EQ(described("svdag", "/link/../spill").second, "/link/../spill");  // /link of the host
 }
 
-// In a template "{{x}}" is a variable, but not in defaults of parameters.
-TEST_F(Engines, WriteNoTemplateIntoATemplate) {
+// In a template "{{x}}" is a variable, except in default values of parameters.
+TEST_F(Engines, WriteNoVariablesFromNamesIntoATemplate) {
   for (const std::string& name : {std::string("{{city}}.svdag"), std::string(130, 'a')}) {
     plan_.steps.back().output = name;
     const auto json = nlohmann::json::parse(openjd_template(plan_, {"", "/a {{b}}", ""}));
@@ -310,7 +310,7 @@ TEST_F(Engines, WriteNoTemplateIntoATemplate) {
   }
 }
 
-TEST_F(Engines, LeadNodesToTheProgramAndTheScratchFolder) {
+TEST_F(Engines, GiveSlurmNodesAbsolutePaths) {
   SlurmConfig config;
   config.program = "bin/svdag";
   config.scratch = "spill";
@@ -321,7 +321,7 @@ TEST_F(Engines, LeadNodesToTheProgramAndTheScratchFolder) {
   EXPECT_NE(script.find(" --scratch " + here + "spill\n"), std::string::npos) << script;
 }
 
-TEST_F(Engines, DescribeStagesToOpenJobDescription) {
+TEST_F(Engines, WriteATemplateStepPerStage) {
   OpenJdConfig config;
   config.path = plan_.path("openjd.json");
   const auto json = nlohmann::json::parse(openjd_template(plan_, config));
@@ -336,14 +336,14 @@ TEST_F(Engines, DescribeStagesToOpenJobDescription) {
   EXPECT_EQ(json["parameterDefinitions"][0]["default"], ".");
 }
 
-TEST(Shell, WordsAreReadAsTheyWere) {
+TEST(Shell, QuotedWordsAreReadBackUnchanged) {
   for (const std::string word : {"plain", "a b", "it's", "$HOME", "", "a\\b\"c", "*"})
-    EXPECT_EQ(ask_process({"sh", "-c", "printf %s " + shell_word(word)}).output, word);
+    EXPECT_EQ(run_process({"sh", "-c", "printf %s " + shell_word(word)}).output, word);
 }
 
-TEST(Process, ThatIsNotThereIsAnError) {
-  EXPECT_SVDAG_ERROR(ask_process({"/no/such/program"}), ExitCode::kOutput, "cannot be started");
-  EXPECT_EQ(ask_process({"sh", "-c", "kill -9 $$"}).code, 137);
+TEST(Process, MissingProgramIsAnError) {
+  EXPECT_SVDAG_ERROR(run_process({"/no/such/program"}), ExitCode::kOutput, "cannot be started");
+  EXPECT_EQ(run_process({"sh", "-c", "kill -9 $$"}).code, 137);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The steps of a plan: the same bytes as one bake, done once, and never with what is not theirs.
+// The steps of a plan give the bytes of one bake, keep valid outputs, and reject foreign inputs.
 #include "builder/farm/engines/run_step.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 class Steps : public ::testing::Test {
  protected:
-  // Bakes in one piece what the steps must equal.
+  // Bakes the scene without a plan: the expected result.
   void prepare(const std::vector<Triangle>& triangles, int levels) {
     levels_ = levels;
     write_stl(scene_, triangles);
@@ -54,7 +54,7 @@ TEST_F(Steps, GiveTheBytesOfOneBakeWithoutTheScene) {
   }
 }
 
-TEST_F(Steps, GiveTheBytesOfOneBakeWhateverTheirRuleBoundsAndMemory) {
+TEST_F(Steps, GiveTheBytesOfOneBakeWithRuleBoundsAndLittleMemory) {
   prepare(bumpy_sphere(60), 8);
   BuildConfig one = config_for(scene_, folder_.file("one.svdag"), 8);
   one.bounds = Box{{-0.5, -0.9, -0.4}, {0.8, 0.2, 0.7}};
@@ -71,43 +71,43 @@ TEST_F(Steps, GiveTheBytesOfOneBakeWhateverTheirRuleBoundsAndMemory) {
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), read_bytes(one.output));
 }
 
-TEST_F(Steps, AreDoneOnceAndWhatIsNotTheirsIsReplaced) {
+TEST_F(Steps, KeepValidOutputsAndReplaceOthers) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   do_steps(plan);
   for (const PlanStep& step : plan.steps) {
     const std::string path = plan.path(step.output), bytes = read_bytes(path);
-    EXPECT_TRUE(do_step(plan, step).kept);
+    EXPECT_TRUE(do_step(plan, step).done_before);
     std::string flipped = bytes;
     flipped[bytes.size() * 2 / 3] ^= 1;
     for (const std::string& other : {std::string(), bytes.substr(0, bytes.size() / 2), flipped}) {
       write(path, other);
-      EXPECT_FALSE(do_step(plan, step).kept);
+      EXPECT_FALSE(do_step(plan, step).done_before);
       EXPECT_EQ(read_bytes(path), bytes);
     }
     std::filesystem::remove(receipt_path(plan, step));
-    EXPECT_FALSE(do_step(plan, step).kept) << "a file without a receipt";
+    EXPECT_FALSE(do_step(plan, step).done_before) << "a file without a receipt";
     EXPECT_EQ(read_bytes(path), bytes);
   }
 }
 
-TEST_F(Steps, ThatAnotherProcessDoesMayBeAskedForAgain) {
+TEST_F(Steps, ReportThatAnotherProcessRunsThem) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   for (const PlanStep& step : plan.steps) {
     {
       const ScratchDir others(plan.path(step.output) + ".scratch");
-      EXPECT_TRUE(is_being_done(plan, step, {}));
-      EXPECT_SVDAG_ERROR(do_step(plan, step), kDoneElsewhere,
-                         "another process is doing " + step.name);
+      EXPECT_TRUE(runs_elsewhere(plan, step, {}));
+      EXPECT_SVDAG_ERROR(do_step(plan, step), kRunsElsewhere,
+                         "another process is running " + step.name);
     }
-    EXPECT_FALSE(is_being_done(plan, step, {}));
+    EXPECT_FALSE(runs_elsewhere(plan, step, {}));
     do_step(plan, step);
   }
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
 }
 
-// What a killed bake without a triangle leaves behind.
+// Leaves the scratch of a killed bake of an empty scene.
 void leave_unfinished(const std::string& folder, const std::string& description, const Grid& grid) {
   Workspace workspace(folder, 0, 1);
   Checkpoint checkpoint(&workspace);
@@ -115,7 +115,7 @@ void leave_unfinished(const std::string& folder, const std::string& description,
   checkpoint.save_split({});
 }
 
-TEST_F(Steps, DiscardWhatAnotherPlanLeftInTheirScratch) {
+TEST_F(Steps, DiscardScratchOfAnotherPlan) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   for (const PlanStep& step : plan.steps) {
@@ -135,7 +135,7 @@ std::string description_of(const Plan& plan, const PlanStep& shard) {
   return describe(own, {});
 }
 
-// What a killed shard leaves behind that had saved its first brick.
+// Leaves the scratch of a killed shard that had saved its first brick.
 void leave_a_brick(const Plan& plan, const PlanStep& shard) {
   Workspace workspace(plan.path(shard.output) + ".scratch", 0, 1);
   Scratch& scratch = *workspace.scratch();
@@ -166,8 +166,8 @@ void write_journal(const std::string& scratch, SavedKind kind) {
   journal.append(uint32_t(kind), std::vector<std::byte>(4));
 }
 
-// Nothing passes --restart: svdag run and farms start a step without options.
-TEST_F(Steps, BeginAfreshWhereTheirScratchIsDamaged) {
+// svdag run and farms start steps without --restart.
+TEST_F(Steps, StartOverIfTheirScratchIsDamaged) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   const PlanStep& shard = plan.steps[0];
@@ -196,10 +196,10 @@ TEST_F(Steps, BeginAfreshWhereTheirScratchIsDamaged) {
   std::filesystem::remove(output);
   leave_a_brick(plan, shard);
   do_step(plan, shard);
-  EXPECT_NE(read_bytes(output), bytes) << "what is whole is gone on with";
+  EXPECT_NE(read_bytes(output), bytes) << "undamaged scratch is resumed";
 }
 
-TEST_F(Steps, BeginAnewIfTheyAreToldTo) {
+TEST_F(Steps, StartOverWithRestart) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   const PlanStep& shard = plan.steps[0];
@@ -211,17 +211,20 @@ TEST_F(Steps, BeginAnewIfTheyAreToldTo) {
     StepConfig config;
     config.restart = restart;
     do_step(plan, shard, config);
-    EXPECT_EQ(read_bytes(plan.path(shard.output)) == bytes, restart) << "what was left is trusted";
+    EXPECT_EQ(read_bytes(plan.path(shard.output)) == bytes, restart)
+        << "without restart, saved work is resumed";
   }
 }
 
-TEST_F(Steps, ThatMergeRefuseWhatIsMissingOrAnothers) {
+TEST_F(Steps, ThatMergeRejectMissingAndForeignRuns) {
   prepare(bumpy_sphere(40), 8);
   const Plan plan = plan_of(config("plan", 2));
   const PlanStep& merge = plan.steps.back();
-  EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "shard-1 of the plan was not done");
+  EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput,
+                     "run step shard-1 of the plan first");
   do_step(plan, plan.steps[0]);
-  EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "shard-2 of the plan was not done");
+  EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput,
+                     "run step shard-2 of the plan first");
   do_step(plan, plan.steps[1]);
 
   // The same grid and the same parts, but another scene.
@@ -235,18 +238,18 @@ TEST_F(Steps, ThatMergeRefuseWhatIsMissingOrAnothers) {
     const std::string path = plan.path(plan.steps[i].output), own = read_bytes(path);
     write(path, read_bytes(other.path(other.steps[i].output)));
     if (read_bytes(path) == own) continue;  // this half was not dented
-    EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "is not what shard-");
+    EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "not the output of step shard-");
     std::filesystem::copy_file(receipt_path(other, other.steps[i]),
                                receipt_path(plan, plan.steps[i]),
                                std::filesystem::copy_options::overwrite_existing);
-    EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "is not what shard-");
+    EXPECT_SVDAG_ERROR(do_step(plan, merge), ExitCode::kBadInput, "not the output of step shard-");
     do_step(plan, plan.steps[i]);
   }
   do_step(plan, merge);
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
 }
 
-TEST_F(Steps, OfAStalePlanAreNotTaken) {
+TEST_F(Steps, OfAnOlderPlanAreNotValid) {
   prepare(bumpy_sphere(40), 8);
   const PlanConfig c = config("plan", 2);
   do_steps(plan_of(c));
@@ -255,12 +258,12 @@ TEST_F(Steps, OfAStalePlanAreNotTaken) {
   again.shards = 3;
   const Plan plan = plan_of(again);
   for (const PlanStep& step : plan.steps)
-    EXPECT_NE(state_of(plan, step, plan.path(step.output), false), OutputState::kValid);
+    EXPECT_NE(output_state(plan, step, plan.path(step.output), false), OutputState::kValid);
   do_steps(plan);
   EXPECT_EQ(read_bytes(plan.path("scene.svdag")), expected_);
 }
 
-TEST_F(Steps, SayThatThePlanIsDamagedForGood) {
+TEST_F(Steps, ReportADamagedPlanAsBadInput) {
   prepare(random_soup(20'000, 0.05, 1), 9);
   const Plan plan = plan_of(config("plan", 4));
   std::string triangles = read_bytes(plan.path(kPlanTriangles));
@@ -292,8 +295,8 @@ TEST_F(Steps, MayWriteElsewhere) {
   const Plan plan = plan_of(config("plan", 2));
   StepConfig elsewhere;
   elsewhere.output = folder_.file("mine.run");
-  EXPECT_FALSE(do_step(plan, plan.steps[0], elsewhere).kept);
-  EXPECT_TRUE(do_step(plan, plan.steps[0], elsewhere).kept);
+  EXPECT_FALSE(do_step(plan, plan.steps[0], elsewhere).done_before);
+  EXPECT_TRUE(do_step(plan, plan.steps[0], elsewhere).done_before);
   EXPECT_FALSE(std::filesystem::exists(plan.path(plan.steps[0].output)));
 }
 

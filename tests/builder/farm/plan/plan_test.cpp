@@ -1,4 +1,4 @@
-// A plan is one thing: what is saved is loaded, and what was changed since is found.
+// Plans: saving and loading, detection of damage, and the folder of a plan.
 #include "builder/farm/plan/plan.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Plans : public ::testing::Test {
   std::string scene_ = folder_.file("scene.stl");
 };
 
-TEST_F(Plans, LoadAsTheyWereSaved) {
+TEST_F(Plans, AreLoadedAsSaved) {
   PlanConfig c = config();
   c.fan_in = 2;
   c.build.bounds = Box{{0.1, 0.1, 0.1}, {0.8, 0.9, 0.7}};
@@ -54,7 +54,7 @@ TEST_F(Plans, LoadAsTheyWereSaved) {
   }
 }
 
-TEST_F(Plans, BinsAscendAndEachStandsInOnePiece) {
+TEST_F(Plans, BinsAreSortedAndContiguous) {
   const Plan plan = plan_of(config(50));
   ASSERT_GT(plan.bins.size(), 8u);
   uint32_t next = 0;
@@ -79,7 +79,8 @@ TEST_F(Plans, ShardsReadFewTrianglesThatOthersRead) {
 
 TEST_F(Plans, DoNotChange) {
   plan_of(config());
-  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
+  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage,
+                     "contains a plan, which cannot be changed");
 }
 
 // The planner waits for the scratch folder: its owner may have finished a plan.
@@ -92,18 +93,19 @@ TEST_F(Plans, DoNotReplaceOneThatAnotherProcessJustFinished) {
     folder_.write("plan/plan.json", "theirs");
     others.reset();
   });
-  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage, "plans do not change");
+  EXPECT_SVDAG_ERROR(plan_of(config()), ExitCode::kUsage,
+                     "contains a plan, which cannot be changed");
   EXPECT_EQ(folder_.read("plan/plan.json"), "theirs");
 }
 
-TEST_F(Plans, SayWhyTheirFolderCannotBeMade) {
+TEST_F(Plans, ReportWhyTheirFolderCannotBeCreated) {
   PlanConfig lost = config();
   lost.folder = folder_.file("none/plan");
   EXPECT_SVDAG_ERROR(plan_of(lost), ExitCode::kOutput,
-                     "this folder cannot be made: no such file or folder");
+                     "the folder cannot be created: no such file or folder");
 }
 
-TEST_F(Plans, HaveAnOutputWhoseNameCanBeGiven) {
+TEST_F(Plans, RejectAnOutputWhoseNameIsTooLong) {
   PlanConfig endless = config();
   endless.output = std::string(256, 'x');
   EXPECT_SVDAG_ERROR(plan_of(endless), ExitCode::kOutput,
@@ -111,7 +113,7 @@ TEST_F(Plans, HaveAnOutputWhoseNameCanBeGiven) {
   EXPECT_FALSE(std::filesystem::exists(endless.folder)) << "nothing is left";
 }
 
-TEST_F(Plans, NameTheirInputsByContent) {
+TEST_F(Plans, IdentifyTheirInputsByContent) {
   const Plan plan = plan_of(config());
   ASSERT_EQ(plan.inputs.size(), 1u);
   EXPECT_EQ(plan.inputs[0].path, absolute_path(scene_));
@@ -119,7 +121,7 @@ TEST_F(Plans, NameTheirInputsByContent) {
   EXPECT_NE(plan.description.find(plan.inputs[0].hash), std::string::npos);
 }
 
-TEST_F(Plans, ThatAreDamagedSaySo) {
+TEST_F(Plans, ThatAreDamagedAreRejected) {
   plan_of(config());
   const std::string json = folder_.file("plan/plan.json"), index = folder_.file("plan/index");
   const std::string text = read_bytes(json), bytes = read_bytes(index);
@@ -140,24 +142,27 @@ TEST_F(Plans, ThatAreDamagedSaySo) {
   const size_t output = outside.find("\"output\": \"runs/");
   outside.replace(output, 17, "\"output\": \"../up/");
   write(json, outside);
-  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "leads out");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
+                     "writes outside the plan folder");
   std::string renamed = text;
   renamed.replace(renamed.find("\"name\": \"shard-1\""), 17, "\"name\": \"s\"");
   write(json, renamed);
-  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "no name of one");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
+                     "its name does not begin with shard-");
   std::string threads = text;
   threads.replace(threads.find("\"threads\": "), 11, "\"threads\": 9999");
   write(json, threads);
-  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "of threads");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
+                     "an invalid number of threads (9999");
   std::string huge = text;
   huge.replace(huge.find("\"voxel_size\": "), 14, "\"voxel_size\": -");
   write(json, huge);
-  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "impossible grid");
+  EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "invalid grid");
   std::string kind = text;
   kind.replace(kind.find("\"kind\": \"box\""), 13, "\"kind\": \"hexagons\"");
   write(json, kind);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
-                     "plan.json: unknown kind of grid: hexagons");
+                     "plan.json: unknown kind of grid (hexagons)");
   write(json, text);
   std::string flipped = bytes;
   flipped[flipped.size() / 2] ^= 1;
@@ -170,7 +175,7 @@ TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
   plan_of(config());
   const std::string json = folder_.file("plan/plan.json"), text = read_bytes(json);
   const std::vector<std::pair<std::string, std::string>> numbers = {
-      {"levels", "4294967305"},  // 9, as it is, if cut to 32 bits
+      {"levels", "4294967305"},  // the valid value 9 if truncated to 32 bits
       {"levels", "9.0"},
       {"triangles", "1e24"},
       {"memory_bytes", "-1"},
@@ -185,7 +190,7 @@ TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
   }
 }
 
-TEST_F(Plans, ThatWereWrittenOverAreReadOrRefused) {
+TEST_F(Plans, WithRandomBytesAreLoadedOrRejected) {
   plan_of(config());
   const std::string json = folder_.file("plan/plan.json"), text = read_bytes(json);
   std::mt19937 random(5);
@@ -205,7 +210,7 @@ TEST_F(Plans, ThatWereWrittenOverAreReadOrRefused) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST_F(Plans, PromiseWhatAStepMayHave) {
+TEST_F(Plans, PredictResourcesWithinTheLimits) {
   PlanConfig c = config(3);
   c.step_threads = 2;
   c.build.memory = uint64_t(100) << 20;
@@ -218,7 +223,7 @@ TEST_F(Plans, PromiseWhatAStepMayHave) {
   }
 }
 
-TEST_F(Plans, DryOnesLeaveNothing) {
+TEST_F(Plans, DryRunsLeaveNoFiles) {
   PlanConfig c = config(1);
   c.folder.clear();
   c.build.output = folder_.file("out.svdag");
@@ -227,7 +232,7 @@ TEST_F(Plans, DryOnesLeaveNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
 }
 
-TEST_F(Plans, DryOnesLeaveAnUnfinishedBakeAlone) {
+TEST_F(Plans, DryRunsKeepAnUnfinishedBake) {
   PlanConfig c = config(1);
   c.folder.clear();
   c.build.output = folder_.file("out.svdag");
@@ -249,7 +254,7 @@ TEST_F(Plans, DryOnesLeaveAnUnfinishedBakeAlone) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.file("scratch")));
 }
 
-TEST_F(Plans, NoBakeIsDiscardedWhoseScratchHasTheNameOfAPlans) {
+TEST_F(Plans, KeepAnUnfinishedBakeWithTheSameScratchFolder) {
   PlanConfig c = config();
   std::filesystem::create_directory(c.folder);
   {
@@ -257,7 +262,7 @@ TEST_F(Plans, NoBakeIsDiscardedWhoseScratchHasTheNameOfAPlans) {
     bake.create("journal");
     bake.keep();
   }
-  EXPECT_SVDAG_ERROR(plan_of(c), ExitCode::kUsage, "holds an unfinished bake");
+  EXPECT_SVDAG_ERROR(plan_of(c), ExitCode::kUsage, "contains an unfinished bake");
   EXPECT_TRUE(ScratchDir(c.folder + "/plan.scratch").has("journal"));
 }
 

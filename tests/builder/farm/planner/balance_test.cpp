@@ -25,7 +25,7 @@ std::vector<CellCost> some_cells() {
   return cells;
 }
 
-RC_GTEST_PROP(CutEvenly, RangesFollowEachOtherAndHoldTheWholeGrid, ()) {
+RC_GTEST_PROP(CutEvenly, RangesAreConsecutiveAndCoverTheGrid, ()) {
   const std::vector<CellCost> cells = some_cells();
   const auto count = *any_of<size_t>(1, 40);
   const auto ranges = cut_evenly(cells, kLevel, count);
@@ -38,7 +38,7 @@ RC_GTEST_PROP(CutEvenly, RangesFollowEachOtherAndHoldTheWholeGrid, ()) {
   RC_ASSERT(at == kCells);
 }
 
-RC_GTEST_PROP(CutEvenly, NoRangeIsOffByMoreThanTheDearestCell, ()) {
+RC_GTEST_PROP(CutEvenly, NoRangeIsOffByMoreThanTheMaxCellCost, ()) {
   const std::vector<CellCost> cells = some_cells();
   const auto count = *any_of<size_t>(1, 40);
   double all = 0, dearest = 0;
@@ -54,14 +54,14 @@ RC_GTEST_PROP(CutEvenly, NoRangeIsOffByMoreThanTheDearestCell, ()) {
   }
 }
 
-TEST(CutEvenly, NothingAtAllIsTheFirstShards) {
+TEST(CutEvenly, WithoutCellsTheFirstShardGetsTheGrid) {
   const auto ranges = cut_evenly({}, kLevel, 3);
   ASSERT_EQ(ranges.size(), 3u);
   EXPECT_EQ(ranges.front().end, kCells);
   EXPECT_EQ(ranges.back().begin, kCells);
 }
 
-RC_GTEST_PROP(MergeTree, EveryOutputIsReadOnceAndNeighboursMeet, ()) {
+RC_GTEST_PROP(MergeTree, EveryOutputIsReadOnceAndInputsAreNeighbours, ()) {
   const auto leaves = *any_of<size_t>(1, 300);
   const auto fan_in = *any_of<size_t>(2, 20);
   const MergeTree tree = merge_tree(leaves, fan_in);

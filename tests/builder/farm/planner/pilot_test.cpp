@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// The scene is finer than its coarse survey by two levels, so the counts are not known beforehand.
+// The grid is two levels finer than the coarse survey, so its counts must be extrapolated.
 class Pilots : public ::testing::Test {
  protected:
   void judge(const std::vector<Triangle>& triangles, double factor) {
@@ -29,15 +29,15 @@ class Pilots : public ::testing::Test {
   }
 };
 
-TEST_F(Pilots, KnowWhatACurvedSurfaceWillFind) {
+TEST_F(Pilots, PredictNodesOfACurvedSurface) {
   judge(bumpy_sphere(60), 1.4);
 }
 
-TEST_F(Pilots, KnowWhatPlanesWillFind) {
+TEST_F(Pilots, PredictNodesOfPlanes) {
   judge(boxes_and_quad(40, 2), 2);
 }
 
-TEST_F(Pilots, KnowWhatThinTrianglesWillFind) {
+TEST_F(Pilots, PredictNodesOfATriangleSoup) {
   judge(random_soup(2000, 0.02, 3), 1.4);
 }
 
