@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Fails on an include against the arrow of the house, two types of one name, and a comment that names a file that does
-not exist. Reports the sizes of files and functions.
+"""Tests the layering of the code: includes follow docs/ARCHITECTURE.md, type names are unique, and comments name only
+files that exist. Reports the sizes of files and functions.
 
-ALLOWED lists, per folder, the folders whose headers its files may include; a folder may always
-include itself. LIBRARIES lists the files that alone may name a heavy library. Both are rules about
-text: what a compiler would accept is not good enough here.
+ALLOWED lists, per folder, the folders whose headers its files may include; a folder may always include itself.
+LIBRARIES lists, per heavy library, the only files that may include it. The rules are checked on the text, because a
+compiler accepts every include.
 """
 import pathlib
 import re
@@ -77,7 +77,7 @@ ALLOWED = {
     "verify/commands": STREAMING + ["io", "io/dag", "io/scene", "io/help"] + FORMATS + VERIFY + TRACE,
 }
 
-# Files whose includes are fixed one by one: they compile for the GPU or without any dependency.
+# Files with a fixed list of includes: they compile for the GPU or without dependencies.
 EXACT = {
     "io/dag/format.h": [],
     "io/dag/dag_view.h": ["io/dag/format.h"],
@@ -128,7 +128,7 @@ LIBRARIES = {
     r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
 }
 
-# Text other than code: comments, strings, directives.
+# Matches text that is not code: comments, strings, directives.
 NOT_CODE = re.compile(r'''//[^\n]*|/\*.*?\*/|R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'''
                       r'''(?<!\w)'(?:\\.|[^'\\\n])+'|^[ \t]*#(?:\\\n|[^\n])*''', re.S | re.M)
 NAMESPACE = re.compile(r"(?:.* )?namespace ?([\w:]*)")
@@ -145,12 +145,12 @@ def folder_of(path):
     return parent if parent in ALLOWED else None
 
 
-def breaches(path, text):
-    """The sentences about what the includes of one file break."""
+def forbidden_includes(path, text):
+    """Messages about the forbidden includes of one file."""
     found = []
     folder = folder_of(path)
     if folder is None and not path.startswith("tests/"):
-        found.append(f"{path}: its folder is not in ALLOWED")
+        found.append(f"{path}: the folder is not in ALLOWED")
     for line in text.splitlines():
         include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
         if not include:
@@ -158,14 +158,14 @@ def breaches(path, text):
         quoted, target = include.group(1) == '"', include.group(2)
         for library, owners in LIBRARIES.items():
             if re.match(library, target) and not re.fullmatch(owners, path):
-                found.append(f"{path}: <{target}> belongs in {owners} only")
+                found.append(f"{path}: <{target}> may be included by {owners} only")
         if folder is None or not (quoted or folder_of(target)):
             continue
         if path in EXACT:
             if target not in EXACT[path]:
                 found.append(f"{path}: may not include {target}")
         elif folder_of(target) is None:
-            found.append(f"{path}: {target} is not in a folder of the house")
+            found.append(f"{path}: {target} is not in a folder of ALLOWED")
         elif folder_of(target) != folder and folder_of(target) not in ALLOWED[folder]:
             found.append(f"{path}: {folder} may not include {folder_of(target)} ({target})")
     return found
@@ -179,10 +179,10 @@ def sources():
 
 
 def functions(text):
-    """(first line, lines) of every function body that begins at the left margin or in a class.
+    """(first line, number of lines) of every function body at namespace or class scope.
 
-    Follows the layout of clang-format: a line that ends in ") {" (or ") const {" and the like)
-    and its closing brace in the same column. Control statements are left out.
+    Relies on the layout of clang-format: a function begins with a line that ends in ") {" (or ") const {" etc.) and
+    ends with a brace in the same column. Control statements are skipped.
     """
     lines = text.splitlines()
     for i, line in enumerate(lines):
@@ -196,15 +196,15 @@ def functions(text):
             continue
         for j in range(i + 1, len(lines)):
             if re.match(r" {0,%d}\}" % indent, lines[j]):
-                if lines[j].startswith(" " * indent):  # else a lambda among arguments, in a function that ends
+                if lines[j].startswith(" " * indent):  # else a lambda argument, and the enclosing function ends here
                     yield start + 1, j - start + 1
                 break
 
 
 def types(text):
-    """(line, name) of every type that is defined at namespace scope, but for those of anonymous namespaces."""
+    """(line, name) of every type defined in a named namespace."""
     code = NOT_CODE.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
-    scopes, begin = [], 0  # of a namespace its name, of any other brace None
+    scopes, begin = [], 0  # scopes: the name of a namespace, None for any other brace
     for found in re.finditer(r"[{};]", code):
         head = " ".join(code[begin:found.start()].split())
         begin = found.end()
@@ -219,7 +219,7 @@ def types(text):
 
 
 def defined_twice(files):
-    """{name: places} of types with more than one definition; without_X replaces X in builds without it."""
+    """{name: [path:line]} of types with more than one definition; without_X.cpp counts as X.cpp, which it replaces."""
     places = {}
     for path, text in files:
         for line, name in types(text):
@@ -227,18 +227,18 @@ def defined_twice(files):
     return {name: list(at.values()) for name, at in places.items() if len(at) > 1}
 
 
-def lost(path, text):
-    """The names of files in the comments of a source, or in a page, that exist neither from the root nor beside it."""
+def missing_files(path, text):
+    """Missing files named in the comments of a source, or in a page: neither relative to the root nor to its folder."""
     comments = re.findall(COMMENT[pathlib.PurePosixPath(path).suffix], text, re.S)
     return [f"{path}: {name}" for comment in comments for name in FILE_NAME.findall(comment)
             if not ((ROOT / name).exists() or ((ROOT / path).parent / name).exists() or "NAME" in name)]
 
 
 class Arrow(unittest.TestCase):
-    def test_every_include_follows_the_arrow(self):
-        self.assertEqual([b for path, text in sources() for b in breaches(path, text)], [])
+    def test_every_include_is_allowed(self):
+        self.assertEqual([b for path, text in sources() for b in forbidden_includes(path, text)], [])
 
-    def test_planted_breaches_are_caught(self):
+    def test_forbidden_includes_are_found(self):
         for path, include in [("streaming/file/file.cpp", '"io/grid.h"'),
                               ("io/grid.cpp", '"io/dag/format.h"'),
                               ("io/scene/readers/ply.cpp", '"io/dag/dag_view.h"'),
@@ -261,22 +261,22 @@ class Arrow(unittest.TestCase):
                               ("verify/sample/compare.cpp", "<openvdb/openvdb.h>"),
                               ("verify/trace/cpu.cpp", "<stb/stb_image_write.h>"),
                               ("verify/trace/cpu.cpp", "<embree3/rtcore.h>")]:
-            self.assertEqual(len(breaches(path, f"#pragma once\n#include {include}\n")), 1, (path, include))
+            self.assertEqual(len(forbidden_includes(path, f"#pragma once\n#include {include}\n")), 1, (path, include))
 
-    def test_honest_includes_are_not_caught(self):
+    def test_allowed_includes_are_accepted(self):
         for path, include in [("io/grid.cpp", '"io/grid.h"'), ("io/grid.cpp", "<vector>"),
                               ("builder/bake/bake.cpp", '"io/scene/scene.h"'),
                               ("verify/trace/kernel/ray.h", '"io/dag/dag_view.h"'),
                               ("builder/commands/build_options.cpp", "<CLI/CLI.hpp>"),
                               ("tests/builder/build_test.cpp", '"verify/judge/clip_judge.h"')]:
-            self.assertEqual(breaches(path, f"#include {include}\n"), [], (path, include))
+            self.assertEqual(forbidden_includes(path, f"#include {include}\n"), [], (path, include))
 
-    def test_the_rules_are_about_a_tree_that_exists(self):
+    def test_sources_are_found(self):
         self.assertGreater(len(list(sources())), 40)
 
 
 class Sizes(unittest.TestCase):
-    """Sizes are reported, not enforced: a clear 400-line file beats three fragments."""
+    """Sizes are reported, not limited: one clear file of 400 lines is better than three fragments."""
 
     def test_sizes_are_reported(self):
         sizes = {path: len(text.splitlines()) for path, text in sources()}
@@ -290,7 +290,7 @@ class Sizes(unittest.TestCase):
               f"{statistics.quantiles(sizes.values(), n=100)[98]:.0f}, longest {longest} ({path}:{line})",
               file=sys.stderr)
 
-    def test_a_long_function_is_seen(self):
+    def test_a_long_function_is_measured(self):
         body = "  step();\n" * 71
         text = f"namespace a {{\nvoid f(int x,\n       int y) {{\n  if (x) {{\n{body}  }}\n}}\n}}\n"
         self.assertEqual([n for _, n in functions(text)], [76])
@@ -298,30 +298,30 @@ class Sizes(unittest.TestCase):
 
 
 class Comments(unittest.TestCase):
-    def test_files_that_comments_and_pages_name_exist(self):
+    def test_files_named_in_comments_and_pages_exist(self):
         scripts = [p for kind in ("*.py", "*.sh") for p in (ROOT / "tests").rglob(kind) if p.name != "arrow_test.py"]
         pages = [ROOT / "README.md", ROOT / "CHANGELOG.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "builder").glob("*.md"),
                  *(ROOT / "verify").rglob("*.md")]
         files = [*sources(), *((str(p.relative_to(ROOT)), p.read_text()) for p in scripts + pages)]
-        self.assertEqual([name for path, text in files for name in lost(path, text)], [])
+        self.assertEqual([name for path, text in files for name in missing_files(path, text)], [])
 
-    def test_planted_names_are_caught(self):
+    def test_names_of_missing_files_are_found(self):
         for path, text in [("io/a.h", "int a;  // as io/gird.h says\n"), ("docs/a.md", "see `io/gird.h`, `io/grid.h`"),
                            ("tests/a.py", '"""Beside\nio/gird.h."""\n'), ("tests/a.sh", "true  # io/gird.h\n")]:
-            self.assertEqual(lost(path, text), [f"{path}: io/gird.h"])
+            self.assertEqual(missing_files(path, text), [f"{path}: io/gird.h"])
         for path, text in [("io/a.h", '#include "io/gird.h"  // io/grid.h\n'), ("docs/a.md", "https://b.org/io/gird.h"),
                            ("tests/a.py", 'open("io/gird.h")\n'), ("tests/a.sh", "cat io/gird.h\n")]:
-            self.assertEqual(lost(path, text), [])
+            self.assertEqual(missing_files(path, text), [])
 
 
 class OneDefinition(unittest.TestCase):
-    """Two types of one name in one program: the linker keeps one's functions, and calls them for the other."""
+    """Two types with one name in a program break the one-definition rule: the linker keeps the functions of one."""
 
-    def test_no_two_types_have_one_name(self):
+    def test_type_names_are_unique(self):
         self.assertGreater(len([name for _, text in sources() for name in types(text)]), 400)
         self.assertEqual(defined_twice(sources()), {})
 
-    def test_types_are_seen_in_every_form(self):
+    def test_every_form_of_type_is_found(self):
         for text, expected in [("struct A { int b; };", ["A"]),
                                ("template <class T, int N>\nclass A final\n    : public B<T> {\n};", ["A"]),
                                ("template <> struct hash<A> {};", ["hash<A>"]),
@@ -335,7 +335,7 @@ class OneDefinition(unittest.TestCase):
                                ("// struct A {\n/* struct B { */ #define C struct D {\nauto c = \"struct E {\";", [])]:
             self.assertEqual([name for _, name in types(text)], expected, text)
 
-    def test_planted_twins_are_caught(self):
+    def test_duplicate_types_are_found(self):
         a, b = "namespace svdag {\nstruct Cube { int x; };\n}\n", "namespace svdag {\n\nclass Cube {\n};\n}\n"
         self.assertEqual(defined_twice([("io/a.h", a), ("verify/b.cpp", b)]),
                          {"svdag::Cube": ["io/a.h:2", "verify/b.cpp:3"]})

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The bundle (`make bundle`) runs anywhere: only libc comes from the system, and the bytes are the same.
+"""Tests that the bundle (`make bundle`) is relocatable: it needs only libc from the system and bakes the same bytes.
 
-Programs are given by the folder of a finished build; the bundle is installed into a temporary folder,
-moved, and run from a third one.
+Usage: bundle_test.py BUILD. The bundle of the finished build is installed into a temporary folder, moved, and run from
+a third folder.
 """
 import os
 import pathlib
@@ -23,7 +23,7 @@ class Bundle(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="svdag-bundle-")
         root = pathlib.Path(cls.folder.name)
         subprocess.run(["cmake", "--install", BUILD, "--component", "bundle", "--strip", "--prefix", "made"], cwd=root,
-                       check=True, stdout=subprocess.DEVNULL)  # as make bundle does: a relative prefix
+                       check=True, stdout=subprocess.DEVNULL)  # a relative prefix, as in make bundle
         cls.bundle = (root / "made").rename(root / "moved")
         cls.away = root / "away"
         cls.away.mkdir()
@@ -44,19 +44,19 @@ class Bundle(unittest.TestCase):
         self.assertTrue([n for n in names if n.startswith("libstdc++.so")], names)
         self.assertEqual([n for n in names if re.match(OF_LIBC, n)], [])
 
-    def test_brings_the_notices_of_its_libraries(self):
+    def test_contains_the_licences_of_its_libraries(self):
         found = {p.parent.name for p in (self.bundle / "share/doc").glob("*/copyright") if p.stat().st_size > 0}
         self.assertLessEqual({"libstdc++6", "libxxhash0", "libcli11-dev", "nlohmann-json3-dev", "libglm-dev"}, found)
         self.assertRegex(" ".join(found), r"libboost[0-9.]+-dev")
 
-    def test_brings_its_manual(self):
+    def test_contains_its_manual(self):
         shown = self.run_bundled("man", "-M", self.bundle / "share" / "man", "svdag-build") if shutil.which("man") else \
             (self.bundle / "share/man/man1/svdag-build.1").read_text()
         self.assertIn("Bake scene files as one .svdag", shown)
         self.assertTrue((self.bundle / "share/bash-completion/completions/svdag").exists())
         self.assertTrue((self.bundle / "share/doc/svdag/docs/farm.md").exists())
 
-    def test_nothing_but_libc_is_found_outside(self):
+    def test_only_libc_is_loaded_from_outside(self):
         for program in (self.bundle / "bin").iterdir():
             found = self.run_bundled("ldd", program).splitlines()
             self.assertGreater(len(found), 3)
@@ -73,11 +73,11 @@ class Bundle(unittest.TestCase):
         self.run_bundled(programs / "svdag-verify", "check", "bundled.svdag")
         self.run_bundled(programs / "svdag-trace", "bundled.svdag", "--size", "32x32", "--samples", "4")
 
-    def test_a_bake_does_not_load_what_exports_need(self):
+    def test_svdag_does_not_load_libraries_of_exports(self):
         self.assertNotIn("openvdb", self.run_bundled("ldd", self.bundle / "bin" / "svdag"))
         self.assertNotIn("tbb", self.run_bundled("ldd", self.bundle / "bin" / "svdag"))
 
-    def test_exports_find_their_program_beside_them(self):
+    def test_export_finds_its_program(self):
         programs = self.bundle / "bin"
         self.run_bundled(programs / "svdag-scene", "city", "-n", "6K", "-q", "-o", "export.ply")
         self.run_bundled(programs / "svdag", "build", "export.ply", "-r", "128", "-q", "-o", "export.svdag")

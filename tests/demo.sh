@@ -1,5 +1,5 @@
 #!/bin/sh
-# make demo: a scene from the generator, baked at 16K, verified, rendered, and reported on a page.
+# make demo: generates a scene, bakes it at 16K, verifies and renders it, and writes an HTML report.
 # Usage: demo.sh PROGRAMS FOLDER
 set -eu
 programs=$1
@@ -17,13 +17,13 @@ step "bake it at 1K"
 "$programs"/svdag build "$folder"/atrium.ply -r 1K -o "$folder"/atrium-1k.svdag
 step "check the file: checksums, pointers, order, minimality"
 "$programs"/svdag-verify check "$folder"/atrium.svdag
-step "voxelize again by other means: every brick at 1K"
+step "voxelize independently and compare: every brick at 1K"
 "$programs"/svdag-verify mesh "$folder"/atrium-1k.svdag "$folder"/atrium.ply
-step "and 100,000 drawn bricks at 16K"
+step "the same for a sample of 100,000 bricks at 16K"
 "$programs"/svdag-verify mesh --sample 100000 "$folder"/atrium.svdag "$folder"/atrium.ply
 step "render"
 "$programs"/svdag-verify render "$folder"/atrium.svdag -o "$folder"/atrium.png -q \
   --camera=-10.5,2.2,1.8,6,3.4,-1.2,75
 step "report"
 "$programs"/svdag-verify report "$folder"/atrium.svdag "$folder"/atrium.json -o "$folder"/atrium.html -q
-step "done: $folder/atrium.svdag, atrium.json, atrium.png; look at $folder/atrium.html"
+step "done: $folder/atrium.svdag, atrium.json, atrium.png; open $folder/atrium.html"

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The commands of README.md and docs/commands.md do what they say, and links lead somewhere.
+"""Runs the commands of README.md and docs/commands.md, and checks the links and pictures of docs/.
 
-Each line of a ```sh block is run, in order, in one folder per page; the comment "# exit N" names an exit code
-other than 0. Scenes of the names that the pages use are made here, small, and so are grids and pictures (small()).
-A block after a line "<!-- not run: WHY -->" is left out.
+Each command of a ```sh block is run, in order, in one folder per page; the comment "# exit N" names an exit code
+other than 0. The test generates small scenes with the names that the pages use, and reduces grids and pictures
+(shrink()). A block after a line "<!-- not run: WHY -->" is skipped.
 """
 import json
 import os
@@ -25,7 +25,7 @@ PICTURE_BYTES, ALL_PICTURES_BYTES = 400_000, 2_000_000
 
 
 def blocks(page):
-    """(line number, text) of the ```sh blocks that are to be run."""
+    """(line number, text) of the ```sh blocks to run."""
     text = page.read_text()
     for found in re.finditer(r"(<!-- not run: .+? -->\n)?^```sh\n(.*?)^```$", text, re.M | re.S):
         if not found.group(1):
@@ -33,7 +33,7 @@ def blocks(page):
 
 
 def commands(page):
-    """(line number, command); quotes and a backslash at the end go on in the next line."""
+    """(line number, command); open quotes and a backslash at the end continue on the next line."""
     for number, text in blocks(page):
         command, first = "", number
         for line in text.splitlines():
@@ -49,14 +49,14 @@ def commands(page):
             number += 1
 
 
-def small(command):
-    """Grids above 1K and pictures of no given size made small: they take time, and teach nothing here."""
+def shrink(command):
+    """The command with smaller grids (above 1K) and pictures (of no given size), to save time."""
     command = re.sub(r"-r (?:[2-9]|\d\d+)K", "-r 512", command)
     return re.sub(r"(svdag-verify (?:render|report) )(?!.*--size)", r"\1--size 64x36 ", command)
 
 
 def write_glb(ply, path):
-    """A binary PLY of the generator as a GLB of one mesh."""
+    """Converts a binary PLY of svdag-scene to a GLB with one mesh."""
     head, body = ply.read_bytes().split(b"end_header\n", 1)
     vertices, faces = (int(n) for n in re.findall(rb"element \w+ (\d+)", head))
     indices = numpy.frombuffer(body, [("n", "u1"), ("v", "<i4", 3)], faces, vertices * 12)["v"]
@@ -87,19 +87,19 @@ class Documents(unittest.TestCase):
             for line, command in commands(page):
                 expected = re.search(r"# exit (\d+)", command)
                 with self.subTest(f"{page.name}:{line}: {command}"):
-                    done = subprocess.run(["sh", "-e", "-c", small(command)], cwd=folder, env=environment, timeout=120,
+                    done = subprocess.run(["sh", "-e", "-c", shrink(command)], cwd=folder, env=environment, timeout=120,
                                           stdin=subprocess.DEVNULL, capture_output=True, text=True)
                     self.assertEqual(done.returncode, int(expected.group(1)) if expected else 0, done.stdout + done.stderr)
                 ran += 1
         return ran
 
-    def test_the_commands_of_the_tour(self):
+    def test_commands_of_the_tour_run(self):
         self.assertGreater(self.run_page(ROOT / "docs" / "commands.md"), 30)
 
-    def test_the_commands_of_the_readme(self):
+    def test_commands_of_the_readme_run(self):
         self.assertGreater(self.run_page(ROOT / "README.md"), 5)
 
-    def test_the_tour_knows_every_command(self):
+    def test_the_tour_uses_every_command(self):
         tour = " ".join(command for _, command in commands(ROOT / "docs" / "commands.md"))
         for program in ("svdag", "svdag-verify"):
             help_text = subprocess.run([BUILD / program, "--help"], capture_output=True, text=True, check=True).stdout
@@ -108,7 +108,7 @@ class Documents(unittest.TestCase):
             missing = [name for name in names if f"{program} {name} " not in tour and name != "help"]
             self.assertEqual(missing, [], program)
 
-    def test_links_lead_to_files(self):
+    def test_links_are_valid(self):
         for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]:
             for link in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
                 if not link.startswith("http"):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The same mesh in every format gives the same bytes.
+"""Tests that the same mesh in every scene format bakes to the same bytes.
 
-Usage: formats_test.py PROGRAMS. Coordinates are float32 values, which every format can hold; text is
+Usage: formats_test.py PROGRAMS. Coordinates are float32 values, which every format represents exactly; text is
 written with 17 digits.
 """
 import pathlib
@@ -13,7 +13,7 @@ import tempfile
 
 
 def make_mesh():
-    """A bumpy strip of quads halves: vertices as float32 values, faces."""
+    """A bumpy height field of triangles: (vertices with float32 values, faces)."""
     rng = random.Random(5)
     n = 24
     vertices = [tuple(struct.unpack("<3f", struct.pack("<3f", x / 7 - 1.3, y / 9 + 0.1, rng.uniform(-0.4, 0.4))))
@@ -98,7 +98,7 @@ def main():
     reference = dags["binary.stl"]
     different = [name for name, dag in dags.items() if dag != reference]
     for name in different:
-        print(f"{name} gives other bytes than binary.stl")
+        print(f"{name}: the bytes differ from those of binary.stl")
     print(f"{len(dags) - len(different)} passed, {len(different)} failed, 0 skipped")
     return len(reference) < 10000 or bool(different)
 

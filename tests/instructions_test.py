@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compares the instruction counts of small bakes under callgrind with those in tests/instructions.json.
 
-Times vary from run to run, instruction counts hardly, so this test finds slow paths that return. A ratio
-above RISE fails. A ratio below FALL fails too: record the improvement with --update. The vectors are fixed to
-what valgrind emulates; the counts are of the release build on the Debian version of `make test`.
+Times vary from run to run, instruction counts hardly, so this test finds performance regressions. A ratio above
+RISE fails. A ratio below FALL fails too: record the improvement with --update. The instruction set is fixed to one
+that valgrind emulates; the counts are of the release build on the Debian version of `make test`.
 """
 import argparse
 import json
@@ -26,7 +26,7 @@ BAKES = {"atrium": (["atrium", "-n", "90K"], ["-r", "512"]), "scan": (["scan", "
 
 
 def count(programs, name, folder):
-    """Instructions of one bake with one thread."""
+    """Number of instructions of one bake with one thread."""
     (scene, grid), ply = BAKES[name], folder / f"{name}.ply"
     subprocess.run([programs / "svdag-scene", *scene, "-q", "-o", ply], check=True)
     done = subprocess.run(
@@ -42,7 +42,7 @@ def count(programs, name, folder):
 
 def failure(name, now, expected):
     if expected is None:
-        return f"{name}: {now:,} instructions, and no expected count is recorded"
+        return f"{name}: {now:,} instructions, no expected count is recorded: record it with --update"
     if now > RISE * expected:
         return f"{name}: {now:,} instructions, {now / expected - 1:.1%} more than the expected {expected:,}"
     if now < FALL * expected:

@@ -1,6 +1,6 @@
 #!/bin/sh
-# make pictures: the rendered pictures of docs/images/, of generated scenes, the modes in the manner of figure 4 of
-# Kaempe, Sintorn and Assarsson 2013.
+# make pictures: renders the pictures of docs/images/ from generated scenes. The modes follow figure 4 of Kaempe,
+# Sintorn and Assarsson 2013.
 # Usage: pictures.sh PROGRAMS FOLDER
 set -eu
 programs=$1
@@ -8,7 +8,7 @@ folder=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# bake SCENE GRID, then render NAME SCENE OPTIONS...
+# bake SCENE GRID; render NAME SCENE OPTIONS...
 bake() {
   "$programs"/svdag-scene "$1" -q -o "$work"/"$1".ply
   "$programs"/svdag build "$work"/"$1".ply -r "$2" -q -o "$work"/"$1".svdag

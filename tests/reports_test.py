@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""docs/reports.md names every key of the JSON that programs write, and no other.
+"""Tests that docs/reports.md documents exactly the keys of the JSON that the programs print.
 
-The keys are those of reports of small bakes and of verdicts, right and wrong ones; where a key is a name by itself
-(the bins of a histogram), only what it belongs to is looked up.
+The keys are collected from reports of small bakes and from verdicts of both outcomes. Keys that are data (the bins of
+a histogram) are not collected.
 """
 import json
 import pathlib
@@ -23,7 +23,7 @@ svdag export thin.svdag -o thin.vdb
 svdag build --batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
-ANSWERS = """svdag info city.svdag
+QUERIES = """svdag info city.svdag
 svdag info half.run
 svdag info city.ply --parts
 svdag-verify check city.svdag
@@ -38,7 +38,7 @@ def keys_of(value):
     if isinstance(value, dict):
         for key, inner in value.items():
             yield key
-            if key != "nearer":  # its keys are the bins
+            if key != "nearer":  # its keys are the bins of a histogram
                 yield from keys_of(inner)
     elif isinstance(value, list):
         for inner in value:
@@ -46,7 +46,7 @@ def keys_of(value):
 
 
 class Reports(unittest.TestCase):
-    def test_the_page_names_every_key_and_no_other(self):
+    def test_the_page_documents_exactly_the_printed_keys(self):
         with tempfile.TemporaryDirectory(prefix="svdag-reports-") as folder:
             folder = pathlib.Path(folder)
             (folder / "list.json").write_text(json.dumps(LIST))
@@ -60,12 +60,12 @@ class Reports(unittest.TestCase):
             for line in BAKES.splitlines():
                 run(line + " -q")
             texts = [(folder / name).read_text() for name in ("report.json", "list.report.json")]
-            texts += [run(line + " --json") for line in ANSWERS.splitlines()]
+            texts += [run(line + " --json") for line in QUERIES.splitlines()]
         printed = {key for text in texts for key in keys_of(json.loads(text))}
         rows = re.findall(r"^\| `.*", (ROOT / "docs" / "reports.md").read_text(), re.M)
-        named = set(re.findall(r"`([a-z][a-z0-9_]*)`", "\n".join(rows)))
-        self.assertEqual(sorted(printed - named), [], "printed, and not in docs/reports.md")
-        self.assertEqual(sorted(named - printed), [], "in docs/reports.md, and not printed")
+        documented = set(re.findall(r"`([a-z][a-z0-9_]*)`", "\n".join(rows)))
+        self.assertEqual(sorted(printed - documented), [], "printed, but not in docs/reports.md")
+        self.assertEqual(sorted(documented - printed), [], "in docs/reports.md, but not printed")
 
 
 if __name__ == "__main__":

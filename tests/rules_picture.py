@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""docs/images/rules.svg: the two rules in two dimensions, where a triangle is a line and a cube a square.
+"""Draws docs/images/rules.svg: the two rules in two dimensions, with a line for the triangle and squares for voxels.
 
-Usage: rules_picture.py OUT.svg. The squares are decided here, in fractions, by the definitions of docs/concepts.md.
+Usage: rules_picture.py OUT.svg. The squares are decided in exact fractions, by the definitions in docs/concepts.md.
 """
 import pathlib
 import sys
@@ -13,7 +13,7 @@ HALF = Fraction(1, 2)
 
 
 def touched(x, y):
-    """Whether the closed line meets the closed square: clipped by its four half-planes, something is left."""
+    """Whether the closed line meets the closed square: clipping it by the four half-planes leaves a part of it."""
     low, high = Fraction(0), Fraction(1)
     for axis, corner in ((0, x), (1, y)):
         start, step = A[axis], B[axis] - A[axis]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Builds, runs tests tier by tier, prints the seconds of each tier and one total.
+"""Builds the programs, runs the tests tier by tier, and prints the seconds of each tier and one total.
 
-`make test` runs the release build's. `make test-sanitized` (--sanitized) runs those that watch a program at work: the unit
-tests under ASan and UBSan, the release build under Valgrind, and beside a build without optimisation.
+`make test` runs the tests of the release build. `make test-sanitized` (--sanitized) runs those that instrument programs:
+the unit tests under ASan and UBSan, the release build under Valgrind and against a build without optimisation.
 
-Tests are ctest entries with the label of their tier. What they count is read from GoogleTest's own
-JSON and from the summary lines of the Python tests; a program that dies before it can count is one
-failure. SVDAG_SCENES names the folder of shared real scenes: set but missing is a failure.
+Tests are ctest entries with the label of their tier. Their counts are read from GoogleTest's JSON and from the
+summary lines of the Python tests; a program that ends without counts is one failure. SVDAG_SCENES names the folder of
+shared real scenes; it is a failure if the folder does not exist.
 """
 import json
 import os
@@ -44,7 +44,7 @@ def counts_of_gtest(path):
 
 
 def counts_of_text(text):
-    """From a summary line; one test without such a line (a program that only succeeds or fails)."""
+    """The counts of a summary line, of this project's scripts or of unittest; zeros without one."""
     found = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", text, re.M)
     if found:
         return Counts(*map(int, found[-1]))
@@ -56,14 +56,14 @@ def counts_of_text(text):
     return Counts(int(ran.group(1)) - bad - skipped, bad, skipped)
 
 
-def said_skipped(case):
-    """Whether a program said by its exit code (SKIP_RETURN_CODE) that it could not run."""
+def is_skipped(case):
+    """Whether the program returned SKIP_RETURN_CODE: it cannot run here."""
     skipped = case.find("skipped")
     return skipped is not None and skipped.get("message", "").startswith("SKIP_RETURN_CODE")
 
 
 def counts_of_case(case, results):
-    if said_skipped(case):
+    if is_skipped(case):
         return Counts(skipped=1)
     gtest = results / f"{case.get('name')}.json"
     counts = counts_of_gtest(gtest) if gtest.exists() else counts_of_text(case.findtext("system-out") or "")
@@ -73,8 +73,8 @@ def counts_of_case(case, results):
     return counts if passed or counts.failed else counts + Counts(failed=1)
 
 
-def tell_failure(case):
-    """What a failed test said, without the lines about what went well."""
+def print_failure(case):
+    """Prints the output of a failed test, without the lines about passed ones."""
     print(f"--- {case.get('name')} failed:")
     for line in (case.findtext("system-out") or "").splitlines():
         if not re.match(r"\[( RUN |       OK |  SKIPPED |-----)|.*: Skipped$|SVDAG_SCENES is not set$|$", line):
@@ -86,7 +86,7 @@ def build(preset):
     for command in (["cmake", "--preset", preset, "--log-level=WARNING"], ["cmake", "--build", "--preset", preset]):
         done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0:
-            sys.exit(f"{done.stdout}\nThe build of {preset} failed.")
+            sys.exit(f"{done.stdout}\nthe build of {preset} failed")
     return time.monotonic() - start
 
 
@@ -108,14 +108,14 @@ def run(preset, label, environment):
     counts = Counts(failed=int(not cases))
     for case in cases:
         counts += counts_of_case(case, results)
-        if said_skipped(case):
-            print(f"--- {case.get('name')} could not run here")
+        if is_skipped(case):
+            print(f"--- {case.get('name')} cannot run here")
         elif case.get("status") != "run":
-            tell_failure(case)
+            print_failure(case)
     return counts, seconds
 
 
-def say(tier, seconds, counts=""):
+def print_tier(tier, seconds, counts=""):
     print(f"{tier:<17} {seconds:6.0f} s  {counts}", flush=True)
 
 
@@ -123,18 +123,18 @@ def main():
     environment = dict(os.environ)
     scenes = environment.get("SVDAG_SCENES")
     if scenes is not None and not os.path.isdir(scenes):
-        print(f"SVDAG_SCENES: {scenes} is not a folder: unset it, or give the folder of the shared scenes")
+        print(f"SVDAG_SCENES: {scenes} is not a folder: unset it or set it to the folder of the shared scenes")
         print("0 passed, 1 failed, 0 skipped")
         return 1
     sanitized = sys.argv[1:] == ["--sanitized"]
     if sanitized:
-        environment.pop("SVDAG_SCENES", None)  # real scenes under ASan are for `make stress`
+        environment.pop("SVDAG_SCENES", None)  # real scenes are too slow under ASan
     total = Counts()
     for preset, tiers in SANITIZED if sanitized else RELEASE:
-        say(f"build {preset}", build(preset))
+        print_tier(f"build {preset}", build(preset))
         for tier, label in tiers:
             counts, seconds = run(preset, label, environment)
-            say(tier, seconds, counts)
+            print_tier(tier, seconds, counts)
             total += counts
     if scenes is None and not sanitized:
         print("SVDAG_SCENES is not set: tests of real scenes were skipped")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Some shared real scenes at 512³ lie between the bounds of OpenVDB's distances, by both rules.
+"""Tests that real scenes at 512³ are between the bounds of OpenVDB's distances, with both rules.
 
-Usage: shared_sandwich_test.py PROGRAMS. Skipped without SVDAG_SCENES; `make bench-vdb` is the long form.
+Usage: shared_distance_bounds_test.py PROGRAMS. Skipped without SVDAG_SCENES; `make bench-vdb` is the long form.
 """
 import os
 import pathlib
@@ -14,14 +14,14 @@ SCENES = ["cgal_boeing.off", "cgal_elephant-with-holes.off", "draco_car.drc", "t
 
 
 def problem_of(programs, scene, rule):
-    """What went wrong with one scene, or nothing."""
+    """A message about the first command that failed on a scene, or None."""
     with tempfile.TemporaryDirectory(prefix="svdag-shared-") as folder:
         dag = pathlib.Path(folder, "scene.svdag")
         for command in (["svdag", "build", scene, "-r", "512", "--rule", rule, "-o", dag, "-q"],
                         ["svdag-verify", "mesh", dag, scene, "--judge", "openvdb"]):
             done = subprocess.run([programs / command[0], *command[1:]], capture_output=True, text=True)
             if done.returncode != 0:
-                return f"{command[0]} {command[1]} gave {done.returncode}: {done.stdout}{done.stderr}"
+                return f"{command[0]} {command[1]} returned {done.returncode}: {done.stdout}{done.stderr}"
     return None
 
 

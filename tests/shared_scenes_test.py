@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every shared real scene bakes, the judge finds no missing and no extra voxel, and rays agree with its triangles.
+"""Tests every real scene: it bakes, no voxel is missing or extra, and rays agree with its triangles.
 
 Usage: shared_scenes_test.py PROGRAMS [RESOLUTION]. The scenes are all mesh files in the folder named by
 SVDAG_SCENES; without it the test is skipped.
@@ -14,7 +14,7 @@ FORMATS = {".ply", ".stl", ".obj", ".off", ".gltf", ".glb", ".drc", ".om"}
 
 
 def problem_of(programs, scene, resolution):
-    """What went wrong with one scene, or nothing."""
+    """A message about the first command that failed on a scene, or None."""
     with tempfile.TemporaryDirectory(prefix="svdag-shared-") as folder:
         dag = pathlib.Path(folder, "scene.svdag")
         for command in (["svdag", "build", scene, "-r", resolution, "-o", dag, "-q"],
@@ -23,7 +23,7 @@ def problem_of(programs, scene, resolution):
                         ["svdag-verify", "trace", dag, scene, "--rays", "100K"]):
             done = subprocess.run([programs / command[0], *command[1:]], capture_output=True, text=True)
             if done.returncode != 0 and "built without Embree" not in done.stderr:
-                return f"{command[0]} {command[1]} gave {done.returncode}: {done.stdout}{done.stderr}"
+                return f"{command[0]} {command[1]} returned {done.returncode}: {done.stdout}{done.stderr}"
     return None
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""No program uses or writes uninitialised bytes: small work of every kind under valgrind's memcheck.
+"""Tests that no program uses or writes uninitialised bytes: small inputs to every command under valgrind's memcheck.
 
-The address sanitizer does not see them; in files they would make equal plans differ. Not asked: CGAL's judge, which
-needs roundings that valgrind does not have, and the limited child that decodes OpenVDB, in which it finds no room.
+The address sanitizer does not detect them; in output files they would make equal plans differ. Not covered: CGAL's
+judge, which needs rounding modes that valgrind does not emulate, and the limited child that decodes OpenVDB, whose
+memory limit valgrind exceeds.
 Usage: uninitialised_test.py BUILD
 """
 import pathlib
@@ -15,9 +16,9 @@ from concurrent.futures import ThreadPoolExecutor
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 CORPUS = pathlib.Path(__file__).resolve().parent / "fuzz/corpus"
 FOUND = 99
-# svdag export and import become programs of their own: those are looked into, too.
+# --trace-children: svdag export and import are separate programs.
 MEMCHECK = ["valgrind", "-q", "--trace-children=yes", f"--error-exitcode={FOUND}", "--num-callers=20"]
-# One after the other: what they read was written before.
+# Run in order: later commands read the outputs of earlier ones.
 COMMANDS = """
 svdag-scene hairball -n 2K -q -o s.ply
 svdag build s.ply -r 128 -j 2 -q -o a.svdag --report r.json
@@ -56,7 +57,7 @@ svdag import x.svo -q -o svo.svdag
 
 
 def under_memcheck(command, folder):
-    """What is wrong with `command`, or nothing."""
+    """The failure of `command` under memcheck; "" if it succeeded."""
     done = subprocess.run([*MEMCHECK, *command], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode == 0:
         return ""
@@ -68,7 +69,7 @@ def main():
         print("valgrind is not on PATH (make deps installs it).\n0 passed, 0 failed, 1 skipped")
         return 0
     with tempfile.TemporaryDirectory(prefix="svdag-memcheck-") as folder, ThreadPoolExecutor() as pool:
-        # The readers, over all that is kept for the fuzzers.
+        # The fuzz targets, on their corpora.
         readers = [pool.submit(under_memcheck, [program, CORPUS / program.name], folder)
                    for program in sorted((BUILD / "tests").glob("*_fuzz"))]
         found = []

@@ -142,8 +142,8 @@ void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildRepo
   report->divided = counts.divided;
   if (store == nullptr) return;
   report->cache_hits = store->hits();
-  report->cache_ignored = store->skipped_packs();
-  report->cache_complaint = store->write_error();
+  report->cache_packs_skipped = store->ignored();
+  report->cache_write_error = store->complaint();
 }
 
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
@@ -204,7 +204,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report.cell_level = splitting.cell_level;
   meter.end_phase(&report.seconds.split, &report.phase_peaks.split);
   // Hashed at once: the files must not change until then.
-  if (config.name_files) report.files = description->files();
+  if (config.hash_files) report.files = description->files();
 
   meter.skip();
   const MortonSet done = finished_ranges(part, saved);

@@ -1,8 +1,8 @@
-// `svdag build --batch LIST.json`: many bakes, one after the other, and one report.
+// `svdag build --batch LIST.json`: runs a list of bakes, one at a time, with one report.
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
-// "scene": one or more paths. Each object becomes a command line, and all are parsed before the
-// first bake. Options given with --batch are defaults for every bake in the list; options that
+// "scene", one or more paths. Each object becomes a command line; all are parsed before the first
+// bake. Options given with --batch are defaults for every bake in the list; options that
 // cannot apply to several bakes are rejected.
 #include <algorithm>
 #include <chrono>
@@ -27,11 +27,11 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// A bake cannot switch off a flag that was given for all bakes.
-void refuse_to_take_back(const std::string& key, const BatchCommand& batch) {
+// Rejects "FLAG": false if --FLAG was given for all bakes: a bake cannot switch it off.
+void reject_false(const std::string& key, const BatchCommand& batch) {
   if (batch.given.contains("--" + key))
-    fail_usage("\"" + key + "\": false does not take back the --" + key +
-               " beside --batch, which is for all bakes: leave one of them out");
+    fail_usage("\"" + key + "\": false cannot switch off the --" + key +
+               " given with --batch: leave one of them out");
 }
 
 // The command line of one object.
@@ -39,19 +39,19 @@ std::vector<std::string> arguments_of(const Json& job, const BatchCommand& batch
   std::vector<std::string> scene, options;
   const auto add = [&](const std::string& key, const Json& one) {
     if (one.is_structured() || one.is_null())
-      fail_usage("\"" + key + "\" must be a text, number or flag");
-    if (key.size() == 1) fail_usage("\"" + key + "\": give the long name of the option");
+      fail_usage("\"" + key + "\" must be a string, number or boolean");
+    if (key.size() == 1) fail_usage("\"" + key + "\": use the long name of the option");
     if (key == "scene") {
       scene.push_back(text_of(one));
     } else if (one.is_boolean()) {
-      one.get<bool>() ? options.push_back("--" + key) : refuse_to_take_back(key, batch);
+      one.get<bool>() ? options.push_back("--" + key) : reject_false(key, batch);
     } else if (const std::string text = text_of(one); text.empty()) {
-      options.insert(options.end(), {"--" + key, text});  // behind "=" it would be the next word
+      options.insert(options.end(), {"--" + key, text});  // "--KEY=" would take the next word
     } else {
       options.push_back("--" + key + "=" + text);
     }
   };
-  for (const auto& [key, value] : job.items()) {  // never copied: a copy of a deep one is recursive
+  for (const auto& [key, value] : job.items()) {  // no copies: copying deep JSON recurses
     if (value.is_array()) {
       for (const Json& one : value) add(key, one);
     } else {
@@ -63,14 +63,15 @@ std::vector<std::string> arguments_of(const Json& job, const BatchCommand& batch
   return options;
 }
 
-std::string place(const BatchCommand& batch, size_t job) {
+std::string bake_prefix(const BatchCommand& batch, size_t job) {
   return batch.list + ": bake " + std::to_string(job + 1) + ": ";
 }
 
 Json read_list(const std::string& path) {
-  constexpr uint64_t kMost = uint64_t(64) << 20;
+  constexpr uint64_t kMaxListBytes = uint64_t(64) << 20;
   const File file = File::open_read(path);
-  if (file.size() > kMost) fail_input(path, "is too large for a list of bakes");
+  if (file.size() > kMaxListBytes)
+    fail_input(path, "is too large for a list of bakes (max 64 MiB)");
   std::string text(file.size(), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   try {
@@ -89,7 +90,7 @@ Json read_list(const std::string& path) {
 std::vector<BakeCommand> bakes_of(const BatchCommand& batch) {
   std::vector<BakeCommand> jobs;
   for (const Json& job : read_list(batch.list)) {
-    const std::string where = place(batch, jobs.size());
+    const std::string where = bake_prefix(batch, jobs.size());
     if (!job.is_object()) fail_usage(where + "is not an object");
     try {
       jobs.push_back(parse_bake(arguments_of(job, batch), batch.defaults));
@@ -102,8 +103,8 @@ std::vector<BakeCommand> bakes_of(const BatchCommand& batch) {
 
 namespace {
 
-// No bake may write what the list, another bake or itself reads or writes, in whatever order.
-void refuse_overwriting(const BatchCommand& batch, const std::vector<BakeCommand>& jobs) {
+// Rejects a bake that would overwrite the list, an input of any bake, or an output of another.
+void reject_overwriting(const BatchCommand& batch, const std::vector<BakeCommand>& jobs) {
   CommandFiles files;
   files.read(batch.list);
   const auto replaces = [](const BakeCommand& job) {
@@ -115,7 +116,7 @@ void refuse_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
     if (!buffers) continue;
     try {
       files.read_buffers(job.build.scene, job.build.memory);
-    } catch (const Error&) {  // the bake will say so
+    } catch (const Error&) {  // the bake reports it
     }
   }
   for (size_t i = 0; i < jobs.size(); ++i) {
@@ -123,7 +124,7 @@ void refuse_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
       for (const std::string& output : outputs_of(jobs[i])) files.write(output);
       reject_foreign_format(jobs[i].build.output);
     } catch (const Error& error) {
-      fail_usage(place(batch, i) + error.what());
+      fail_usage(bake_prefix(batch, i) + error.what());
     }
   }
   if (!batch.report.empty()) files.write(batch.report);
@@ -145,11 +146,10 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
     }
   } catch (Interrupted& interrupted) {
     if (job.build.unfinished == Unfinished::kRestart)
-      interrupted.resume_message =
-          batch.defaults.build.unfinished == Unfinished::kRestart
-              ? kResumeForRestart
-              : "stopped; without \"restart\" in the list, the same command with "
-                "--resume continues";
+      interrupted.how = batch.defaults.build.unfinished == Unfinished::kRestart
+                            ? kResumeForRestart
+                            : "stopped; to continue, remove \"restart\" from the list and repeat "
+                              "the command with --resume";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();
@@ -174,8 +174,8 @@ void write_report(AtomicFile* report, size_t bakes, const Json& done) {
 
 int run(const BatchCommand& config) {
   const std::vector<BakeCommand> jobs = bakes_of(config);
-  refuse_overwriting(config, jobs);
-  std::optional<AtomicFile> report;  // opened before there is work to lose
+  reject_overwriting(config, jobs);
+  std::optional<AtomicFile> report;  // created first: a bad path fails before any work
   if (!config.report.empty()) report.emplace(config.report);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;

@@ -55,7 +55,7 @@ double bits_per_voxel(const BuildReport& r) {
   return r.voxels == 0 ? 0 : 8.0 * double(r.file_bytes) / double(r.voxels);
 }
 
-// Share of the decisions at voxels that double could not make and integers made.
+// Fraction of the voxel decisions that were unsure in double and made in integers.
 double exact_share(const BuildReport& r) {
   return r.decisions.total == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.total);
 }
@@ -90,7 +90,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"cell_level", r.cell_level},
                {"cells", r.cells},
                {"cache_hits", r.cache_hits},
-               {"cache_packs_ignored", r.cache_ignored},
+               {"cache_packs_ignored", r.cache_packs_skipped},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
                {"file_bytes", r.file_bytes},
@@ -146,9 +146,9 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
   std::printf("  %s cells visited", format_count(r.cells).c_str());
   if (!config.cache.folder.empty())
     std::printf(", %s of them found in the cache", format_count(r.cache_hits).c_str());
-  if (r.cache_ignored != 0)
-    std::printf("; %s of its packs ignored, for which --memory is too small",
-                format_count(r.cache_ignored).c_str());
+  if (r.cache_packs_skipped != 0)
+    std::printf("; %s of its packs ignored because --memory is too small",
+                format_count(r.cache_packs_skipped).c_str());
   std::printf("\n");
   std::printf("  planes: %s cubes looked up in the memo, %s answered; %s nodes computed for it\n",
               format_count(r.memo.queries).c_str(), format_count(r.memo.answered).c_str(),
@@ -166,11 +166,11 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
               format_bytes(r.peak_resident).c_str());
 }
 
-void refuse_overwriting(const BakeCommand& command) {
+void reject_overwriting(const BakeCommand& command) {
   const std::vector<std::string> outputs = outputs_of(command);
   CommandFiles files;
   files.read(command.build.scene.paths);
-  // Buffers of a scene exist, so only an output that exists can overwrite one.
+  // Opening the scene is needed only if an output exists: the buffers of a scene exist.
   if (std::any_of(outputs.begin(), outputs.end(), name_exists))
     files.read_buffers(command.build.scene, command.build.memory);
   for (const std::string& output : outputs) files.write(output);
@@ -189,29 +189,29 @@ std::vector<std::string> outputs_of(const BakeCommand& command) {
 std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   AtomicFile::check(command.build.output);
   discard_dry_run(command.build);
-  std::optional<AtomicFile> report_file;  // opened before there is work to lose
+  std::optional<AtomicFile> report_file;  // created first: a bad path fails before any work
   if (!command.report.empty()) report_file.emplace(command.report);
   ParallelExecutor executor(threads_or_all(command.threads));
   Progress progress(command.output.mode());
   BuildConfig build_config = command.build;
-  const bool wants_report = in_a_batch || report_file;
-  build_config.name_files = wants_report;
+  const bool needs_json = in_a_batch || report_file;
+  build_config.hash_files = needs_json;
   if (!command.cache.folder.empty())
     build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
       return std::make_unique<CellCache>(command.cache, grid, rule, budget);
     };
   const BuildReport report = build(build_config, &executor, &progress);
-  if (!report.cache_complaint.empty())
-    std::fprintf(stderr, "svdag: %s\n", report.cache_complaint.c_str());
-  // Only on demand: nlohmann's destructors allocate, which ends the program where memory is short.
-  const std::string json = wants_report ? report_json(command, report) : "";
+  if (!report.cache_write_error.empty())
+    std::fprintf(stderr, "svdag: %s\n", report.cache_write_error.c_str());
+  // Only on request: nlohmann's destructors allocate, which terminates if memory is exhausted.
+  const std::string json = needs_json ? report_json(command, report) : "";
   if (report_file) {
     report_file->append(json);
     report_file->commit();
   }
   if (command.output.quiet) return json;
   print_summary(command, report);
-  // In a batch most bakes are not the one that was stopped.
+  // Not in a batch: most of its bakes were not the interrupted one.
   if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)
     std::printf("  nothing to resume in %s: it was baked anew\n",
                 ScratchDir::path_for(command.build.output, command.build.scratch).c_str());
@@ -219,8 +219,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
 }
 
 int run(const BakeCommand& command) {
-  refuse_plans(command.build.scene.paths, "--shard");
-  refuse_overwriting(command);
+  reject_plans(command.build.scene.paths, "--shard");
+  reject_overwriting(command);
   try {
     bake_scene(command, false);
   } catch (Interrupted& interrupted) {
@@ -232,10 +232,10 @@ int run(const BakeCommand& command) {
 }
 
 int run(const DryRunCommand& command) {
-  refuse_plans(command.build.scene.paths, "--shard");
+  reject_plans(command.build.scene.paths, "--shard");
   BakeCommand bake;
   bake.build = command.build;
-  refuse_overwriting(bake);
+  reject_overwriting(bake);
   return predict(command);
 }
 

@@ -1,4 +1,4 @@
-// svdag build, and each bake of its lists.
+// The options of svdag build, on the command line and in the lists of --batch.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -27,7 +27,7 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
   constexpr const char* kGroup = "Measurements (the result is the same)";
   app->add_flag_callback(
          "--no-plane-memo", [descent] { descent->plane_memo = descent->patches = false; },
-         "Compute every cube, also where a plane repeats")
+         "Compute every cube, without the memo of repeated planes")
       ->group(kGroup);
   suggests(
       app->add_option_function<std::string>(
@@ -40,11 +40,11 @@ void add_measurement_options(CLI::App* app, DescentConfig* descent) {
 }
 
 double checked_seconds(double seconds) {
-  if (!(seconds > 0)) fail_usage("--checkpoint: give more than 0 seconds");
+  if (!(seconds > 0)) fail_usage("--checkpoint: must be more than 0 seconds");
   return seconds;
 }
 
-// Everything that `svdag build` understands; command_of() decides which command it is.
+// All options of `svdag build`; command_of() selects the command that they mean.
 struct BuildOptions {
   BakeCommand bake;
   std::optional<double> checkpoint;  // seconds
@@ -66,27 +66,26 @@ void add_resume_options(CLI::App* app, BuildOptions* options) {
       ->excludes(resume);
   app->add_option_function<double>(
          "--checkpoint", [=](double s) { options->checkpoint = checked_seconds(s); },
-         "Save the work of every so many seconds for --resume (default: 30)")
+         "Save work for --resume every SECONDS seconds (default: 30)")
       ->type_name("SECONDS");
 }
 
 void add_cache_options(CLI::App* app, CellCacheConfig* config) {
   CLI::Option* cache =
       takes_folder(
-          app->add_option(
-              "--cache", config->folder,
-              "Folder of cells baked before, by any bake: the same cells are not baked again"))
+          app->add_option("--cache", config->folder,
+                          "Folder that caches baked cells: no bake computes an equal cell again"))
           ->type_name("DIR");
   CLI::Option* size =
       app->add_option_function<std::string>(
              "--cache-size",
              [config](const std::string& s) { config->max_bytes = parse_count(s, "--cache-size"); },
-             "Most bytes that the cache may hold; the least used go first (default: 16G)")
+             "Max bytes in the cache; the least recently used go first (default: 16G)")
           ->type_name("SIZE");
-  if (config->folder.empty()) size->needs(cache);  // else the list has one
+  if (config->folder.empty()) size->needs(cache);  // else the defaults of the batch have a cache
 }
 
-// The names of the options that were given.
+// The long names of the options that were given, with dashes.
 std::set<std::string> given_options(const CLI::App* app, const CLI::App* grid) {
   std::set<std::string> given;
   for (const CLI::App* options : {app, grid}) {
@@ -112,18 +111,20 @@ void add_options(CLI::App* app, BuildOptions* options) {
                             ->type_name("OUT");
   CLI::Option_group* grid = add_grid_options(app, build);
   const auto grid_is_optional = [grid] { grid->require_option(0, 1); };
-  if (build->levels != 0 || build->voxel_size != 0) grid_is_optional();  // a default has it
-  takes_files(app->add_option_function<std::string>(
-                  "--batch",
-                  [=](const std::string& list) {  // each bake of the list has these
-                    options->batch = list;
-                    scene->required(false);
-                    output->required(false);
-                    grid_is_optional();
-                  },
-                  "Do the bakes of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
-                  "options beside it hold for bakes that do not say otherwise; --report is of all"),
-              {".json"})
+  if (build->levels != 0 || build->voxel_size != 0)
+    grid_is_optional();  // the defaults of a batch have a grid
+  takes_files(
+      app->add_option_function<std::string>(
+          "--batch",
+          [=](const std::string& list) {  // each bake of the list has its own
+            options->batch = list;
+            scene->required(false);
+            output->required(false);
+            grid_is_optional();
+          },
+          "Bake each entry of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
+          "other options given here are defaults for every bake; --report covers all bakes"),
+      {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", options->keep_going, "Continue a batch after a bake fails");
   app->add_option_function<size_t>(
@@ -134,12 +135,13 @@ void add_options(CLI::App* app, BuildOptions* options) {
            output->required(false);
            grid_is_optional();
          },
-         "Bake shard I of a plan, from 1 on; one that is there already is kept")
+         "Bake shard I (from 1) of a plan; a finished one is kept")
       ->type_name("I");
-  app->add_flag("--dry-run", options->dry_run, "Only tell what the bake would take");
+  app->add_flag("--dry-run", options->dry_run,
+                "Only predict the time, memory and disk space of the bake");
   app->add_option_function<std::string>(
          "--part", [build](const std::string& s) { build->part = parse_part(s); },
-         "Bake only part I of N of the grid, to a .run; svdag merge joins the runs")
+         "Bake only part I of N of the grid, as a .run; svdag merge joins the runs")
       ->type_name("I/N");
   add_resource_options(app, &build->memory, &options->bake.threads, &build->scratch);
   add_resume_options(app, options);
@@ -157,12 +159,12 @@ void add_options(CLI::App* app, BuildOptions* options) {
                {"svdag build city.glb -o city.svdag -r 64K",
                 "svdag build hall.obj props.ply -o hall.svdag -s 0.01 --exclude 'sky*'",
                 "svdag build scan.ply -o scan.svdag -r 16K -m 1G --resume"},
-               "--batch LIST.json replaces SCENE and -o; PLAN --shard I needs nothing else. "
+               "--batch LIST.json replaces SCENE and -o; PLAN --shard I needs no other option. "
                "See also: svdag help grid, rules, memory.");
 }
 
-// A shard takes all other options from the plan.
-void require_options_of_a_shard(const std::set<std::string>& given) {
+// Rejects options that a shard would ignore because the plan sets them.
+void require_shard_options(const std::set<std::string>& given) {
   static const std::set<std::string> kHonored = {
       "--shard",   "--output",     "--memory", "--threads", "--scratch",  "--resume",
       "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
@@ -176,9 +178,9 @@ ShardCommand shard_of(const BuildOptions& options) {
   const BuildConfig& build = options.bake.build;
   const std::vector<std::string>& paths = build.scene.paths;
   if (paths.size() != 1)
-    fail_usage("--shard is for one plan, and " + std::to_string(paths.size()) +
-               " names are given: leave all but the plan's out");
-  require_options_of_a_shard(options.given);
+    fail_usage("--shard: takes one plan, " + std::to_string(paths.size()) +
+               " paths are given: name only the plan");
+  require_shard_options(options.given);
   ShardCommand command;
   command.plan = paths.front();
   command.shard = *options.shard;
@@ -208,8 +210,9 @@ Command command_of(const BuildOptions& parsed) {
   if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
   if (options.shard && !options.bake.build.scene.paths.empty()) return shard_of(options);
   if (options.dry_run && !options.bake.report.empty())
-    fail_usage("--dry-run bakes nothing to report: leave --report out");
-  if (options.keep_going && options.batch.empty()) fail_usage("--keep-going is for --batch");
+    fail_usage("--report: --dry-run writes no report: leave --report out");
+  if (options.keep_going && options.batch.empty())
+    fail_usage("--keep-going: applies only to --batch");
   if (!options.batch.empty()) return batch_of(options);
   if (!options.dry_run) return options.bake;
   return DryRunCommand{options.bake.build, options.bake.threads, options.bake.output};

@@ -1,8 +1,9 @@
-// The files of a command: no output overwrites an input or another output.
+// The files that a command reads and writes: rejects outputs that overwrite an input or another
+// output.
 //
-// An input is identified under all its names. An output is a new file that gets its name by a
-// rename, even where a link to another output was, so only its path counts. All inputs are added
-// before the first output. Only read_buffers() opens files.
+// Inputs are compared as files, under all their names. Outputs are compared as paths: a new file
+// is renamed to the path and replaces a link there. All inputs are added before the first output.
+// Only read_buffers() opens files.
 #pragma once
 
 #include <string>
@@ -19,17 +20,18 @@ class CommandFiles {
  public:
   void read(const std::string& path) { inputs_.add(path); }
   void read(const std::vector<std::string>& paths);
-  // The files that the scene's own files name: the buffers of glTF. Errors are those of the reader.
+  // Adds the files that the scene's files refer to: buffers of glTF. Throws the errors of the
+  // reader.
   void read_buffers(const SceneConfig& scene, uint64_t memory);
-  // The files of a plan, and those that it was made of. What `own` makes may be written, at its
-  // place in the plan.
+  // Adds the files and the inputs of a plan, except for the output of `own`: that step may write
+  // it, at its path in the plan.
   void read(const Plan& plan, const PlanStep* own = nullptr);
-  // Error (kUsage) if it is an input, or an output already.
+  // Adds an output. Error (kUsage) if `path` is an input or another output.
   void write(const std::string& path);
 
  private:
   FileNames inputs_;
-  std::unordered_set<std::string> outputs_;  // their places
+  std::unordered_set<std::string> outputs_;  // keys of their directory entries
 };
 
 }  // namespace svdag

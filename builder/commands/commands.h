@@ -1,7 +1,7 @@
 // The commands of `svdag`: one struct each, and run(), which executes it.
 //
 // The command line is parsed to a Command (builder/commands/options.h); main() visits it. A struct
-// holds what its command needs and nothing else, so `svdag build` parses to one of four.
+// holds only what its command needs, so `svdag build` parses to one of four.
 #pragma once
 
 #include <set>
@@ -20,7 +20,7 @@ namespace svdag {
 
 struct OutputConfig {
   bool quiet = false;    // -q: print errors only
-  bool verbose = false;  // -v: print seconds and memory per phase
+  bool verbose = false;  // -v: print details (seconds per phase, memory)
   Progress::Mode progress = Progress::Mode::kAuto;
 
   Progress::Mode mode() const { return quiet ? Progress::Mode::kOff : progress; }
@@ -45,14 +45,14 @@ struct DryRunCommand {
 // svdag build --batch LIST: the bakes of a list.
 struct BatchCommand {
   std::string list;             // path of the JSON file
-  BakeCommand defaults;         // for bakes that do not override them
-  std::set<std::string> given;  // options of the command line: "--rule"
+  BakeCommand defaults;         // options of bakes that do not override them
+  std::set<std::string> given;  // options on the command line, such as "--rule"
   bool keep_going = false;      // continue after a bake that fails
   bool dry_run = false;
-  std::string report;  // of all bakes; empty: none
+  std::string report;  // path of the JSON report of all bakes; empty: none
 };
 
-// svdag build PLAN --shard I.
+// svdag build PLAN --shard I: one shard of a plan.
 struct ShardCommand {
   std::string plan;
   size_t shard = 1;  // from 1
@@ -61,13 +61,14 @@ struct ShardCommand {
   OutputConfig output;
 };
 
+// svdag merge RUN... -o OUT.
 struct MergeCommand {
   MergeRunsConfig merge;
   size_t threads = 0;  // 0: all processors
   OutputConfig output;
 };
 
-// svdag merge PLAN --step NAME.
+// svdag merge PLAN --step NAME: one merge of a plan.
 struct MergeStepCommand {
   std::string plan;
   std::string step_name;
@@ -76,11 +77,13 @@ struct MergeStepCommand {
   OutputConfig output;
 };
 
+// svdag plan SCENE -o PLAN.
 struct PlanCommand {
   PlanConfig plan;
   OutputConfig output;
 };
 
+// svdag run PLAN.
 struct RunCommand {
   std::string plan;
   size_t processes = 0;  // 0: one per processor
@@ -88,10 +91,11 @@ struct RunCommand {
   OutputConfig output;
 };
 
+// svdag submit PLAN.
 struct SubmitCommand {
   std::string plan;
-  std::string engine;         // slurm | openjd
-  std::string program;        // --program: svdag on the other machines; empty: this file
+  std::string engine;   // slurm | openjd
+  std::string program;  // --program: path of svdag on the other machines; empty: this program's
   std::string template_path;  // -o, openjd only; empty: PLAN/openjd.json
   std::string scratch;
   bool wait = false;
@@ -99,18 +103,19 @@ struct SubmitCommand {
   OutputConfig output;
 };
 
+// svdag info FILE.
 struct InfoCommand {
   std::vector<std::string> paths;  // one .svdag, .run or plan, or the files of one scene
   bool json = false;
   bool levels = false;  // print a table of levels, or of the steps of a plan
-  bool parts = false;   // print the names of a scene's parts
+  bool parts = false;   // print the names of a scene's mesh parts
   NameFilter names;     // for scenes
   bool skip_invalid = false;
   bool sandbox = false;
   uint64_t memory = 0;  // bytes; 0: half of the machine
 };
 
-// svdag help [SUBJECT].
+// svdag help [SUBJECT]: the help of a command or topic.
 struct HelpCommand {
   Manual program;
   std::string subject;  // a command or a topic; empty: the program
@@ -133,21 +138,21 @@ int run(const RunCommand& command);
 int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
 
-// Hint for an interrupted bake that --restart began.
+// Message of an interrupted bake that was started with --restart.
 constexpr const char* kResumeForRestart =
-    "stopped; the same command with --resume in place of --restart continues";
+    "stopped; to continue, repeat the command with --resume instead of --restart";
 
-// Bakes one scene. Returns its report as JSON in a batch, or if a report was requested.
+// Bakes one scene. Returns its JSON report if in a batch or if --report is given, else "".
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);
-// Predicts one bake.
+// Prints a prediction of one bake.
 int predict(const DryRunCommand& command);
-// The files that a bake writes; an Error (kUsage) if the first of them has no name.
+// The paths of the files that a bake writes; Error (kUsage) if the output's path is empty.
 std::vector<std::string> outputs_of(const BakeCommand& command);
 // The bakes of a list, parsed; none is started.
 std::vector<BakeCommand> bakes_of(const BatchCommand& batch);
-// Error (kUsage) if a path is a plan instead of a scene or a run: `option` is missing.
-void refuse_plans(const std::vector<std::string>& paths, const char* option);
-// The parts of `svdag info` for plans, runs and scenes.
+// Error (kUsage) if a path is a plan, not a scene or run; `option` (--shard, --step) is suggested.
+void reject_plans(const std::vector<std::string>& paths, const char* option);
+// `svdag info` for plans, runs and scenes.
 void info_plan(const InfoCommand& command);
 void info_run(const InfoCommand& command);
 void info_scene(const InfoCommand& command);

@@ -1,4 +1,4 @@
-// The commands of bakes in parts: svdag plan, run and submit, and the merge that joins the parts.
+// The options of bakes in parts: svdag plan, run, submit and merge.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -20,8 +20,8 @@ Command command_of(const MergeOptions& options) {
   const auto& [merge, threads, output] = options.merge;
   if (options.step.empty()) return options.merge;
   if (merge.runs.size() != 1)
-    fail_usage("--step is for one plan, and " + std::to_string(merge.runs.size()) +
-               " names are given: leave all but the plan's out");
+    fail_usage("--step: takes one plan, " + std::to_string(merge.runs.size()) +
+               " paths are given: name only the plan");
   return MergeStepCommand{merge.runs.front(),
                           options.step,
                           {merge.output, merge.memory, merge.scratch},
@@ -61,7 +61,7 @@ void add_merge(CLI::App* program, Command* command) {
       app,
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
        "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
-      "PLAN --step NAME needs nothing else. See also: svdag help farm.");
+      "PLAN --step NAME needs no other option. See also: svdag help farm.");
   app->preparse_callback([=](size_t) { *options = {}; });
   app->callback([=] { *command = command_of(*options); });
 }
@@ -103,11 +103,11 @@ void add_run(CLI::App* program, Command* command) {
   auto config = std::make_shared<RunCommand>();
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   from_to(app->add_option("-j,--jobs", config->processes,
-                          "Steps at once (default: as many as there are processors)"),
-          1, kMaxThreads)
+                          "Max steps to run at once (default: number of processors)"),
+          1, kMostThreads)
       ->type_name("N");
   takes_folder(
-      app->add_option("--scratch", config->scratch, "Folder for what does not fit in memory"))
+      app->add_option("--scratch", config->scratch, "Folder for data that does not fit in memory"))
       ->type_name("DIR");
   add_quiet(app, &config->output);
   add_progress(app, &config->output);

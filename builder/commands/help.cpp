@@ -17,12 +17,12 @@ int print(const std::string& text) {
   return 0;
 }
 
-// Commands that are programs of their own, which print their help themselves.
+// Whether a command is a separate program, which prints its own help.
 bool is_sibling(const std::string& name) {
   return name == "export" || name == "import";
 }
 
-[[noreturn]] void print_help_of_sibling(std::string name) {
+[[noreturn]] void print_sibling_help(std::string name) {
   std::string program = "svdag", option = "--help";
   char* arguments[] = {program.data(), name.data(), option.data(), nullptr};
   become_sibling(("svdag-" + name).c_str(), arguments);
@@ -58,7 +58,7 @@ int run(const HelpCommand& help) {
   for (const Topic& topic : topics()) {
     if (topic.name == subject) return print(filled(topic.text, width));
   }
-  if (is_sibling(subject)) print_help_of_sibling(subject);
+  if (is_sibling(subject)) print_sibling_help(subject);
   for (const Manual& command : program.commands) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }

@@ -1,7 +1,7 @@
-// svdag help [COMMAND|TOPIC]: what the options of one command cannot explain.
+// Topics of `svdag help TOPIC`: concepts that concern several commands.
 //
-// Topics are plain texts (builder/commands/topics), put into the program when it is built: help
-// must be there when a package is not whole, and no page is needed to read it.
+// A topic is a text file (builder/commands/topics) that the build embeds in the program, so help
+// works without installed files or a man page viewer.
 #pragma once
 
 #include <span>
@@ -14,15 +14,15 @@ namespace svdag {
 
 struct Topic {
   std::string_view name;
-  std::string_view text;  // its first line: "NAME: what it is about"
+  std::string_view text;  // the first line is "NAME: its subject"
 };
 
 std::span<const Topic> topics();
 
-// What follows `svdag help`: commands, but for help itself, and topics.
+// The possible arguments of `svdag help`: all commands except help, and all topics.
 std::vector<std::string> help_subjects(const Manual& program);
 
-// "Topics:" and a line for each.
+// "Topics:", then a line per topic.
 std::string list_of_topics();
 
 }  // namespace svdag

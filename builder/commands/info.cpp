@@ -80,29 +80,29 @@ void info_dag(const InfoCommand& config) {
 int run(const InfoCommand& config) {
   const bool one = config.paths.size() == 1;
   const std::string& first = config.paths.front();
-  const auto refuse = [&](bool given, const char* option, const char* what) {
+  const auto reject = [&](bool given, const char* option, const char* what) {
     if (given) fail_usage(std::string(option) + ": " + first + " is a " + what);
   };
-  const auto refuse_options_of_scenes = [&](const char* what) {
-    refuse(config.parts, "--parts", what);
-    refuse(!config.names.include.empty(), "--include", what);
-    refuse(!config.names.exclude.empty(), "--exclude", what);
-    refuse(config.skip_invalid, "--skip-invalid", what);
-    refuse(config.sandbox, "--sandbox", what);
+  const auto reject_scene_options = [&](const char* what) {
+    reject(config.parts, "--parts", what);
+    reject(!config.names.include.empty(), "--include", what);
+    reject(!config.names.exclude.empty(), "--exclude", what);
+    reject(config.skip_invalid, "--skip-invalid", what);
+    reject(config.sandbox, "--sandbox", what);
   };
   if (one && is_plan(first)) {
-    refuse_options_of_scenes("plan");
+    reject_scene_options("plan");
     info_plan(config);
   } else if (one && begins_with(kMagic, first)) {
-    refuse_options_of_scenes(".svdag");
+    reject_scene_options(".svdag");
     info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {
-    refuse_options_of_scenes("run");
-    refuse(config.levels, "--levels", "run");
+    reject_scene_options("run");
+    reject(config.levels, "--levels", "run");
     info_run(config);
   } else {
     if (one && first.ends_with(".svdag")) refuse_symvox(File::open_read(first));
-    refuse(config.levels, "--levels", "scene");
+    reject(config.levels, "--levels", "scene");
     info_scene(config);
   }
   return int(ExitCode::kOk);

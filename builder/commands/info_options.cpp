@@ -1,4 +1,4 @@
-// svdag info.
+// The options of svdag info.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -9,7 +9,7 @@
 namespace svdag {
 
 void add_info(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("info", "Tell what a .svdag, a run or a scene contains");
+  CLI::App* app = program->add_subcommand("info", "Describe a .svdag, a run, a plan or a scene");
   auto config = std::make_shared<InfoCommand>();
   std::vector<std::string> endings = kSceneEndings;
   endings.insert(endings.begin(), {".svdag", ".run"});
@@ -21,7 +21,7 @@ void add_info(CLI::App* program, Command* command) {
   app->add_flag("--levels", config->levels,
                 "Print a table of the levels of a .svdag, or of the steps of a plan");
   app->add_flag("--parts", config->parts,
-                "Print the names of a scene's parts, as --include takes them");
+                "Print the names of a scene's parts, for use with --include");
   add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
   add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});

@@ -16,7 +16,7 @@ std::string hash_of(const RunFile& run) {
   return to_hex(run.header().content_hash);
 }
 
-// The fraction of the grid's voxels that are in the part.
+// Fraction of the grid's voxels that are in the run's grid part.
 double share_of(const RunFile& run) {
   double share = 0;
   for (const Cube& top : run.part().tops()) share += 1 / double(uint64_t(1) << 3 * top.level);

@@ -15,13 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using Parts = std::vector<std::pair<std::string, uint64_t>>;  // names and triangles, as they come
+// Name and triangle count of each mesh part, in order of appearance.
+using MeshParts = std::vector<std::pair<std::string, uint64_t>>;
 
-Parts list_parts(const Scene& scene) {
-  Parts parts;
-  std::unordered_map<std::string, size_t> place;
+MeshParts list_parts(const Scene& scene) {
+  MeshParts parts;
+  std::unordered_map<std::string, size_t> index_of;
   scene.stream([&](const TriangleBatch& batch) {
-    const auto [at, added] = place.emplace(batch.mesh, parts.size());
+    const auto [at, added] = index_of.emplace(batch.mesh, parts.size());
     if (added) parts.emplace_back(batch.mesh, 0);
     parts[at->second].second += batch.triangles.size();
   });
@@ -29,7 +30,7 @@ Parts list_parts(const Scene& scene) {
 }
 
 void print_json(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const Parts& parts) {
+                const MeshStats& stats, const MeshParts& parts) {
   Json json = {{"scene", config.paths},
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
@@ -48,7 +49,7 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
 }
 
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const Parts& parts) {
+                const MeshStats& stats, const MeshParts& parts) {
   const auto point = [](const Point& p) {
     return "(" + format_double(p.x) + ", " + format_double(p.y) + ", " + format_double(p.z) + ")";
   };
@@ -65,7 +66,7 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
   std::printf("  %s open edges, %s non-manifold edges\n", format_count(stats.open_edges).c_str(),
               format_count(stats.non_manifold_edges).c_str());
   if (counts.invalid > 0)
-    std::printf("  %s triangles with NaN or infinity left out\n",
+    std::printf("  %s triangles with NaN or infinity dropped\n",
                 format_count(counts.invalid).c_str());
   print_scene_notes(counts);
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
@@ -82,7 +83,7 @@ void info_scene(const InfoCommand& config) {
   SceneCounts counts;
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);
-  const Parts parts = config.parts ? list_parts(scene) : Parts();
+  const MeshParts parts = config.parts ? list_parts(scene) : MeshParts();
   config.json ? print_json(config, box, counts, stats, parts)
               : print_text(config, box, counts, stats, parts);
 }

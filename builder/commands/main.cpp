@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-// Added last: its choices are the other commands.
+// Added last: the other commands are its suggested arguments.
 void add_help(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("help", "Explain a command or a topic");
   auto subject = std::make_shared<std::string>();
@@ -35,13 +35,13 @@ int run_command(int argc, char** argv) {
   add_submit(&app, &command);
   add_info(&app, &command);
   app.add_subcommand("export", "Write the voxels of a .svdag in another format");
-  app.add_subcommand("import", "Make a .svdag of the voxels of another program");
+  app.add_subcommand("import", "Convert voxels of another program to a .svdag");
   add_help(&app, &command);
   add_examples(&app,
                {"svdag build city.glb -o city.svdag -r 64K", "svdag help build", "svdag help grid"},
                list_of_topics() +
-                   "\n\nsvdag-verify proves what was baked, and makes pictures of it; "
-                   "svdag-trace traces rays through it.");
+                   "\n\nsvdag-verify checks and renders .svdag files; "
+                   "svdag-trace traces rays through them.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
   return std::visit([](const auto& parsed) { return run(parsed); }, command);
 }
@@ -51,9 +51,10 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   svdag::catch_interrupts();
-  // The closure holds two words: a larger one would allocate before a lack of memory is caught.
+  // The closure holds only two words, so std::function does not allocate before bad_alloc is
+  // caught.
   return svdag::run_program({.name = "svdag",
-                             .stopped = "stopped; nothing was saved to continue from",
-                             .resumable = "stopped; the same command with --resume continues"},
+                             .stopped = "stopped; no work was saved",
+                             .resumable = "stopped; to continue, repeat the command with --resume"},
                             [argc, argv] { return svdag::run_command(argc, argv); });
 }

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-void refuse_overwriting_inputs(const MergeRunsConfig& config) {
+void reject_overwriting_inputs(const MergeRunsConfig& config) {
   for (size_t i = 0; i < config.runs.size(); ++i) {
     if (same_file(config.runs[i], config.output))
       fail_usage(config.output +
@@ -40,9 +40,9 @@ void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
 }  // namespace
 
 int run(const MergeCommand& config) {
-  refuse_plans(config.merge.runs, "--step");
+  reject_plans(config.merge.runs, "--step");
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
-  refuse_overwriting_inputs(config.merge);
+  reject_overwriting_inputs(config.merge);
   AtomicFile::check(config.merge.output);
   ParallelExecutor executor(threads_or_all(config.threads));
   Progress progress(config.output.mode());

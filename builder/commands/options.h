@@ -1,7 +1,7 @@
 // The command lines of `svdag`: each add_*() adds a command to the program, with options that fill
 // its struct (builder/commands/commands.h), and sets *command when that command is parsed.
 //
-// Only *_options.cpp and main.cpp include CLI11 (6 s each to compile).
+// Only *_options.cpp and main.cpp include CLI11, which takes 6 s to compile.
 #pragma once
 
 #include "builder/commands/commands.h"
@@ -20,8 +20,8 @@ void add_run(CLI::App* program, Command* command);
 void add_submit(CLI::App* program, Command* command);
 void add_info(CLI::App* program, Command* command);
 
-// Parses one bake of a list as `svdag build` parses its command line; options that are not given
-// keep their value in `defaults`. Errors: kUsage.
+// Parses one bake of a batch like a command line of `svdag build`; options that are not given keep
+// their value in `defaults`. Errors: kUsage.
 BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeCommand& defaults);
 
 // Options of several commands (shared_options.cpp).
@@ -29,12 +29,12 @@ void add_quiet(CLI::App* app, OutputConfig* output);
 void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text);
 void add_progress(CLI::App* app, OutputConfig* output);
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox);
-// Memory, threads and disk. The result does not depend on them. `own_scratch`: the default folder,
-// for the help text.
+// Adds the options of memory, threads and scratch, which do not affect the result. `own_scratch`:
+// the default scratch folder, for the help text.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch = "OUT.scratch",
                           const char* threads_text = "Threads (default: all processors)");
-// The grid of a bake; one option of the returned group is required.
+// Adds the grid options of a bake; exactly one option of the returned group is required.
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build);
 
 }  // namespace svdag

@@ -36,10 +36,11 @@ int run(const PlanCommand& config) {
   return int(ExitCode::kOk);
 }
 
-// A bake is predicted as a plan of one shard with the threads and the memory of the bake.
+// Predicts a bake as a plan of one shard with the threads and memory of the bake.
 int predict(const DryRunCommand& config) {
   if (config.build.part)
-    fail_usage("--dry-run predicts whole bakes: leave --part out, or let svdag plan cut the bake");
+    fail_usage(
+        "--dry-run predicts whole bakes: leave --part out, or divide the bake with svdag plan");
   AtomicFile::check(config.build.output);
   PlanConfig dry;
   dry.build = config.build;

@@ -11,7 +11,7 @@ void print_scene_notes(const SceneCounts& counts) {
   for (const std::string& pattern : counts.unmatched)
     std::printf("  no part of the scene matches %s\n", printable(pattern).c_str());
   if (counts.undeformed > 0)
-    std::printf("  %s triangles are taken as stored: skins and morph targets are not applied\n",
+    std::printf("  %s triangles are read as stored: skins and morph targets are not applied\n",
                 format_count(counts.undeformed).c_str());
 }
 

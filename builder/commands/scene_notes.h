@@ -1,11 +1,12 @@
-// What people should know of a scene that was read, whichever command read it.
+// Notes to the user about a scene, common to all commands that read scenes.
 #pragma once
 
 #include "io/scene/scene.h"
 
 namespace svdag {
 
-// A line each on stdout, or nothing: patterns that match no part, triangles that are not deformed.
+// Prints a line on stdout for each pattern that matches no part, and one if triangles are
+// undeformed (skins and morph targets are not applied).
 void print_scene_notes(const SceneCounts& counts);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// What several commands understand.
+// Options shared by several commands.
 #include <CLI/CLI.hpp>
 
 #include "builder/commands/options.h"
@@ -43,11 +43,11 @@ void add_progress(CLI::App* app, OutputConfig* output) {
 
 void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
   app->add_option("--include", names->include,
-                  "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
+                  "Only parts whose name matches a pattern (*, ?, [..]); may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   app->add_option("--exclude", names->exclude,
-                  "No part whose name matches a pattern; may be given again")
+                  "Skip parts whose name matches a pattern; may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
@@ -60,7 +60,7 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
   add_memory_budget(app, memory);
   from_to(app->add_option("-j,--threads", *threads, threads_text), 1, kMaxThreads)->type_name("N");
   takes_folder(app->add_option("--scratch", *scratch,
-                               "Folder for what does not fit in memory (default: " +
+                               "Folder for data that does not fit in memory (default: " +
                                    std::string(own_scratch) + ")"))
       ->type_name("DIR");
 }

@@ -12,8 +12,8 @@ namespace svdag {
 void become_sibling(const char* name, char** argv) {
   const std::string program = std::filesystem::path(own_program()).parent_path() / name;
   ::execv(program.c_str(), argv + 1);
-  fail_usage("svdag " + std::string(argv[1]) + " needs the program " + program +
-             ", which is not there or does not start: install it beside svdag");
+  fail_usage("svdag " + std::string(argv[1]) + ": cannot start the program " + program +
+             ": install it beside svdag");
 }
 
 }  // namespace svdag

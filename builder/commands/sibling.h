@@ -1,4 +1,4 @@
-// Sub-commands that are programs of their own, as git has them.
+// Sub-commands that are separate programs, like those of git.
 #pragma once
 
 namespace svdag {

@@ -15,7 +15,8 @@
 namespace svdag {
 namespace {
 
-// The command that does the step again in the same way: scratch is found where it was left.
+// The command line that repeats the step with the same options, so that it finds its scratch
+// folder.
 std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig& config,
                        size_t threads) {
   std::vector<std::string> words = {"svdag"};
@@ -29,13 +30,14 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
   return shell_words(words);
 }
 
-// The receipt of the step is that of the kind of file that the plan says.
+// Rejects an output that is not of the kind (run or .svdag) that the plan and the receipt expect.
 void require_same_kind(const PlanStep& step, const std::string& output) {
   reject_foreign_format(output);
   if (names_run(output) == names_run(step.output)) return;
   fail_usage(output + ": " + step.name +
-             (names_run(step.output) ? " makes a run: choose an output that ends in .run"
-                                     : " makes a .svdag: choose an output that is no .run"));
+             (names_run(step.output)
+                  ? " makes a run: choose an output that ends in .run"
+                  : " makes a .svdag: choose an output that does not end in .run"));
 }
 
 int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
@@ -52,8 +54,8 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
   } catch (const Interrupted& interrupted) {
     progress.finish();
     std::fprintf(stderr, "svdag: %s stopped; %s: %s\n", step.name.c_str(),
-                 interrupted.resumable ? "what is done is saved, and this goes on from there"
-                                       : "this begins it again",
+                 interrupted.resumable ? "its work is saved; to continue"
+                                       : "no work was saved; to begin again",
                  command_of(plan, step, config, threads).c_str());
     return 128 + interrupted.signal;
   }
@@ -79,12 +81,12 @@ Plan load(const std::string& path, const char* option, bool with_bins) {
 
 }  // namespace
 
-void refuse_plans(const std::vector<std::string>& paths, const char* option) {
+void reject_plans(const std::vector<std::string>& paths, const char* option) {
   for (const std::string& path : paths) {
     std::error_code none;
     if (std::filesystem::is_directory(path, none) && is_plan(path))
-      fail_usage(path + " is a plan: name one of its steps with " + option +
-                 ", or do them all with svdag run");
+      fail_usage(path + " is a plan: choose one of its steps with " + option +
+                 ", or run them all with svdag run");
   }
 }
 

@@ -12,9 +12,9 @@ namespace svdag {
 
 namespace {
 
-// Rejects options that only the other engine honors. Engine options begin with a dash: any other
-// word is a second plan, which would be passed to the engine.
-void refuse_other_engines_options(const SubmitCommand& config) {
+// Rejects options that the chosen engine would ignore. Engine options begin with a dash: any other
+// word is a second plan, which must not be passed to the engine.
+void reject_options_of_other_engines(const SubmitCommand& config) {
   if (!config.options.empty() && !config.options.front().starts_with('-'))
     fail_usage(config.options.front() +
                ": one plan is submitted at a time; options for the engine begin with a dash and "
@@ -31,12 +31,12 @@ void refuse_other_engines_options(const SubmitCommand& config) {
 
 int run(const SubmitCommand& config) {
   const Plan plan = load_plan(config.plan, false);
-  refuse_other_engines_options(config);
+  reject_options_of_other_engines(config);
   if (config.engine == "slurm") {
     try {
       submit_slurm(
           plan, {config.program, config.options, config.scratch, config.wait, config.output.quiet});
-    } catch (const Interrupted& interrupted) {  // the submitted jobs have been listed
+    } catch (const Interrupted& interrupted) {  // submit_slurm() has listed the submitted jobs
       return 128 + interrupted.signal;
     }
     return int(ExitCode::kOk);

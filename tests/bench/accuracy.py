@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""`make bench-accuracy`: run time against error, and volume error against resolution.
+"""`make bench-accuracy`: measures run time against error, and volume error against resolution.
 
-Runs accuracy_bench, accuracy_volume and `svdag-verify trace`, writes build/bench/accuracy.csv, volume.csv and rays.csv, the plots
-docs/images/accuracy_*.svg, and the tables between the markers in docs/accuracy.md. The real scenes
-are measured where SVDAG_SCENES names their folder; without it docs/ is left alone.
+Runs accuracy_bench, accuracy_volume and `svdag-verify trace`. Writes build/bench/accuracy.csv, volume.csv and rays.csv,
+the plots docs/images/accuracy_*.svg, and the tables between the markers in docs/accuracy.md. Real scenes are in the
+folder SVDAG_SCENES; if it is not set, docs/ is not changed.
 """
 import argparse
 import csv
@@ -28,7 +28,7 @@ BAKED = ("Crytek Sponza", "crytek_sponza.glb", "2K")
 
 
 def run_to_csv(program, path, measure):
-    """Rows of the CSV that `program` prints, or printed last; numbers as numbers."""
+    """Rows of the CSV that `program` prints (if `measure`) or printed in the last run; numbers are converted."""
     if measure:
         path.write_text(subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout)
     with open(path, newline="") as file:
@@ -69,7 +69,7 @@ def error_cell(row):
 
 
 def matrix(rows, world, cell, skip=()):
-    """One row per scene and family, one column per method."""
+    """A table with a row per scene and family and a column per method."""
     cases = grouped(rows, "scene", world) | grouped(rows, "family", world)
     methods = [m for m in next(iter(cases.values())) if m not in skip]
     return table(["case, grid", *methods],
@@ -77,7 +77,7 @@ def matrix(rows, world, cell, skip=()):
 
 
 def ratio_table(rows):
-    """Ours against the fastest method of all and the fastest that made no error."""
+    """A table of svdag against the fastest peer and the fastest peer without errors."""
     lines = []
     for group in ("scene", "family"):
         for name, own in grouped(rows, group).items():
@@ -101,7 +101,7 @@ def counts_table(rows):
 
 
 def bake_table(rows, program):
-    """Whole bakes in memory by every method, and the program from file to file."""
+    """A table of whole bakes in memory by every method, and by the program from file to file."""
     own = next(iter(grouped(rows, "bake").values()))
     lines = [[m, f"{r['cpu_seconds']:.2f}", f"{r['misses']:,}", f"{r['extras']:,}"] for m, r in own.items()]
     report = OUT / "accuracy-bake.json"
@@ -132,7 +132,7 @@ def machine():
 
 
 def rays(programs, tables_only):
-    """Measures, or reads what was measured last; whether anything was wrong."""
+    """Measures rays, or reads the last measurements, and fills in the page; returns whether there is an error."""
     path = OUT / "rays.csv"
     if not tables_only:
         accuracy_rays.write(accuracy_rays.measure(programs, OUT), path)
@@ -147,7 +147,7 @@ def rays(programs, tables_only):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--tables-only", action="store_true", help="from the CSV files of the last run")
+    parser.add_argument("--tables-only", action="store_true", help="make the tables from the CSV files of the last run")
     parser.add_argument("--rays-only", action="store_true", help="only the table and the plot of rays")
     options = parser.parse_args()
     programs = options.programs.resolve()
@@ -162,7 +162,7 @@ def main():
     wrong = sum(r["misses"] + r["extras"] for r in ours)
     print(f"svdag: {wrong} errors in {sum(r['voxels'] for r in ours):,} voxels judged")
     if "SVDAG_SCENES" not in os.environ:
-        print("SVDAG_SCENES is not set: docs/ is left alone")
+        print("SVDAG_SCENES is not set: docs/ is not changed")
         return wrong != 0
     fill(PAGE, {"machine": machine(), "ratios": ratio_table(rows), "counts": counts_table(rows),
                 "errors": matrix(rows, "world", error_cell, {"svdag + reduction"}),

@@ -25,7 +25,7 @@ def save(figure, name):
 
 
 def error_plot(cases, name, columns):
-    """One panel per case: errors per million voxels across, time per pair upward; 0 is separate at the left."""
+    """One panel per case: errors per million voxels on the x axis (0 is set apart), time per pair on the y axis."""
     count = len(cases) + (1 if len(cases) % columns else 0)
     rows = -(-count // columns)
     figure, panels = pyplot.subplots(rows, columns, figsize=(9.6, 2.5 * rows + 0.5), sharex=True, squeeze=False)
@@ -105,7 +105,7 @@ def volume_plot(rows, name):
 
 
 def rays_plot(rows, name):
-    """Rays that hit on one side alone, over resolution."""
+    """Rays that hit only the voxels or only the triangles, over resolution."""
     figure, panel = pyplot.subplots(figsize=(6.4, 3.6))
     series = {}
     for row in rows:

@@ -1,4 +1,4 @@
-"""Rays and distances against resolution: the table "Rays" of docs/accuracy.md, by `svdag-verify trace`."""
+"""Measures rays and distances against resolution by `svdag-verify trace`: the table "Rays" of docs/accuracy.md."""
 import csv
 import json
 import subprocess
@@ -6,7 +6,7 @@ import subprocess
 from bakes import Bakes, label
 from bench_tables import table
 
-# Scene of bakes.py, rules, log2 of the resolutions.
+# Scene (of bakes.py), rule, log2 of the resolutions.
 SERIES = [("atrium", "conservative", range(9, 15)), ("sponza", "conservative", range(9, 15)),
           ("sponza", "thin", range(9, 15)), ("dragon", "conservative", range(9, 15)),
           ("city", "conservative", range(9, 15)), ("hairball", "conservative", range(9, 13))]
@@ -16,7 +16,7 @@ BINS = ["< -1", "-1 .. 0", "0 .. 0.5", "0.5 .. 1", "1 .. 2", "2 .. 4", ">= 4"]
 
 
 def measure(programs, folder):
-    """A row per scene, rule and grid; scenes that are not here are left out."""
+    """A row per scene, rule and grid; missing scenes are skipped."""
     bakes, rows = Bakes(programs, folder), []
     for scene, rule, grids in SERIES:
         if bakes.scene(scene) is None:
@@ -50,7 +50,7 @@ def disagree(row):
 
 
 def rays_table(rows):
-    """Bins are joined where they are rare."""
+    """The table; rare bins are joined."""
     names = [f"nearer {name}" for name in BINS]
     early, bins, far_off = names[:2], names[2:5], names[5:]
     lines = []

@@ -1,4 +1,4 @@
-"""Scenes and bakes of `make bench`: each made once per run, and remembered."""
+"""Scenes and bakes of `make bench`, each made once per run and cached."""
 import json
 import os
 import pathlib
@@ -11,10 +11,10 @@ GENERATED = {"atrium": ["atrium"], "scan": ["scan"], "sheet": ["sheet"],
              "speck": ["speck", "-n", "100M"], "hairball": ["hairball", "-n", "2880K"],
              "city": ["city", "-n", "120K"],
              "city, 0.5 rad": ["city", "-n", "120K", "--yaw", "28.6478897565412"]}
-# Files in the folder that SVDAG_SCENES names.
+# Files in the folder SVDAG_SCENES.
 SHARED = {"sponza": "crytek_sponza.glb", "dragon": "stanford_dragon.ply"}
 PHASES = ["bounds", "split", "voxelize", "sort", "merge", "write"]
-SHORT = 1.0  # seconds; a bake that takes less is repeated, and the least time counts
+SHORT = 1.0  # seconds; shorter bakes are repeated, and the minimum is used
 REPEATS = 3
 
 
@@ -28,11 +28,11 @@ class Bakes:
 
     def __init__(self, programs, folder, coarser=0):
         self.programs, self.folder, self.coarser = programs, folder, coarser
-        self.known = {}
+        self.cached = {}
         folder.mkdir(parents=True, exist_ok=True)
 
     def scene(self, name):
-        """The path of a scene; None if it is not here."""
+        """The path of a scene, generated if needed; None if it is a missing shared scene."""
         if name in SHARED:
             path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), SHARED[name])
             return path if "SVDAG_SCENES" in os.environ and path.exists() else None
@@ -48,7 +48,7 @@ class Bakes:
         return max(3, log2 - self.coarser)
 
     def report(self, name, log2, *options):
-        """The report of one bake, which is left in dag_file()."""
+        """The report of one bake, whose output is dag_file()."""
         report = self.folder / "report.json"
         subprocess.run([self.programs / "svdag", "build", self.scene(name), "-r", label(self.log2(log2)),
                         "-o", self.dag_file(), "-q", "--report", report, *options], check=True)
@@ -58,29 +58,29 @@ class Bakes:
         return self.folder / "bench.svdag"
 
     def bake(self, name, log2, *options):
-        """One row of bakes.csv; None if the scene is not here."""
+        """A row of bakes.csv, measured once; None if the scene is missing."""
         key = (name, self.log2(log2), options)
         if self.scene(name) is None:
             return None
-        if key not in self.known:
+        if key not in self.cached:
             reports = [self.report(name, log2, *options)]
             while len(reports) < REPEATS and reports[0]["seconds"]["total"] < SHORT:
                 reports.append(self.report(name, log2, *options))
-            least = min(reports, key=lambda report: report["seconds"]["total"])
-            row = row_of(name, self.log2(log2), options, least)
+            fastest = min(reports, key=lambda report: report["seconds"]["total"])
+            row = row_of(name, self.log2(log2), options, fastest)
             row["s_cpu"] = min(report["seconds"]["cpu"] for report in reports)
-            self.known[key] = row
+            self.cached[key] = row
             print(f"{name:>13} {row['resolution']:>4} {row['nodes']:>12,} nodes {row['s_total']:8.2f} s "
                   f"{row['peak_mib']:7.0f} MiB  {' '.join(options)}", flush=True)
-        return self.known[key]
+        return self.cached[key]
 
     def info(self):
-        """What `svdag info` counts in the file of the bake that was just made."""
+        """The output of `svdag info --json` for the last bake."""
         return json.loads(subprocess.run([self.programs / "svdag", "info", "--json", self.dag_file()], check=True,
                                          capture_output=True).stdout)
 
     def rows(self):
-        return list(self.known.values())
+        return list(self.cached.values())
 
 
 def row_of(name, log2, options, report):

@@ -1,13 +1,12 @@
-"""The figures of merit of `make bench`: what was aimed at, and what this machine does.
+"""The figures of merit of `make bench`: targets and measurements.
 
-A figure is a function of the bakes and the options they are made with, so that the same row is used
-for again with other vectors.
+A figure is a function of the bakes and their options, so that it can be measured again with another instruction set.
 """
 import subprocess
 
 from bench_tables import growth, table
 
-AVX512 = ("--vectors", "AVX3")  # what Highway calls it
+AVX512 = ("--vectors", "AVX3")  # Highway's name
 
 
 def of_row(scene, log2, value, *more):
@@ -30,7 +29,7 @@ def cpu_per_node(scene, log2):
 
 
 def computed_per_node(scene, log2):
-    """Of one worker: every worker has a memo of its own."""
+    """Measured with one worker, because each worker has its own memo."""
     return of_row(scene, log2, lambda row: row["memo_computed"] / row["nodes"], "-j", "1")
 
 
@@ -56,7 +55,7 @@ FIGURES = [
     ("sponza 64K³, CPU per unique node", "ns", 1500, 500, cpu_per_node("sponza", 16)),
 ]
 GIANTS = [("city", 20), ("city, 0.5 rad", 20), ("sheet", 20), ("sponza", 18)]
-SAMPLE = 2000  # bricks that svdag-verify looks at
+SAMPLE = 2000  # bricks that svdag-verify compares
 
 
 def has_avx512():
@@ -71,26 +70,26 @@ def shown(value, unit):
 
 
 def figures(bakes, name):
-    """A row per figure; `name` is what the processor's best vectors are called."""
+    """A row per figure; `name` is that of the processor's best instruction set."""
     rows = []
-    for work, unit, at_most, aim, measure in FIGURES:
+    for work, unit, max_value, aim, measure in FIGURES:
         best = measure(bakes, ())
         if best is None:
             continue
         wide = measure(bakes, AVX512) if has_avx512() else None
-        targets = [f"{target:,} {unit}".strip() for target in (at_most, aim)]
-        measured = [shown(value, unit) + (" **missed**" if value is not None and value > at_most else "")
+        targets = [f"{target:,} {unit}".strip() for target in (max_value, aim)]
+        measured = [shown(value, unit) + (" **missed**" if value is not None and value > max_value else "")
                     for value in (best, wide)]
         rows.append([work, *targets, *measured])
     return table(["work", "at most", "aim", name, "AVX-512"], rows)
 
 
 def giant(bakes, scene, log2):
-    """(a line of the table, whether anything failed)"""
+    """(a row of the table, whether it failed)"""
     try:
         row = bakes.bake(scene, log2)
     except subprocess.CalledProcessError as error:
-        return [scene, "", f"svdag ended with {error.returncode}", "", "", "", "", ""], True
+        return [scene, "", f"svdag failed with exit code {error.returncode}", "", "", "", "", ""], True
     check = subprocess.run([bakes.programs / "svdag-verify", "mesh", bakes.dag_file(), bakes.scene(scene),
                             "--sample", str(SAMPLE)], stdout=subprocess.DEVNULL).returncode
     line = [scene, f"{row['resolution']}³", f"{row['s_total']:.1f}", f"{row['s_cpu']:.1f}", f"{row['nodes']:,}",
@@ -99,7 +98,7 @@ def giant(bakes, scene, log2):
 
 
 def giants(bakes):
-    """(the table, whether any of them failed)"""
+    """(the table, whether a giant failed)"""
     rows = [giant(bakes, scene, log2) for scene, log2 in GIANTS if bakes.scene(scene) is not None]
     head = ["scene", "grid", "seconds", "CPU", "DAG nodes", "MB", "peak MiB", f"{SAMPLE:,} bricks verified"]
     return table(head, [line for line, _ in rows]), any(failed for _, failed in rows)

@@ -1,13 +1,13 @@
-"""The plots of `make bench`: docs/images/NAME.svg, the same bytes for the same rows."""
+"""The plots of `make bench`, docs/images/NAME.svg: equal rows give equal bytes."""
 import math
 
 from bakes import label
 
-FITTED_FROM = 12  # below 4K, reading the scene and starting up weigh as much as the bake
+FITTED_FROM = 12  # log2: below 4K, start-up and reading the scene take as long as the bake
 
 
 def slope(points):
-    """Of the least-squares line through (log2 of the resolution, value), both axes logarithmic."""
+    """The slope of the least-squares line through (log2 of the resolution, log2 of the value)."""
     xs, ys = [x for x, _ in points], [math.log2(max(y, 1e-9)) for _, y in points]
     mean_x, mean_y = sum(xs) / len(xs), sum(ys) / len(ys)
     spread = sum((x - mean_x) ** 2 for x in xs)

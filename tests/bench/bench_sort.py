@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""`make bench-sort`: the external sort beside std::sort and STXXL, the table "Sorting" of docs/performance.md.
+"""`make bench-sort`: compares the external sort with std::sort and STXXL: the table "Sorting" of docs/performance.md.
 
-sort_bench (tests/bench/sort_bench.cpp) sorts 2^LOG2 keys of 32 bytes, in memory and with an eighth of it.
+sort_bench (tests/bench/sort_bench.cpp) sorts 2^LOG2 keys of 32 bytes, in memory and with an eighth of that memory.
 """
 import argparse
 import csv
@@ -17,15 +17,15 @@ COLUMNS = ["keys are", "memory", "sort", "keys", "wall", "cpu", "written", "read
 
 def measure(program, log2, rounds):
     """A row per kind of keys, memory and sort."""
-    # Passive: its threads sleep where they wait. Spinning, they cost it a factor of four on a busy machine.
+    # Passive: waiting threads of STXXL sleep. Spinning slows it down fourfold on a busy machine.
     quiet = os.environ | {"STXXLLOGFILE": "/dev/null", "STXXLERRLOGFILE": "/dev/null", "OMP_WAIT_POLICY": "passive"}
     rows = []
     for memory in ["memory", "disk"]:
-        answer = subprocess.run([program, OUT, str(log2), str(rounds), memory], env=quiet, text=True,
+        done = subprocess.run([program, OUT, str(log2), str(rounds), memory], env=quiet, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        lines = [line for line in answer.stdout.splitlines() if line.count(",") == len(COLUMNS) - 1]
-        if answer.returncode not in (0, 1) or not lines:
-            sys.exit(f"sort_bench failed: {answer.stderr}")
+        lines = [line for line in done.stdout.splitlines() if line.count(",") == len(COLUMNS) - 1]
+        if done.returncode not in (0, 1) or not lines:
+            sys.exit(f"sort_bench failed: {done.stderr}")
         rows += [dict(zip(COLUMNS, line.split(","))) for line in lines]
     if wrong := [row for row in rows if row["right"] != "1"]:
         sys.exit(f"not sorted, or not the same keys: {wrong}")
@@ -51,14 +51,14 @@ def table(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--log2", type=int, default=24, help="of the number of keys")
-    parser.add_argument("--rounds", type=int, default=3, help="the least time counts")
-    parser.add_argument("--csv-only", action="store_true", help="leave docs/ alone")
+    parser.add_argument("--log2", type=int, default=24, help="log2 of the number of keys")
+    parser.add_argument("--rounds", type=int, default=3, help="number of repetitions; the minimum time is used")
+    parser.add_argument("--csv-only", action="store_true", help="do not change docs/")
     options = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     rows = measure(options.programs.resolve() / "tests" / "bench" / "sort_bench", options.log2, options.rounds)
     if all(row["sort"] != "stxxl" for row in rows):
-        print("STXXL is not here (Debian: libstxxl-dev): it is left out, and docs/performance.md is not renewed.")
+        print("STXXL is missing (Debian: libstxxl-dev): docs/performance.md is not changed")
         options.csv_only = True
     content = f"{processor()}, {1 << options.log2:,} keys.\n\n{table(rows)}"
     print(content)

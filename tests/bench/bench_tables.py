@@ -29,7 +29,7 @@ def times(rows):
 
 
 def papers_layout(rows):
-    """A row per scene, a column per resolution up to 8K: seconds after voxelizing (share of sorting)."""
+    """Seconds after voxelizing (share of sorting): a row per scene, a column per resolution up to 8K."""
     shown = [r for r in rows if r["log2"] <= 13]
     grids = sorted({r["log2"] for r in shown})
     cells = {}
@@ -42,7 +42,7 @@ def papers_layout(rows):
 
 
 def growth(rows, low, high):
-    """Geometric mean of the growth of CPU time per doubling, between two rows."""
+    """Geometric mean of the growth of CPU time per doubling of the resolution between two rows."""
     steps = high["log2"] - low["log2"]
     return (high["s_cpu"] / low["s_cpu"]) ** (1 / steps) if steps else 1.0
 
@@ -56,12 +56,12 @@ def memo(rows):
                       f"{1 - r['divided_16'] / max(r['svo_nodes_16'], 1):.1%}",
                       f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else "",
                       f"{r['nodes'] / before['nodes']:.2f}" if follows else ""])
-    return table(["scene", "grid", "cubes asked", "answered", "nodes found", "computed", "16³ cubes not divided",
+    return table(["scene", "grid", "cubes looked up", "answered", "nodes found", "computed", "16³ cubes not divided",
                   "CPU ns per unique node", "CPU growth", "growth of the DAG"], lines)
 
 
 def growths(rows, low=14, high=16):
-    """One sentence per scene that was baked at both resolutions."""
+    """A list item per scene that was baked at both resolutions."""
     found = {(r["scene"], r["log2"]): r for r in rows}
     return "\n".join(
         f"* {scene}: CPU grows {growth(rows, found[scene, low], found[scene, high]):.2f} times per doubling from "
@@ -96,7 +96,7 @@ def levels(rows):
 
 
 def readme(rows):
-    """The rows of the highest resolution."""
+    """The table of README.md: the highest resolution of each scene."""
     last = {r["scene"]: r for r in rows}.values()
     return table(
         ["scene", "grid", "triangles", "voxels", "as SVO", "DAG nodes", "file", "bits per voxel", "seconds", "peak memory"],

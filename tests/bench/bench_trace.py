@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""`make bench-trace`: rays through the DAG beside the same rays through the triangles by Embree.
+"""`make bench-trace`: compares rays through the DAG with the same rays through the triangles by Embree.
 
-trace_rows (tests/bench/trace_rows.cpp) traces them in turns, one thread; this bakes Sponza, writes
-build/bench/trace.csv, and puts the tables between the markers in docs/tracing.md.
+Bakes Sponza, runs trace_rows (tests/bench/trace_rows.cpp), which traces both in turns on one thread, and writes
+build/bench/trace.csv and the tables between the markers in docs/tracing.md.
 """
 import argparse
 import csv
@@ -16,9 +16,9 @@ from bench_tables import table
 
 SCENE = "sponza"
 GRIDS = [12, 14, 16]
-# In the scene's units, metres: inside the atrium; position, target, angle of view.
+# Cameras inside the atrium: position, target (in metres, the scene's unit), angle of view.
 VIEWS = ["-7,1.2,0,8,2,0,65", "-7.2,4.6,3.4,6,3.5,-1.5,65", "0,0.3,0.5,-6,2.5,-2.5,70"]
-LIGHT = "0,7,0,0.1,0.5,2"  # its position and its radii
+LIGHT = "0,7,0,0.1,0.5,2"  # position and radii
 NAMES = {"soft shadow 0": "soft shadow, light of 0.1 m", "soft shadow 1": "soft shadow, light of 0.5 m",
          "soft shadow 2": "soft shadow, light of 2 m", "ao 0": "AO, as far as the scene",
          "ao 1": "AO, 5 % of the scene"}
@@ -40,7 +40,7 @@ def measure(programs, bakes, log2):
 def measure_all(programs, coarser):
     bakes = Bakes(programs, OUT, coarser)
     if bakes.scene(SCENE) is None:
-        sys.exit("SVDAG_SCENES does not name a folder with Crytek Sponza: nothing was measured")
+        sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
     rows = []
     for log2 in GRIDS:
         rows += measure(programs, bakes, log2)
@@ -85,7 +85,7 @@ def target(case, ratio):
 
 
 def has_cone(case):
-    """Rays that together fill a solid angle: one of many may stop at a cube of their size."""
+    """Whether the rays together fill a solid angle, so that each may stop at a cube as large as its cone."""
     return case[1].startswith(("soft", "ao"))
 
 
@@ -115,12 +115,13 @@ def ours(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--coarser", type=int, default=0, metavar="N", help="all grids N doublings lower; needs --csv-only")
-    parser.add_argument("--csv-only", action="store_true", help="leave docs/ alone")
-    parser.add_argument("--tables-only", action="store_true", help="from the CSV file of the last run")
+    parser.add_argument("--coarser", type=int, default=0, metavar="N",
+                        help="all grids N doublings lower; requires --csv-only")
+    parser.add_argument("--csv-only", action="store_true", help="do not change docs/")
+    parser.add_argument("--tables-only", action="store_true", help="make the tables from the CSV file of the last run")
     options = parser.parse_args()
     if options.coarser and not options.csv_only:
-        parser.error("--coarser needs --csv-only")
+        parser.error("--coarser requires --csv-only")
     rows = read() if options.tables_only else measure_all(options.programs.resolve(), options.coarser)
     contents = {"trace against": f"{processor(1)}, MRays/s.\n\n{against(rows)}", "trace ours": ours(rows)}
     print("\n\n".join(contents.values()))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""`make bench-cache`: one object of a scene moves, and the scene is baked again with --cache; the table "Cells baked
-before" of docs/performance.md.
+"""`make bench-cache`: measures bakes with --cache after one object of a scene has moved: the table "Cells baked before"
+of docs/performance.md.
 
 The ten smallest objects of Crytek Sponza (SVDAG_SCENES) are moved in turn, by half a unit of their node, on a fixed
-grid. Each bake is compared, to the byte, with one that has no cache.
+grid. The bytes of each bake are compared with those of a bake without a cache.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ import sys
 
 from bench import OUT, PAGE, ROOT, fill, processor
 
-BOUNDS = "--bounds=-12.5,-1,-8,12,9.5,7.5"  # the scene, and room to move
+BOUNDS = "--bounds=-12.5,-1,-8,12,9.5,7.5"  # the scene and a margin to move objects
 MOVE = [0.5, 0.25, 0.125]
 
 
@@ -32,7 +32,7 @@ class Glb:
         return sum(self.json["accessors"][p["indices"]]["count"] for p in mesh["primitives"])
 
     def objects(self):
-        """Numbers of the nodes with a mesh, the smallest first."""
+        """The numbers of the nodes with a mesh, by increasing size."""
         nodes = self.json["nodes"]
         return sorted((i for i, node in enumerate(nodes) if "mesh" in node), key=lambda i: self.indices(nodes[i]))
 
@@ -59,10 +59,10 @@ def row(name, full, again):
 
 
 def bake_with_cache(options, scene, name, fresh, output, folder):
-    """The report of a bake that may find cells. Fails unless its bytes equal those of the bake without a cache."""
+    """The report of a bake with the cache. Fails if its bytes differ from those of the bake without one."""
     report = bake(options, scene, output, "--cache", folder)
     if fresh.read_bytes() != output.read_bytes():
-        sys.exit(f"{name}: other bytes with the cache")
+        sys.exit(f"{name}: the bytes differ with the cache")
     return report
 
 
@@ -72,7 +72,7 @@ def measure(options, scene):
     glb, moved, fresh, output = Glb(scene), OUT / "moved.glb", OUT / "fresh.svdag", OUT / "cached.svdag"
     full = bake(options, scene, fresh)
     rows = [row(name, full, bake_with_cache(options, scene, name, fresh, output, folder))[0]
-            for name in ("nothing known", "nothing moved")]
+            for name in ("empty cache", "nothing moved")]
     shares = []
     for number in glb.objects()[:options.objects]:
         glb.write_moved(moved, number)
@@ -93,11 +93,11 @@ def main():
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--resolution", default="16K")
     parser.add_argument("--objects", type=int, default=10)
-    parser.add_argument("--keep-page", action="store_true", help="leave docs/ alone")
+    parser.add_argument("--keep-page", action="store_true", help="do not change docs/")
     options = parser.parse_args()
     scene = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), "crytek_sponza.glb")
     if not scene.exists():
-        sys.exit("SVDAG_SCENES names no folder with crytek_sponza.glb")
+        sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
     OUT.mkdir(parents=True, exist_ok=True)
     rows, median = measure(options, scene)
     table = "\n".join(["| scene | cells | found | CPU s without | CPU s with | share |", "| --- | --: | --: | --: | --: | --: |",

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""`make bench-plan`: what plans predict, beside what their steps then take.
+"""`make bench-plan`: compares the predictions of plans with measurements.
 
-Each row bakes a scene in one piece and by a plan of 16 shards. The constants of builder/farm/planner/predict.cpp are fitted to
-generated scenes and to nothing else: --calibrate measures those and prints the constants. The shared scenes judge them.
-The tables go between the markers of docs/farm.md; rows that are not repeated are kept in build/bench/plan.json.
+Each row bakes a scene as a whole and by a plan of 16 shards. The constants of builder/farm/planner/predict.cpp are
+fitted to generated scenes only: --calibrate measures these and prints the constants. The shared scenes test them. The
+tables are written between the markers in docs/farm.md; rows that are not measured again are kept in
+build/bench/plan.json.
 """
 import argparse
 import json
@@ -12,6 +13,7 @@ import pathlib
 import shutil
 import statistics
 import subprocess
+import sys
 
 import plan_fit
 import plan_scenes
@@ -41,7 +43,7 @@ class Bench:
         return path if "SVDAG_SCENES" in os.environ and path.exists() else None
 
     def row(self, name, log2, shards):
-        """One bake, one plan, its steps; None if the scene is not here."""
+        """Measures one bake, one plan and its steps; None if the scene is missing."""
         scene = self.scene(name)
         if scene is None:
             return None
@@ -66,13 +68,13 @@ class Bench:
                 "one_bake": written["one_bake"]["cpu_seconds"], "planning": planning, "steps": steps}
 
     def keys(self, path):
-        """Unique nodes and bricks in a .run or .svdag."""
+        """The number of unique nodes and bricks in a .run or .svdag."""
         info = json.loads(subprocess.run([self.svdag, "info", "--json", path], check=True, capture_output=True).stdout)
         return sum(info["nodes"])
 
     def predict_again(self, row):
-        """Plans the row anew and puts the predictions beside what was measured: for new constants, which hardly change
-        how the work is cut."""
+        """Plans the row again and replaces its predictions, for new constants; these hardly change the shards, so the
+        measurements remain valid."""
         plan = OUT / "bench.plan"
         shutil.rmtree(plan, ignore_errors=True)
         subprocess.run([self.svdag, "plan", self.scene(row["scene"]), "-r", label(row["log2"]), "-o", plan, "--shards",
@@ -107,26 +109,26 @@ def farm_table(rows):
                   "longest step", "peak MiB of a step", "planned", "same bytes"], lines)
 
 
-def judged(rows, what):
-    """Median error and worst factor of a list of ratios."""
+def error_row(rows, what):
+    """A table row: median error and worst factor of a list of ratios."""
     errors = [abs(1 - r) for r in rows]
     worst = max(max(r, 1 / r) for r in rows)
     verdict = "yes" if statistics.median(errors) <= MEDIAN and worst <= WORST else "**no**"
     return [what, str(len(rows)), f"{statistics.median(errors):.0%}", f"{worst:.2f}", verdict]
 
 
-def judgement(rows):
+def error_table(rows):
     lines = []
     for kind, own in (("generated", [r for r in rows if r["scene"] in plan_scenes.NAMES]),
                       ("shared", [r for r in rows if r["scene"] not in plan_scenes.NAMES])):
         if not own:
             continue
-        lines.append(judged([r["one_bake"] / r["report"]["seconds"]["cpu"] for r in own], f"{kind}: CPU of one bake"))
-        lines.append(judged([sum(s["predicted"]["cpu_seconds"] for s in r["steps"]) / total(r, "cpu_seconds")
+        lines.append(error_row([r["one_bake"] / r["report"]["seconds"]["cpu"] for r in own], f"{kind}: CPU of one bake"))
+        lines.append(error_row([sum(s["predicted"]["cpu_seconds"] for s in r["steps"]) / total(r, "cpu_seconds")
                              for r in own], f"{kind}: CPU of a plan"))
         for step, title in (("shard", "CPU of a shard"), ("merge", "CPU of a merge")):
-            lines.append(judged(sum((ratios(r, "cpu_seconds", "cpu_seconds", step) for r in own), []), f"{kind}: {title}"))
-        lines.append(judged(sum((ratios(r, "output_bytes", "bytes") for r in own), []), f"{kind}: bytes that a step writes"))
+            lines.append(error_row(sum((ratios(r, "cpu_seconds", "cpu_seconds", step) for r in own), []), f"{kind}: {title}"))
+        lines.append(error_row(sum((ratios(r, "output_bytes", "bytes") for r in own), []), f"{kind}: bytes that a step writes"))
         memory = sum((ratios(r, "memory_bytes", "memory_bytes") for r in own), [])
         lines.append([f"{kind}: memory, planned / peak", str(len(memory)), "–", f"least {min(memory):.2f}",
                       "yes" if min(memory) >= 1 else "**no**"])
@@ -136,19 +138,21 @@ def judgement(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", required=True, type=pathlib.Path)
-    parser.add_argument("--only", default="", help="rows of scenes whose name contains this")
-    parser.add_argument("--log2", type=int, help="rows of this resolution, 14 for 16K; others become possible")
+    parser.add_argument("--only", default="", help="only scenes whose name contains this")
+    parser.add_argument("--log2", type=int, help="only this resolution (14: 16K), which may be a new one")
     parser.add_argument("--shards", type=int, default=SHARDS)
-    parser.add_argument("--known", action="store_true", help="measure nothing, print what is known")
-    parser.add_argument("--predict-again", action="store_true", help="measure nothing, but predict what is known anew")
-    parser.add_argument("--calibrate", action="store_true", help="measure the generated scenes only, and print the constants")
+    parser.add_argument("--known", action="store_true", help="measure nothing, print the stored rows")
+    parser.add_argument("--predict-again", action="store_true",
+                        help="measure nothing, renew predictions of the stored rows")
+    parser.add_argument("--calibrate", action="store_true",
+                        help="measure only the generated scenes, and print the constants")
     options = parser.parse_args()
     known = json.loads(KNOWN.read_text()) if KNOWN.exists() else {}
     bench = Bench(options.programs.resolve())
-    wanted = plan_scenes.CALIBRATION + (SHARED_ROWS if not options.calibrate else [])
-    if options.log2 and all(log2 != options.log2 for _, log2 in wanted):
-        wanted = [(name, options.log2) for name in dict.fromkeys(name for name, _ in wanted)]
-    for name, log2 in wanted if not (options.known or options.predict_again) else []:
+    selected = plan_scenes.CALIBRATION + (SHARED_ROWS if not options.calibrate else [])
+    if options.log2 and all(log2 != options.log2 for _, log2 in selected):
+        selected = [(name, options.log2) for name in dict.fromkeys(name for name, _ in selected)]
+    for name, log2 in selected if not (options.known or options.predict_again) else []:
         if options.only in name and options.log2 in (None, log2):
             row = bench.row(name, log2, options.shards)
             if row:
@@ -163,11 +167,11 @@ def main():
     if options.calibrate:
         plan_fit.print_constants([r for r in rows if r["scene"] in plan_scenes.NAMES])
         return
-    contents = {"plans": farm_table(rows), "predictions": judgement(rows)}
+    contents = {"plans": farm_table(rows), "predictions": error_table(rows)}
     print("\n\n".join(contents.values()))
-    other = [f"{r['scene']} at {label(r['log2'])}" for r in rows if not r["same"]]
-    if other:
-        sys.exit(f"docs/ stay as they are: the plan of {', '.join(other)} gave other bytes than one bake")
+    different = [f"{r['scene']} at {label(r['log2'])}" for r in rows if not r["same"]]
+    if different:
+        sys.exit(f"docs/ is not changed: the bytes of the plan differ from those of one bake for {', '.join(different)}")
     fill(PAGE, contents)
 
 

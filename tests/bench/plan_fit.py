@@ -1,15 +1,15 @@
-"""The constants of what plans predict (builder/farm/planner/predict.cpp), from measured bakes and steps.
+"""Fits the constants of predictions (builder/farm/planner/predict.cpp) to measured bakes and steps.
 
-Seconds are linear in what is counted, with the same constants for bakes, shards and merges, none negative. The fit is by
-least squares of the logarithms of measured / predicted, so a short step counts as much as a long one and twice too much
-as much as half of it.
+Seconds are a linear function of counts, with the same non-negative constants for bakes, shards and merges. The fit
+minimizes the squared logarithms of measured / predicted, so short and long steps have the same weight, and so have
+twice and half of a time.
 """
 import statistics
 
 import numpy
 
 SECONDS = ["kStart", "kSceneTriangle", "kPlanTriangle", "kDivided", "kComputed", "kFound", "kMergeRead"]
-FEW = 1000  # triangles
+FEW_TRIANGLES = 1000
 
 
 def samples(rows):
@@ -19,10 +19,10 @@ def samples(rows):
         report = row["report"]
         work = [sum(report["cubes_divided"]), report["plane_memo"]["computed"]]
         found.append(([1, report["triangles"], 0, *work, sum(report["nodes"]), 0], report["seconds"]["cpu"]))
-        # The shards of a plan together do the work of the bake; but not where a few triangles are everywhere, whose
-        # planes each shard looks at anew.
+        # The shards of a plan together do the work of the bake, except for scenes of a few large triangles, whose
+        # planes every shard computes again.
         shards = [step for step in row["steps"] if not step["inputs"]]
-        if report["triangles"] >= FEW:
+        if report["triangles"] >= FEW_TRIANGLES:
             found.append(([len(shards), 0, sum(s["triangles"] for s in shards), *work, sum(s["keys"] for s in shards), 0],
                           sum(s["measured"]["cpu_seconds"] for s in shards)))
         keys = {step["name"]: step["keys"] for step in row["steps"]}
@@ -32,7 +32,7 @@ def samples(rows):
 
 
 def least_squares_of_logarithms(counts, seconds):
-    """The constants c > 0 for which log(counts @ c) is nearest to log(seconds): Levenberg and Marquardt, on log(c)."""
+    """The constants c > 0 that minimize |log(counts @ c) - log(seconds)|²: Levenberg-Marquardt on log(c)."""
     scale = counts.max(axis=0)
     counts = counts / scale
     theta, damping = numpy.full(counts.shape[1], -1.0), 1.0
@@ -63,7 +63,8 @@ def print_constants(rows):
               f"constexpr double {name} = {round(1e9 * value, 2):.4g}e-9;")
     per_node = [(r["report"]["file_bytes"] - 8 * r["report"]["nodes"][-1]) / sum(r["report"]["nodes"][:-1]) for r in rows]
     print(f"constexpr double kNodeInFile = {statistics.geometric_mean(per_node):.3g};")
-    per_triangle = [r["report"]["seconds"]["cpu"] / r["report"]["triangles"] for r in rows if r["report"]["triangles"] >= FEW]
+    per_triangle = [r["report"]["seconds"]["cpu"] / r["report"]["triangles"] for r in rows
+                    if r["report"]["triangles"] >= FEW_TRIANGLES]
     print(f"constexpr double kUnsurveyed = {statistics.geometric_mean(per_triangle):.3g};")
     factors = sorted(numpy.exp(numpy.abs(residuals)))
     print(f"// {len(seconds)} bakes, plans and merges: off by a factor of {statistics.median(factors):.2f} "

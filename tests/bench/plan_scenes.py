@@ -1,7 +1,6 @@
-"""The generated scenes that plans are calibrated on: flat, curved, dense, thin and instanced surfaces.
+"""The generated scenes for the calibration of plans: flat, curved, dense, thin and instanced surfaces.
 
-Those of svdag-scene, and two that are put together from them: one thing many times over is what scenes from artists are
-made of, and svdag-scene makes none.
+Most are made by svdag-scene. Two are composed of instances, as scenes of artists are, which svdag-scene does not make.
 """
 import subprocess
 
@@ -50,11 +49,11 @@ def write(path, vertices, faces):
     path.write_bytes("\n".join(lines).encode() + vertices.astype("<f4").tobytes() + rows.tobytes())
 
 
-def copies(mesh, places):
-    """`mesh` at each of the (matrix, shift)."""
+def copies(mesh, transforms):
+    """A copy of `mesh` for each (matrix, shift) of `transforms`."""
     vertices, faces = mesh
-    return (numpy.concatenate([vertices @ matrix.T + shift for matrix, shift in places]),
-            numpy.concatenate([faces + i * len(vertices) for i in range(len(places))]))
+    return (numpy.concatenate([vertices @ matrix.T + shift for matrix, shift in transforms]),
+            numpy.concatenate([faces + i * len(vertices) for i in range(len(transforms))]))
 
 
 def turn(angle):
@@ -63,27 +62,27 @@ def turn(angle):
 
 
 def forest(programs, folder):
-    """Three hundred bushes of thin triangles, each turned, on a terrain."""
+    """Three hundred rotated bushes of thin triangles on a terrain."""
     ground = read(generate(programs, OWN["terrain 60K"], folder / "terrain_ground.ply"))
     bush, faces = read(generate(programs, ["hairball", "-n", "3K"], folder / "hairball_n_3K.ply"))
     low, high = bush.min(0), bush.max(0)
     size = 0.04 * (ground[0].max(0) - ground[0].min(0)).max()
     random = numpy.random.default_rng(1)
-    places = [(turn(random.uniform(0, 6.28)) * size * random.choice([1, 1, 0.8]),
+    transforms = [(turn(random.uniform(0, 6.28)) * size * random.choice([1, 1, 0.8]),
                ground[0][random.integers(len(ground[0]))]) for _ in range(300)]
-    bushes = copies(((bush - (low + high) / 2) / (high - low).max(), faces), places)
+    bushes = copies(((bush - (low + high) / 2) / (high - low).max(), faces), transforms)
     return (numpy.concatenate([ground[0], bushes[0]]), numpy.concatenate([ground[1], bushes[1] + len(ground[0])]))
 
 
 def tiles(programs, folder):
-    """A small city, five times five."""
+    """Five times five copies of a small city."""
     city = read(generate(programs, ["city", "-n", "20K", "--seed", "4"], folder / "city_block.ply"))
     step = 1.05 * (city[0].max(0) - city[0].min(0))
     return copies(city, [(numpy.eye(3), step * (x, 0, z)) for x in range(5) for z in range(5)])
 
 
 def scene(name, programs, folder):
-    """The path of the scene, which is made if it is not there."""
+    """The path of the scene, generated if it does not exist."""
     if name in SINGLE:
         return generate(programs, SINGLE[name], folder / ("_".join(a.strip("-") for a in SINGLE[name]) + ".ply"))
     path = folder / f"{name}.ply"

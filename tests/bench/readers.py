@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The table "Reading" of docs/performance.md: readers_bench on one mesh in four formats and on real scenes.
+"""Measures the scene readers: the table "Reading" of docs/performance.md.
 
-Usage: readers.py PROGRAMS (a build folder with svdag-scene and tests/bench/readers_bench). The mesh is the scan
-of svdag-scene; real scenes are taken from SVDAG_SCENES where that is set. Text has nine digits, as exporters write.
+Usage: readers.py PROGRAMS (a build folder with svdag-scene and tests/bench/readers_bench). Reads the scan of
+svdag-scene in four formats and, if it is set, the real scenes in the folder SVDAG_SCENES. Numbers in text files have
+nine digits, as exporters write them.
 """
 import os
 import pathlib
@@ -33,7 +34,7 @@ def text(values):
 
 
 def conversions(programs, folder):
-    """The scan as PLY and rewritten as STL, GLB and OBJ."""
+    """The paths of the scan as PLY, STL, GLB and OBJ, written if they do not exist."""
     ply = folder / "scan.ply"
     files = [ply, *(ply.with_suffix(suffix) for suffix in (".stl", ".glb", ".obj"))]
     if not all(file.exists() for file in files):

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Every shared real scene between the bounds of OpenVDB's distances: `make bench-vdb`.
+"""`make bench-vdb`: tests every real scene against the bounds of OpenVDB's distances.
 
-Whole files at 512³ and 1K³, both rules at 512³, and windows of 512³ voxels drawn on the surface of some 64K³ bakes. The
-table goes between its markers in docs/accuracy.md, rows to build/bench/vdb_sandwich.json. A violation is exit code 1.
+Compares whole files at 512³ (both rules) and 1K³, and samples of windows of 512³ voxels on the surface of some 64K³
+bakes. The table is written between its markers in docs/accuracy.md, the rows to build/bench/vdb_bounds.json. The exit
+code is 1 if there is a violation.
 """
 import argparse
 import json
@@ -26,8 +27,8 @@ SAMPLED = ["cgal_boeing.off", "cgal_elephant-with-holes.off", "cgal_polygon_mesh
 
 
 def judge(programs, scene, resolution, rule, windows):
-    """One row: the bake and what svdag-verify says about it."""
-    dag = OUT / "vdb_sandwich.svdag"
+    """Bakes a scene and returns the verdict of svdag-verify as a row."""
+    dag = OUT / "vdb_bounds.svdag"
     subprocess.run([programs / "svdag", "build", scene, "-r", resolution, "--rule", rule, "-o", dag, "-q"], check=True)
     sample = ["--sample", str(windows)] if windows else []
     start = time.monotonic()
@@ -40,7 +41,7 @@ def judge(programs, scene, resolution, rule, windows):
     return dict(json.loads(done.stdout), scene=scene.name, resolution=resolution, seconds=seconds)
 
 
-def sandwich_table(rows):
+def bounds_table(rows):
     lines = [[r["scene"], f"{r['resolution']}³", r["rule"], f"{r['windows']:,}" if r["sampled"] else "all",
               f"{r['tested']:,}", f"{r['file_voxels']:,}", f"{r['missing'] + r['extra']:,}",
               f"{r['decided_exactly']:,}", f"{r['openvdb_errors']:,}", f"{r['seconds']:.0f}"] for r in rows]
@@ -55,14 +56,14 @@ def sandwich_table(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--tables-only", action="store_true", help="from the rows of the last run")
+    parser.add_argument("--tables-only", action="store_true", help="make the table from the rows of the last run")
     options = parser.parse_args()
-    programs, kept = options.programs.resolve(), OUT / "vdb_sandwich.json"
+    programs, results = options.programs.resolve(), OUT / "vdb_bounds.json"
     OUT.mkdir(parents=True, exist_ok=True)
     if options.tables_only:
-        rows = json.loads(kept.read_text())
+        rows = json.loads(results.read_text())
     elif "SVDAG_SCENES" not in os.environ:
-        sys.exit("SVDAG_SCENES is not set: there is nothing to judge")
+        sys.exit("SVDAG_SCENES is not set: there are no scenes to test")
     else:
         scenes = sorted(p for p in pathlib.Path(os.environ["SVDAG_SCENES"]).iterdir() if p.suffix in FORMATS)
         plan = [(s, r, rule, 0) for s in scenes for r, rule in
@@ -74,8 +75,8 @@ def main():
             print(" ".join(f"{k} {rows[-1][k]}" for k in ("scene", "resolution", "rule", "tested", "missing", "extra",
                                                            "decided_exactly", "openvdb_errors")),
                   f"{rows[-1]['seconds']:.1f} s", flush=True)
-            kept.write_text(json.dumps(rows))
-    fill(ROOT / "docs" / "accuracy.md", {"sandwich": sandwich_table(rows)})
+            results.write_text(json.dumps(rows))
+    fill(ROOT / "docs" / "accuracy.md", {"vdb bounds": bounds_table(rows)})
     return any(not r["ok"] for r in rows)
 
 

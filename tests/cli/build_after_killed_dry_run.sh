@@ -1,4 +1,4 @@
-# What a killed dry run left behind goes with the next bake of its output, unless it is in use or no dry run's.
+# The next bake of an output removes the scratch folder of a killed dry run, but no other and none in use.
 svdag-scene speck -n 100 -q -o s.ply
 mkdir elsewhere
 left() { mkdir -p -m 700 $1; touch $1/owner; echo spilled > $1/passing; }
@@ -12,7 +12,7 @@ left s.svdag.dry-run.scratch
 svdag build --batch list.json -q
 find . -name '*.scratch'
 
-# Under --scratch it has the name that the dry run gave it.
+# With --scratch the folder has the name that the dry run chose.
 svdag-scene scan -n 70K -q -o scan.ply
 svdag build scan.ply -r 8K -o scan.svdag -q -m 8M --dry-run --scratch elsewhere &
 until test -n "$(find elsewhere -name owner)"; do sleep 0.02; done

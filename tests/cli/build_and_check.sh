@@ -1,4 +1,4 @@
-# The whole way: bake, check, compare every voxel, and tell what is in the file.
+# The whole workflow: bake, check, compare every voxel, print information.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 svdag-verify check r.svdag -q

@@ -1,4 +1,4 @@
-# Options beside --batch hold for bakes that do not say otherwise; what cannot be of a list is refused.
+# Options given with --batch are defaults of every bake; options that cannot apply to a list are rejected.
 svdag-scene city -n 3K -q -o a.ply
 echo '[{"scene": "a.ply", "output": "thin.svdag"},
        {"scene": "a.ply", "output": "said.svdag", "voxel-size": 4, "rule": "conservative"},

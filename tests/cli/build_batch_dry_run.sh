@@ -1,4 +1,4 @@
-# --dry-run beside --batch predicts every bake and writes nothing; it is of the whole list.
+# --dry-run with --batch predicts every bake and writes nothing; it applies to the whole list.
 svdag-scene sheet -q -o a.ply
 svdag build a.ply -r 64 -o old.svdag -q
 cp old.svdag kept.svdag

@@ -1,5 +1,4 @@
-# A dry run of an output of which there is an unfinished bake leaves that alone, and nothing beside
-# it.
+# A dry run does not change an unfinished bake of the same output and leaves no other file.
 svdag-scene scan -n 70K -q -o s.ply
 mkdir beside elsewhere
 for options in "" "--scratch elsewhere"; do

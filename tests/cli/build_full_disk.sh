@@ -1,4 +1,4 @@
-# A limit on the file size simulates a full disk: the old file stays, nothing else is left.
+# A limit on the file size simulates a full disk: the old file is kept, no other file remains.
 svdag-scene city -n 60K -q -o city.ply
 echo old > city.svdag
 trap '' XFSZ

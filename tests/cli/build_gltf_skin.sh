@@ -1,4 +1,4 @@
-# A skinned mesh is baked as stored, and the summary says so.
+# A skinned mesh is baked as stored, and the summary reports it.
 printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"skin":0}],
   "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
   "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],

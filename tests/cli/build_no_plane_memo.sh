@@ -1,4 +1,4 @@
-# Without the plane memo, and with any vectors of the processor, the bytes are the same.
+# Without the plane memo and with every instruction set, the bytes are the same.
 svdag-scene city -n 6K --yaw 30 -q -o city.ply
 svdag build city.ply -r 1K -o best.svdag --report best.json -q
 svdag build city.ply -r 1K -o alone.svdag --report alone.json -q --no-plane-memo

@@ -1,4 +1,4 @@
-# Names and messages that are not valid UTF-8 do not fail a bake: in JSON such bytes are replaced.
+# Names that are not valid UTF-8 do not fail a bake: in JSON the invalid bytes are replaced.
 latin=$(printf 'caf\351')
 svdag-scene city -n 3K -q -o good.ply
 cp good.ply "$latin.ply"

@@ -1,4 +1,4 @@
-# --resume where no unfinished bake is: that the bake began anew is said, with the folder that was looked into.
+# --resume without an unfinished bake: reports that the bake began anew, with the folder that was checked.
 svdag-scene speck -n 2K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag --resume | tail -1
 mkdir elsewhere

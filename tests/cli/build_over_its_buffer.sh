@@ -1,4 +1,4 @@
-# The buffers of a glTF file are inputs, too; beside them its folder may hold results.
+# The buffers of a glTF file are inputs too; other files in their folder may be outputs.
 python3 - <<'PY'
 import json, struct
 open("s.bin", "wb").write(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))

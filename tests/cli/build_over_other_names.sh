@@ -1,4 +1,4 @@
-# No input is overwritten, and no result by another one, whatever names they go by.
+# No output overwrites an input or another output, under any name of the file.
 svdag-scene rectangle -q -o h.ply
 svdag-scene rectangle -q -o h2.ply
 cp h2.ply kept.ply
@@ -18,7 +18,7 @@ list "{$A, \"report\": \"l.json\"}"
 list '{"scene": "h.ply", "resolution": 64, "output": ""}'
 cmp h.ply h2.ply
 cmp h2.ply kept.ply
-# Results of before may be links of one another: each name gets a file of its own.
+# Existing outputs may be links to each other: each name gets its own file.
 svdag build h.ply -r 64 -o one.svdag -q
 cp one.svdag a.svdag
 ln a.svdag b.svdag

@@ -1,6 +1,6 @@
-# --resume and --restart exclude each other: what continues a bake that was begun with one of them is said as it can be typed.
-stop() {  # COMMAND...: the signal comes when there is work to resume
-  env --default-signal=INT "$@" &  # a shell lets its background ignore Ctrl-C
+# --resume and --restart exclude each other: the message of an interrupted bake names a command that works.
+stop() {  # COMMAND...: sends the signal when there is work to resume
+  env --default-signal=INT "$@" &  # background jobs of a shell ignore SIGINT
   until ls z.svdag.scratch/journal >/dev/null 2>&1; do sleep 0.02; done
   sleep 0.1
   kill -s INT $!

@@ -1,4 +1,4 @@
-# Threads and the order of triangles do not change a byte.
+# Threads and the order of triangles do not affect the bytes.
 svdag-scene city -n 6K --yaw 30 -q -o plain.ply
 svdag-scene city -n 6K --yaw 30 --shuffle -q -o shuffled.ply
 svdag build plain.ply -r 256 -j 1 -o one.svdag -q

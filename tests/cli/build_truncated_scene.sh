@@ -1,4 +1,4 @@
-# The file ends inside the faces; the old output stays.
+# The file ends within the faces; the old output is kept.
 svdag-scene city -n 120 -q -o city.ply
 head -c 1000 city.ply > cut.ply
 printf old > out.svdag

@@ -1,4 +1,4 @@
-# A limit on the file size simulates a full disk: the old file stays, nothing else is left.
+# A limit on the file size simulates a full disk: the old file is kept, no other file remains.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 256 -o a.svdag -q
 for f in a.svo a.npz a.octree a.basic_dag.dag.bin; do echo old > $f; done

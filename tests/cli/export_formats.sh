@@ -1,4 +1,4 @@
-# The bytes of every format that needs no library, kept. An .octree is three files.
+# Known hashes of every format that needs no library. An .octree is three files.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 svdag export r.svdag -o r64.basic_dag.dag.bin

@@ -1,4 +1,4 @@
-# OpenVDB does not notice a full disk; svdag does. The old file stays, nothing else is left.
+# OpenVDB does not report a full disk; svdag does. The old file is kept, no other file remains.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 256 -o a.svdag -q
 echo old > a.vdb

@@ -1,4 +1,4 @@
-# The name is part of HashDAG's contract: DIR/NAME gets the rest of it.
+# HashDAG prescribes the file name: DIR/NAME is extended to it.
 svdag-scene speck -q -o s.ply
 svdag build s.ply -r 128K -o s.svdag -q
 mkdir data

@@ -1,4 +1,4 @@
-# What would not fit is refused before it is tried.
+# An export that does not fit in memory is rejected before it begins.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 512 -o a.svdag -q
 svdag export a.svdag -o a.vdb -m 1M || echo "exit $?"

@@ -1,3 +1,3 @@
-# `svdag export` is a program of its own, looked for beside svdag.
+# `svdag export` is a separate program in the folder of svdag.
 cp "$(command -v svdag)" svdag
 ./svdag export a.svdag -o a.vdb

@@ -1,4 +1,4 @@
-# What a format cannot hold is refused before a byte is written: exit code 2, and the way out.
+# Exports that a format cannot hold are rejected before anything is written, with exit code 2 and a remedy.
 svdag-scene speck -q -o s.ply
 svdag build s.ply -r 256K -o s.svdag -q
 svdag export s.svdag --format hashdag -o s || echo "exit $?"

@@ -1,4 +1,4 @@
-# Whole files, levels and windows as OpenVDB grids are compared with the file that they come from.
+# OpenVDB exports of whole files, levels and windows equal the file.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 256 -o a.svdag -q
 svdag export a.svdag -o a.vdb

@@ -1,4 +1,4 @@
-# Voxels of any size, anywhere in the world, come back from a .vdb with their grid to the last bit.
+# Voxels of any size and position are imported from a .vdb with exactly the same grid.
 grid_of() { svdag info --json "$1" | sed -n '/"corner"/,/]/p; /"voxel_size"/p'; }
 printf 'v 0.1 0.2 0.3\nv 0.10001 0.20003 0.3\nv 0.10002 0.2 0.30004\nf 1 2 3\n' > tiny.obj
 printf 'v 1841111.4 5176075.3 191.1\nv 1841111.41 5176075.31 191.1\nv 1841111.4 5176075.31 191.12\nf 1 2 3\n' > far.obj

@@ -1,4 +1,4 @@
-# Each is one sentence, and exit code 2.
+# Wrong requests: one message each, exit code 2.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag -q
 svdag export a.svdag -o a.txt || echo "exit $?"
@@ -10,7 +10,7 @@ svdag export a.svdag -o a.vdb --max-voxels 3 || echo "exit $?"
 svdag export a.svdag || echo "exit $?"
 svdag export none.svdag -o a.vdb || echo "exit $?"
 ls
-# Every file that a format writes is looked at, not only the one that was named.
+# Every file that a format writes is checked, not only the named one.
 cp a.svdag x.octreenodes
 cp a.svdag y.svdag
 ln -s y.svdag y.octreedata

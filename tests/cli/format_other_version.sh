@@ -1,4 +1,4 @@
-# A file of a version that is not known yet is named as that, not as a broken one.
+# A file of an unknown version is reported as such, not as damaged.
 for file in version1.svdag version1_half1.run; do
   { head -c 8 "$TESTS/files/$file"; printf '\002'; tail -c +10 "$TESTS/files/$file"; } > "later_$file"
 done

@@ -1,4 +1,4 @@
-# Files of format version 1, kept: whatever comes later reads them, to the same voxels.
+# Stored files of format version 1: every later version reads the same voxels from them.
 svdag info "$TESTS/files/version1.svdag" | sed "s|$TESTS/||"
 svdag-verify check "$TESTS/files/version1.svdag" | sed "s|$TESTS/||"
 svdag export "$TESTS/files/version1.svdag" -q -o voxels.ply

@@ -1,4 +1,4 @@
-# A limit on the file size simulates a full disk: the old file stays, nothing else is left.
+# A limit on the file size simulates a full disk: the old file is kept, no other file remains.
 svdag-scene city -n 20K -q -o a.ply
 svdag build a.ply -r 512 -o a.svdag -q
 svdag export a.svdag --format hashdag -o a.basic_dag.dag.bin -q

@@ -1,4 +1,4 @@
-# NanoVDB is written and not read; a grid without values has none to choose.
+# NanoVDB is written but not read; --iso is rejected for a grid without values.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag -q
 svdag export a.svdag -o a.vdb -q

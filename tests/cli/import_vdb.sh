@@ -1,4 +1,4 @@
-# OpenVDB reads in a process of its own; under --sandbox it says the same.
+# OpenVDB decodes in a separate process; --sandbox gives the same result.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag -q
 svdag export a.svdag -o a.vdb -q

@@ -1,4 +1,4 @@
-# Each is one sentence.
+# Wrong requests: one message each.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag -q
 svdag export a.svdag -o a.vox -q

@@ -1,4 +1,4 @@
-# However much is said at once, and by whom.
+# A full output device is an error, for output of any length and every program.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 svdag-scene hairball -n 2K -q -o h.ply

@@ -1,4 +1,4 @@
-# A SymVox .svdag has no magic number; ours has one: they are distinguished.
+# A SymVox .svdag is distinguished from this project's, which has a magic number.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 256 -o r.svdag -q
 svdag export r.svdag --format symvox -o other.svdag -q

@@ -1,4 +1,4 @@
-# Parts baked apart, with other threads and memory, merged in any tree, are the bake of the whole.
+# Parts baked separately, with other threads and memory, merged in any tree, equal the bake of the whole.
 svdag-scene city -n 6K --yaw 30 -q -o c.ply
 svdag build c.ply -r 256 -o whole.svdag -q
 svdag build c.ply -r 256 -o whole.run -q

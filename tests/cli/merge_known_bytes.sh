@@ -1,4 +1,4 @@
-# The bytes of runs, kept: a change of the format shows here.
+# Known hashes of runs: detects a change of the format.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 128 -o box.run -q
 svdag build r.ply -s 0.75 --part 2/3 -o lattice.run -q

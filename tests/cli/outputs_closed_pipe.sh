@@ -1,4 +1,4 @@
-# A reader that is gone ends the program as it ends others, and the files are whole.
+# A closed pipe ends the program by SIGPIPE, and its files are complete.
 svdag-scene city -n 3K -q -o a.ply
 closed() { { sleep 0.1; "$@" || echo "$1 $2: exit $?" >&2; } | true; }
 closed svdag build a.ply -r 64 -o a.svdag

@@ -1,5 +1,5 @@
-# A name that is a folder, a pipe or a device, or leads to one, is refused before the work begins,
-# and is still what it was.
+# An output that is a folder, a pipe or a device, or a link to one, is rejected before the work begins,
+# and is not changed.
 refused() { "$@" || echo "exit code $?"; }
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q --report r.json
@@ -22,7 +22,7 @@ refused svdag-verify report r.svdag r.json -o pipe
 refused svdag-verify render r.svdag -o pipe.png
 refused svdag-verify diff r.svdag r.svdag --write-diff pipe
 ls -F
-# A link to a file, or to nothing, gives way to the output; what it leads to stays.
+# The output replaces a link to a file or to nothing; the target of the link is kept.
 echo precious >file
 ln -s file link
 ln -s nothing dangling

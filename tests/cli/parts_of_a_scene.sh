@@ -1,4 +1,4 @@
-# The names that --include takes; a pattern that matches nothing is reported.
+# The names that --include matches; a pattern that matches nothing is reported.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng wall\nf 1 2 3\nf 1 2 4\ng roof\nf 2 3 4\n' >house.obj
 svdag info house.obj --parts | tail -n 4
 svdag info house.obj --json --parts | tail -n 11

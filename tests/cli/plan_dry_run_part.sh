@@ -1,3 +1,3 @@
-# What a part would take is not known without a plan: no prediction of the whole passes for it.
+# The cost of a part is not known without a plan: the prediction of the whole is not reported for it.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o x.run --part 1/2 --dry-run

@@ -1,4 +1,4 @@
-# A step that another process is doing (of a killed run): it can be started again, and a run waits for it while it does the others.
+# A step that another process runs (left by a killed run): svdag run waits for it while it runs the others.
 svdag-scene city -n 2K -q -o c.ply
 svdag plan c.ply -r 256 --shards 2 -o p -q
 mkdir -m 700 p/runs/shard-1.run.scratch

@@ -1,4 +1,4 @@
-# A plan writes its paths into JSON and must find them again: it refuses those that JSON cannot hold.
+# A plan stores its paths in JSON and rejects paths that JSON cannot represent.
 latin=$(printf 'caf\351')
 svdag-scene city -n 3K -q -o good.ply
 cp good.ply "$latin.ply"

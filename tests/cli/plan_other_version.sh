@@ -1,4 +1,4 @@
-# A plan of another version of svdag is recognised by every command, and kept.
+# Every command recognises a plan of another version of svdag and does not change it.
 svdag-scene speck -n 100 -q -o s.ply
 svdag plan s.ply -r 64 --shards 2 -o p -q
 sed -i 's/"format": 4/"format": 3/; /"undeformed"/d' p/plan.json

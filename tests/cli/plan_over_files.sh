@@ -1,5 +1,5 @@
-# A plan has a folder of its own, which may hold what a planning left that was killed; a template
-# for a farm overwrites nothing of the plan.
+# A plan has its own folder, which may contain the remains of a killed planning; a template for a
+# farm overwrites no file of the plan.
 svdag-scene rectangle -q -o triangles
 mv triangles triangles.ply
 mkdir mine

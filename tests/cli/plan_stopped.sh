@@ -1,8 +1,8 @@
-# Stopped by Ctrl-C, or by Slurm at its time limit, it says how to go on.
-stop() {  # SIGNAL FILES COMMAND...: the signal comes when one of the files is there
+# Interrupted by Ctrl-C, or by Slurm at its time limit, each command reports how to continue.
+stop() {  # SIGNAL FILES COMMAND...: sends the signal when one of the files exists
   signal=$1 files=$2
   shift 2
-  env --default-signal=INT "$@" &  # a shell lets its background ignore Ctrl-C
+  env --default-signal=INT "$@" &  # background jobs of a shell ignore SIGINT
   until ls $files >/dev/null 2>&1; do sleep 0.02; done
   sleep 0.1
   kill -s "$signal" $!
@@ -18,7 +18,7 @@ stop INT '*.scratch/owner' svdag run p -q -j 2 --scratch .
 svdag plan s.ply -r 1K --shards 2 -o small -q
 mkdir -p bin
 printf '#!/bin/sh\necho 12\n' >bin/sbatch
-printf '#!/bin/sh\ntouch asked\necho RUNNING\n' >bin/squeue
+printf '#!/bin/sh\ntouch polled\necho RUNNING\n' >bin/squeue
 chmod +x bin/*
 PATH=$PWD/bin:$PATH
-stop INT asked svdag submit small --engine slurm --wait -q
+stop INT polled svdag submit small --engine slurm --wait -q

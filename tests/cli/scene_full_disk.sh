@@ -1,4 +1,4 @@
-# A limit on the file size simulates a full disk; the old file stays.
+# A limit on the file size simulates a full disk; the old file is kept.
 printf old > city.ply
 trap '' XFSZ
 ulimit -f 8

@@ -1,4 +1,4 @@
-# One pattern per option, so that scene files may follow; the option may be given again.
+# One pattern per option, so that scene files may follow; the option may be repeated.
 svdag-scene city -n 3K -q -o hall.ply
 svdag-scene rectangle -q -o sky1.ply
 svdag-scene rectangle -q -o props.ply

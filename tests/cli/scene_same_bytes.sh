@@ -1,4 +1,4 @@
-# One known hash per kind: compilers and flags must not change a bit.
+# One known hash per kind: compilers and flags do not affect the bytes.
 svdag-scene atrium -n 100K -q -o atrium.ply
 svdag-scene hairball -n 10K -q -o hairball.ply
 svdag-scene scan -n 10K -q -o scan.ply

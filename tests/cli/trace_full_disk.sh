@@ -1,4 +1,4 @@
-# A limit on the file size simulates a full disk: the old file stays, nothing else is left.
+# A limit on the file size simulates a full disk: the old file is kept, no other file remains.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o a.svdag -q
 echo old > dump.bin

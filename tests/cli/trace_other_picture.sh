@@ -1,4 +1,4 @@
-# A picture in a format that is not written, and a light that is everywhere.
+# A picture format that is not supported, and a light of nearly infinite size.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 16 -o a.svdag -q
 svdag-trace a.svdag --picture a.png || echo "exit $?"

@@ -1,4 +1,4 @@
-# Two outputs are two files, whatever they are called and though neither exists yet.
+# Two outputs must be two files, under any names, even if neither exists.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o a.svdag -q
 mkdir folder
@@ -9,7 +9,7 @@ trace --dump x --picture ./x
 trace --dump "$PWD/x" --picture folder/../x
 trace --dump folder/x --picture link/x
 ls . folder
-# So are those that exist under one more name.
+# The same for outputs that exist under another name.
 touch here
 ln here there
 trace --dump here --picture there

@@ -1,4 +1,4 @@
-# The input is never overwritten, whatever it is called.
+# The input is never overwritten, under any of its names.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o a.svdag -q
 ln -s a.svdag soft.svdag

@@ -1,4 +1,4 @@
-# Outputs that cannot be written are refused before a ray is sent, and then none of them is written.
+# Outputs that cannot be written are rejected before tracing, and none of them is written.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o a.svdag -q
 mkdir folder

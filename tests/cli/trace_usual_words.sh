@@ -1,4 +1,4 @@
-# Words as other programs take them; a program that may run on one processor has one thread.
+# Options as in other programs; a process limited to one processor has one thread.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o ./-a.svdag -q
 svdag-trace --size=4x4 --samples 1 --rounds 1 -j2 -- -a.svdag | head -1

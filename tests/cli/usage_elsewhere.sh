@@ -1,4 +1,4 @@
-# What another program does is named, not guessed at.
+# A command of another program of the project is suggested with that program.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 for line in "check r.svdag" "verify check r.svdag" "trace r.svdag" "help render" "help svdag-trace" \

@@ -1,4 +1,4 @@
-# A name that is empty is one that a script lost: it is spoken of before any work.
+# An empty name (an unset variable of a script) is an error before any work.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 svdag plan r.ply -r 64 --shards 1 -o p -q

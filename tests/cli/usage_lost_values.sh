@@ -1,4 +1,4 @@
-# A script's $OUT that was never set: the next word is not its value, and nothing is written.
+# An unset $OUT in a script: the next word is not taken as the value, and nothing is written.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 refused() { "$@" 2>&1 && echo "not refused: $*" || echo "exit $?"; }
@@ -20,7 +20,7 @@ refused svdag-verify render r.svdag -o --size 9x9
 refused svdag-verify render r.svdag -o x.png --fly ''
 refused svdag-scene city --seed 99999999999999999999 -o c.ply
 refused svdag-scene city -n '' -o c.ply
-# Numbers may be negative, and names strange, if they are named.
+# Negative numbers are values, and unusual names are accepted.
 svdag build r.ply -r 64 -o ./--quiet -q --bounds -1,-1,-1,1,1,1
 svdag build r.ply -r 64 -q --output==x
 svdag build -r 64 -q -o y.svdag -- r.ply

@@ -1,4 +1,4 @@
-# Zero is a number that was given, and an unfit one says so in a short sentence.
+# Zero is a value, not the default; an invalid one gives a short message.
 svdag-scene rectangle -q -o r.ply
 svdag build r.ply -r 64 -o r.svdag -q
 refused() { "$@" 2>&1 && echo "not refused: $*" || echo "exit $?"; }

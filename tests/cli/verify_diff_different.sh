@@ -1,4 +1,4 @@
-# The thin rule keeps a part of what the conservative one sets: nothing is only in the thin file.
+# The thin voxels are a subset of the conservative ones: nothing is only in the thin file.
 svdag-scene scan -n 5K -q -o a.ply
 svdag build a.ply -r 128 -o whole.svdag -q
 svdag build a.ply -r 128 --rule thin -o thin.svdag -q

@@ -1,4 +1,4 @@
-# A cube, moved by less than a voxel and made a little larger: the same voxels in other places.
+# A cube, shifted by less than a voxel and slightly enlarged: the same indices at other positions.
 cube() {
   printf 'OFF\n8 6 0\n'
   for x in $1 $2; do for y in 0 $3; do for z in 0 $3; do echo $x $y $z; done; done; done
@@ -15,7 +15,7 @@ for name in cube moved larger half half_moved; do
   svdag-verify diff cube.svdag $name.svdag -q || echo "exit $?"
   svdag-verify diff $name.svdag cube.svdag -q --by-index || echo "exit $?"
 done
-# Formats that keep the place as float32 are in the same place; so is a level of the grid.
+# Formats that store the position as float32 are at the same position; so is a level of the grid.
 svdag export moved.svdag --format symvox -o other.svdag -q
 svdag import other.svdag -o back.svdag -q
 svdag-verify diff back.svdag moved.svdag

@@ -1,4 +1,4 @@
-# OpenVDB's distances hold both rules between their bounds; another scene's file falls out of them.
+# Both rules are within the bounds of OpenVDB's distances; the file of another scene is not.
 svdag-scene city -n 3K -q -o a.ply
 svdag-scene city -n 3K --seed 5 -q -o b.ply
 svdag build a.ply -r 256 -o a.svdag -q

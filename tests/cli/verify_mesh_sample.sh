@@ -1,4 +1,4 @@
-# A sample finds what the file lacks even where it has no area, and bounds only what it draws from uniformly.
+# A sample finds missing voxels even of triangles without area, and gives bounds only for uniform draws.
 awk 'BEGIN {
   for (i = 0; i < 3000; ++i) {
     x = 2 + i % 50 / 1000; y = 2 + i / 60000; n = 3 * i

@@ -1,4 +1,4 @@
-# Numbers of rays and of draws that no one can wait for are refused, and draws count as memory.
+# Numbers of rays and draws that would take too long are rejected; draws are counted as memory.
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 1\nf 1 2 3\n' > a.obj
 svdag build a.obj -r 64 -o a.svdag -q
 for count in 18446744073709551615 1025G; do

@@ -1,5 +1,5 @@
 # A coarser mesh of the same surface: some triangles have no voxel, some voxels no
-# triangle, and it reaches out of the grid. Exit code 1.
+# triangle, and it extends beyond the grid. Exit code 1.
 svdag-scene scan -n 5K -q -o a.ply
 svdag-scene scan -n 2K -q -o b.ply
 svdag build a.ply -r 256 -o a.svdag -q

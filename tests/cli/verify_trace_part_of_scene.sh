@@ -1,5 +1,5 @@
-# A file of one of two triangles is right about that one; the grid says that the other is lacking. A
-# file that was restricted on purpose is judged within its bounds, and a mistyped pattern is said.
+# A file of one of two triangles is right for that one; the grid shows that the other is missing. A
+# file restricted by --bounds is judged within them, and a mistyped pattern is reported.
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 1\nf 1 2 3\n' > one.obj
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 1\nf 1 2 3\nv 90 90 90\nv 94 90 90\nv 90 94 91\nf 4 5 6\n' > two.obj
 svdag build one.obj -r 64 -o one.svdag -q

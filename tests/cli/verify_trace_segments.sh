@@ -1,5 +1,5 @@
-# Rays pass triangles of zero area; that a file lacks their voxels is seen by points of the surface.
-# The thin rule sets nothing for these, and nothing is judged: that is no "ok".
+# Rays miss triangles of zero area; points on the surface show that a file lacks their voxels.
+# The thin rule sets no voxel for them, so nothing is judged: the result is not "ok".
 printf 'v 0 0 0\nv 1 2 3\nv 2 1 0\nf 1 2 2\nf 2 3 3\nf 3 1 1\n' > segments.obj
 printf 'v 9 9 9\nv 8 9 9\nv 9 8 9\nf 1 2 3\n' > elsewhere.obj
 bounds=--bounds=-1,-1,-1,4,4,4

@@ -13,7 +13,7 @@ for power in -290 290; do
   printf "v 0 0 0\nv 1e$power 1e$power 0\nv 0 1e$power 1e$power\nf 1 2 3\n" > scene.obj
   judge 64
 done
-# A quarter of a voxel is another place there, too.
+# A shift by a quarter of a voxel is detected there, too.
 printf 'v 1000000000000 0 5\nv 1000000000001 1 5\nv 1000000000000 1 6\nf 1 2 3\n' > scene.obj
 svdag build scene.obj -r 64 -o here.svdag -q
 printf 'v 1000000000000.25 0 5\nv 1000000000001.25 1 5\nv 1000000000000.25 1 6\nf 1 2 3\n' > scene.obj

@@ -1,4 +1,4 @@
-# Grids that do not lie on the file's voxels are refused with what is different.
+# Grids that do not match the file's voxels are rejected, with the difference.
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 64 -o a.svdag -q
 svdag build a.ply -s 1 -o b.svdag -q

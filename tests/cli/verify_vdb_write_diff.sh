@@ -1,4 +1,4 @@
-# What only one of the two has is written as two grids: in all, the thin file and they are the whole.
+# Voxels in only one of the two files are written as two grids; with the thin file they form the whole.
 svdag-scene scan -n 5K -q -o a.ply
 svdag build a.ply -r 128 -o whole.svdag -q
 svdag build a.ply -r 128 --rule thin -o thin.svdag -q

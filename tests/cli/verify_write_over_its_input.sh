@@ -1,4 +1,4 @@
-# Inputs are never overwritten, whatever they are called; this is said before anything is compared.
+# Inputs are never overwritten, under any of their names; this is reported before the comparison.
 svdag-scene speck -n 8 -q -o s.ply
 svdag build s.ply -r 16 -o a.svdag -q
 cp a.svdag b.svdag
@@ -10,7 +10,7 @@ for name in a.svdag b.svdag ./b.svdag soft.svdag hard.svdag; do
   svdag-verify diff a.svdag b.svdag -q --write-diff $name || echo "exit $?"
 done
 svdag-verify vdb a.svdag a.vdb -q --write-diff ./a.vdb || echo "exit $?"
-cp a.svdag fly_0002.png  # a frame is a result, too
+cp a.svdag fly_0002.png  # a frame is an output, too
 svdag-verify render fly_0002.png -o fly.png --fly 2 -q || echo "exit $?"
 cmp fly_0002.png kept.svdag
 cmp a.svdag kept.svdag

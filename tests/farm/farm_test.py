@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""`make test-farm`: one plan, three engines, the same bytes as one bake.
+"""`make test-farm`: tests that a plan gives the same bytes as one bake, with all three engines.
 
-The generated atrium, cut into 16 shards, is baked
-  by Slurm on four nodes, in two arrays of shards (MaxArraySize is 11), one node dying with its job in the middle;
-  by `svdag run -j 2`, which is ended in the middle and restarted;
+The generated atrium, divided into 16 shards, is baked
+  by Slurm on four nodes, in two arrays of shards (MaxArraySize is 11); one node is killed while its job runs;
+  by `svdag run -j 2`, which is interrupted and restarted;
   by the reference runner of Open Job Description (PyPI openjd-cli).
-Where SVDAG_SCENES is set, Crytek Sponza as well, on Slurm. --only ENGINE runs a part.
+If SVDAG_SCENES is set, Crytek Sponza is baked on Slurm too. --only ENGINE runs one of the tests.
 """
 import argparse
 import functools
@@ -28,7 +28,7 @@ SHARDS = 16
 TIMEOUT = 170
 
 
-def say(text):
+def log_line(text):
     print(text, flush=True)
 
 
@@ -44,16 +44,16 @@ class Skipped(Exception):
     pass
 
 
-def require(condition, sentence):
+def require(condition, message):
     if not condition:
-        raise Failure(sentence)
+        raise Failure(message)
 
 
 class Farm:
     def __init__(self, programs):
         self.programs = programs
         self.svdag = str(programs / "svdag")
-        self.baked = {}  # scene -> hash of one bake
+        self.baked = {}  # (scene, resolution) -> hash of one bake
 
     def call(self, *arguments, **options):
         done = subprocess.run([self.svdag, *map(str, arguments)], capture_output=True, text=True, timeout=TIMEOUT,
@@ -70,7 +70,7 @@ class Farm:
             subprocess.run([self.programs / "svdag-scene", name, "-q", "-o", path], check=True)
         return path
 
-    def one_bake(self, name, resolution):
+    def hash_of_one_bake(self, name, resolution):
         if (name, resolution) not in self.baked:
             output = FOLDER / f"{name}.svdag"
             self.call("build", self.scene(name), "-o", output, "-r", resolution, "-q")
@@ -91,17 +91,18 @@ class Farm:
         return [name for name in self.steps(plan) if (plan / "runs" / f"{name}.json").exists()]
 
     def judge(self, name, resolution, plan):
-        """The file is the one bake's, and no step took more memory than was planned."""
+        """Requires that the output equals that of one bake, and that no step exceeded its planned memory."""
         output = plan / json.loads((plan / "plan.json").read_text())["steps"][-1]["output"]
-        require(hash_of(output) == self.one_bake(name, resolution), f"{output} is not what one bake gives")
+        require(hash_of(output) == self.hash_of_one_bake(name, resolution),
+                f"{output} differs from the output of one bake")
         for step in json.loads((plan / "plan.json").read_text())["steps"]:
             receipt = json.loads((plan / "runs" / f"{step['name']}.json").read_text())
             require(receipt["memory_bytes"] <= step["predicted"]["memory_bytes"],
-                    f"{step['name']} took {receipt['memory_bytes']} bytes of memory, more than was planned")
+                    f"{step['name']} took {receipt['memory_bytes']} bytes of memory, more than planned")
         shutil.rmtree(plan)
 
 
-def by_slurm(farm, name, resolution, with_accident):
+def by_slurm(farm, name, resolution, kill_a_node):
     plan = farm.plan(name, resolution)
     cluster = Cluster(FOLDER / "slurm")
     killed = None
@@ -112,43 +113,45 @@ def by_slurm(farm, name, resolution, with_accident):
                                   env=cluster.environment(), stdout=log, stderr=log, stdin=subprocess.DEVNULL)
         deadline = time.monotonic() + TIMEOUT
         while submit.poll() is None and time.monotonic() < deadline:
-            if with_accident and killed is None and len(farm.done(plan)) >= 2:
+            if kill_a_node and killed is None and len(farm.done(plan)) >= 2:
                 running = cluster.running()
                 if running:
                     job, node = running[-1]
                     if cluster.kill_node(node, job):
                         killed = (job, node)
-                        say(f"  node {node} was killed while it ran job {job}; "
+                        log_line(f"  node {node} was killed while running job {job}; "
                             f"{len(farm.done(plan))} of {len(farm.steps(plan))} steps were done")
             time.sleep(0.02)
         log.seek(0)
         if submit.poll() is None:
             submit.terminate()
             submit.wait()
-            raise Failure("the plan was not done in time\n" + log.read() + cluster.ask("squeue") + cluster.ask("sinfo"))
-        said = log.read()
-        require(submit.returncode == 0, f"submit --wait: exit code {submit.returncode}\n" + said)
-        arrays = [line.split(":")[0] for line in said.splitlines() if line.startswith("shards-")]
-        require(arrays == ["shards-1", "shards-10"], f"{SHARDS} shards went in the arrays {arrays}:\n{said}")
+            raise Failure(f"the plan did not finish within {TIMEOUT} s\n" + log.read() + cluster.query("squeue") +
+                          cluster.query("sinfo"))
+        output = log.read()
+        require(submit.returncode == 0, f"submit --wait: exit code {submit.returncode}\n" + output)
+        arrays = [line.split(":")[0] for line in output.splitlines() if line.startswith("shards-")]
+        require(arrays == ["shards-1", "shards-10"],
+                f"{SHARDS} shards were submitted as the arrays {arrays}:\n{output}")
         logs = sorted(path.name for path in (plan / "logs").glob("shard-*.slurm.log"))
-        require(len(logs) == SHARDS and "shard-10.slurm.log" in logs, f"not a log per shard: {logs}")
-        if with_accident:
-            require(killed, "every job was too fast to be killed while it ran")
-            job = cluster.ask("scontrol", "show", "job", killed[0])
+        require(len(logs) == SHARDS and "shard-10.slurm.log" in logs, f"expected one log per shard, found {logs}")
+        if kill_a_node:
+            require(killed, "every job ended before it could be killed")
+            job = cluster.query("scontrol", "show", "job", killed[0])
             require("Restarts=1" in job, f"the killed job was not run again:\n{job}")
         again = farm.call("submit", plan, "--engine", "slurm", env=cluster.environment())
-        require("every step of the plan is done" in again, "a plan that is done was submitted again:\n" + again)
+        require("every step of the plan is done" in again, "a finished plan was submitted again:\n" + again)
     finally:
         cluster.stop()
     farm.judge(name, resolution, plan)
 
 
 def interrupted(farm, plan):
-    """The exit code of a run that is interrupted in its middle; 0 if it was at its end by then."""
-    # What is started in the background, as by nohup, ignores interrupts, and so would its children.
-    obey = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    """The exit code of a run that is interrupted after three steps; 0 if it had finished by then."""
+    # A process in the background, as of nohup, ignores interrupts, and its children inherit that.
+    restore_interrupts = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     run = subprocess.Popen([farm.svdag, "run", plan, "-j", "2", "-q"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                           preexec_fn=obey)
+                           preexec_fn=restore_interrupts)
     receipts = [plan / "runs" / f"{name}.json" for name in farm.steps(plan)]
     while sum(map(pathlib.Path.exists, receipts)) < 3 and run.poll() is None:
         time.sleep(0.002)
@@ -158,23 +161,23 @@ def interrupted(farm, plan):
 
 
 def by_run(farm, name, resolution):
-    for _ in range(5):  # a machine that is busy elsewhere may let the run end first
+    for _ in range(5):  # on a busy machine the run may finish before the interrupt
         plan = farm.plan(name, resolution)
         code = interrupted(farm, plan)
         if code != 0:
             break
-        require(len(farm.done(plan)) == len(farm.steps(plan)), "svdag run, interrupted: exit code 0, and steps are missing")
+        require(len(farm.done(plan)) == len(farm.steps(plan)), "svdag run, interrupted: exit code 0, but steps are missing")
     require(code == 130, f"svdag run, interrupted: exit code {code}")
     done = len(farm.done(plan))
-    require(done < SHARDS, "svdag run went on after the interrupt")
+    require(done < SHARDS, "svdag run continued after the interrupt")
     (plan / "runs" / "shard-1.run").write_bytes(b"not a run")
     farm.call("run", plan, "-j", "2")
-    say(f"  ended after {done} steps, one of them damaged, and restarted")
+    log_line(f"  interrupted after {done} steps, one of them then damaged, and restarted")
     farm.judge(name, resolution, plan)
 
 
 def openjd():
-    """The program `openjd`, installed where that is possible; None where PyPI cannot be reached."""
+    """The path of the program `openjd`, installed if it is missing; None if PyPI cannot be reached."""
     venv = FOLDER / "openjd"
     program = venv / "bin" / "openjd"
     if not program.exists():
@@ -209,15 +212,15 @@ def main():
     options = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
     farm = Farm(options.programs.resolve())
-    tests = {"slurm": ("Slurm, a node dies", lambda: by_slurm(farm, "atrium", "16K", True)),
-             "run": ("svdag run, ended and restarted", lambda: by_run(farm, "atrium", "4K")),
+    tests = {"slurm": ("Slurm, a node is killed", lambda: by_slurm(farm, "atrium", "16K", True)),
+             "run": ("svdag run, interrupted and restarted", lambda: by_run(farm, "atrium", "4K")),
              "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium", "4K"))}
     if os.environ.get("SVDAG_SCENES") and farm.scene("sponza").exists():
         tests["sponza"] = ("Slurm, Crytek Sponza", lambda: by_slurm(farm, "sponza", "4K", False))
     elif options.only == "sponza":
-        sys.exit("SVDAG_SCENES does not lead to Crytek Sponza")
+        sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
     if os.geteuid() != 0 and options.only in (None, "slurm", "sponza"):
-        sys.exit("test-farm starts the daemons of Slurm: run it as root, or with --only run or openjd")
+        sys.exit("test-farm starts the daemons of Slurm: run it as root, or pass --only run or --only openjd")
     failed = 0
     for key, (title, test) in tests.items():
         if options.only not in (None, key):
@@ -225,15 +228,15 @@ def main():
         begin = time.monotonic()
         try:
             test()
-            say(f"ok      {title}: the same bytes ({time.monotonic() - begin:.0f} s)")
+            log_line(f"ok      {title}: the same bytes ({time.monotonic() - begin:.0f} s)")
         except Skipped as reason:
-            say(f"skipped {title}: {reason}")
+            log_line(f"skipped {title}: {reason}")
         except (Failure, subprocess.TimeoutExpired, RuntimeError) as failure:
             failed += 1
-            say(f"FAILED  {title}: {failure}")
+            log_line(f"FAILED  {title}: {failure}")
     return failed > 0
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that `finally` ends the daemons
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that `finally` stops the daemons
     sys.exit(main())

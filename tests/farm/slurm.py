@@ -1,7 +1,7 @@
-"""A Slurm of four nodes on this machine, as root, without systemd and cgroups.
+"""A Slurm cluster of four nodes on this machine, as root, without systemd and cgroups.
 
-Everything it writes is in one folder. Daemons run in the foreground as our children; what they
-start is known by the SLURM_CONF in its environment, so stop() ends exactly what start() began.
+All its files are in one folder. The daemons run in the foreground as child processes. Processes that they start are
+identified by SLURM_CONF in their environment, so stop() ends exactly the processes of this cluster.
 """
 import os
 import pathlib
@@ -13,7 +13,7 @@ import tempfile
 import time
 
 NODES = 4
-PATIENCE = 60  # seconds until the nodes must be idle
+START_TIMEOUT = 60  # seconds until the nodes must be idle
 
 CONF = """
 ClusterName=svdag
@@ -49,7 +49,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
 
 def free_ports(count):
-    """The first of `count` consecutive free ports."""
+    """The first number of `count` consecutive free ports."""
     for first in range(16817, 60000, count):
         try:
             for port in range(first, first + count):
@@ -70,7 +70,7 @@ def signal_all(processes, number):
 
 
 def has_stopped(process):
-    """Whether a process stopped because of the signal, rather than ended before."""
+    """Whether a process is stopped by SIGSTOP, not ended; waits until it is one of the two."""
     deadline = time.monotonic() + 5
     while time.monotonic() < deadline:
         try:
@@ -87,7 +87,7 @@ class Cluster:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder).resolve()
         self.daemons = {}  # name -> Popen
-        self.short = None  # a short folder for the socket, if ours is too long for one
+        self.short_folder = None  # of the socket, if the path of `folder` is too long for one
 
     def environment(self):
         return dict(os.environ, SLURM_CONF=str(self.folder / "slurm.conf"))
@@ -108,17 +108,18 @@ class Cluster:
         self.wait_until_idle()
 
     def start_munge(self):
-        place = self.folder / "munge"
-        if len(str(place)) > 80:
-            self.short = place = pathlib.Path(tempfile.mkdtemp(prefix="munge-"))
-            place.chmod(0o755)
-        self.socket = place / "socket"
+        munge_folder = self.folder / "munge"
+        if len(str(munge_folder)) > 80:
+            self.short_folder = munge_folder = pathlib.Path(tempfile.mkdtemp(prefix="munge-"))
+            munge_folder.chmod(0o755)
+        self.socket = munge_folder / "socket"
         key = self.folder / "munge" / "key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
         self.daemon("munged", ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={self.socket}",
-                               f"--pid-file={place}/pid", f"--log-file={place}/log", f"--seed-file={place}/seed"])
-        deadline = time.monotonic() + PATIENCE
+                               f"--pid-file={munge_folder}/pid", f"--log-file={munge_folder}/log",
+                               f"--seed-file={munge_folder}/seed"])
+        deadline = time.monotonic() + START_TIMEOUT
         while not self.socket.exists():
             if self.daemons["munged"].poll() is not None or time.monotonic() > deadline:
                 raise RuntimeError("munged did not start: " + self.log("munged"))
@@ -134,24 +135,24 @@ class Cluster:
     def log(self, name):
         return (self.folder / f"{name}.out").read_text(errors="replace")[-2000:]
 
-    def ask(self, *command):
+    def query(self, *command):
         return subprocess.run(command, env=self.environment(), capture_output=True, text=True, timeout=60).stdout
 
     def wait_until_idle(self):
-        deadline = time.monotonic() + PATIENCE
-        while self.ask("sinfo", "-h", "-N", "-o", "%T").split() != ["idle"] * NODES:
+        deadline = time.monotonic() + START_TIMEOUT
+        while self.query("sinfo", "-h", "-N", "-o", "%T").split() != ["idle"] * NODES:
             dead = [name for name, daemon in self.daemons.items() if daemon.poll() is not None]
             if dead or time.monotonic() > deadline:
-                raise RuntimeError(f"the nodes are not idle; ended: {dead}\n" + self.ask("sinfo", "-N", "-l") +
+                raise RuntimeError(f"the nodes are not idle; ended: {dead}\n" + self.query("sinfo", "-N", "-l") +
                                    "".join(self.log(name) for name in dead or self.daemons))
             time.sleep(0.1)
 
     def running(self):
-        """[(job, node)] of what runs now."""
-        return [line.split() for line in self.ask("squeue", "-h", "-t", "R", "-o", "%A %N").splitlines()]
+        """[(job, node)] of the running jobs."""
+        return [line.split() for line in self.query("squeue", "-h", "-t", "R", "-o", "%A %N").splitlines()]
 
-    def begun(self, test=lambda entry, environment: True):
-        """Processes that the daemons started, daemons themselves left out."""
+    def started_processes(self, test=lambda entry, environment: True):
+        """The ids of the processes that the daemons started, without the daemons, that pass `test`."""
         mark = f"SLURM_CONF={self.folder / 'slurm.conf'}".encode()
         own = {daemon.pid for daemon in self.daemons.values()} | {os.getpid()}
         found = []
@@ -167,20 +168,21 @@ class Cluster:
         return found
 
     def kill_node(self, node, job):
-        """What a power cut does to a node: its daemon and its job end at once. False, and nothing is killed, if
-        the job is not in its middle: all of it is stopped first, its overseer before its script, and only where
-        the script is still there then can the job not have told anyone that it was done."""
-        overseers = self.begun(lambda entry, _: f"slurmstepd: [{job}".encode() in (entry / "cmdline").read_bytes())
-        signal_all(overseers, signal.SIGSTOP)
-        script = self.begun(lambda _, environment: f"SLURM_JOB_ID={job}".encode() in environment)
-        script = [process for process in script if process not in overseers]
+        """Kills the daemon and the job of a node at once, like a power cut. Returns False and kills nothing if the job
+        may have ended: its slurmstepd is stopped first, then its script, and only if the script still exists then
+        has the job certainly not reported its end."""
+        step_daemons = self.started_processes(
+            lambda entry, _: f"slurmstepd: [{job}".encode() in (entry / "cmdline").read_bytes())
+        signal_all(step_daemons, signal.SIGSTOP)
+        script = self.started_processes(lambda _, environment: f"SLURM_JOB_ID={job}".encode() in environment)
+        script = [process for process in script if process not in step_daemons]
         signal_all(script, signal.SIGSTOP)
-        if not overseers or not all(map(has_stopped, overseers)) or not any(map(has_stopped, script)):
-            signal_all(overseers + script, signal.SIGCONT)
+        if not step_daemons or not all(map(has_stopped, step_daemons)) or not any(map(has_stopped, script)):
+            signal_all(step_daemons + script, signal.SIGCONT)
             return False
         self.daemons[node].kill()
         self.daemons[node].wait()
-        signal_all(overseers + script, signal.SIGKILL)
+        signal_all(step_daemons + script, signal.SIGKILL)
         return True
 
     def stop(self):
@@ -192,6 +194,6 @@ class Cluster:
             except subprocess.TimeoutExpired:
                 daemon.kill()
                 daemon.wait()
-        signal_all(self.begun(), signal.SIGKILL)
-        if self.short:
-            shutil.rmtree(self.short, ignore_errors=True)
+        signal_all(self.started_processes(), signal.SIGKILL)
+        if self.short_folder:
+            shutil.rmtree(self.short_folder, ignore_errors=True)

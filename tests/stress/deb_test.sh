@@ -1,7 +1,6 @@
 #!/bin/sh
-# Tests the packages of `make deb` in a minimal, clean Debian: they depend on exactly what they need, the
-# programs bake and verify a scene there, another project builds against libsvdag-dev, and removing them leaves
-# nothing behind.
+# Tests the packages of `make deb` in a minimal, clean Debian: their dependencies are complete, the programs bake
+# and verify a scene, another project builds against libsvdag-dev, and removal leaves no file behind.
 # Usage: deb_test.sh PROGRAMS PACKAGES   (the folders of a finished build and of its .deb files; as root)
 set -eu
 cd "$(dirname "$0")/../.."

@@ -1,12 +1,12 @@
 #!/bin/bash
-# Checks that scenes and bakes have the same bytes for every compiler and set of flags.
+# Tests that scenes and bakes have the same bytes with every compiler and set of flags.
 #
 # Usage: one_hash.sh                  builds the programs with every combination
 #        one_hash.sh small PROGRAMS   compares existing programs (as `make build` makes them)
 #                                     with one build without any optimisation
 # Bakes five scenes for both rules with each and compares the SHA-256 of scenes and results.
 set -euo pipefail
-shopt -s inherit_errexit  # a bake that fails ends $(...) too
+shopt -s inherit_errexit  # a failed bake ends $(...) too
 cd "$(dirname "$0")/../.."
 root=$PWD/build/one-hash
 mkdir -p "$root"
@@ -51,5 +51,5 @@ for combination in "${combinations[@]}"; do
   hashes=$(hashes_of "$folder" "$folder")
   echo "$combination: $hashes"
   : "${expected:=$hashes}"
-  [ "$hashes" = "$expected" ] || { echo "The bytes differ from those of ${2:-${combinations[0]}}."; exit 1; }
+  [ "$hashes" = "$expected" ] || { echo "$combination: the bytes differ from those of ${2:-${combinations[0]}}"; exit 1; }
 done

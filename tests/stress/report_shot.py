@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Tests the page of `svdag-verify report` in a real browser, headless Chromium.
 
-At desktop and phone width, light and dark: no console message, no network request, nothing wider than the window,
-every picture decoded, and the colours of the requested scheme. Pages with each of these faults must fail. The
-screenshots stay in SHOTS, for inspection.
+Checks at desktop and phone width, light and dark: no console message, no network request, nothing wider than the
+window, every picture decoded, and the colours of the requested scheme. Pages with each of these faults must fail.
+The screenshots are kept in SHOTS for inspection.
 
 Usage: report_shot.py PROGRAMS SHOTS
 """
@@ -21,11 +21,11 @@ import unittest
 PROGRAMS, SHOTS = (pathlib.Path(p).resolve() for p in (sys.argv.pop(1), sys.argv.pop(1)))
 CHROMIUM = shutil.which("chromium")
 WIDTHS = {"desk": 1280, "phone": 390}
-SCHEMES = {"dark": 0, "light": 1}  # as Blink numbers them
+SCHEMES = {"dark": 0, "light": 1}  # Blink's numbers
 LUMINANCE = {"dark": range(0, 96), "light": range(160, 256)}
 
-# Shows the unchanged page in a frame of the given width (a Chromium window is at least 500 pixels wide), and
-# stores what the frame's owner observes in the document.
+# Shows the unchanged page in a frame of the given width (a Chromium window is at least 500 pixels wide), and stores
+# the observations of the frame's parent in the document.
 FRAME = """<!doctype html><body style="margin:0"><iframe style="border:0;width:%dpx;height:4200px" srcdoc="%s"></iframe>
 <script>addEventListener('load', () => {
   const view = document.querySelector('iframe').contentWindow, page = view.document;
@@ -50,7 +50,7 @@ def chromium(page, width, scheme, *options):
 
 
 def faults(page, width, scheme, shot=None):
-    """The faults of a page, one word each."""
+    """The set of faults of a page, one word each."""
     framed = page.with_name("framed-" + page.name)
     framed.write_text(FRAME % (width, html.escape(page.read_text())))
     dom, console = chromium(framed, width, scheme, "--dump-dom")

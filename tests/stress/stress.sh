@@ -1,12 +1,12 @@
 #!/bin/sh
-# make stress: the tests that take too long to run for every change. Stages can be chosen, to repeat one or
-# to run them separately: make stress STAGES="tsan packages".
+# make stress: the tests that take too long to run for every change. STAGES selects some of them:
+# make stress STAGES="tsan packages".
 set -eu
 cd "$(dirname "$0")/../.."
 all="tsan families properties one_hash completion faults report_shot packages fuzzers"
 skipped=
 
-may_skip() {  # COMMAND... : its exit code 77 means that it cannot run here
+may_skip() {  # COMMAND...: exit code 77 means that it cannot run here
   code=0
   "$@" || code=$?
   [ "$code" != 77 ] || { skipped="$skipped $stage"; return 0; }
@@ -44,7 +44,7 @@ completion() {  # in bash, fish and zsh
   ctest --test-dir build/release -R '^completion$' --output-on-failure --no-tests=error
 }
 
-faults() {  # every call, small disks, signals, kills, power cuts, little memory
+faults() {  # failing system calls, full disks, signals, kills, power cuts, little memory
   release svdag svdag-export svdag-scene svdag-trace svdag-verify svdag_fault_shim svdag_float_modes
   SVDAG_LONG=1 ctest --test-dir build/release -L '^fault$' --timeout 14400 --output-on-failure --no-tests=error
 }
@@ -81,7 +81,7 @@ for stage in ${*:-$all}; do
   echo "$stage passed in $((($(date +%s) - began + 30) / 60)) min"
 done
 if [ -n "$skipped" ]; then
-  echo "Passed; skipped because they cannot run here:$skipped."
+  echo "Passed. Skipped because they cannot run here:$skipped."
 else
   echo "All stages passed."
 fi

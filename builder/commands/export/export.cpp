@@ -17,8 +17,9 @@ namespace {
 struct FormatRow {
   ExportFormat format;
   uint64_t (*write)(Selection*, const ExportConfig&, MemoryBudget*);
-  std::string (*path)(const std::string& output, int levels) = nullptr;  // null: output as given
-  std::vector<std::string> (*files)(const std::string& path) = nullptr;  // null: only path
+  std::string (*path)(const std::string& output,
+                      int levels) = nullptr;  // nullptr: the output as given
+  std::vector<std::string> (*files)(const std::string& path) = nullptr;  // nullptr: only the output
 };
 
 // The only table of formats.
@@ -50,7 +51,7 @@ const FormatRow& choose(const ExportConfig& config) {
     names += (names.empty() ? "" : ", ") + std::string(row.format.name);
   }
   if (config.format.empty())
-    fail_usage(config.output + ": unknown ending: choose a format with --format: " + names);
+    fail_usage(config.output + ": unknown file extension: choose a format with --format: " + names);
   fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
 }
 

@@ -22,9 +22,9 @@ void set_up(CLI::App* app, ExportConfig* config) {
   takes_files(app->add_option("-o,--output", config->output, "The file to write"), {"*"})
       ->required()
       ->type_name("OUT");
-  suggests(
-      app->add_option("--format", config->format, formats + " (default: the ending of the output)"),
-      names)
+  suggests(app->add_option("--format", config->format,
+                           formats + " (default: by the output's extension)"),
+           names)
       ->type_name("NAME");
   app->add_option(
          "--level", config->level,

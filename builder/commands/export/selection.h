@@ -14,11 +14,11 @@ struct Selection {
   Selection(const DagFile& dag_file, const ExportConfig& config);
 
   const DagFile& file;
-  Grid grid;      // of the level; its selection is the requested box
-  CubeWalk walk;  // of the level
+  Grid grid;      // of the exported level; its selection is the requested box
+  CubeWalk walk;  // over the exported level
 };
 
-// One function per format; each writes `path` whole or not at all and returns the voxels written.
+// One function per format. Each writes config.output atomically and returns the number of voxels.
 uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget);
 // Foreign DAG formats hold whole grids: --bounds is an Error (kUsage).

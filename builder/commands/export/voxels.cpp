@@ -9,9 +9,9 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // of --max-voxels
+constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // default of --max-voxels
 
-// Counts the voxels: the number in the header of a file is not trusted.
+// Counts the voxels: the count in the file's header is not trusted.
 VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const auto memory = budget->reserve(selection->walk.bytes_to_count(selection->grid.selection),
                                       "counts of voxels");

@@ -56,7 +56,7 @@ bool looks_like_vdb(const File&, FileStart start) {
 struct FormatRow {
   const char* name;
   bool (*matches)(const File&, FileStart);
-  GraphReader graph;  // at most one of the two is set; for OpenVDB, neither
+  GraphReader graph;  // at most one of the two readers is set; for OpenVDB, neither
   VoxelReader voxels;
 };
 
@@ -91,11 +91,11 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
   fail_input(config.file, "unknown file format: choose one with --format: " + names);
 }
 
-// Options of OpenVDB grids are rejected for other formats, not ignored.
+// Rejects options of OpenVDB grids for other formats, which would ignore them.
 void require_no_vdb_options(const ImportCommandConfig& config, const FormatRow& row) {
   const char* option = !config.grid.empty() ? "--grid" : config.iso ? "--iso" : nullptr;
   if (option != nullptr)
-    fail_usage(std::string(option) + ": only for .vdb files, and " + config.file + " is read as " +
+    fail_usage(std::string(option) + ": only for .vdb files; " + config.file + " is read as " +
                row.name);
 }
 
@@ -135,7 +135,7 @@ int run(const ImportCommandConfig& config) {
   reject_foreign_format(config.import.output);
   if (names_run(config.import.output))
     fail_usage(config.import.output +
-               ": an import writes a .svdag, and this is the name of a run: choose another name");
+               ": an import writes a .svdag, not a run: choose another name");
   AtomicFile::check(config.import.output);
   const File file = File::open_read(config.file);
   InputWatch inputs;

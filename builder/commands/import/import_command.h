@@ -1,8 +1,8 @@
-// The command svdag import X -o OUT.svdag: converts voxels of other programs to a minimal canonical
-// DAG.
+// The command `svdag import FILE -o OUT.svdag`: converts voxels of other programs to a minimal
+// canonical DAG.
 //
-// Runs as a program of its own, svdag-import, which `svdag import` starts: a bake does not load the
-// libraries of other formats. A format is recognised by the content of the file.
+// It is a separate program, svdag-import, which `svdag import` starts, so that a bake does not load
+// the libraries of other formats. The format is detected from the content of the file.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ namespace svdag {
 
 struct ImportCommandConfig {
   std::string file;
-  std::string format;             // a name of import_formats(); empty: from the file's content
-  std::string grid;               // --grid, vdb: name of the grid; empty: the only one
+  std::string format;             // a name in import_formats(); empty: from the file's content
+  std::string grid;               // --grid, vdb: name of the grid; empty: the file's only grid
   std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
   bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;

@@ -56,7 +56,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
 }
 
 int run_command(int argc, char** argv) {
-  CLI::App app("Makes a minimal .svdag of the voxels of another program.", "svdag import");
+  CLI::App app("Converts voxels of another program to a minimal .svdag.", "svdag import");
   app.set_version_flag("-V,--version", "svdag-import " SVDAG_VERSION, "Print the version and exit");
   ImportCommandConfig config;
   set_up(&app, &config);

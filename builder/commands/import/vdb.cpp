@@ -20,7 +20,7 @@ GridPlacement placement_of(const std::string& path, const IndexToWorld& centres,
       const double expected = a == b ? place.voxel_size : 0;
       if (std::abs(centres.axes[size_t(a)][b] - expected) > 1e-6 * std::abs(place.voxel_size))
         fail_input(path,
-                   "its transform rotates, mirrors or stretches the grid, which is not supported");
+                   "the grid's transform rotates, mirrors or stretches it, which is not supported");
     }
   }
   place.corner = centres(Point(first)) - place.voxel_size * 0.5;
@@ -46,19 +46,19 @@ void add_block(const VoxelCube& cube, const LatticePoint& first, VoxelBatch* bat
 
 VdbVoxels::VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path)
     : grid_(std::move(grid)) {
-  int64_t side = kBlockSide;  // of the largest cube
+  int64_t max_side = kBlockSide;  // of the cubes
   grid_->visit([&](const VoxelCube& cube) {
-    side = std::max(side, cube.side);
+    max_side = std::max(max_side, cube.side);
     if (!is_full(cube)) count_ += cube.count();
     return true;
   });
   const VoxelBox box = grid_->bounds();
   for (int a = 0; a < 3 && !box.empty(); ++a) {
-    // A multiple of all sides, so that cubes stay aligned.
+    // A multiple of the side of every cube, so that cubes stay aligned.
     if (box.min[a] < 0 || box.max[a] > int64_t(1) << kMaxLevels)
-      first_[a] = box.min[a] & ~(side - 1);
+      first_[a] = box.min[a] & ~(max_side - 1);
     if (box.max[a] - first_[a] > int64_t(1) << kMaxLevels)
-      fail_input(path, "its voxels span more than 1M on an axis");
+      fail_input(path, "the voxels of the grid span more than 1M (1,048,576) on an axis");
   }
   place_ = placement_of(path, grid_->centres(), first_);
 }

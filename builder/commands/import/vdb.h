@@ -9,22 +9,22 @@
 
 namespace svdag {
 
-// Voxel coordinates are those of the grid's index space; if one is outside 0 .. 1M - 1, the set is
-// moved to begin near 0 on that axis.
+// Voxel coordinates are those of the grid's index space. On an axis where one is outside
+// 0 .. 1M - 1, all are shifted to begin near 0.
 class VdbVoxels {
  public:
-  // A grid of more than 1M voxels on an axis, and a transform that rotates, mirrors or stretches,
-  // are an Error (kBadInput) that names `path`.
+  // Error (kBadInput), naming `path`, if the voxels span more than 1M on an axis or the transform
+  // rotates, mirrors or stretches.
   VdbVoxels(std::unique_ptr<VdbGrid> grid, const std::string& path);
 
-  // Number of voxels that are passed one by one.
+  // Number of voxels that read() passes one by one.
   uint64_t count() const { return count_; }
-  // Passes every voxel once, those of tiles and full leaves as cubes.
+  // Passes every voxel once; tiles and full leaves are passed as cubes.
   GridPlacement read(const VoxelSink& voxels, const FullCubeSink& cubes) const;
 
  private:
   std::unique_ptr<VdbGrid> grid_;
-  LatticePoint first_{0};  // becomes voxel (0, 0, 0)
+  LatticePoint first_{0};  // index-space voxel that becomes (0, 0, 0)
   GridPlacement place_;
   uint64_t count_ = 0;
 };

@@ -86,8 +86,8 @@ TEST_F(ChangedScene, IsRefusedBetweenThePassesWhereMemoryIsShort) {
 
 // Nothing reads it again, and a report names what was read.
 TEST_F(ChangedScene, MattersNoMoreWhenItsTrianglesWereRead) {
-  for (const bool name_files : {false, true}) {
-    config_.name_files = name_files;
+  for (const bool hash_files : {false, true}) {
+    config_.hash_files = hash_files;
     config_.open_store = {};
     write_stl(scene_, random_soup(20'000, 0.1, 1));
     const std::vector<SceneFile> named = bake(config_).files;
@@ -95,7 +95,7 @@ TEST_F(ChangedScene, MattersNoMoreWhenItsTrianglesWereRead) {
     after_triangles([this] { rewrite(); });
     const BuildReport report = bake(config_);
     EXPECT_EQ(read_bytes(config_.output), expected);
-    ASSERT_EQ(report.files.size(), name_files ? 1U : 0U);
+    ASSERT_EQ(report.files.size(), hash_files ? 1U : 0U);
     for (const SceneFile& file : report.files) EXPECT_EQ(file.hash, named[0].hash);
   }
 }

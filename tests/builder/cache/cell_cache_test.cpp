@@ -45,7 +45,7 @@ class Cache : public ::testing::Test {
     fs::remove(config.output);
     const BuildReport report = bake(config, threads);
     EXPECT_TRUE(read_bytes(config.output) == expected_);
-    EXPECT_EQ(report.cache_complaint, "");
+    EXPECT_EQ(report.cache_write_error, "");
     return report;
   }
   std::vector<fs::path> packs() const {
@@ -213,7 +213,7 @@ TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
   BuildConfig config = prepare(random_soup(20'000, 0.1, 3), 8);
   config.memory = uint64_t(9) << 20;
   const BuildReport alone = bake_as_expected(config, 2);
-  EXPECT_EQ(alone.cache_ignored, 0U);
+  EXPECT_EQ(alone.cache_packs_skipped, 0U);
   const std::vector<fs::path> own = packs();
   for (int i = 0; i < 30; ++i)  // the entries take more than twice the budget
     write_unused_pack(cache_.folder + "/" + std::to_string(1000000000000000 + i) + ".cells",
@@ -222,7 +222,7 @@ TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
     fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
   const BuildReport newest = bake_as_expected(config, 2);
   EXPECT_GT(newest.cache_hits, newest.cells - 20) << "the most recently used packs are read first";
-  EXPECT_GE(newest.cache_ignored, 25U);
+  EXPECT_GE(newest.cache_packs_skipped, 25U);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
   bake_as_expected(config, 2);
@@ -285,7 +285,7 @@ TEST_F(Cache, AFolderThatCannotBeWrittenDoesNotFailTheBake) {
   };
   const BuildReport report = bake(config);
   EXPECT_TRUE(read_bytes(config.output) == expected_);
-  EXPECT_NE(report.cache_complaint, "");
+  EXPECT_NE(report.cache_write_error, "");
 }
 
 // The key of a cube of 32^3 voxels with `triangles`.
