@@ -142,8 +142,8 @@ void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildRepo
   report->divided = counts.divided;
   if (store == nullptr) return;
   report->cache_hits = store->hits();
-  report->cache_packs_skipped = store->ignored();
-  report->cache_write_error = store->complaint();
+  report->cache_packs_skipped = store->skipped_packs();
+  report->cache_write_error = store->write_error();
 }
 
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,

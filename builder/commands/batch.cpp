@@ -146,10 +146,11 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
     }
   } catch (Interrupted& interrupted) {
     if (job.build.unfinished == Unfinished::kRestart)
-      interrupted.how = batch.defaults.build.unfinished == Unfinished::kRestart
-                            ? kResumeForRestart
-                            : "stopped; to continue, remove \"restart\" from the list and repeat "
-                              "the command with --resume";
+      interrupted.resume_message =
+          batch.defaults.build.unfinished == Unfinished::kRestart
+              ? kResumeForRestart
+              : "stopped; to continue, remove \"restart\" from the list and repeat "
+                "the command with --resume";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();
