@@ -5,10 +5,11 @@
 //
 // Kind kBox (-r N): the grid divides the box of the scene, or of --bounds: voxel size =
 // extent/(N-1), origin half a voxel below the minimum, so that the outermost faces lie mid-voxel
-// and not on a voxel plane, where every wall would be two voxels thick. Kind kLattice (--voxel-size
-// S): voxel planes at (k + 1/2) * S, independent of the scene, so that tiles of one world agree.
-// The grid's corner is plane k0, a multiple of 1024 on each axis, so cells of up to 1024 voxels
-// keep their content when a scene grows.
+// and not on a voxel plane, where every wall would be two voxels thick. --cube divides exactly the
+// given cube instead, so that resolutions line up. Kind kLattice (--voxel-size S): voxel planes at
+// (k + 1/2) * S, independent of the scene, so that tiles of one world agree. The grid's corner is
+// plane k0, a multiple of corner_step() on each axis, so cells of up to so many voxels keep their
+// content when a scene grows.
 #pragma once
 
 #include <algorithm>
@@ -28,6 +29,12 @@ constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
 // F: always the same for one L, so that L + F <= 39 bits and every exact test fits 128 bits.
 constexpr int fraction_bits(int levels) {
   return std::min(23, 39 - levels);
+}
+
+// Step of the corner of a kLattice grid, in voxels: the largest cells, but no more than half of the
+// grid, which would otherwise be several times larger than a small scene.
+constexpr int64_t corner_step(int levels) {
+  return std::min<int64_t>(1024, int64_t(1) << (levels - 1));
 }
 
 // Voxels min <= k < max on each axis.
@@ -88,6 +95,23 @@ void visit_fields(AnyGrid& grid, const Visit& visit) {
 // The grid of kind kBox with 2^levels voxels that divides `box`. A box without extent, or whose
 // voxel size is not a normal number, is an Error (kUsage).
 Grid divide_box(const Box& box, int levels);
+
+// A cube in world units.
+struct GridCube {
+  Point min{0};
+  double side = 0;
+};
+
+// The grid of kind kBox whose 2^levels voxels a side divide `cube`, with its corner at cube.min. An
+// invalid size is an Error (kUsage). It is bounded: a scene may reach beyond the cube.
+//
+// Resolutions from 64K on nest exactly (--rule conservative): the voxels of the coarser grid are
+// the parents of those of the finer one. Voxel size and 2^F are powers of two times the side, so
+// each vertex is snapped to q = rint(fl((v - min) / side) * 2^(L + F)), and L + F is 39 for L >=
+// 16: the snapped scene is the same. Below 64K, L + F = L + 23 differs, and voxels may differ where
+// a triangle is within 2^-24 voxels of a voxel plane. Rejected: F = 39 - L for every L, for which
+// the error bounds of all filters would have to be proved again.
+Grid divide_cube(const GridCube& cube, int levels);
 
 // The smallest grid of kind kLattice with voxel size `size` whose voxels hold `box`. An invalid
 // size, or a box of more than 2^20 voxels, is an Error (kUsage).

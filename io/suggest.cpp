@@ -28,7 +28,7 @@ bool knows(const std::vector<std::string>& options, const std::string& option) {
 // The commands of each program. `trace` alone suggests the tracer, since the command of that name
 // in svdag-verify needs a scene.
 constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
-    {"svdag", "build plan run submit merge info export import"},
+    {"svdag", "build plan run submit merge info query export import"},
     {"svdag-verify", "check mesh diff vdb render report"},
     {"svdag-trace", ""},
     {"svdag-scene", ""},
@@ -73,7 +73,8 @@ std::string plain_usage_error(const std::string& message) {
   if (!extra.empty()) return "unexpected argument: " + extra;
   const size_t excludes = message.find(" excludes ");
   if (excludes != std::string::npos)
-    return message.substr(0, excludes) + " cannot be combined with " + message.substr(excludes + 10);
+    return message.substr(0, excludes) + " cannot be combined with " +
+           message.substr(excludes + 10);
   return message;
 }
 

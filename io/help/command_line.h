@@ -28,8 +28,11 @@ CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices
 CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
 CLI::Option* takes_folder(CLI::Option* option);
-CLI::Option* takes_whole_number(CLI::Option* option);                  // of 64 bits
+CLI::Option* takes_whole_number(CLI::Option* option);               // of 64 bits
 CLI::Option* from_to(CLI::Option* option, size_t min, size_t max);  // whole numbers
+
+// -n, --no-clobber.
+void add_no_clobber(CLI::App* command, bool* no_clobber);
 
 // -m, the memory budget of a command, with the text of its help; less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,

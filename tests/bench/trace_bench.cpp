@@ -114,7 +114,7 @@ uint64_t measure_beams(const DagView& dag, const Tree64View& tree, const Picture
 }
 
 Camera camera_of(const DagFile& file, const char* text) {
-  const VoxelBounds box = occupied_bounds(file.view());
+  const VoxelBounds box = framing_bounds(file.view());
   double c[6];
   if (text == nullptr ||
       std::sscanf(text, "%lf,%lf,%lf,%lf,%lf,%lf", c, c + 1, c + 2, c + 3, c + 4, c + 5) != 6)
@@ -136,7 +136,7 @@ int run(int argc, char** argv) {
   const Tree64 tree(dag);
   std::printf("64-tree: %.1f MB of %.1f MB in %.2f s\n\n", 1e-6 * double(tree.bytes()),
               1e-6 * double(file.header().file_bytes), now() - start);
-  const VoxelBounds box = occupied_bounds(dag);
+  const VoxelBounds box = framing_bounds(dag);
   const Picture picture{camera_of(file, argc > 2 ? argv[2] : nullptr), 320, 176};
   const double diagonal = length(box.max - box.min);
   Light light{(box.min + box.max) * 0.5, 0.02 * diagonal};

@@ -239,7 +239,7 @@ int run(int argc, char** argv) {
   const Vec3 middle{{half, half, half}};
   const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
   const EmbreePeer peer(triangles);
-  const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
+  const ViewConfig config = views(file.grid(), framing_bounds(dag), argv + 3, argv + argc);
   const Tree64 tree(dag);
   const RelaidDag as_in_file(dag, RelaidDag::Layout::kAsInFile);
   const RelaidDag levels(dag, RelaidDag::Layout::kDepthFirst);

@@ -38,6 +38,7 @@ void try_plan(OwnFolder& folder, std::string_view rest) {
   std::string json = next_part(&rest);
   const std::string index = next_part(&rest);
   put_hash("index_hash", hash_of(index), &json);
+  seal_plan(&json);
   folder.write("plan.json", json);
   folder.write("index", index);
   const Plan plan = load_plan(folder.path(), true);
