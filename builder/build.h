@@ -31,6 +31,9 @@ struct ReadySplit {
   SpillFile* triangles = nullptr;  // holds the streams of `bins`
 };
 
+// Default of --checkpoint, in seconds.
+constexpr double kCheckpointSeconds = 30;
+
 struct BuildConfig {
   SceneConfig scene;
   const ReadySplit* ready = nullptr;  // replaces `scene` and the grid options

@@ -11,7 +11,7 @@
 namespace svdag {
 
 // Largest number of threads that a command line or a plan may give.
-constexpr size_t kMostThreads = 1024;
+constexpr size_t kMaxThreads = 1024;
 
 // Returns `count`. Throws Error (kMemory) "more than 2^32 - 1 WHAT: ..." if it is larger than that.
 inline uint32_t as_u32(uint64_t count, const char* what) {

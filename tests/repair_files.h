@@ -8,7 +8,7 @@
 #include <string>
 
 #include "builder/cache/cell_pack.h"
-#include "builder/cache/pack_blocks.h"
+#include "builder/cache/pack_payload.h"
 #include "builder/run/run_format.h"
 #include "streaming/file/checksum.h"
 

@@ -9,7 +9,7 @@
 #include "builder/run/bake_output.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
-#include "streaming/spill/spoiled_scratch.h"
+#include "streaming/spill/invalid_scratch.h"
 
 namespace svdag {
 namespace {
@@ -142,8 +142,8 @@ void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildRepo
   report->divided = counts.divided;
   if (store == nullptr) return;
   report->cache_hits = store->hits();
-  report->cache_packs_skipped = store->ignored();
-  report->cache_write_error = store->complaint();
+  report->cache_packs_skipped = store->skipped_packs();
+  report->cache_write_error = store->write_error();
 }
 
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
@@ -265,7 +265,7 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   } catch (Interrupted& interrupted) {
     interrupted.resumable = checkpoint.has_saved_work();
     throw;
-  } catch (const SpoiledScratch&) {  // there is nothing to resume
+  } catch (const InvalidScratch&) {  // there is nothing to resume
     throw;
   } catch (const Error& error) {
     if (!checkpoint.has_saved_work() || error.code() == ExitCode::kInternal) throw;
@@ -283,7 +283,7 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {
     return bake_resumably(config, executor, progress);
-  } catch (const SpoiledScratch&) {
+  } catch (const InvalidScratch&) {
     if (config.unfinished != Unfinished::kResumeSame) throw;
   }
   BuildConfig fresh = config;

@@ -89,8 +89,8 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
       TriangleBins::depth_for(split_.triangle_bytes / 2, *split_.scratch, grid_, bin.cube);
   int depth = 1;
   while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
-  SpillFile* passing = split_.scratch->passing();
-  TriangleBins bins(grid_, bin.cube, depth, passing, split_.scratch);
+  SpillFile* transient = split_.scratch->transient();
+  TriangleBins bins(grid_, bin.cube, depth, transient, split_.scratch);
   read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
     for (const LatticeTriangle& triangle : triangles) bins.add(triangle);
     return true;
@@ -98,8 +98,8 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
   uint64_t at = bin.range.begin;
   for_each_bin(bins.finish(), progress_, [&](const TriangleBin& part) {
     voxelizer_->note_empty({at, part.range.begin});
-    bake(passing, part);
-    passing->free(part.stream);
+    bake(transient, part);
+    transient->free(part.stream);
     at = part.range.end;
   });
   voxelizer_->note_empty({at, bin.range.end});

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "streaming/spill/spoiled_scratch.h"
+#include "streaming/spill/invalid_scratch.h"
 
 namespace svdag {
 namespace {
@@ -14,7 +14,7 @@ SavedBake parse(const std::vector<JournalRecord>& records, const std::string& pa
   try {
     return read_saved(records, path);
   } catch (const Error& error) {
-    throw SpoiledScratch(error);
+    throw InvalidScratch(error);
   }
 }
 

@@ -21,7 +21,7 @@ class Checkpoint {
   explicit Checkpoint(Workspace* workspace) : workspace_(workspace) {}
 
   // Opens the journal and the scratch files of an unfinished bake. Returns nothing, and opens
-  // nothing, if the journal holds no bake or one whose description is not wanted. SpoiledScratch if
+  // nothing, if the journal holds no bake or one whose description is not wanted. InvalidScratch if
   // the journal is damaged or of another layout.
   std::optional<SavedBake> resume(const std::function<bool(const std::string&)>& wanted);
 

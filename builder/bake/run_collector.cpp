@@ -31,7 +31,7 @@ void RunCollector::take_from_store() {
     }
     return new_target(workspace_->scratch(), grid_.levels);
   };
-  store_->taken(target, [this](BakedRun baked) { add_last(std::move(baked)); });
+  store_->load_taken(target, [this](BakedRun baked) { add_last(std::move(baked)); });
 }
 
 }  // namespace svdag

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "builder/cache/cell_key.h"
-#include "builder/cache/pack_blocks.h"
+#include "builder/cache/pack_payload.h"
 #include "builder/workspace/memory_shares.h"
 #include "streaming/counts.h"
 
@@ -163,19 +163,19 @@ bool CellCache::take(const CellKey& key, const Cube& cube) {
   const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !is_usable(&open)) return false;
-  open.taken.push_back({found->entry, cube});
+  open.load_taken.push_back({found->entry, cube});
   ++hits_;
   return true;
 }
 
-void CellCache::taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
-                      const std::function<void(BakedRun)>& use) {
+void CellCache::load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
+                           const std::function<void(BakedRun)>& use) {
   for (OpenPack& open : packs_) {
-    if (open.taken.empty()) continue;
+    if (open.load_taken.empty()) continue;
     const std::optional<SpillTarget> spill_target = target(open.pack.bytes());
-    use(open.pack.extract(std::move(open.taken), grid_.levels, budget_,
+    use(open.pack.extract(std::move(open.load_taken), grid_.levels, budget_,
                           spill_target ? &*spill_target : nullptr));
-    open.taken.clear();
+    open.load_taken.clear();
   }
 }
 

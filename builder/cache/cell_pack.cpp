@@ -107,7 +107,7 @@ uint64_t Pack::index_bytes() const {
 
 uint64_t Pack::marks_bytes() const {
   uint64_t bytes = 0;
-  for (const uint64_t keys : header_.keys) bytes += RankBitmap::most_bytes(keys);
+  for (const uint64_t keys : header_.keys) bytes += RankBitmap::max_bytes(keys);
   return bytes;
 }
 

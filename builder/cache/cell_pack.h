@@ -22,7 +22,7 @@ void write_pack(const std::string& path, const BakedRun& baked, int levels, Spil
 
 class Pack {
  public:
-  // Reads the header. DamagedPack (builder/cache/pack_blocks.h) if it is invalid.
+  // Reads the header. DamagedPack (builder/cache/pack_payload.h) if it is invalid.
   explicit Pack(std::string path);
 
   const std::string& path() const { return path_; }

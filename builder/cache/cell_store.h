@@ -22,20 +22,20 @@ class CellStore {
   // The key of `cube`; `list` holds all triangles that touch it.
   virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
   // Returns true if the sub-DAG of `key` is stored, and takes it for `cube`: the caller then skips
-  // the descent, and the sub-DAG is part of a later run of taken(). Thread-safe.
+  // the descent, and the sub-DAG is part of a later run of load_taken(). Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube) = 0;
-  // Passes the taken cells to `use`, as runs. target(bytes) decides whether a run of up to `bytes`
-  // bytes is spilled, and where to.
-  virtual void taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
-                     const std::function<void(BakedRun)>& use) = 0;
+  // Passes the load_taken cells to `use`, as runs. target(bytes) decides whether a run of up to
+  // `bytes` bytes is spilled, and where to.
+  virtual void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
+                          const std::function<void(BakedRun)>& use) = 0;
   // Stores the cells of `baked`; `runs` holds its run if that is spilled. Thread-safe.
   virtual void keep(const BakedRun& baked, SpillFile* runs) = 0;
   // Number of cells found in the store.
   virtual uint64_t hits() const = 0;
   // Number of packs that were skipped for lack of memory.
-  virtual uint64_t ignored() const = 0;
+  virtual uint64_t skipped_packs() const = 0;
   // Why cells could not be stored; empty if all were.
-  virtual std::string complaint() const = 0;
+  virtual std::string write_error() const = 0;
 };
 
 }  // namespace svdag

@@ -14,7 +14,7 @@
 #include <span>
 
 #include "builder/cache/cell_store.h"
-#include "builder/cache/pack_blocks.h"
+#include "builder/cache/pack_payload.h"
 #include "io/brick.h"
 #include "io/dag/dag_writer.h"
 

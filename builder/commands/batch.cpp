@@ -122,7 +122,7 @@ void reject_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
   for (size_t i = 0; i < jobs.size(); ++i) {
     try {
       for (const std::string& output : outputs_of(jobs[i])) files.write(output);
-      refuse_foreign_name(jobs[i].build.output);
+      reject_foreign_format(jobs[i].build.output);
     } catch (const Error& error) {
       fail_usage(bake_prefix(batch, i) + error.what());
     }
@@ -146,10 +146,11 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
     }
   } catch (Interrupted& interrupted) {
     if (job.build.unfinished == Unfinished::kRestart)
-      interrupted.how = batch.defaults.build.unfinished == Unfinished::kRestart
-                            ? kResumeForRestart
-                            : "stopped; to continue, remove \"restart\" from the list and repeat "
-                              "the command with --resume";
+      interrupted.resume_message =
+          batch.defaults.build.unfinished == Unfinished::kRestart
+              ? kResumeForRestart
+              : "stopped; to continue, remove \"restart\" from the list and repeat "
+                "the command with --resume";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();

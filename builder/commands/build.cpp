@@ -174,7 +174,7 @@ void reject_overwriting(const BakeCommand& command) {
   if (std::any_of(outputs.begin(), outputs.end(), name_exists))
     files.read_buffers(command.build.scene, command.build.memory);
   for (const std::string& output : outputs) files.write(output);
-  refuse_foreign_name(command.build.output);
+  reject_foreign_format(command.build.output);
 }
 
 }  // namespace
@@ -224,7 +224,8 @@ int run(const BakeCommand& command) {
   try {
     bake_scene(command, false);
   } catch (Interrupted& interrupted) {
-    if (command.build.unfinished == Unfinished::kRestart) interrupted.how = kResumeForRestart;
+    if (command.build.unfinished == Unfinished::kRestart)
+      interrupted.resume_message = kResumeForRestart;
     throw;
   }
   return int(ExitCode::kOk);

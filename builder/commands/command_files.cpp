@@ -25,7 +25,7 @@ void CommandFiles::read(const Plan& plan, const PlanStep* own) {
 void CommandFiles::write(const std::string& path) {
   if (inputs_.find(path) != nullptr)
     fail_usage(path + " is also an input, which is never overwritten: choose another output");
-  if (!outputs_.insert(place_of(path)).second)
+  if (!outputs_.insert(directory_entry_key(path)).second)
     fail_usage(path + " would be written twice: choose another name for one of the results");
 }
 

@@ -104,7 +104,7 @@ void add_run(CLI::App* program, Command* command) {
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
   from_to(app->add_option("-j,--jobs", config->processes,
                           "Max steps to run at once (default: number of processors)"),
-          1, kMostThreads)
+          1, kMaxThreads)
       ->type_name("N");
   takes_folder(
       app->add_option("--scratch", config->scratch, "Folder for data that does not fit in memory"))

@@ -16,7 +16,7 @@ int run(const RunCommand& config) {
   local.scratch = config.scratch;
   local.quiet = config.output.quiet;
   local.table = config.output.progress == Progress::Mode::kOn ||
-                (config.output.progress == Progress::Mode::kAuto && is_lively(stderr));
+                (config.output.progress == Progress::Mode::kAuto && can_redraw(stderr));
   try {
     run_local(plan, local);
   } catch (const Interrupted& interrupted) {

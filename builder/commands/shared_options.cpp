@@ -58,7 +58,7 @@ void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, boo
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch, const char* threads_text) {
   add_memory_budget(app, memory);
-  from_to(app->add_option("-j,--threads", *threads, threads_text), 1, kMostThreads)->type_name("N");
+  from_to(app->add_option("-j,--threads", *threads, threads_text), 1, kMaxThreads)->type_name("N");
   takes_folder(app->add_option("--scratch", *scratch,
                                "Folder for data that does not fit in memory (default: " +
                                    std::string(own_scratch) + ")"))

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <bit>
 
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 
 namespace svdag {
 

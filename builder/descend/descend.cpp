@@ -83,7 +83,7 @@ std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
   if (list.size() > 1) return config_.patches ? find_patch(cube, list) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
-  const std::optional<PlaneMemo::Known>& known = admitted(*list[0].triangle);
+  const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(*list[0].triangle);
   if (!known || cube.level < known->min_query_level) return std::nullopt;
   return memo_.find(*known, cube);
 }
@@ -100,7 +100,7 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
   if (!covered && !has_no_border(list, first.dominant, corner, side, config_.patch))
     return std::nullopt;
-  const std::optional<PlaneMemo::Known>& known = admitted(first);
+  const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(first);
   if (!known) return std::nullopt;
   const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
   if (!range) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
 
 // The slot depends on the triangle, not on its address, so the lookups, and what the memo computes,
 // are the same in every run.
-const std::optional<PlaneMemo::Known>& Descent::admitted(const TriangleSetup& triangle) {
+const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleSetup& triangle) {
   const LatticeTriangle& t = triangle.triangle;
   const uint64_t sum = uint64_t(t.v[0][0]) + 3 * uint64_t(t.v[1][1]) + 5 * uint64_t(t.v[2][2]);
   const size_t slot = (sum * kMultiplier >> 32) % admitted_.size();

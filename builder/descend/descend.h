@@ -58,7 +58,7 @@ class Descent {
   // A triangle of this cell that was looked up in the memo, and the result.
   struct Admitted {
     const TriangleSetup* triangle = nullptr;
-    std::optional<PlaneMemo::Known> known;
+    std::optional<PlaneMemo::AdmittedPlane> known;
   };
 
   SubDag node(const Cube& cube, const TriangleList& list);
@@ -66,7 +66,7 @@ class Descent {
   void update_memo(SubDagBuilder::Pause pause);
   std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list);
   std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list);
-  const std::optional<PlaneMemo::Known>& admitted(const TriangleSetup& triangle);
+  const std::optional<PlaneMemo::AdmittedPlane>& admitted(const TriangleSetup& triangle);
   SubDag brick(const Cube& cube, const TriangleList& list);
   Brick selected_voxels(const Cube& cube) const;
 

@@ -62,7 +62,7 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
   }
 }
 
-std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double side) {
+std::optional<PlaneMemo::AdmittedPlane> PlaneMemo::admit(const TriangleSetup& t, double side) {
   const double whole = t.extent / double(int64_t(1) << fraction_bits(levels_));
   const double width = std::min(whole, side);
   if (width < kMinWidth && repeats_ > 0) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<PlaneMemo::Known> PlaneMemo::admit(const TriangleSetup& t, double 
     add_plane(n);
     n.number = uint32_t(planes_.size());
   }
-  return Known{*plane, n.number - 1, first_level(*plane), stored};
+  return AdmittedPlane{*plane, n.number - 1, first_level(*plane), stored};
 }
 
 // The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of others
@@ -185,7 +185,7 @@ PlaneBrick PlaneMemo::make_plane_brick(const Plane& p) const {
   return brick;
 }
 
-std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
+std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cube) {
   const int64_t side = int64_t(1) << cube.side_log2(levels_);
   const auto range = offsets_in_column(known.plane, cube.corner(levels_), side);
   if (!range) return std::nullopt;
@@ -193,7 +193,7 @@ std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube) {
   return find(known, cube, *range, &witness);
 }
 
-std::optional<SubDag> PlaneMemo::find(const Known& known, const Cube& cube,
+std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cube,
                                       const OffsetRange& range, Witness* witness) {
   ++counts_.queries;
   min_stored_level_ = known.min_stored_level;

@@ -62,7 +62,7 @@ class PlaneMemo {
             uint64_t bytes = UINT64_MAX);
 
   // An admitted triangle's plane.
-  struct Known {
+  struct AdmittedPlane {
     LatticePlane plane;
     uint32_t number;       // index of the plane
     int min_query_level;   // cubes of this level and finer ones may be looked up
@@ -70,16 +70,16 @@ class PlaneMemo {
   };
   // Admits the plane of a triangle, which is met in a cell of `side` voxels a side. None if the
   // plane does not pay off (yet) or has no integer form. Valid until forget().
-  std::optional<Known> admit(const TriangleSetup& t, double side);
+  std::optional<AdmittedPlane> admit(const TriangleSetup& t, double side);
   // Discards all planes if they have exceeded the memory.
   void forget();
 
   // The sub-DAG of a cube (min_query_level <= level <= brick level) that the triangle covers; none
   // if the cube's range straddles a critical value.
-  std::optional<SubDag> find(const Known& known, const Cube& cube);
+  std::optional<SubDag> find(const AdmittedPlane& known, const Cube& cube);
   // The same for several triangles whose offsets are in `range`, provided that they have no border
   // in the cube (builder/descend/patch.h). *witness is a set voxel, if the cube is not empty.
-  std::optional<SubDag> find(const Known& known, const Cube& cube, const OffsetRange& range,
+  std::optional<SubDag> find(const AdmittedPlane& known, const Cube& cube, const OffsetRange& range,
                              Witness* witness);
   // Replaces pending handles; must be called after each flush of the table.
   void settle();

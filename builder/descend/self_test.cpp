@@ -1,6 +1,6 @@
 #include "builder/descend/self_test.h"
 
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
 

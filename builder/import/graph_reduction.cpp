@@ -142,8 +142,8 @@ class GraphReduction {
   static NodeKey first_key(const ExternalSort<NodeRecord, Word>&);
 
   // Buffers for `bytes` bytes of records, at most config_.sort_bytes.
-  ExternalSortRoom sort_room(uint64_t bytes) const {
-    const uint64_t min = 2 * config_.executor->workers() * ExternalSortRoom::kLeast;
+  ExternalSortConfig sort_room(uint64_t bytes) const {
+    const uint64_t min = 2 * config_.executor->workers() * ExternalSortConfig::kMinBytesPerWorker;
     const uint64_t max = std::max(config_.sort_bytes, min);
     return {config_.budget, std::clamp(2 * bytes + min, min, max), config_.executor,
             config_.new_file};

@@ -155,8 +155,8 @@ class Import {
     return set;
   }
 
-  ExternalSortRoom sort_room() {
-    const uint64_t min = 2 * executor_->workers() * ExternalSortRoom::kLeast;
+  ExternalSortConfig sort_room() {
+    const uint64_t min = 2 * executor_->workers() * ExternalSortConfig::kMinBytesPerWorker;
     return {workspace_.budget(), std::max(workspace_.shares().sort, min), executor_,
             [this] { return new_file(); }};
   }

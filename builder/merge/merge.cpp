@@ -50,7 +50,7 @@ class Merger {
                                  [&](const NodeKey& key) { return output_->add_node(key); });
     for (Run& run : runs_) run.nodes[size_t(level)] = {};
     for (const SpillStream& stream : rewritten) {
-      if (!stream.blocks.empty()) config_.scratch->passing()->free(stream);
+      if (!stream.blocks.empty()) config_.scratch->transient()->free(stream);
     }
     for (size_t s = 0; below.spilled() && s < below.size(); ++s) below.free(s);
   }
@@ -98,9 +98,9 @@ class Merger {
         rewrite_window(nodes.keys, map);
       } else {
         SpillStream next = rewrite_stream(input, map);
-        config_.scratch->passing()->free(*rewritten);
+        config_.scratch->transient()->free(*rewritten);
         *rewritten = std::move(next);
-        input = spilled_input<NodeKey>(config_.scratch->passing(), *rewritten, config_.budget);
+        input = spilled_input<NodeKey>(config_.scratch->transient(), *rewritten, config_.budget);
       }
     }
     return input;
@@ -108,7 +108,8 @@ class Merger {
 
   SpillStream rewrite_stream(const LevelInput<NodeKey>& input, const RankMap& map) {
     const std::unique_ptr<BlockSource> blocks = input.blocks();
-    SpillWriter writer(config_.scratch->passing(), config_.scratch->new_streams(), config_.budget);
+    SpillWriter writer(config_.scratch->transient(), config_.scratch->new_streams(),
+                       config_.budget);
     for (auto block = blocks->next(); !block.empty(); block = blocks->next()) {
       check_interrupt();
       const std::span keys(reinterpret_cast<NodeKey*>(block.data()),

@@ -81,7 +81,7 @@ RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add
   std::vector<RankMaps> into;  // [group]: maps of its members into the group
   std::vector<SpillStream> merged;
   for (size_t begin = 0; begin < inputs.size(); begin += max_sources) {
-    SpillWriter writer(scratch->passing(), scratch->new_streams(), budget);
+    SpillWriter writer(scratch->transient(), scratch->new_streams(), budget);
     uint64_t next = 0;
     const auto append = [&](const Key& key) {
       writer.append(std::as_bytes(std::span(&key, 1)));
@@ -93,9 +93,9 @@ RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add
   }
   std::vector<LevelInput<Key>> groups;
   for (const SpillStream& stream : merged)
-    groups.push_back(spilled_input<Key>(scratch->passing(), stream, budget));
+    groups.push_back(spilled_input<Key>(scratch->transient(), stream, budget));
   RankMaps out_of = merge_in_groups<Key>(groups, add, max_sources, scratch, budget);
-  for (const SpillStream& stream : merged) scratch->passing()->free(stream);
+  for (const SpillStream& stream : merged) scratch->transient()->free(stream);
   RankMaps maps = RankMaps::without_sources(scratch, budget);
   for (size_t g = 0; g < into.size(); ++g) {
     for (size_t s = 0; s < into[g].size(); ++s) maps.append_composed(&into[g], s, out_of, g);

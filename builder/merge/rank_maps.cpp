@@ -18,7 +18,7 @@ RankMaps::RankMaps(std::span<const uint64_t> counts, Scratch* scratch, MemoryBud
     : scratch_(scratch), budget_(budget) {
   for (const uint64_t count : counts) {
     if (scratch != nullptr) {
-      writers_.emplace_back(scratch->passing(), scratch->new_streams(), budget);
+      writers_.emplace_back(scratch->transient(), scratch->new_streams(), budget);
       continue;
     }
     maps_.emplace_back();
@@ -34,9 +34,9 @@ void RankMaps::finish() {
 
 void RankMaps::append_composed(RankMaps* into, size_t member, const RankMaps& out_of,
                                size_t group) {
-  SpillReader ranks(scratch_->passing(), into->streams_[member], budget_);
-  SpillReader indices(scratch_->passing(), out_of.streams_[group], budget_);
-  SpillWriter writer(scratch_->passing(), scratch_->new_streams(), budget_);
+  SpillReader ranks(scratch_->transient(), into->streams_[member], budget_);
+  SpillReader indices(scratch_->transient(), out_of.streams_[group], budget_);
+  SpillWriter writer(scratch_->transient(), scratch_->new_streams(), budget_);
   std::span<const uint32_t> window = next_indices(&indices);
   uint64_t begin = 0;  // rank of window[0]
   for (auto block = next_indices(&ranks); !block.empty(); block = next_indices(&ranks)) {
@@ -60,14 +60,14 @@ uint64_t RankMaps::resident_bytes() const {
 
 RankMap RankMaps::load(size_t source, uint64_t begin, uint64_t end) const {
   const SpillStream& stream = streams_[source];
-  const uint64_t per_block = scratch_->passing()->payload_bytes() / sizeof(uint32_t);
+  const uint64_t per_block = scratch_->transient()->payload_bytes() / sizeof(uint32_t);
   RankMap map;
   map.first = begin;
   const uint64_t length = std::min(end, count(source)) - begin;
   map.reservation = budget_->reserve(length * sizeof(uint32_t), kPurpose);
   map.indices.resize(length);
   if (length == 0) return map;
-  SpillReader reader(scratch_->passing(), stream, budget_, begin / per_block);
+  SpillReader reader(scratch_->transient(), stream, budget_, begin / per_block);
   uint64_t skip = begin % per_block;
   for (uint64_t loaded = 0; loaded < length; skip = 0) {
     const std::span<const uint32_t> block = next_indices(&reader).subspan(skip);

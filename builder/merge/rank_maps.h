@@ -58,7 +58,7 @@ class RankMaps {
   uint64_t count(size_t source) const { return streams_[source].bytes / sizeof(uint32_t); }
   uint64_t resident_bytes() const;
   // Frees a spilled map.
-  void free(size_t source) const { scratch_->passing()->free(streams_[source]); }
+  void free(size_t source) const { scratch_->transient()->free(streams_[source]); }
 
  private:
   Scratch* scratch_ = nullptr;

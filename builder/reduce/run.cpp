@@ -151,12 +151,9 @@ Run freeze(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* tar
 }
 
 uint64_t freeze_bytes(const NodeTable& table) {
-  // Bounds per key of what takes more: key and slot table while it doubles, or two sort records
-  // and a rank.
-  constexpr uint64_t kPerBrick = 48, kPerNode = 84;
   uint64_t nodes = 0;
   for (int level = 0; level < table.brick_level(); ++level) nodes += table.size(level);
-  return kPerBrick * table.size(table.brick_level()) + kPerNode * nodes;
+  return kFreezeBytesPerBrick * table.size(table.brick_level()) + kFreezeBytesPerNode * nodes;
 }
 
 }  // namespace svdag

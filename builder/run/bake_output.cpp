@@ -18,7 +18,7 @@ std::string DagOutput::content_hash() const {
   return to_hex(header.content_hash);
 }
 
-void refuse_foreign_name(const std::string& path) {
+void reject_foreign_format(const std::string& path) {
   for (const char* ending : {".vdb", ".nvdb", ".npz", ".npy", ".vox", ".binvox", ".svo", ".octree",
                              ".ply", ".stl", ".obj", ".off", ".gltf", ".glb"}) {
     if (path.ends_with(ending))

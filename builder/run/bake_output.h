@@ -49,7 +49,7 @@ class DagOutput final : public BakeOutput {
 };
 
 // Error (kUsage) if `path` has the extension of another format (".vdb", ".ply").
-void refuse_foreign_name(const std::string& path);
+void reject_foreign_format(const std::string& path);
 
 // Whether `path` names a run, that is, ends in ".run".
 bool names_run(const std::string& path);

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "streaming/error.h"
-#include "streaming/spill/spoiled_scratch.h"
+#include "streaming/spill/invalid_scratch.h"
 
 namespace svdag {
 namespace {
@@ -27,7 +27,7 @@ SpillFile* Scratch::file(std::unique_ptr<SpillFile>* file, const char* name) {
   const std::lock_guard lock(mutex_);
   if (!*file) {
     *file = std::make_unique<SpillFile>(folder_->create(name), block_bytes_);
-    if (file != &passing_) folder_->sync();
+    if (file != &transient_) folder_->sync();
   }
   return file->get();
 }
@@ -36,7 +36,7 @@ std::unique_ptr<SpillFile> Scratch::open_existing(const char* name, uint32_t blo
   if (blocks == 0) return nullptr;
   const auto require = [&](bool condition, const char* sentence) {
     if (!condition)
-      throw SpoiledScratch(ExitCode::kOutput,
+      throw InvalidScratch(ExitCode::kOutput,
                            std::string("file \"") + name + "\" is " + sentence +
                                ": discard the unfinished bake with --restart",
                            folder_->path());
@@ -57,7 +57,7 @@ void Scratch::resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_
 
 uint64_t Scratch::sum(uint64_t (SpillFile::*bytes)() const) const {
   uint64_t total = 0;
-  for (const auto* file : {&triangles_, &runs_, &passing_}) {
+  for (const auto* file : {&triangles_, &runs_, &transient_}) {
     if (*file) total += (file->get()->*bytes)();
   }
   return total;

@@ -1,8 +1,8 @@
 // The scratch files of a bake, each created when it is first needed.
 //
 // Three files with different lifetimes: `triangles` and `runs` hold what a resumed bake needs, and
-// keep it until the output is complete; data in `passing` is short-lived and its blocks are reused.
-// Stream numbers are unique across all three.
+// keep it until the output is complete; data in `transient` is short-lived and its blocks are
+// reused. Stream numbers are unique across all three.
 #pragma once
 
 #include <atomic>
@@ -33,12 +33,12 @@ class Scratch {
   // A file that a journal may refer to is synced to its folder when it is created.
   SpillFile* triangles() { return file(&triangles_, "triangles"); }
   SpillFile* runs() { return file(&runs_, "runs"); }
-  SpillFile* passing() { return file(&passing_, "passing"); }
+  SpillFile* transient() { return file(&transient_, "transient"); }
   // Reserves `count` unused stream numbers; returns the first.
   uint64_t new_streams(uint64_t count = 1) { return next_stream_.fetch_add(count); }
 
   // Continues the files of an earlier process: block size, blocks in use, first unused stream
-  // number. SpoiledScratch if a file is missing or too short.
+  // number. InvalidScratch if a file is missing or too short.
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
@@ -56,7 +56,7 @@ class Scratch {
   MemoryBudget* budget_;
   size_t block_bytes_;
   std::mutex mutex_;  // workers may be the first to need a file
-  std::unique_ptr<SpillFile> triangles_, runs_, passing_;
+  std::unique_ptr<SpillFile> triangles_, runs_, transient_;
   std::atomic<uint64_t> next_stream_{1};
 };
 

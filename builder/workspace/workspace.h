@@ -31,7 +31,7 @@ class Workspace {
   Scratch* scratch() { return &scratch_; }
   // Where the vertices of a mesh are spilled.
   SpillSpace vertices() {
-    return {shares_.vertices, [this] { return scratch_.passing(); },
+    return {shares_.vertices, [this] { return scratch_.transient(); },
             [this] { return scratch_.new_streams(); }};
   }
 

@@ -10,7 +10,7 @@ IndexToWorld voxel_centres(const Grid& grid) {
   return centres;
 }
 
-void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range) {
+void reject_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range) {
   if (range && grid.type() != "float")
     fail_usage("--iso: grid " + grid.name() + " is a " + grid.type() +
                " grid, which has no values to select: leave --iso out");

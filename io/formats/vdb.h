@@ -84,7 +84,7 @@ class VdbGrid {
 };
 
 // Error (kUsage) if a range was given for a grid that holds no values.
-void refuse_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
+void reject_needless_range(const VdbGrid& grid, const std::optional<ValueRange>& range);
 
 // Reads grid `name` (empty: the only one) in a child process with limits on memory and time
 // (streaming/process/limited_child.h); with `sandbox` the child can only compute. Damaged files,

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 namespace svdag {
 namespace {

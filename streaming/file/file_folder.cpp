@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 namespace svdag {
 namespace {

@@ -3,7 +3,7 @@
 #include <sys/file.h>
 
 #include "streaming/file/file.h"
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 namespace svdag {
 

@@ -19,7 +19,7 @@ std::string inode_key(const std::string& path) {
 // Keys of the directory entry and, if it exists, of the file. Paths with a common key name one
 // file.
 std::vector<std::string> keys_of(const std::string& path) {
-  std::vector<std::string> keys = {place_of(path)};
+  std::vector<std::string> keys = {directory_entry_key(path)};
   std::string file = inode_key(path);
   if (!file.empty()) keys.push_back(std::move(file));
   return keys;
@@ -27,7 +27,7 @@ std::vector<std::string> keys_of(const std::string& path) {
 
 }  // namespace
 
-std::string place_of(const std::string& path) {
+std::string directory_entry_key(const std::string& path) {
   const std::string folder = inode_key(folder_of(path));
   return folder.empty() ? path : folder + "/" + path.substr(path.find_last_of('/') + 1);
 }

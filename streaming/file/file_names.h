@@ -12,7 +12,7 @@ namespace svdag {
 // Key of the directory entry that a rename to `path` replaces: device and inode of the folder, and
 // the last path component; `path` itself if the folder does not exist. Two links to one file have
 // different keys.
-std::string place_of(const std::string& path);
+std::string directory_entry_key(const std::string& path);
 
 class FileNames {
  public:

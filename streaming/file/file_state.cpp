@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 namespace svdag {
 

@@ -19,7 +19,7 @@ namespace svdag {
 class RankBitmap {
  public:
   // Largest memory, in bytes, of a set of positions below `end`.
-  static constexpr uint64_t most_bytes(uint64_t end) {
+  static constexpr uint64_t max_bytes(uint64_t end) {
     return (end + kChunk - 1) / kChunk * sizeof(Chunk);
   }
   // `purpose`: see MemoryBudget::reserve().

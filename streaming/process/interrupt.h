@@ -10,8 +10,8 @@ namespace svdag {
 // 128 + signal.
 struct Interrupted {
   int signal;
-  bool resumable = false;     // set by a catch block that has saved work
-  const char* how = nullptr;  // if set: replaces ProgramMessages::resumable
+  bool resumable = false;                // set by a catch block that has saved work
+  const char* resume_message = nullptr;  // if set: replaces ProgramMessages::resumable
 };
 
 // Installs the handlers, except for signals that are ignored. Called once, by main().

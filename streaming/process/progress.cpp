@@ -9,7 +9,7 @@
 namespace svdag {
 
 Progress::Progress(Mode mode)
-    : enabled_(mode == Mode::kOn || (mode == Mode::kAuto && is_lively(stderr))),
+    : enabled_(mode == Mode::kOn || (mode == Mode::kAuto && can_redraw(stderr))),
       start_(std::chrono::steady_clock::now()) {}
 
 void Progress::phase(const std::string& name, uint64_t total) {

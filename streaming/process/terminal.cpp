@@ -31,7 +31,7 @@ size_t line_width(std::FILE* stream) {
   return columns == 0 ? 80 : columns;
 }
 
-bool is_lively(std::FILE* stream) {
+bool can_redraw(std::FILE* stream) {
   const char* term = std::getenv("TERM");
   return ::isatty(::fileno(stream)) == 1 && !(term != nullptr && std::string_view(term) == "dumb");
 }

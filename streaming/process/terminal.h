@@ -14,6 +14,6 @@ size_t text_width(std::FILE* stream);
 size_t line_width(std::FILE* stream);
 
 // True if `stream` is a terminal that can move its cursor: not one with TERM=dumb.
-bool is_lively(std::FILE* stream);
+bool can_redraw(std::FILE* stream);
 
 }  // namespace svdag

@@ -3,7 +3,7 @@
 // push() appends records to a buffer of half the memory. A full buffer is sorted into the other
 // half (streaming/sort/parallel_sort.h) and spilled as one ascending stream per worker, each of its
 // own range of keys, so that sorting, checksums and writing overlap. finish() merges the streams
-// with all workers (streaming/sort/piece_merge.h), in groups first if their blocks do not fit in
+// with all workers (streaming/sort/parallel_merge.h), in groups first if their blocks do not fit in
 // memory. Each record is written once and read once, except by merges of groups. Input that fits in
 // the buffer is not spilled. Rejected: distributing incoming records to ranges of keys (no merge,
 // but another pass over each range that turns out too large; with sorted input all of them are).
@@ -17,18 +17,18 @@
 #include <utility>
 #include <vector>
 
+#include "streaming/sort/parallel_merge.h"
 #include "streaming/sort/parallel_sort.h"
-#include "streaming/sort/piece_merge.h"
 
 namespace svdag {
 
-struct ExternalSortRoom {
+struct ExternalSortConfig {
   MemoryBudget* budget;  // `bytes` are reserved from it while the sort exists
-  uint64_t bytes;        // at least kLeast for each worker
+  uint64_t bytes;        // at least kMinBytesPerWorker for each worker
   Executor* executor;
   std::function<File()> new_file;  // creates the spill file; called at most once
 
-  static constexpr uint64_t kLeast = uint64_t(1) << 19;
+  static constexpr uint64_t kMinBytesPerWorker = uint64_t(1) << 19;
 };
 
 // Record: trivially copyable, with a size of 1, 2, 4, ..., 64 bytes. `word(record, i)` returns key
@@ -40,14 +40,15 @@ class ExternalSort {
   static_assert(std::is_trivially_copyable_v<Record> && 64 % sizeof(Record) == 0);
 
  public:
-  ExternalSort(const ExternalSortRoom& config, size_t words, Word word)
+  ExternalSort(const ExternalSortConfig& config, size_t words, Word word)
       : config_(config),
         reservation_(config.budget->reserve(config.bytes, "sort buffers")),
         inner_budget_(config.bytes),
         order_(words, word),
         block_bytes_(block_size(config)),
         capacity_((config.bytes - 2 * workers() * block_bytes_) / (2 * sizeof(Record))) {
-    SVDAG_ASSERT(config.bytes >= workers() * ExternalSortRoom::kLeast && capacity_ > 0);
+    SVDAG_ASSERT(config.bytes >= workers() * ExternalSortConfig::kMinBytesPerWorker &&
+                 capacity_ > 0);
     buffers_ = inner_budget_.reserve(2 * capacity_ * sizeof(Record), "sort buffers");
     in_.reserve(capacity_);  // the system commits the memory when it is first touched
   }
@@ -67,7 +68,7 @@ class ExternalSort {
     release_buffers();
     const size_t blocks = config_.bytes / block_bytes_ - 2;  // a writer takes two
     const size_t max_streams =
-        std::max<size_t>(PieceMerge<Record, Word>::max_streams(blocks, workers()), 2);
+        std::max<size_t>(ParallelMerge<Record, Word>::max_streams(blocks, workers()), 2);
     while (streams_.size() > max_streams) merge_group(max_streams, blocks);
     merge(streams_, blocks, sink);
     for (const auto& stream : streams_) file_->free(stream.stream);
@@ -89,7 +90,7 @@ class ExternalSort {
   // Two blocks per worker take at most a quarter of the memory, so blocks are smaller with many
   // workers, and a merge can read at least three streams. A power of two, since direct I/O needs
   // multiples of 4096.
-  static size_t block_size(const ExternalSortRoom& config) {
+  static size_t block_size(const ExternalSortConfig& config) {
     const uint64_t limit = config.bytes / (8 * config.executor->workers());
     return std::bit_floor(
         std::clamp(std::min(config.bytes / kBlocks, limit), kMinBlockBytes, kMaxBlockBytes));
@@ -173,7 +174,8 @@ class ExternalSort {
 
   template <class Sink>
   void merge(std::span<const Stream> streams, size_t blocks, const Sink& sink) {
-    PieceMerge<Record, Word>(file_.get(), streams, blocks, &inner_budget_, order_, config_.executor)
+    ParallelMerge<Record, Word>(file_.get(), streams, blocks, &inner_budget_, order_,
+                                config_.executor)
         .run(sink);
   }
 
@@ -200,7 +202,7 @@ class ExternalSort {
     std::vector<Record> firsts_;
   };
 
-  const ExternalSortRoom config_;
+  const ExternalSortConfig config_;
   MemoryBudget::Reservation reservation_;  // of config_.bytes
   MemoryBudget inner_budget_;              // how these are used
   const RadixSort<Record, Word> order_;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "streaming/error.h"
+#include "streaming/spill/invalid_scratch.h"
 #include "streaming/spill/spill_queue.h"
-#include "streaming/spill/spoiled_scratch.h"
 
 namespace svdag {
 
@@ -57,7 +57,7 @@ class SpillFile::Impl {
   [[noreturn]] void fail_damaged() const {
     if (damaged_ == ExitCode::kBadInput)
       throw Error(damaged_, "is damaged: create it again", queue.path());
-    throw SpoiledScratch(damaged_, "scratch file is damaged", queue.path());
+    throw InvalidScratch(damaged_, "scratch file is damaged", queue.path());
   }
 
   const size_t block_bytes;

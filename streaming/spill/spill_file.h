@@ -8,7 +8,7 @@
 //   checksum u64 (XXH3-64 of the whole block, with zeros here), zeros up to 64 bytes
 //
 // The last block of a stream is filled with zeros. A flipped bit, a stale block, and a block of
-// another stream or index are all detected (SpoiledScratch: "scratch file is damaged"). The file is
+// another stream or index are all detected (InvalidScratch: "scratch file is damaged"). The file is
 // opened with O_DIRECT where the file system supports it: spilled bytes are read once, long after
 // they were written, and would only evict other data from the page cache. Read-ahead and
 // write-behind run on one I/O thread per file, so that disk and processor overlap.

@@ -1,7 +1,7 @@
 #include "tests/bench/accuracy_methods.h"
 
 #include "builder/descend/descend.h"
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 #include "builder/overlap/overlap.h"
 #include "tests/bench/peers/akenine_moller.h"
 #include "tests/bench/peers/integer.h"

@@ -45,7 +45,7 @@ double rate(size_t rays, const Run& run) {
   return 1e-6 * double(rays) / best;
 }
 
-bool same_hit(const Hit& a, const Hit& b) {
+bool same_voxel(const Hit& a, const Hit& b) {
   return a.found == b.found && a.t == b.t && a.axis == b.axis && a.voxel[0] == b.voxel[0] &&
          a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
 }
@@ -70,7 +70,7 @@ uint64_t measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
   for (size_t i = 0; i < n; ++i) {
     steps += batch->hits[i].steps;
     entered += hits[i].steps;
-    different += !same_hit(plain[i], batch->hits[i]) + !same_hit(plain[i], hits[i]);
+    different += !same_voxel(plain[i], batch->hits[i]) + !same_voxel(plain[i], hits[i]);
   }
   std::printf("| %-13s | %7zu | %5.2f | %5.2f | %5.2f | %5.1f | %5.1f | %llu |\n", batch->name, n,
               slow, fast, faster, double(steps) / double(n), double(entered) / double(n),
@@ -103,7 +103,7 @@ uint64_t measure_beams(const DagView& dag, const Tree64View& tree, const Picture
   for (int way = 0; way < 2; ++way) {
     for (size_t i = 0; i < primary.hits.size(); ++i) {
       steps[way] += hits[way][i].steps;
-      different += !same_hit(primary.hits[i], hits[way][i]);
+      different += !same_voxel(primary.hits[i], hits[way][i]);
     }
   }
   const double n = double(primary.hits.size());

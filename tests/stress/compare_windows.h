@@ -9,7 +9,7 @@
 #include <span>
 
 #include "io/dag/format.h"
-#include "tests/stress/spot.h"
+#include "tests/stress/test_spot.h"
 
 namespace svdag {
 
@@ -21,8 +21,8 @@ struct Tally {
   Tally& operator+=(const Tally& other);
 };
 
-// The region as the voxelizer (builder/descend/window.h) sets it. Adds to *outside, if given, the
-// voxels that are set outside the region although only the region is selected.
+// The region as the voxelizer (builder/descend/voxelize_window.h) sets it. Adds to *outside, if
+// given, the voxels that are set outside the region although only the region is selected.
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
 // The region as the judge sets it: conservative by clipping (verify/judge/clip_judge.h), thin by

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/stress/spot.h"
+#include "tests/stress/test_spot.h"
 
 namespace svdag {
 

@@ -15,7 +15,7 @@
 #include <span>
 
 #include "io/dag/format.h"
-#include "tests/stress/spot.h"
+#include "tests/stress/test_spot.h"
 
 namespace svdag {
 

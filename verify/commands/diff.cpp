@@ -12,7 +12,7 @@
 #include "streaming/file/file.h"
 #include "verify/compare/diff.h"
 #include "verify/compare/difference_points.h"
-#include "verify/compare/same_place.h"
+#include "verify/compare/grid_alignment.h"
 
 namespace svdag {
 namespace {

@@ -37,7 +37,7 @@ void add_common(CLI::App* command, CommonConfig* config, bool with_json) {
 
 void add_threads(CLI::App* command, CommonConfig* config) {
   from_to(command->add_option("-j,--threads", config->threads, "Threads (default: all processors)"),
-          1, kMostThreads)
+          1, kMaxThreads)
       ->type_name("N");
 }
 

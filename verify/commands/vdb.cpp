@@ -84,7 +84,7 @@ int run(const VdbConfig& config) {
   progress.phase("reading the grid", 0);
   const std::unique_ptr<VdbGrid> theirs =
       read_vdb(config.vdb, config.grid, config.iso, config.sandbox);
-  refuse_needless_range(*theirs, config.iso);
+  reject_needless_range(*theirs, config.iso);
   const GridFit fit = fit_grid(*theirs, file.grid(), config.vdb);
   const Grid grid = level_grid(file.grid(), fit.levels);
   VoxelBox window;  // may extend beyond our grid, where theirs may have voxels

@@ -5,7 +5,7 @@
 #include "io/dag/dag_level.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "verify/compare/same_place.h"
+#include "verify/compare/grid_alignment.h"
 
 namespace svdag {
 namespace {

@@ -113,7 +113,7 @@ ImportReport import_as(const FormatRow& row, const File& file, const ImportComma
     return import_voxels(read, import, &executor);
   }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
-  refuse_needless_range(*grid, config.iso);
+  reject_needless_range(*grid, config.iso);
   const VdbVoxels voxels(std::move(grid), config.file);
   const auto read = [&](const VoxelSink& sink, const FullCubeSink& cubes) {
     return voxels.read(sink, cubes);
@@ -132,7 +132,7 @@ std::vector<std::string> import_formats() {
 int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
-  refuse_foreign_name(config.import.output);
+  reject_foreign_format(config.import.output);
   if (names_run(config.import.output))
     fail_usage(config.import.output +
                ": an import writes a .svdag, not a run: choose another name");

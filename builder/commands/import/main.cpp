@@ -41,7 +41,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
                 "vdb: decode in a process that can only compute, for untrusted files");
   add_memory_budget(app, &import->memory);
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
-          kMostThreads)
+          kMaxThreads)
       ->type_name("N");
   takes_folder(
       app->add_option("--scratch", import->scratch,

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "streaming/error.h"
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 extern char** environ;
 

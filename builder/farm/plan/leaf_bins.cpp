@@ -44,13 +44,13 @@ class LeafBinner {
                  std::max(1, config_.max_level - cube.level));
     int depth = 1;
     while (depth < max_depth && config_.light << (2 * depth) < triangles) ++depth;
-    return TriangleBins(grid_, cube, depth, scratch_->passing(), scratch_);
+    return TriangleBins(grid_, cube, depth, scratch_->transient(), scratch_);
   }
 
   void divide_all(const std::vector<TriangleBin>& bins) {
     for (const TriangleBin& bin : bins) {
-      divide_or_copy(scratch_->passing(), bin);
-      scratch_->passing()->free(bin.stream);
+      divide_or_copy(scratch_->transient(), bin);
+      scratch_->transient()->free(bin.stream);
     }
   }
 
@@ -67,7 +67,7 @@ class LeafBinner {
     uint64_t copies = 0;
     for (const TriangleBin& part : parts) copies += part.triangles;
     if (copies <= kMaxCopies * bin.triangles) return divide_all(parts);
-    for (const TriangleBin& part : parts) scratch_->passing()->free(part.stream);
+    for (const TriangleBin& part : parts) scratch_->transient()->free(part.stream);
     copy(from, bin);
   }
 

@@ -116,7 +116,7 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   if (!stays_inside(step.output) || step.name.find('/') != std::string::npos)
     fail_plan(plan, "step " + step.name + " writes outside the plan folder (" + step.output + ")");
   step.threads = count_of(json, "threads");
-  if (step.threads < 1 || step.threads > kMostThreads)
+  if (step.threads < 1 || step.threads > kMaxThreads)
     fail_plan(plan, "step " + step.name + " has an invalid number of threads (" +
                         std::to_string(step.threads) + ")");
   step.predicted = get_prediction(json.at("predicted"));

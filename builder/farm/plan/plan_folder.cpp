@@ -9,7 +9,7 @@
 
 #include "builder/farm/plan/receipt.h"
 #include "streaming/error.h"
-#include "streaming/file/file_calls.h"
+#include "streaming/file/system_call.h"
 
 namespace svdag {
 namespace {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "builder/build.h"
+#include "builder/reduce/run.h"
+
 namespace svdag {
 namespace {
 
@@ -17,7 +20,6 @@ constexpr double kMergeRead = 102.7e-9;
 constexpr double kNodeInFile = 22.7;  // bytes of a node in a .svdag
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
-constexpr double kCheckpoint = 30;  // seconds between two checkpoints of a bake
 
 // A budget with which any bake succeeds.
 uint64_t min_budget(size_t threads) {
@@ -44,8 +46,9 @@ double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
   // A table gets half of the budget, a bin's triangles a quarter (builder/bake/bake.cpp). The
   // margin covers errors of the estimated node counts.
-  constexpr double kMargin = 1.5, kPerNode = 84, kPerBrick = 48, kPerTriangle = 400;
-  const double tables = 2 * (kPerNode * shard.found.nodes + kPerBrick * shard.found.bricks);
+  constexpr double kMargin = 1.5, kPerTriangle = 400;
+  const double tables =
+      2 * (kFreezeBytesPerNode * shard.found.nodes + kFreezeBytesPerBrick * shard.found.bricks);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);
   Prediction p;
   p.cpu = kStart + kPlanTriangle * double(shard.triangles) + cpu_of(shard.work) +
@@ -54,7 +57,7 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
   p.budget = budget_for(kMargin * std::max(tables, bin), limits);
   p.memory = p.budget + kBesideBudget;
   p.output = uint64_t(shard.found.run_bytes());
-  const bool spills = tables > double(p.budget) || p.seconds > kCheckpoint;
+  const bool spills = tables > double(p.budget) || p.seconds > kCheckpointSeconds;
   p.scratch = spills ? uint64_t(kMargin * 2 * shard.found.run_bytes()) : 0;
   return p;
 }

@@ -7,7 +7,7 @@
 #define SVDAG_BUILDER_KERNEL_THIN_INL_H
 #endif
 
-#include "builder/overlap/kernels/kernel_voxels-inl.h"
+#include "builder/overlap/kernels/kernel_conservative-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {

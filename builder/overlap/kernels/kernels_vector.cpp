@@ -5,9 +5,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 
 #include "builder/overlap/kernels/kernel_children-inl.h"
+#include "builder/overlap/kernels/kernel_conservative-inl.h"
 #include "builder/overlap/kernels/kernel_plane-inl.h"
 #include "builder/overlap/kernels/kernel_thin-inl.h"
-#include "builder/overlap/kernels/kernel_voxels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {

@@ -39,8 +39,7 @@ VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool
   const uint64_t stream_bytes = kBlocksPerStream * file_->block_bytes();
   if (space.share < 8 * stream_bytes)
     throw Error(ExitCode::kMemory,
-                "the vertices of a mesh cannot be spilled in this memory budget: give more with "
-                "--memory");
+                "the memory budget is too small to spill the vertices of a mesh: raise --memory");
   // References are 32 bits.
   const uint64_t fit = (space.share - 2 * stream_bytes) / position_bytes_;
   shift_ = std::min(int(std::bit_width(fit)) - 1, 32);
@@ -56,7 +55,7 @@ void VertexWindows::add(std::span<const std::byte> positions) {
       if (positions_.size() == most_windows_)
         throw Error(ExitCode::kMemory,
                     "a mesh of more than " + std::to_string(size_) +
-                        " vertices cannot be read in this memory budget: give more with --memory");
+                        " vertices does not fit the memory budget: raise --memory");
       positions_out_ = new_stream();
     }
     positions_out_->append(positions.first(size_t(n * position_bytes_)));

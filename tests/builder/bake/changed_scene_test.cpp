@@ -31,12 +31,12 @@ class ActingStore final : public CellStore {
     return {};
   }
   bool take(const CellKey&, const Cube&) override { return false; }
-  void taken(const std::function<std::optional<SpillTarget>(uint64_t)>&,
-             const std::function<void(BakedRun)>&) override {}
+  void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>&,
+                  const std::function<void(BakedRun)>&) override {}
   void keep(const BakedRun&, SpillFile*) override {}
   uint64_t hits() const override { return 0; }
-  uint64_t ignored() const override { return 0; }
-  std::string complaint() const override { return {}; }
+  uint64_t skipped_packs() const override { return 0; }
+  std::string write_error() const override { return {}; }
 
  private:
   Action action_;

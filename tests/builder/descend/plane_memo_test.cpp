@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "builder/descend/descend.h"
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 
 namespace svdag {
 namespace {

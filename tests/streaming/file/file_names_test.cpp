@@ -38,9 +38,9 @@ TEST(FileNames, LinksToOneFileHaveDifferentDirectoryEntries) {
   const std::string a = folder.write("a", "A");
   std::filesystem::create_hard_link(a, folder.file("b"));
   std::filesystem::create_symlink(a, folder.file("c"));
-  EXPECT_EQ(place_of(folder.path() + "/./a"), place_of(a));
-  EXPECT_NE(place_of(folder.file("b")), place_of(a));
-  EXPECT_NE(place_of(folder.file("c")), place_of(a));
+  EXPECT_EQ(directory_entry_key(folder.path() + "/./a"), directory_entry_key(a));
+  EXPECT_NE(directory_entry_key(folder.file("b")), directory_entry_key(a));
+  EXPECT_NE(directory_entry_key(folder.file("c")), directory_entry_key(a));
 }
 
 TEST(FileNames, AFileInAFolderThatDoesNotExistIsFoundByItsPathAlone) {

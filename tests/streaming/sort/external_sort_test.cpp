@@ -68,7 +68,7 @@ TEST(ExternalSort, SortsLikeStdSort) {
                                KeyOrder::kAscending, KeyOrder::kDescending}) {
     for (const size_t count : {0, 1, 2, 1000, 70000, 200000}) {
       for (const size_t threads : {1, 2, 5}) {
-        const uint64_t min_bytes = threads * ExternalSortRoom::kLeast;
+        const uint64_t min_bytes = threads * ExternalSortConfig::kMinBytesPerWorker;
         const size_t size = count < 10 ? count : count + random() % count;
         expect_sorted_like_std_sort(make_keys(order, size, random()),
                                     min_bytes + random() % min_bytes, threads);
@@ -78,13 +78,13 @@ TEST(ExternalSort, SortsLikeStdSort) {
 }
 
 TEST(ExternalSort, MergesManyStreamsInGroups) {
-  Sorter sorter(ExternalSortRoom::kLeast, 1);
+  Sorter sorter(ExternalSortConfig::kMinBytesPerWorker, 1);
   std::vector<Key> keys = make_keys(KeyOrder::kRandom, 600000, 3);
   for (const Key& key : keys) sorter.sort.push(key);
   std::sort(keys.begin(), keys.end());
   EXPECT_TRUE(sorter.finish() == keys);
   EXPECT_GT(sorter.sort.read_bytes(), keys.size() * sizeof(Key) * 3 / 2);
-  EXPECT_LE(sorter.sort.peak_bytes(), ExternalSortRoom::kLeast);
+  EXPECT_LE(sorter.sort.peak_bytes(), ExternalSortConfig::kMinBytesPerWorker);
 }
 
 TEST(ExternalSort, InputThatFitsIsNotSpilled) {
@@ -168,7 +168,7 @@ struct RunAllSorter {
 
 // The worker after the failed one finds fewer blocks than its piece needs.
 TEST(ExternalSort, ADamagedBlockAlsoEndsWorkersThatHaveStarted) {
-  RunAllSorter sorter(3 * ExternalSortRoom::kLeast, 3);
+  RunAllSorter sorter(3 * ExternalSortConfig::kMinBytesPerWorker, 3);
   for (const Key& key : make_keys(KeyOrder::kRandom, 100000, 9)) sorter.sort.push(key);
   File spilled = sorter.folder.open("spill");
   std::byte first;  // payload byte of the first block, which has the smallest keys of its stream
@@ -183,19 +183,19 @@ TEST(ExternalSort, ADamagedBlockAlsoEndsWorkersThatHaveStarted) {
 
 TEST(ExternalSort, WorksWithHundredsOfWorkers) {
   for (const size_t workers : {255, 256, 512}) {
-    RunAllSorter sorter(workers * ExternalSortRoom::kLeast, workers);
+    RunAllSorter sorter(workers * ExternalSortConfig::kMinBytesPerWorker, workers);
     std::vector<Key> keys = make_keys(KeyOrder::kRandom, 20000, 10), sorted;
     for (const Key& key : keys) sorter.sort.push(key);
     sorter.sort.finish(
         [&](std::span<const Key> some) { sorted.insert(sorted.end(), some.begin(), some.end()); });
     std::sort(keys.begin(), keys.end());
     EXPECT_TRUE(sorted == keys) << workers;
-    EXPECT_LE(sorter.sort.peak_bytes(), workers * ExternalSortRoom::kLeast);
+    EXPECT_LE(sorter.sort.peak_bytes(), workers * ExternalSortConfig::kMinBytesPerWorker);
   }
 }
 
-TEST(PieceMerge, APieceHasAtLeastOneBlock) {
-  using Merge = PieceMerge<Key, uint32_t (*)(const Key&, size_t)>;
+TEST(ParallelMerge, APieceHasAtLeastOneBlock) {
+  using Merge = ParallelMerge<Key, uint32_t (*)(const Key&, size_t)>;
   EXPECT_EQ(Merge::step(510, 2, 256), 1U);
   EXPECT_EQ(Merge::step(510, 2, 1), (510U - 4) / 3);
 }

@@ -60,7 +60,7 @@ TEST(SpilledBounds, AShareOfLessThanAFewBlocksIsSaid) {
   const std::string path = folder.write("a.off", RandomMesh(random, 5000, 9000).off());
   TestSpill spill(4096);
   const Bounds bounds = bounds_of(path, false, spill.space());
-  EXPECT_NE(bounds.error.find("give more with --memory"), std::string::npos) << bounds.error;
+  EXPECT_NE(bounds.error.find("raise --memory"), std::string::npos) << bounds.error;
 }
 
 TEST(SpilledBounds, RandomMeshesInEveryFormat) {

@@ -159,7 +159,7 @@ TEST(Spilled, MoreVerticesThanTheShareCanJoinAreAMemoryErrorThatSaysSo) {
   TestSpill spill(kMinShare);
   const Outcome outcome = outcome_of(read_off, memory.file(), &budget, spill.space());
   EXPECT_EQ(outcome.code, ExitCode::kMemory);
-  EXPECT_NE(outcome.error.find("give more with --memory"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("raise --memory"), std::string::npos) << outcome.error;
   EXPECT_EQ(budget.used(), 0U);
 }
 

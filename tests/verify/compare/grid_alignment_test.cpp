@@ -1,5 +1,5 @@
 // Tests that grids match up to rounding, and up to float32 where a file may have stored that.
-#include "verify/compare/same_place.h"
+#include "verify/compare/grid_alignment.h"
 
 #include <gtest/gtest.h>
 

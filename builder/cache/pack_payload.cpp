@@ -1,4 +1,4 @@
-#include "builder/cache/pack_blocks.h"
+#include "builder/cache/pack_payload.h"
 
 #include <algorithm>
 #include <cstring>

@@ -7,10 +7,10 @@
 
 namespace svdag {
 
-class SpoiledScratch : public Error {
+class InvalidScratch : public Error {
  public:
   using Error::Error;
-  explicit SpoiledScratch(const Error& error) : Error(error) {}
+  explicit InvalidScratch(const Error& error) : Error(error) {}
 };
 
 }  // namespace svdag

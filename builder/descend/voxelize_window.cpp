@@ -1,4 +1,4 @@
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 
 #include "builder/overlap/overlap.h"
 

@@ -8,7 +8,7 @@
 // whole cube is voxelized and the region compared.
 #pragma once
 
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 #include "tests/stress/random.h"
 #include "tests/stress/voxel_region.h"
 

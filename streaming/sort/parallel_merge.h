@@ -62,7 +62,7 @@ class PieceSource {
 };
 
 template <class Record, class Word>
-class PieceMerge {
+class ParallelMerge {
  public:
   // Maximum number of streams that can be merged with memory for `blocks` blocks: those of the
   // pieces being merged, of the read-ahead, of the rests, and of the output.
@@ -73,8 +73,8 @@ class PieceMerge {
     return std::max<size_t>((blocks - held) / (2 * workers + 1), 1);
   }
 
-  PieceMerge(SpillFile* file, std::span<const SortedStream<Record>> streams, size_t blocks,
-             MemoryBudget* budget, const RadixSort<Record, Word>& order, Executor* executor)
+  ParallelMerge(SpillFile* file, std::span<const SortedStream<Record>> streams, size_t blocks,
+                MemoryBudget* budget, const RadixSort<Record, Word>& order, Executor* executor)
       : file_(file),
         streams_(streams),
         step_(step(blocks, streams.size(), executor->workers())),

@@ -1,4 +1,4 @@
-#include "tests/stress/spot.h"
+#include "tests/stress/test_spot.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "verify/compare/same_place.h"
+#include "verify/compare/grid_alignment.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // The voxelizer, through its window interface, against closed forms and against the clipping judge
 // of verify/.
-#include "builder/descend/window.h"
+#include "builder/descend/voxelize_window.h"
 
 #include <gtest/gtest.h>
 
