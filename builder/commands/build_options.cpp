@@ -171,7 +171,7 @@ void require_shard_options(const std::set<std::string>& given) {
       "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
   for (const std::string& option : given) {
     if (!kHonored.contains(option))
-      fail_usage(option + ": a shard is baked as its plan says: leave this option out");
+      fail_usage(option + ": the plan of a shard sets this: leave the option out");
   }
 }
 

@@ -1,6 +1,6 @@
 // Arbitrary bytes as the .svdag that svdag-trace reads by itself: an Error, or a file that can be
-// traced, with the same hits through its pointers as through its 64-tree. What svdag-verify check
-// calls sound, svdag-trace takes.
+// traced, with the same hits through its pointers as through its 64-tree. svdag-trace accepts
+// every file that svdag-verify check accepts.
 #include <cstdlib>
 #include <vector>
 

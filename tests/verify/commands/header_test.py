@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Wrong counts in a header, with repaired checksums, are detected by comparing the file with its scene.
+"""Tests that wrong counts in a header, with repaired checksums, are detected by comparing the file with its scene.
 
 Usage: header_test.py BUILD"""
 import pathlib
