@@ -194,7 +194,7 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   ParallelExecutor executor(threads_or_all(command.threads));
   Progress progress(command.output.mode());
   BuildConfig build_config = command.build;
-  const bool needs_json = in_a_batch || report_file;
+  const bool needs_json = in_a_batch || report_file || command.output.json;
   build_config.hash_files = needs_json;
   if (!command.cache.folder.empty())
     build_config.open_store = [&](const Grid& grid, Rule rule, MemoryBudget* budget) {
@@ -209,7 +209,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
     report_file->append(json);
     report_file->commit();
   }
-  if (command.output.quiet) return json;
+  if (command.output.json) std::fputs(json.c_str(), stdout);
+  if (command.output.json || command.output.quiet) return json;
   print_summary(command, report);
   // Not in a batch: most of its bakes were not the interrupted one.
   if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)

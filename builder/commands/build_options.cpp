@@ -150,6 +150,8 @@ void add_options(CLI::App* app, BuildOptions* options) {
       app->add_option("--report", options->bake.report, "Write a report of the bake as JSON"),
       {".json"})
       ->type_name("FILE");
+  app->add_flag("--json", options->bake.output.json,
+                "Print the report, or the prediction of --dry-run, as JSON");
   add_no_clobber(app, &options->bake.output.no_clobber);
   add_quiet(app, &options->bake.output);
   add_verbose(app, &options->bake.output, "Print seconds per phase, memory, and what was skipped");
@@ -200,6 +202,8 @@ BatchCommand batch_of(const BuildOptions& options) {
   if (!build.output.empty()) fail_usage("--batch: outputs are in the list: leave --output out");
   if (options.shard) fail_usage("--batch: a list has no shards: leave --shard out");
   if (build.part) fail_usage("--batch: parts are in the list: leave --part out");
+  if (options.bake.output.json)
+    fail_usage("--json: a batch writes its reports to the file of --report: leave --json out");
   BatchCommand command{options.batch,      options.bake,    options.given,
                        options.keep_going, options.dry_run, options.bake.report};
   command.defaults.report.clear();
@@ -237,6 +241,8 @@ BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeComm
   if (options.shard) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
   if (options.dry_run) fail_usage("dry-run applies to the whole list: pass it with --batch");
   if (options.keep_going) fail_usage("keep-going applies to the whole list: pass it with --batch");
+  if (options.bake.output.json)
+    fail_usage("json: reports go to the file of --report: leave it out");
   if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
   return options.bake;
 }

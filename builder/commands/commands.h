@@ -21,6 +21,7 @@ namespace svdag {
 struct OutputConfig {
   bool quiet = false;       // -q: print errors only
   bool verbose = false;     // -v: print details (seconds per phase, memory)
+  bool json = false;        // --json: print the report instead of the summary
   bool no_clobber = false;  // -n: an existing output is an error; in a batch, it is skipped
   Progress::Mode progress = Progress::Mode::kAuto;
 

@@ -33,7 +33,7 @@ void add_query(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("query", "Look up points in a .svdag");
   auto config = std::make_shared<QueryCommand>();
   takes_files(app->add_option("FILE", config->file, "The .svdag"), {".svdag"})->required();
-  add_examples(app, {"echo 1.5 0 -3 | svdag query city.svdag"},
+  add_examples(app, {"svdag query city.svdag < points.txt"},
                "Reads points from standard input, one per line: x y z in world units. For each it "
                "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
                "around the point, both as level (of the octree; the last is that of voxels) and "

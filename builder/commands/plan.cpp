@@ -46,6 +46,10 @@ int predict(const DryRunCommand& config) {
   dry.build = config.build;
   dry.step_threads = threads_or_all(config.threads);
   const Plan made = plan(dry, config.output);
+  if (config.output.json) {
+    print_bake_json(made);
+    return int(ExitCode::kOk);
+  }
   if (config.output.quiet) return int(ExitCode::kOk);
   print_bake(made, config.build.output);
   print_scene_notes(made.counts.scene);

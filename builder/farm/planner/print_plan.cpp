@@ -74,6 +74,19 @@ void print_plan(const Plan& plan, bool steps) {
   if (steps) print_steps(plan);
 }
 
+void print_bake_json(const Plan& plan) {
+  const PlanStep& step = plan.steps.front();
+  const auto whole = [](uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::printf(
+      "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %zu, \"threads\": %zu, "
+      "\"cpu_seconds\": %.3f, \"seconds\": %.3f, \"budget_bytes\": %llu, \"memory_bytes\": %llu, "
+      "\"output_bytes\": %llu, \"scratch_bytes\": %llu}\n",
+      whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles), plan.cells,
+      step.threads, plan.one_bake_cpu, plan.one_bake_cpu / double(step.threads),
+      whole(step.predicted.budget), whole(step.predicted.memory),
+      whole(plan.steps.back().predicted.output), whole(step.predicted.scratch));
+}
+
 void print_bake(const Plan& plan, const std::string& output) {
   const Prediction& p = plan.steps.front().predicted;
   const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);

@@ -10,5 +10,7 @@ void print_plan(const Plan& plan, bool steps);
 
 // Prints the prediction of a bake to `output`, from a plan of one shard.
 void print_bake(const Plan& plan, const std::string& output);
+// The same as one line of JSON: counts, seconds and bytes.
+void print_bake_json(const Plan& plan);
 
 }  // namespace svdag

@@ -21,7 +21,7 @@ USAGE, MISSING = 2, {3, 4}  # a missing scene, or a missing scratch folder
 
 def run(line):
     with tempfile.TemporaryDirectory(prefix="svdag-example-") as folder:
-        return subprocess.run(shlex.split(line), cwd=folder, capture_output=True, text=True,
+        return subprocess.run(shlex.split(line.split(" < ")[0]), cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               env=dict(os.environ, PATH=f"{PROGRAMS}:/usr/bin:/bin"))
 
 
@@ -56,7 +56,7 @@ class Examples(unittest.TestCase):
 # A command line for each command that has options with named values, in a folder with a small scene and its DAG, but
 # without a plan, so that none is submitted to a farm.
 LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
-         "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.npz", "svdag import": "city.npz -o in.svdag",
+         "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.vdb", "svdag import": "city.npz -o in.svdag",
          "svdag-verify mesh": "city.svdag city.ply", "svdag-verify render": "city.svdag -o city.png --size 16x16",
          "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}

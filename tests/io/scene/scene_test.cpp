@@ -93,7 +93,7 @@ TEST_F(SceneFiles, UnknownAndMissingFilesAreRefused) {
             std::string::npos);
   EXPECT_NE(refusal({{folder_.file("none.ply")}, {}, false}).find("no such file"),
             std::string::npos);
-  EXPECT_NE(refusal({{folder_.path()}, {}, false}).find("not a regular file"), std::string::npos);
+  EXPECT_NE(refusal({{folder_.path()}, {}, false}).find("is a folder"), std::string::npos);
 }
 
 TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {

@@ -139,7 +139,7 @@ TEST_F(GltfUri, NoSpellingOfAWayOutIsOne) {
 TEST_F(GltfUri, OnlyRegularFilesAreRead) {
   ASSERT_EQ(mkfifo((folder_.path() + "/scenes/pipe.bin").c_str(), 0600), 0);
   EXPECT_THAT(failure(scene("pipe.bin")), HasSubstr("regular file"));
-  EXPECT_THAT(failure(scene("sub%20dir")), HasSubstr("regular file"));
+  EXPECT_THAT(failure(scene("sub%20dir")), HasSubstr("is a folder"));
   EXPECT_THAT(failure(scene("missing.bin")), HasSubstr("does not exist"));
   EXPECT_THAT(failure(scene("a%zz.bin")), HasSubstr("URI"));
   EXPECT_THAT(failure(scene("a.bin%2")), HasSubstr("URI"));

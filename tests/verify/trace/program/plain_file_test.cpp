@@ -77,7 +77,7 @@ TEST_F(PlainFileTest, EveryTruncationIsRejected) {
 }
 
 TEST_F(PlainFileTest, RejectsFoldersAndPipes) {
-  EXPECT_SVDAG_ERROR(read_plain_file(folder_.path()), ExitCode::kBadInput, "is not a regular file");
+  EXPECT_SVDAG_ERROR(read_plain_file(folder_.path()), ExitCode::kBadInput, "is a folder");
   ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "is not a regular file");
 }
