@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-// Sides of cells that keep their content when a scene of one lattice grows.
+// Corners of kLattice grids are multiples of this, in voxels (io/grid.h).
 constexpr int64_t kCornerStep = 1024;
 
 void check_voxel_size(double size) {
@@ -23,7 +23,7 @@ int64_t floor_to_step(int64_t k) {
                 : -((-k + kCornerStep - 1) / kCornerStep) * kCornerStep;
 }
 
-// Tries to hold `box` in 2^levels voxels of the lattice; false if it does not fit.
+// Returns false if `box` does not fit 2^levels voxels of the lattice.
 bool try_cover(const Box& box, double size, int levels, Grid* out) {
   Grid grid;
   grid.kind = Grid::Kind::kLattice;
@@ -49,7 +49,7 @@ Point Grid::corner() const {
   return p;
 }
 
-bool Grid::is_possible() const {
+bool Grid::is_valid() const {
   if (levels < kMinLevels || levels > kMaxLevels || !std::isnormal(voxel_size) || voxel_size < 0)
     return false;
   for (int a = 0; a < 3; ++a) {
@@ -91,7 +91,7 @@ Grid cover_lattice(const Box& box, double size) {
 }
 
 VoxelBox voxels_in(const Grid& grid, const Box& bounds) {
-  // Beyond the voxels of any grid, and still in the reach of the snap.
+  // Outside every grid, but within the range of the snap.
   const Point reach(0x1.8p38 * grid.voxel_size);
   const Point middle = grid.kind == Grid::Kind::kBox ? grid.origin : Point(0);
   const auto near = [&](const Point& p) { return glm::clamp(p, middle - reach, middle + reach); };

@@ -1,14 +1,15 @@
 // The grid: N^3 voxels, N = 2^L, placed in the world.
 //
-// Notation: L levels (3 .. 20), F fraction bits of the lattice, q = a lattice coordinate; voxel k
-// of an axis is the closed interval [k, k+1] * 2^F of lattice coordinates.
+// Notation: L = levels (3 .. 20), F = fraction bits of the lattice, q = a lattice coordinate. Voxel
+// k of an axis is the closed interval [k, k+1] * 2^F of lattice coordinates.
 //
-// Kind kBox (-r N): the grid divides the box of the scene, or of --bounds: voxel size =
-// extent/(N-1), origin half a voxel below the minimum, so that the outermost faces lie mid-voxel
-// and not on a voxel plane, where every wall would be two voxels thick. Kind kLattice (--voxel-size
-// S): voxel planes at (k + 1/2) * S, independent of the scene, so that tiles of one world agree.
-// The grid's corner is plane k0, a multiple of 1024 on each axis, so cells of up to 1024 voxels
-// keep their content when a scene grows.
+// Kind kBox (-r N): the grid divides the box of the scene, or of --bounds. The voxel size is
+// extent/(N-1) and the origin is half a voxel below the minimum, so the outermost faces are
+// mid-voxel; on a voxel plane every wall would be two voxels thick.
+//
+// Kind kLattice (--voxel-size S): voxel planes are at (k + 1/2) * S, independent of the scene, so
+// tiles of one world agree. The grid's corner is plane k0, a multiple of 1024 on each axis, so
+// cells of up to 1024 voxels keep their content when a scene grows.
 #pragma once
 
 #include <algorithm>
@@ -22,10 +23,10 @@ namespace svdag {
 constexpr int kMinLevels = 3;
 constexpr int kMaxLevels = 20;
 
-// Of the corner of a lattice grid, to both sides of 0: 2^38 voxels, and a step of cells.
+// The largest |k0| of a kLattice grid: 2^38 voxels, and two corner steps of 1024.
 constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
 
-// F: always the same for one L, so that L + F <= 39 bits and every exact test fits 128 bits.
+// F depends on L alone. L + F <= 39 bits, so every exact test fits 128 bits.
 constexpr int fraction_bits(int levels) {
   return std::min(23, 39 - levels);
 }
@@ -35,11 +36,11 @@ struct VoxelBox {
   LatticePoint min{0};
   LatticePoint max{0};
   bool empty() const { return min.x >= max.x || min.y >= max.y || min.z >= max.z; }
-  // Whether it has a voxel of `other`.
+  // Whether the boxes have a voxel in common.
   bool meets(const VoxelBox& other) const {
     return !VoxelBox{glm::max(min, other.min), glm::min(max, other.max)}.empty();
   }
-  // Whether all voxels of `other` are in it.
+  // Whether every voxel of `other` is in this box.
   bool holds(const VoxelBox& other) const {
     return glm::min(min, other.min) == min && glm::max(max, other.max) == max;
   }
@@ -52,23 +53,23 @@ struct Grid {
   Kind kind = Kind::kBox;
   int levels = kMinLevels;  // L
   double voxel_size = 1;    // world units; the S of kLattice
-  Point origin{0};          // kBox: world position of the grid's corner; kLattice: not used
-  LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: not used
+  Point origin{0};          // kBox: world position of the grid's corner; kLattice: unused
+  LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: unused
   bool bounded = false;     // --bounds was given: voxels outside `selection` stay empty
   VoxelBox selection;       // the voxels that may be set; the whole grid unless bounded
 
   int64_t resolution() const { return int64_t(1) << levels; }
   int fraction() const { return fraction_bits(levels); }
   VoxelBox whole() const { return {LatticePoint(0), LatticePoint(resolution())}; }
-  // The closed voxels of `box`, in lattice units.
+  // The closed box that the voxels of `box` cover, in lattice units.
   LatticeBox closed(const VoxelBox& box) const {
     const int64_t side = int64_t(1) << fraction();
     return {box.min * side, box.max * side};
   }
   // World position of the corner of voxel (0, 0, 0), for display and export.
   Point corner() const;
-  // Whether it can be one that a bake made, for grids that come from files.
-  bool is_possible() const;
+  // Whether all fields are in the ranges that a bake can produce; for grids read from files.
+  bool is_valid() const;
   bool operator==(const Grid&) const = default;
 };
 
@@ -85,19 +86,18 @@ void visit_fields(AnyGrid& grid, const Visit& visit) {
   visit("selection_max", grid.selection.max);
 }
 
-// The grid of kind kBox with 2^levels voxels that divides `box`. A box without extent, or whose
-// voxel size is not a normal number, is an Error (kUsage).
+// The kBox grid that divides `box` into 2^levels voxels on its longest axis. A box without extent,
+// or whose voxel size is not a normal number, is an Error (kUsage).
 Grid divide_box(const Box& box, int levels);
 
-// The smallest grid of kind kLattice with voxel size `size` whose voxels hold `box`. An invalid
-// size, or a box of more than 2^20 voxels, is an Error (kUsage).
+// The smallest kLattice grid of voxel size `size` that holds `box`. An invalid size, or a box of
+// more than 2^20 voxels on an axis, is an Error (kUsage).
 Grid cover_lattice(const Box& box, double size);
 
-// The voxels whose interior meets the closed `bounds`, also beyond the grid; empty if there is
-// none.
+// The voxels whose interior meets the closed `bounds`, including voxels outside the grid.
 VoxelBox voxels_in(const Grid& grid, const Box& bounds);
 
-// Restricts `grid` to those of them that it has; never moves it.
+// Returns `grid` with its selection restricted to voxels_in(grid, bounds); the grid does not move.
 Grid select_bounds(Grid grid, const Box& bounds);
 
 }  // namespace svdag

@@ -62,7 +62,7 @@ int run(const HelpCommand& help) {
   for (const Manual& command : program.commands) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }
-  const std::string there = elsewhere(subject);
+  const std::string there = command_of_other_program(subject);
   const std::string guess =
       there.empty() ? nearest(subject, help_subjects(program)) : there + " --help";
   fail_usage("unknown command or topic \"" + subject + "\"" +

@@ -96,9 +96,9 @@ TEST(Grid, ACornerBeyondEveryLatticeIsImpossible) {
   Grid grid = cover_lattice(box_of({0, 0, 0}, {5, 5, 5}), 1);
   for (const int64_t sign : {-1, 1}) {
     grid.k0.y = sign * kFarthestPlane;
-    EXPECT_TRUE(grid.is_possible());
+    EXPECT_TRUE(grid.is_valid());
     grid.k0.y += sign;
-    EXPECT_FALSE(grid.is_possible());
+    EXPECT_FALSE(grid.is_valid());
   }
 }
 

@@ -23,10 +23,10 @@ TEST(JsonNumber, ThatIsNotWholeOrDoesNotFitIsAnError) {
   const auto read = [](const char* text) { return whole_number<int>(Json::parse(text)); };
   for (const char* text : {"4294967305", "-4294967289", "1e24", "-1e24", "7.0", "1e300", "true",
                            "null", "\"7\"", "[7]", "18446744073709551616"}) {
-    EXPECT_SVDAG_ERROR(read(text), ExitCode::kBadInput, "does not fit");
+    EXPECT_SVDAG_ERROR(read(text), ExitCode::kBadInput, "out of range");
   }
   EXPECT_SVDAG_ERROR(whole_number<uint64_t>(Json::parse("-1")), ExitCode::kBadInput,
-                     "does not fit");
+                     "out of range");
 }
 
 }  // namespace

@@ -35,13 +35,13 @@ TEST(Suggest, NamesTheProgramThatHasTheCommand) {
             "unknown command \"check\" of svdag; did you mean svdag-verify check?");
   EXPECT_EQ(explain({"verify", "check", "x.svdag"}),
             "unknown command \"verify\" of svdag; did you mean svdag-verify?");
-  EXPECT_EQ(elsewhere("render"), "svdag-verify render");
-  EXPECT_EQ(elsewhere("trace"), "svdag-trace");
-  EXPECT_EQ(elsewhere("svdag-trace"), "svdag-trace");
-  EXPECT_EQ(elsewhere("build"), "svdag build");
-  EXPECT_EQ(elsewhere("import"), "svdag import");
+  EXPECT_EQ(command_of_other_program("render"), "svdag-verify render");
+  EXPECT_EQ(command_of_other_program("trace"), "svdag-trace");
+  EXPECT_EQ(command_of_other_program("svdag-trace"), "svdag-trace");
+  EXPECT_EQ(command_of_other_program("build"), "svdag build");
+  EXPECT_EQ(command_of_other_program("import"), "svdag import");
   for (const char* word : {"", " ", "b", "uild", "build plan", "checks"})
-    EXPECT_EQ(elsewhere(word), "") << word;
+    EXPECT_EQ(command_of_other_program(word), "") << word;
 }
 
 TEST(Suggest, NamesTheOptionThatWasMeant) {

@@ -153,7 +153,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   plan->description = json.at("description");
   if (!is_of_this_algorithm(plan->description)) fail_plan(*plan, kOtherVersion);
   visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
-  if (!plan->grid.is_possible()) fail_plan(*plan, "invalid grid");
+  if (!plan->grid.is_valid()) fail_plan(*plan, "invalid grid");
   plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");

@@ -186,7 +186,7 @@ TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
     std::string changed = text;
     changed.replace(value, changed.find_first_of(",}\n", value) - value, number);
     std::ofstream(json, std::ios::binary) << changed;
-    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "does not fit");
+    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "out of range");
   }
 }
 
