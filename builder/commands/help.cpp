@@ -56,7 +56,7 @@ int run(const HelpCommand& help) {
   const size_t width = text_width(stdout);
   if (subject.empty()) return print(help_text(program, width));
   for (const Topic& topic : topics()) {
-    if (topic.name == subject) return print(filled(topic.text, width));
+    if (topic.name == subject) return print(fill_paragraphs(topic.text, width));
   }
   if (is_sibling(subject)) print_sibling_help(subject);
   for (const Manual& command : program.commands) {

@@ -6,8 +6,8 @@
 namespace svdag {
 namespace {
 
-// Text as troff prints it: a minus that can be copied, straight quotes, and no line that is taken
-// for a macro.
+// Escapes text for troff: a minus that can be copied, straight quotes, and no line that begins like
+// a macro.
 std::string roff(std::string_view text) {
   std::string out = text.substr(0, 1) == "." ? "\\&" : "";
   for (const char c : text) {
@@ -96,7 +96,7 @@ std::string verbatim(const std::vector<std::string>& lines) {
   return out + ".fi\n.RE\n";
 }
 
-// Paragraphs; of notes with sections of their own, in `section` at the beginning.
+// The paragraphs of notes or a topic. Those before the first heading belong to `section`.
 std::string body(std::string_view text, std::string section) {
   constexpr std::string_view kExit = "Exit codes: ";
   std::string out;

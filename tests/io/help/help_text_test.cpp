@@ -64,13 +64,13 @@ TEST(HelpText, PutsTextsBelowNamesWhereThereIsNone) {
 }
 
 TEST(HelpText, ALongCommandGoesOnInTheNextLineAsAShellReadsIt) {
-  EXPECT_EQ(filled("  svdag build city.glb -o city.svdag -r 64K\n", 30),
+  EXPECT_EQ(fill_paragraphs("  svdag build city.glb -o city.svdag -r 64K\n", 30),
             "  svdag build city.glb \\\n"
             "    -o city.svdag -r 64K\n");
 }
 
 TEST(HelpText, ALongRowOfATableGoesOnInItsSecondColumn) {
-  EXPECT_EQ(filled("  4   the disk is full\n  70  a defect\n", 17),
+  EXPECT_EQ(fill_paragraphs("  4   the disk is full\n  70  a defect\n", 17),
             "  4   the disk is\n"
             "      full\n"
             "  70  a defect\n");
