@@ -24,9 +24,8 @@ Manual manual_of(const CLI::App& program);
 std::optional<int> read_command_line(CLI::App* program, int argc, char** argv);
 
 // Each of these declares the values of an option, for the manual and completions, and returns the
-// option. takes_files() and takes_folder() reject only the empty name, suggests() rejects nothing.
-CLI::Option* one_of(CLI::Option* option,
-                    const std::vector<std::string>& choices);  // rejects others
+// option. takes_files() and takes_folder() reject only empty names, suggests() rejects nothing.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
 CLI::Option* takes_folder(CLI::Option* option);
