@@ -94,7 +94,8 @@ Grid divide_box(const Box& box, int levels);
 // more than 2^20 voxels on an axis, is an Error (kUsage).
 Grid cover_lattice(const Box& box, double size);
 
-// The voxels whose interior meets the closed `bounds`, including voxels outside the grid.
+// The voxels whose interior meets the closed `bounds`, including voxels outside the grid; empty if
+// there are none.
 VoxelBox voxels_in(const Grid& grid, const Box& bounds);
 
 // Returns `grid` with its selection restricted to voxels_in(grid, bounds); the grid does not move.
