@@ -43,6 +43,7 @@ struct BuildConfig {
   double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
   DescentConfig descent;              // --rule
   std::optional<Box> bounds;          // --bounds, in world units
+  std::optional<GridCube> cube;       // --cube, in world units; needs levels
   uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
   int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder

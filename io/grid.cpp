@@ -1,6 +1,7 @@
 #include "io/grid.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "io/lattice.h"
 #include "io/units.h"
@@ -9,18 +10,23 @@
 namespace svdag {
 namespace {
 
-// Corners of kLattice grids are multiples of this, in voxels (io/grid.h).
-constexpr int64_t kCornerStep = 1024;
-
 void check_voxel_size(double size) {
   if (!std::isnormal(size) || size < 0)
     fail_usage("the voxel size would be " + format_double(size) +
                ", which is not a positive normal number: give --voxel-size or --bounds");
 }
 
-int64_t floor_to_step(int64_t k) {
-  return k >= 0 ? k / kCornerStep * kCornerStep
-                : -((-k + kCornerStep - 1) / kCornerStep) * kCornerStep;
+// `step` is a power of two.
+constexpr int64_t floor_to_step(int64_t k, int64_t step) {
+  return k & -step;
+}
+
+// `size` rounded up to two significant digits.
+std::string rounded_up(double size) {
+  const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", std::ceil(size / unit) * unit);
+  return text;
 }
 
 // Returns false if `box` does not fit 2^levels voxels of the lattice.
@@ -33,7 +39,7 @@ bool try_cover(const Box& box, double size, int levels, Grid* out) {
   const Lattice at_zero(grid);  // k0 = 0: voxel numbers relative to plane 0
   const LatticePoint low = at_zero.snap(box.min), high = at_zero.snap(box.max);
   for (int a = 0; a < 3; ++a) {
-    grid.k0[a] = floor_to_step(at_zero.first_voxel(low[a]));
+    grid.k0[a] = floor_to_step(at_zero.first_voxel(low[a]), corner_step(levels));
     if (at_zero.last_voxel(high[a]) - grid.k0[a] >= grid.resolution()) return false;
   }
   *out = grid;
@@ -73,6 +79,19 @@ Grid divide_box(const Box& box, int levels) {
   return grid;
 }
 
+Grid divide_cube(const GridCube& cube, int levels) {
+  SVDAG_ASSERT(levels >= kMinLevels && levels <= kMaxLevels);
+  Grid grid;
+  grid.levels = levels;
+  grid.voxel_size = cube.side / double(grid.resolution());
+  if (!std::isnormal(grid.voxel_size) || grid.voxel_size < 0)
+    fail_usage("--cube: the side " + format_double(cube.side) + " is not a positive size");
+  grid.origin = cube.min;
+  grid.selection = grid.whole();
+  grid.bounded = true;
+  return grid;
+}
+
 Grid cover_lattice(const Box& box, double size) {
   SVDAG_ASSERT(!box.empty());
   check_voxel_size(size);
@@ -85,9 +104,11 @@ Grid cover_lattice(const Box& box, double size) {
   for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
     if (try_cover(box, size, levels, &grid)) return grid;
   }
+  double extent = 0;
+  for (int a = 0; a < 3; ++a) extent = std::max(extent, box.max[a] - box.min[a]);
   fail_usage(
-      "--voxel-size: the scene needs more than 1M voxels on an axis: choose larger voxels or "
-      "--bounds");
+      "--voxel-size: the scene needs more than 1M voxels on an axis: choose voxels of at least " +
+      rounded_up(extent / double((1 << kMaxLevels) - 1025)) + ", or --bounds");
 }
 
 VoxelBox voxels_in(const Grid& grid, const Box& bounds) {

@@ -5,11 +5,12 @@
 //
 // Kind kBox (-r N): the grid divides the box of the scene, or of --bounds. The voxel size is
 // extent/(N-1) and the origin is half a voxel below the minimum, so the outermost faces are
-// mid-voxel; on a voxel plane every wall would be two voxels thick.
+// mid-voxel; on a voxel plane every wall would be two voxels thick. --cube divides exactly the
+// given cube instead, so that the voxels of several resolutions line up.
 //
 // Kind kLattice (--voxel-size S): voxel planes are at (k + 1/2) * S, independent of the scene, so
-// tiles of one world agree. The grid's corner is plane k0, a multiple of 1024 on each axis, so
-// cells of up to 1024 voxels keep their content when a scene grows.
+// tiles of one world agree. The grid's corner is plane k0, a multiple of corner_step() on each
+// axis, so cells of at most that many voxels keep their content when a scene grows.
 #pragma once
 
 #include <algorithm>
@@ -29,6 +30,13 @@ constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
 // F depends on L alone. L + F <= 39 bits, so every exact test fits 128 bits.
 constexpr int fraction_bits(int levels) {
   return std::min(23, 39 - levels);
+}
+
+// The corner k0 of a kLattice grid is a multiple of this, in voxels: the side of the largest cells,
+// at most half of the grid. A larger step would make the grid of a small scene several times too
+// large.
+constexpr int64_t corner_step(int levels) {
+  return std::min<int64_t>(1024, int64_t(1) << (levels - 1));
 }
 
 // Voxels min <= k < max on each axis.
@@ -89,6 +97,23 @@ void visit_fields(AnyGrid& grid, const Visit& visit) {
 // The kBox grid that divides `box` into 2^levels voxels on its longest axis. A box without extent,
 // or whose voxel size is not a normal number, is an Error (kUsage).
 Grid divide_box(const Box& box, int levels);
+
+// A cube in world units.
+struct GridCube {
+  Point min{0};
+  double side = 0;
+};
+
+// The kBox grid of 2^levels voxels a side that divides `cube`, with its corner at cube.min. An
+// invalid size is an Error (kUsage). The grid is bounded: a scene may extend beyond the cube.
+//
+// Resolutions of 64K and above nest exactly (--rule conservative): the voxels of the coarser grid
+// are the parents of those of the finer one. Voxel size and 2^F are powers of two times the side,
+// so each vertex is snapped to q = rint(fl((v - min) / side) * 2^(L + F)), and L + F is 39 for L >=
+// 16: the snapped scene is the same. Below 64K, L + F = L + 23 differs, and voxels may differ where
+// a triangle is within 2^-24 voxels of a voxel plane. Rejected: F = 39 - L for every L, for which
+// the error bounds of all filters would have to be proved again.
+Grid divide_cube(const GridCube& cube, int levels);
 
 // The smallest kLattice grid of voxel size `size` that holds `box`. An invalid size, or a box of
 // more than 2^20 voxels on an axis, is an Error (kUsage).

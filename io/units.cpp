@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include "streaming/error.h"
@@ -27,9 +28,12 @@ uint64_t parse_count(std::string_view text, const char* option) {
 
 int parse_resolution(std::string_view text) {
   const uint64_t n = parse_count(text, "--resolution");
-  if (!std::has_single_bit(n) || n < 8 || n > (1U << 20))
+  if (n < 8 || n > (1U << 20))
     fail_usage("--resolution: \"" + std::string(text) +
                "\" is not a power of two from 8 to 1M (1048576)");
+  if (!std::has_single_bit(n))
+    fail_usage("--resolution: " + std::string(text) + " is not a power of two: choose " +
+               format_resolution(std::bit_floor(n)) + " or " + format_resolution(std::bit_ceil(n)));
   return std::countr_zero(n);
 }
 
@@ -43,6 +47,15 @@ Box parse_bounds(const std::string& text) {
   if (!good)
     fail_usage("--bounds: \"" + text + "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+GridCube parse_cube(const std::string& text) {
+  double v[4];
+  int used = 0;
+  const int n = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3], &used);
+  if (n != 4 || used != int(text.size()) || !std::isfinite(v[0] + v[1] + v[2] + v[3]) || v[3] <= 0)
+    fail_usage("--cube: \"" + text + "\" is not x,y,z,side with a side of more than 0");
+  return {{v[0], v[1], v[2]}, v[3]};
 }
 
 std::string format_resolution(uint64_t n) {

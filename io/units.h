@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/triangle.h"
+#include "io/grid.h"
 
 namespace svdag {
 
@@ -16,6 +16,8 @@ uint64_t parse_count(std::string_view text, const char* option);
 int parse_resolution(std::string_view text);
 // --bounds: "x0,y0,z0,x1,y1,z1", the minimum first. Throws Error (kUsage).
 Box parse_bounds(const std::string& text);
+// --cube: "x,y,z,side". Throws Error (kUsage).
+GridCube parse_cube(const std::string& text);
 // 65536 -> "64K", 1000 -> "1000".
 std::string format_resolution(uint64_t resolution);
 // 1536 -> "1.5 KiB".

@@ -75,8 +75,8 @@ ChosenGrid read_grid(const BuildConfig& config, const Scene& scene,
   if (saved) return {saved->grid};
   if (config.ready != nullptr) return {config.ready->grid};
   SceneCounts counts;
-  const Box box = config.bounds ? Box() : scene.bounds(&counts);
-  return {choose_grid(config, box), config.part ? 0 : counts.triangles};
+  const Grid grid = choose_grid(config, scene, &counts);
+  return {grid, config.part ? 0 : counts.triangles};
 }
 
 SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const GridPart& part) {

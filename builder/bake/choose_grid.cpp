@@ -2,10 +2,18 @@
 
 #include <algorithm>
 
+#include "streaming/error.h"
+
 namespace svdag {
 
-Grid choose_grid(const BuildConfig& config, const Box& box) {
-  const Box& target = config.bounds ? *config.bounds : box;
+Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
+  if (config.cube && config.voxel_size != 0)
+    fail_usage("--cube: the cube is divided by --resolution: give -r instead of -s");
+  if (config.cube) {
+    const Grid grid = divide_cube(*config.cube, config.levels);
+    return config.bounds ? select_bounds(grid, *config.bounds) : grid;
+  }
+  const Box target = config.bounds ? *config.bounds : scene.bounds(counts);
   const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size)
                                            : divide_box(target, config.levels);
   return config.bounds ? select_bounds(grid, *config.bounds) : grid;

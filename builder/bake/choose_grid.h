@@ -5,8 +5,9 @@
 
 namespace svdag {
 
-// The grid of `config` for a scene with bounding box `box`.
-Grid choose_grid(const BuildConfig& config, const Box& box);
+// The grid of `config`. Reads the scene's bounds, and its counts into `counts` if given, unless
+// --bounds or --cube replaces them. Error (kUsage) if the options contradict each other.
+Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts = nullptr);
 
 // The octree level of the cells of `grid`, in so much memory.
 int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory);

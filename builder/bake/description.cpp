@@ -48,6 +48,13 @@ std::string list(const std::vector<std::string>& items) {
   return text;
 }
 
+std::string rule_and_size(Rule rule, int levels, double voxel_size) {
+  return std::string("rule: ") + rule_name(rule) + '\n' +
+         (voxel_size != 0 ? "voxel size: " + format_double(voxel_size)
+                          : "resolution: " + std::to_string(uint64_t(1) << levels)) +
+         '\n';
+}
+
 }  // namespace
 
 std::vector<SceneFile> scene_files(const Scene& scene) {
@@ -66,11 +73,11 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
   out << "algorithm: " << kAlgorithm << '\n';
-  out << "rule: " << rule_name(config.descent.rule) << '\n';
-  if (config.voxel_size != 0) {
-    out << "voxel size: " << format_double(config.voxel_size) << '\n';
-  } else {
-    out << "resolution: " << (uint64_t(1) << config.levels) << '\n';
+  out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
+  if (config.cube) {
+    out << "cube:";
+    for (int a = 0; a < 3; ++a) out << ' ' << format_double(config.cube->min[a]);
+    out << ' ' << format_double(config.cube->side) << '\n';
   }
   if (config.bounds) {
     out << "bounds:";
@@ -85,6 +92,12 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   for (const SceneFile& file : files)
     out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
   return out.str();
+}
+
+bool describes(const std::string& description, Rule rule, const Grid& grid) {
+  const bool box = grid.kind == Grid::Kind::kBox;
+  return description.find('\n' + rule_and_size(rule, grid.levels, box ? 0 : grid.voxel_size)) !=
+         std::string::npos;
 }
 
 bool is_of_this_algorithm(const std::string& description) {

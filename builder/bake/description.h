@@ -18,6 +18,9 @@ std::vector<SceneFile> scene_files(const Scene& scene);
 // `files`: of the scene; not needed if config.ready is set, since the plan describes them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
+// Whether `description`, without a part, is of a bake with this rule and a grid of this size.
+bool describes(const std::string& description, Rule rule, const Grid& grid);
+
 // Whether `description`, with or without a part, is of the algorithm of this program, which then
 // gives the same bytes.
 bool is_of_this_algorithm(const std::string& description);

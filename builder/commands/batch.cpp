@@ -180,9 +180,14 @@ int run(const BatchCommand& config) {
   if (!config.report.empty()) report.emplace(config.report);
   Json done = Json::array();
   ExitCode first = ExitCode::kOk;
-  size_t failed = 0;
+  size_t failed = 0, skipped = 0;
   for (const BakeCommand& job : jobs) {
     if (first != ExitCode::kOk && !config.keep_going) break;
+    if (job.output.no_clobber && name_exists(job.build.output)) {
+      ++skipped;
+      if (!job.output.quiet) std::printf("%s: already exists, skipped\n", job.build.output.c_str());
+      continue;
+    }
     Outcome outcome;
     try {
       outcome = bake(job, config);
@@ -199,8 +204,9 @@ int run(const BatchCommand& config) {
   }
   if (report) write_report(&*report, jobs.size(), done);
   if (!config.defaults.output.quiet)
-    std::printf("%zu of %zu %s, %zu failed\n", done.size() - failed, jobs.size(),
-                config.dry_run ? "predicted" : "baked", failed);
+    std::printf("%zu of %zu %s, %zu failed%s\n", done.size() - failed, jobs.size(),
+                config.dry_run ? "predicted" : "baked", failed,
+                skipped > 0 ? (", " + std::to_string(skipped) + " skipped").c_str() : "");
   return int(first);
 }
 

@@ -187,7 +187,7 @@ std::vector<std::string> outputs_of(const BakeCommand& command) {
 }
 
 std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
-  AtomicFile::check(command.build.output);
+  AtomicFile::check(command.build.output, command.output.no_clobber);
   discard_dry_run(command.build);
   std::optional<AtomicFile> report_file;  // created first: a bad path fails before any work
   if (!command.report.empty()) report_file.emplace(command.report);

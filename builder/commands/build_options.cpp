@@ -150,6 +150,7 @@ void add_options(CLI::App* app, BuildOptions* options) {
       app->add_option("--report", options->bake.report, "Write a report of the bake as JSON"),
       {".json"})
       ->type_name("FILE");
+  add_no_clobber(app, &options->bake.output.no_clobber);
   add_quiet(app, &options->bake.output);
   add_verbose(app, &options->bake.output, "Print seconds per phase, memory, and what was skipped");
   add_progress(app, &options->bake.output);
@@ -170,7 +171,7 @@ void require_shard_options(const std::set<std::string>& given) {
       "--restart", "--checkpoint", "--quiet",  "--verbose", "--progress", "--no-progress"};
   for (const std::string& option : given) {
     if (!kHonored.contains(option))
-      fail_usage(option + ": a shard is baked as its plan says: leave this option out");
+      fail_usage(option + ": the plan of a shard sets this: leave the option out");
   }
 }
 

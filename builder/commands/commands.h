@@ -19,8 +19,9 @@
 namespace svdag {
 
 struct OutputConfig {
-  bool quiet = false;    // -q: print errors only
-  bool verbose = false;  // -v: print details (seconds per phase, memory)
+  bool quiet = false;       // -q: print errors only
+  bool verbose = false;     // -v: print details (seconds per phase, memory)
+  bool no_clobber = false;  // -n: an existing output is an error; in a batch, it is skipped
   Progress::Mode progress = Progress::Mode::kAuto;
 
   Progress::Mode mode() const { return quiet ? Progress::Mode::kOff : progress; }
@@ -115,15 +116,20 @@ struct InfoCommand {
   uint64_t memory = 0;  // bytes; 0: half of the machine
 };
 
+// svdag query FILE < POINTS.
+struct QueryCommand {
+  std::string file;
+};
+
 // svdag help [SUBJECT]: the help of a command or topic.
 struct HelpCommand {
   Manual program;
   std::string subject;  // a command or a topic; empty: the program
 };
 
-using Command =
-    std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand, MergeCommand,
-                 MergeStepCommand, PlanCommand, RunCommand, SubmitCommand, InfoCommand>;
+using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand,
+                             MergeCommand, MergeStepCommand, PlanCommand, RunCommand, SubmitCommand,
+                             InfoCommand, QueryCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
@@ -137,6 +143,7 @@ int run(const PlanCommand& command);
 int run(const RunCommand& command);
 int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
+int run(const QueryCommand& command);
 
 // Message of an interrupted bake that was started with --restart.
 constexpr const char* kResumeForRestart =

@@ -7,6 +7,7 @@
 #include "builder/commands/commands.h"
 #include "io/dag/dag_stats.h"
 #include "io/dag/metadata.h"
+#include "io/dag/occupied_bounds.h"
 #include "io/dag/symvox_header.h"
 #include "io/json_text.h"
 #include "io/units.h"
@@ -25,10 +26,42 @@ bool begins_with(const unsigned char (&magic)[8], const std::string& path) {
   return std::memcmp(head.data(), magic, sizeof magic) == 0;
 }
 
+// "0 .. 12": first and last voxel on an axis.
+std::string first_and_last(const VoxelBox& box, int axis) {
+  return std::to_string(box.min[axis]) + " .. " + std::to_string(box.max[axis] - 1);
+}
+
+std::string point(const Point& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
+  return text;
+}
+
+void print_occupied(const DagFile& file) {
+  const VoxelBox voxels = occupied_bounds(file.view());
+  if (voxels.empty()) return;
+  const Box world = world_box(file.grid(), voxels);
+  std::printf("  occupied: voxels %s, %s, %s; %s to %s\n", first_and_last(voxels, 0).c_str(),
+              first_and_last(voxels, 1).c_str(), first_and_last(voxels, 2).c_str(),
+              point(world.min).c_str(), point(world.max).c_str());
+}
+
+// Null if no voxel is set.
+Json occupied_json(const DagFile& file) {
+  const VoxelBox voxels = occupied_bounds(file.view());
+  if (voxels.empty()) return nullptr;
+  const auto [min, max] = voxels;
+  const Box world = world_box(file.grid(), voxels);
+  return {
+      {"voxels", {min.x, min.y, min.z, max.x, max.y, max.z}},
+      {"bounds", {world.min.x, world.min.y, world.min.z, world.max.x, world.max.y, world.max.z}}};
+}
+
 Json dag_json(const DagFile& file, const DagStats& stats) {
   Json json = Json::parse(metadata_of(file.header()));
   json["file_bytes"] = file.header().file_bytes;
   json["content_hash"] = to_hex(file.header().content_hash);
+  json["occupied"] = occupied_json(file);
   json["svo_nodes"] = stats.svo_nodes();
   json["dag_nodes"] = stats.dag_nodes();
   json["paper_dag_nodes"] = stats.paper_dag_nodes();
@@ -63,7 +96,9 @@ void info_dag(const InfoCommand& config) {
               format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()));
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
               format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
-              format_double(h.corner[2]).c_str(), h.bounded ? ", restricted by --bounds" : "");
+              format_double(h.corner[2]).c_str(),
+              h.bounded ? ", restricted by --bounds or --cube" : "");
+  print_occupied(file);
   std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
               format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
               format_count(stats.dag_nodes()).c_str(),

@@ -1,4 +1,4 @@
-// The options of svdag info.
+// The options of svdag info and svdag query.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -25,6 +25,19 @@ void add_info(CLI::App* program, Command* command) {
   add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
   add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+void add_query(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("query", "Look up points in a .svdag");
+  auto config = std::make_shared<QueryCommand>();
+  takes_files(app->add_option("FILE", config->file, "The .svdag"), {".svdag"})->required();
+  add_examples(app, {"echo 1.5 0 -3 | svdag query city.svdag"},
+               "Reads points from standard input, one per line: x y z in world units. For each it "
+               "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
+               "around the point, both as level (of the octree; the last is that of voxels) and "
+               "box, or \"outside\" if the point is not in the grid.");
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }

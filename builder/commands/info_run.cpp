@@ -53,7 +53,8 @@ void print_text(const RunFile& run) {
               rule_name(run.rule()));
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
               format_double(corner.x).c_str(), format_double(corner.y).c_str(),
-              format_double(corner.z).c_str(), h.bounded ? ", restricted by --bounds" : "");
+              format_double(corner.z).c_str(),
+              h.bounded ? ", restricted by --bounds or --cube" : "");
   std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
               format_count(nodes).c_str(), format_count(h.roots).c_str(),
               format_bytes(h.file_bytes).c_str());

@@ -19,6 +19,7 @@ void add_plan(CLI::App* program, Command* command);
 void add_run(CLI::App* program, Command* command);
 void add_submit(CLI::App* program, Command* command);
 void add_info(CLI::App* program, Command* command);
+void add_query(CLI::App* program, Command* command);
 
 // Parses one bake of a batch like a command line of `svdag build`; options that are not given keep
 // their value in `defaults`. Errors: kUsage.

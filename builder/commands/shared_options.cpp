@@ -85,6 +85,10 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
       ->type_name("S");
   grid->require_option(1);
   app->add_option_function<std::string>(
+         "--cube", [build](const std::string& s) { build->cube = parse_cube(s); },
+         "Divide exactly this cube into the voxels of -r, so that resolutions line up")
+      ->type_name("x,y,z,side");
+  app->add_option_function<std::string>(
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");

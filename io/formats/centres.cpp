@@ -19,9 +19,12 @@ void reject_needless_range(const VdbGrid& grid, const std::optional<ValueRange>&
 // A mask tree takes 114 bytes per leaf and 34 KB or 271 KB per inner node; bool grids and NanoVDB
 // take more. Up to three trees exist at once: the filled one, the written one, and the one read
 // back. Measured on the dragon at 4K^3 (670,441 leaves): mask 316 MB, NanoVDB 444 MB, bool 542 MB;
-// this bound gives 580 MB.
-uint64_t vdb_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096) {
-  return 3 * (leaves * 160 + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000);
+// this bound gives 580 MB. The leaves of float trees, the written one and the one read back, also
+// hold 512 values each.
+uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
+                   uint64_t nodes_of_4096) {
+  const uint64_t values = format == VdbFormat::kFloat ? 2 * 512 * sizeof(float) : 0;
+  return 3 * (leaves * 160 + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000) + leaves * values;
 }
 
 }  // namespace svdag

@@ -39,9 +39,10 @@ struct IndexToWorld {
 IndexToWorld voxel_centres(const Grid& grid);
 
 enum class VdbFormat {
-  kMask,  // .vdb, grids of type mask: a voxel is active or not
-  kBool,  // .vdb, grids of type bool, active and true: for readers without support for masks
-  kNano,  // .nvdb, one grid of type mask
+  kBool,   // .vdb, grids of type bool, active and true: every reader of VDB has them
+  kMask,   // .vdb, grids of type mask: a voxel is active or not
+  kFloat,  // .vdb, grids of type float, active and 1 in a background of 0: a fog volume
+  kNano,   // .nvdb, one grid of type mask
 };
 
 using VdbMetadata = std::map<std::string, std::string>;
@@ -66,7 +67,8 @@ std::unique_ptr<VdbWriter> make_vdb_writer();
 
 // Upper bound on the bytes that a VdbWriter needs for these numbers of leaves and nodes, writing
 // included.
-uint64_t vdb_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096);
+uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
+                   uint64_t nodes_of_4096);
 
 // A grid that was read. A voxel is set iff it is active (mask), active and true (bool), or has a
 // value in the range, active or not (float).

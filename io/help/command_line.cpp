@@ -242,6 +242,10 @@ CLI::Option* from_to(CLI::Option* option, size_t min, size_t max) {
   return option->check(CLI::Validator(check, ""));
 }
 
+void add_no_clobber(CLI::App* command, bool* no_clobber) {
+  command->add_flag("-n,--no-clobber", *no_clobber, "Do not replace an existing output");
+}
+
 void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& text) {
   const auto read = [bytes](const std::string& value) {
     *bytes = parse_count(value, "--memory");

@@ -32,6 +32,9 @@ CLI::Option* takes_folder(CLI::Option* option);
 CLI::Option* takes_whole_number(CLI::Option* option);               // of 64 bits
 CLI::Option* from_to(CLI::Option* option, size_t min, size_t max);  // integers
 
+// Adds -n, --no-clobber.
+void add_no_clobber(CLI::App* command, bool* no_clobber);
+
 // Adds -m, the memory budget of a command, with its help text. Less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,
                        const std::string& text = "Memory budget in bytes");

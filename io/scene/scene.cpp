@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
@@ -199,6 +200,8 @@ SceneFormat detect_format(const File& file) {
   if (start.starts_with("solid")) return SceneFormat::kStl;
   if (extension == "svdag")
     fail_input(file.path(), "is a .svdag, not a scene: svdag info shows what it contains");
+  const std::string foreign = foreign_format_message(extension, start);
+  if (!foreign.empty()) fail_input(file.path(), foreign);
   fail_input(file.path(),
              "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, "
              "Draco and OpenMesh files, OBJ and binary STL by the ending of their names");

@@ -18,7 +18,7 @@ const std::string& checked(const std::string& target) {
 }  // namespace
 
 // rename() replaces any file of the name; as root, even /dev/null.
-void AtomicFile::check(const std::string& target) {
+void AtomicFile::check(const std::string& target, bool keep_existing) {
   if (target == "-")
     throw Error(ExitCode::kUsage, "-: standard output is not supported: name an output file");
   std::error_code error;
@@ -33,6 +33,9 @@ void AtomicFile::check(const std::string& target) {
   if (!free || descriptor)
     throw Error(ExitCode::kOutput,
                 "is not a regular file and cannot be replaced: choose another name", target);
+  if (keep_existing && type == fs::file_type::regular)
+    throw Error(ExitCode::kUsage, "already exists: choose another name, or omit --no-clobber",
+                target);
 }
 
 AtomicFile::AtomicFile(const std::string& target)

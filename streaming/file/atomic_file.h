@@ -22,7 +22,8 @@ class AtomicFile {
   // Throws Error (kOutput) if `target` is too long a name or must not be replaced: a folder, a
   // device, a pipe, a socket, a link to one, or the name of a descriptor (/dev/stdout). Error
   // (kUsage) for "-". A caller with long work ahead calls this first.
-  static void check(const std::string& target);
+  // With `keep_existing` an existing target is an Error (kUsage), too.
+  static void check(const std::string& target, bool keep_existing = false);
 
   // Calls check() and creates the anonymous file. Errors: kOutput, kUsage.
   explicit AtomicFile(const std::string& target);

@@ -29,6 +29,8 @@ std::string reason(int error) {
       return "the disk is full";
     case EDQUOT:
       return "the disk quota is used up";
+    case EFBIG:
+      return "the file exceeds the size limit (ulimit -f)";
     case EROFS:
       return "the file system is read-only";
     case EMFILE:
@@ -130,10 +132,13 @@ File File::open_read(const std::string& path) {
   // O_NONBLOCK: opening a pipe must not block before fstat() detects it.
   const int fd =
       retry_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
+  if (fd < 0 && path.find("://") != std::string::npos)
+    fail_input(path, "is a URL, which svdag does not read: download the file first");
   if (fd < 0) fail_call(ExitCode::kBadInput, "cannot be opened", path, errno);
   File file(fd, path, ExitCode::kBadInput);
   struct stat status;
   if (::fstat(fd, &status) != 0) fail_call(ExitCode::kBadInput, "cannot be examined", path, errno);
+  if (S_ISDIR(status.st_mode)) fail_input(path, "is a folder: name a file in it");
   if (!S_ISREG(status.st_mode)) fail_input(path, "is not a regular file");
   return file;
 }

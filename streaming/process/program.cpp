@@ -35,12 +35,14 @@ int print_error(const ProgramMessages& messages, const std::exception& exception
 }
 
 // Resets what the parent process may have set: an ignored SIGCHLD, with which children cannot be
-// waited for, and a low limit of open files (a merge opens thousands of runs). Also resets what the
+// waited for, and a low limit of open files (a merge opens thousands of runs). Ignores SIGXFSZ, so
+// that a write beyond a limit on file sizes (ulimit -f) fails with a message. Also resets what the
 // initialization of a library may have set: the rounding mode, and denormals treated as zero.
 void reset_inherited_state() {
   constexpr rlim_t kOpenFiles = 65536;
   std::fesetenv(FE_DFL_ENV);
   ::signal(SIGCHLD, SIG_DFL);
+  ::signal(SIGXFSZ, SIG_IGN);
   rlimit files;
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= kOpenFiles) return;
   files.rlim_cur = std::min(files.rlim_max, kOpenFiles);

@@ -1,8 +1,9 @@
-// `bench-accuracy`: run time against error, one line of CSV per case, method and input.
+// The program of `make bench-accuracy`: run time against error, a line of CSV per case, method and
+// input.
 //
-// Time is CPU time of one thread over all cells of a case, set-up of the triangles included, the
-// least of several rounds; the rounds of all methods are interleaved, so that a busy machine slows
-// them alike. Error is counted against the judge on the same cells.
+// Time is CPU time of one thread over all cells of a case, including the set-up of the triangles:
+// the minimum of several rounds, which are interleaved between methods so that other load affects
+// all alike. Errors are counted against the judge on the same cells.
 #include <ctime>
 
 #include <algorithm>
@@ -21,8 +22,8 @@ namespace {
 constexpr int kRounds = 5;
 constexpr int kBakeRounds = 2;
 
-// The options of the command line, for profiles: `accuracy_bench [PART-OF-CASE [METHOD [ROUNDS]]]`.
-struct Wanted {
+// Command line, for profiling: `accuracy_bench [PART-OF-CASE-NAME [METHOD [ROUNDS]]]`.
+struct RunFilter {
   std::string case_part;
   std::string method;
   int rounds = kRounds;
@@ -40,7 +41,7 @@ double cpu_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-// One round of one method over the cells of a case.
+// Runs one round of one method over the cells of a case.
 Measured run_once(const Case& c, const Method& method, Input input) {
   Measured m;
   m.seconds = 0;
@@ -70,11 +71,11 @@ void print(const Case& c, const std::string& method, const char* input, const Me
   std::fflush(stdout);
 }
 
-void run_case(const Case& c, int rounds, const Wanted& wanted) {
-  if (c.name.find(wanted.case_part) == std::string::npos) return;
+void run_case(const Case& c, int rounds, const RunFilter& filter) {
+  if (c.name.find(filter.case_part) == std::string::npos) return;
   std::vector<Method> methods = make_methods(c.grid);
   std::erase_if(methods,
-                [&](const Method& m) { return !wanted.method.empty() && m.name != wanted.method; });
+                [&](const Method& m) { return !filter.method.empty() && m.name != filter.method; });
   std::vector<Measured> world(methods.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < methods.size(); ++i) {
@@ -92,20 +93,20 @@ void run_case(const Case& c, int rounds, const Wanted& wanted) {
   }
 }
 
-int run(const Wanted& wanted) {
+int run(const RunFilter& filter) {
   std::puts(
       "case,group,grid,method,input,cells,voxels,pairs,misses,extras,cpu_seconds,ns_per_pair");
 #ifndef SVDAG_HAS_CGAL
-  std::fputs("CGAL was not found when this was built: its two methods are skipped.\n", stderr);
+  std::fputs("built without CGAL: its two methods are skipped\n", stderr);
 #endif
-  for (const Case& c : family_cases()) run_case(c, wanted.rounds, wanted);
+  for (const Case& c : family_cases()) run_case(c, filter.rounds, filter);
   const char* folder = std::getenv("SVDAG_SCENES");
   if (folder == nullptr) {
-    std::fputs("SVDAG_SCENES is not set: the real scenes are skipped.\n", stderr);
+    std::fputs("SVDAG_SCENES is not set: the real scenes are skipped\n", stderr);
     return 0;
   }
-  for (const Case& c : scene_cases(folder)) run_case(c, wanted.rounds, wanted);
-  run_case(bake_case(folder), kBakeRounds, wanted);
+  for (const Case& c : scene_cases(folder)) run_case(c, filter.rounds, filter);
+  run_case(bake_case(folder), kBakeRounds, filter);
   return 0;
 }
 
@@ -113,12 +114,12 @@ int run(const Wanted& wanted) {
 }  // namespace svdag::bench
 
 int main(int count, char** arguments) {
-  svdag::bench::Wanted wanted;
-  if (count > 1) wanted.case_part = arguments[1];
-  if (count > 2) wanted.method = arguments[2];
-  if (count > 3) wanted.rounds = std::atoi(arguments[3]);
+  svdag::bench::RunFilter filter;
+  if (count > 1) filter.case_part = arguments[1];
+  if (count > 2) filter.method = arguments[2];
+  if (count > 3) filter.rounds = std::atoi(arguments[3]);
   try {
-    return svdag::bench::run(wanted);
+    return svdag::bench::run(filter);
   } catch (const svdag::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -27,7 +27,7 @@ Snapped snap_all(const Grid& grid, const std::vector<Triangle>& triangles) {
   return snapped;
 }
 
-// How far, in lattice units, a coordinate rounded to float may lie off, and a voxel more.
+// The maximum error, in lattice units, of a coordinate rounded to float, plus one voxel.
 int64_t float_margin(const Grid& grid, const std::vector<Triangle>& triangles) {
   double reach = 0;
   for (const Triangle& t : triangles) {
@@ -46,13 +46,13 @@ bool near(const LatticeTriangle& t, const LatticePoint& corner, int64_t side, in
   return true;
 }
 
-// Fills truth, pairs and voxels of `work`.
+// Computes truth, pairs and voxels of `work`.
 void judge(const Grid& grid, CellWork* work) {
   const int shift = grid.levels - work->cube.level;  // log2 of the side in voxels
   const LatticePoint low(work->cube.coordinate.x << shift, work->cube.coordinate.y << shift,
                          work->cube.coordinate.z << shift);
   const VoxelBox window{low, low + (int64_t(1) << shift)};
-  std::vector<uint64_t> codes;  // of voxels: above those of bricks, brick_bit below
+  std::vector<uint64_t> codes;  // Morton codes of voxels: brick code, then bit in the brick
   Clipper clipper;
   for (const LatticeTriangle& t : work->snapped) {
     clipper.run(t, grid.fraction(), window, [&](const CellRun& run) {
@@ -86,7 +86,7 @@ CellWork make_cell(const Grid& grid, const Cube& cube, const std::vector<Triangl
   return work;
 }
 
-// Draws triangles with probability proportional to their area, or all alike.
+// Draws triangles with probability proportional to their area, or uniformly.
 class TriangleDraw {
  public:
   TriangleDraw(const std::vector<Triangle>& triangles, Draw draw) {
@@ -108,7 +108,7 @@ class TriangleDraw {
   double total_ = 0;
 };
 
-// The cell of a random point of `t`, kept inside the grid.
+// The cell of a random point of `t`, clamped to the grid.
 Cube random_cell(const Grid& grid, const LatticeTriangle& t, Random& random) {
   double a = random.unit(), b = random.unit();
   if (a + b > 1) a = 1 - a, b = 1 - b;

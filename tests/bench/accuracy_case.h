@@ -1,9 +1,9 @@
 // A case of the accuracy bench: a scene or family, a grid, and the cells that are voxelized.
 //
-// Every method gets the same cells and, per cell, the same candidates: the triangles whose box
-// meets the cell grown by what a float coordinate of this scene may be off, so that a method that
-// moves a triangle by many voxels still sees it. The judge (verify/) decides what is right,
-// once, on the snapped triangles.
+// Every method gets the same cells and candidates. The candidates of a cell are the triangles whose
+// box meets the cell, enlarged by the rounding error of float coordinates in the scene, so that a
+// method that displaces a triangle by many voxels still gets it. The judge (verify/) decides the
+// right voxels once, on the snapped triangles.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ namespace svdag::bench {
 
 struct CellWork {
   Cube cube;
-  std::vector<Triangle> world;           // the candidates, as their file gives them
-  std::vector<LatticeTriangle> snapped;  // the same, snapped to the lattice
+  std::vector<Triangle> world;           // the candidates, as stored in the file
+  std::vector<LatticeTriangle> snapped;  // the candidates, snapped to the lattice
   BrickList truth;                       // the judge's voxels
-  uint64_t pairs = 0;                    // (triangle, voxel) that touch, by the judge
-  uint64_t voxels = 0;                   // set in truth
+  uint64_t pairs = 0;                    // touching (triangle, voxel) pairs, by the judge
+  uint64_t voxels = 0;                   // number of voxels in `truth`
 };
 
 struct Case {
@@ -32,15 +32,16 @@ struct Case {
 
 enum class Draw { kByArea, kByCount };
 
-// Chooses `count` cells of 64 voxels a side (or, of a bake, the whole grid): each holds a random
-// point of a random triangle. The same cells on every machine.
+// A case of `count` cells of 64^3 voxels, each with a random point of a random triangle. The cells
+// are the same on every machine.
 Case make_case(const std::string& name, const Grid& grid, const std::vector<Triangle>& triangles,
                int count, Draw draw);
+// A case of one cell: the whole grid.
 Case make_bake(const std::string& name, const Grid& grid, const std::vector<Triangle>& triangles);
 
-// The hard families of docs/accuracy.md, generated; no file is needed.
+// The generated families of docs/accuracy.md, which need no file.
 std::vector<Case> family_cases();
-// The real scenes of `folder`.
+// The real scenes in `folder`.
 std::vector<Case> scene_cases(const std::string& folder);
 Case bake_case(const std::string& folder);
 

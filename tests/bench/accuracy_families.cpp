@@ -1,4 +1,4 @@
-// The families and the real scenes.
+// The cases of accuracy_case.h: families and real scenes.
 #include <cmath>
 
 #include "io/float_rounding.h"
@@ -13,7 +13,7 @@ constexpr int kSceneCells = 150;
 
 struct Space {
   Grid grid;
-  bool floats;  // vertices are rounded to float, as most files hold them
+  bool floats;  // vertices are rounded to float, as in most files
 
   Point world(const Point& voxels) const {
     Point p = grid.origin + grid.voxel_size * voxels;
@@ -40,7 +40,7 @@ Point rounded(const Point& p) {
   return {std::nearbyint(p.x), std::nearbyint(p.y), std::nearbyint(p.z)};
 }
 
-// Triangles of `size` voxels, crowded into 256^3 voxels far from the grid's corner.
+// Triangles of `size` voxels within 256^3 voxels far from the grid's corner.
 template <class Shape>
 std::vector<Triangle> block(const Space& s, int count, double size, const Shape& shape) {
   Random random(1);
@@ -56,7 +56,7 @@ std::vector<Triangle> block(const Space& s, int count, double size, const Shape&
   return triangles;
 }
 
-// Across the whole grid, `aspect` times longer than wide.
+// Triangles across the whole grid, `aspect` times longer than wide.
 std::vector<Triangle> slivers(const Space& s, int count, double aspect) {
   Random random(1);
   std::vector<Triangle> triangles;
@@ -69,7 +69,7 @@ std::vector<Triangle> slivers(const Space& s, int count, double aspect) {
   return triangles;
 }
 
-// Every voxel corner near x + y + z = c is a tie.
+// Planes x + y + z = c: every voxel corner on them is a tie.
 std::vector<Triangle> corner_planes(const Space& s) {
   std::vector<Triangle> triangles;
   for (const double share : {0.61, 0.77, 0.93}) {

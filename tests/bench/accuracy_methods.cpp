@@ -13,7 +13,7 @@
 namespace svdag::bench {
 namespace {
 
-// The builder's descent without the reduction behind it: divide_list, then bricks.
+// The builder's descent without the reduction: divide_list, then bricks.
 class BuilderDescent {
  public:
   explicit BuilderDescent(const Grid& grid) : grid_(grid), lists_(size_t(grid.levels)) {}
@@ -47,7 +47,7 @@ class BuilderDescent {
   }
 
   Grid grid_;
-  DecisionCounts counts_;  // not read: the kernel counts for the report of a bake
+  DecisionCounts counts_;  // unused: the kernel counts for the report of a bake
   std::vector<std::array<TriangleList, 8>> lists_;
 };
 
@@ -56,7 +56,7 @@ LatticePoint voxel_corner(const Grid& grid, const Cube& cube) {
   return {cube.coordinate.x << shift, cube.coordinate.y << shift, cube.coordinate.z << shift};
 }
 
-// The grid in which a voxel has side 1 and the corner is zero: world units are voxels.
+// The same grid with voxel size 1 and its corner at zero: world units are voxels.
 Grid voxel_grid(Grid grid) {
   grid.kind = Grid::Kind::kBox;
   grid.origin = Point(0);
@@ -82,7 +82,7 @@ void descend(const Test& test, const std::vector<AnyTriangle>& triangles, const 
   CubeDescent<Test>(test, setups).run(voxel_corner(grid, cube), grid.levels - cube.level, out);
 }
 
-// A method on doubles, whose test is made for a grid.
+// A method on world coordinates; make_test(grid) returns its overlap test.
 template <class MakeTest>
 Method peer(const char* name, const Grid& grid, const MakeTest& make_test) {
   const auto world_test = make_test(grid), snapped_test = make_test(voxel_grid(grid));

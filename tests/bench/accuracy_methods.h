@@ -1,4 +1,4 @@
-// The methods of the accuracy bench by name.
+// The methods that the accuracy bench compares.
 #pragma once
 
 #include <functional>
@@ -13,12 +13,12 @@ enum class Input { kWorld, kSnapped };
 
 struct Method {
   std::string name;
-  bool slow;  // CGAL: run on every eighth cell only, and not on a whole bake
-  // Voxelizes one cell; the world triangles, or the snapped ones as doubles in voxel units.
+  bool slow;  // CGAL: runs only on every eighth cell, and not on whole bakes
+  // Voxelizes one cell, with the world triangles or the snapped ones (as doubles in voxel units).
   std::function<void(const CellWork&, Input, BrickList*)> run;
 };
 
-// In the order of the tables; CGAL's are missing where it was not built in.
+// The methods in the order of the tables; without CGAL, its methods are missing.
 std::vector<Method> make_methods(const Grid& grid);
 
 }  // namespace svdag::bench

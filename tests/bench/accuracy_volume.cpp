@@ -5,13 +5,14 @@
 //   solid      surface voxels (rule conservative, by the judge) and the voxels they enclose
 //   corrected  the enclosed voxels and half of the surface voxels
 //
-// A voxel that no triangle touches is inside or outside as a whole. Its column along z says which:
-// the winding number, the signed count of triangles that the column's centre line crosses below it.
-// Voxels count as often as they are wound around, as in the divergence theorem, so both volumes
-// mean the same where a mesh overlaps itself; `overlapping` says in how many voxels it does.
+// A voxel that no triangle touches is inside or outside as a whole, by its winding number: the
+// signed count of triangles that the column's centre line along z crosses below it. Voxels are
+// weighted by their winding number, as in the divergence theorem, so both volumes are comparable
+// where a mesh overlaps itself; `overlapping` is the number of such voxels.
 // Crossings are decided on the snapped integers with the centre shifted by (e, e^2), so an edge or
-// vertex under a centre line counts once. The height of a crossing is never needed more closely
-// than its voxel, which is a surface voxel. Slabs of kSlab voxels keep memory at N * kSlab columns.
+// vertex under a centre line counts once. The height of a crossing is only needed to the
+// precision of its voxel, which is a surface voxel. Slabs of kSlab voxels keep memory at N * kSlab
+// columns.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +30,7 @@ namespace {
 constexpr int64_t kSlab = 16;
 
 struct Run {
-  int64_t first, end;  // surface voxels of a column
+  int64_t first, end;  // range of surface voxels in a column
 };
 struct Crossing {
   int64_t voxel;
@@ -51,7 +52,7 @@ int edge_side(const LatticePoint& a, const LatticePoint& b, int64_t px, int64_t 
   return b.x > a.x ? 1 : -1;
 }
 
-// Where the line through (px, py) along z crosses `t`, if it does.
+// The crossing of the line through (px, py) along z with `t`, if any.
 bool find_crossing(const LatticeTriangle& t, int64_t px, int64_t py, int fraction, Crossing* at) {
   const LatticePoint p = t.v[1] - t.v[0], q = t.v[2] - t.v[0];
   const Int128 nz = Int128(p.x) * q.y - Int128(p.y) * q.x;

@@ -1,8 +1,8 @@
-// `readers_bench SCENE...`: how fast a scene's triangles are read, one line per file.
+// `readers_bench SCENE...`: measures the speed of the scene readers, a line per file.
 //
-// Time is CPU time of the process (system calls included), the least of several passes over the
-// file: once into a sink that counts, once into Scene::bounds(). The first pass warms the page
-// cache, so a file is measured, not a disk.
+// Time is CPU time of the process (including system calls), the minimum of several passes over the
+// file, into a sink that counts and into Scene::bounds(). The first pass fills the page cache, so
+// the disk is not measured.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

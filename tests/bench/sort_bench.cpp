@@ -1,9 +1,10 @@
-// `sort_bench FOLDER LOG2 ROUNDS memory|disk`: 2^LOG2 keys of 32 bytes through std::sort, STXXL and
-// our external sort, with room for all of them or for an eighth (in FOLDER); one line of CSV each.
+// `sort_bench FOLDER LOG2 ROUNDS memory|disk`: sorts 2^LOG2 keys of 32 bytes by std::sort, STXXL
+// and the external sort, with memory for all of them or for an eighth (with files in FOLDER); a
+// line of CSV each.
 //
-// Every sorter is pushed the keys one by one from an array and gives them back one by one to a
-// judge, and all that is timed. They take turns, ROUNDS times, and the least time of each counts.
-// STXXL has one kind of disk per process, a file or memory, so the two are two calls.
+// The keys are passed one by one from an array to the sorter and from the sorter to a check; all of
+// this is timed. The sorters run in turns, ROUNDS times; the result is the minimum time of each.
+// STXXL supports one kind of disk per process, a file or memory, so each kind is a separate call.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -32,18 +33,18 @@ SortCost std_sort(const Case& c) {
   std::vector<Key> room;
   room.reserve(c.keys.size());
   const StopWatch watch;
-  Judge judge;
+  SortCheck check;
   for (const Key& key : c.keys) room.push_back(key);
   std::sort(room.begin(), room.end());
-  for (const Key& key : room) judge.add(key);
+  for (const Key& key : room) check.add(key);
   SortCost cost = watch.cost();
-  cost.right = judge.content(c.digest);
+  cost.right = check.matches(c.digest);
   return cost;
 }
 
 SortCost our_sort(const Case& c) {
   const StopWatch watch;
-  Judge judge;
+  SortCheck check;
   MemoryBudget budget(c.memory);
   ParallelExecutor executor(available_processors());
   const Folder folder = Folder::open_private(c.folder);
@@ -52,18 +53,18 @@ SortCost our_sort(const Case& c) {
       {&budget, c.memory, &executor, [&] { return folder.create("sort_bench.spill"); }}, 8, word);
   for (const Key& key : c.keys) sort.push(key);
   sort.finish([&](std::span<const Key> keys) {
-    for (const Key& key : keys) judge.add(key);
+    for (const Key& key : keys) check.add(key);
   });
   SortCost cost = watch.cost();
   cost.written = sort.written_bytes();
   cost.read = sort.read_bytes();
-  cost.right = judge.content(c.digest);
+  cost.right = check.matches(c.digest);
   folder.remove("sort_bench.spill");
   return cost;
 }
 
-// In a virtual machine the first touch of memory that the host has not given yet takes longer than
-// sorting it. So as much as any of the sorters needs is touched before each, and given back.
+// In a virtual machine the first access to memory that the host has not allocated takes longer than
+// sorting it. So the memory that a sorter needs is touched and freed before each sort.
 void warm_memory(uint64_t bytes) {
   const HugePages pages(bytes);
   for (uint64_t i = 0; i < bytes; i += 4096) static_cast<volatile std::byte*>(pages.data())[i] = {};
@@ -111,7 +112,7 @@ bool run(const std::string& folder, int log2, int rounds, bool disk) {
   stxxl_disk(disk ? folder + "/stxxl" : "", bytes + (uint64_t(256) << 20));
 #endif
   for (const char* kind : {"random", "nodes"}) {
-    // In memory a run of STXXL needs four times its keys, with its parallel sort, and we twice.
+    // In memory STXXL with its parallel sort needs four times the size of the keys, svdag twice.
     Case c{folder, make_keys(kind, count), {}, disk ? bytes / 8 : 5 * bytes};
     for (const Key& key : c.keys) c.digest.add(key);
     std::vector<Sorter> sorters{{"svdag", our_sort}};

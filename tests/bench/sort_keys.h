@@ -1,4 +1,4 @@
-// What the sorters of `make bench-sort` are given, and how their answers are judged.
+// The keys of `make bench-sort`, and the check of a sorter's output.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 
 namespace svdag::bench {
 
-using Key = std::array<uint32_t, 8>;  // compared word by word, as nodes are
+using Key = std::array<uint32_t, 8>;  // compared word by word, like nodes
 
-// "random": every bit is random. "nodes": like the children of nodes, each there with probability
-// 0.55, ranks below 2^22 that differ little from those of the node before.
+// Makes keys of a kind. "random": every bit is random. "nodes": like the children of nodes: each
+// present with probability 0.55, ranks below 2^22 that differ little from those of the last node.
 std::vector<Key> make_keys(const std::string& kind, size_t count);
 
-// Of a multiset of keys, whatever their order: who loses, doubles or changes a key, changes it.
+// A hash of a multiset of keys, independent of their order: detects lost, repeated and changed
+// keys.
 struct Digest {
   uint64_t sum = 0, exclusive = 0, count = 0;
 
@@ -38,15 +39,15 @@ struct Digest {
   }
 };
 
-// Takes a sorter's output key by key.
-class Judge {
+// Checks a sorter's output, passed key by key.
+class SortCheck {
  public:
   void add(const Key& key) {
     ascending_ &= !(key < last_);
     last_ = key;
     digest_.add(key);
   }
-  bool content(const Digest& expected) const { return ascending_ && digest_ == expected; }
+  bool matches(const Digest& expected) const { return ascending_ && digest_ == expected; }
 
  private:
   Key last_{};
@@ -54,11 +55,11 @@ class Judge {
   bool ascending_ = true;
 };
 
-// What one sort took. Bytes are those that went to disk and came back.
+// The cost of one sort; `written` and `read` are bytes on disk.
 struct SortCost {
   double wall = 0, cpu = 0;
   uint64_t written = 0, read = 0;
-  bool right = false;
+  bool right = false;  // sorted, with the same keys
 };
 
 }  // namespace svdag::bench

@@ -1,4 +1,4 @@
-// Seconds of the clock and of the processors, from its making on.
+// A stop watch of wall time and CPU time of the process, in seconds since its construction.
 #pragma once
 
 #include <ctime>

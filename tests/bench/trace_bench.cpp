@@ -1,9 +1,9 @@
-// Rays per second of the processor, on one thread: trace_bench FILE.svdag [px,py,pz,tx,ty,tz]
+// `trace_bench FILE.svdag [px,py,pz,tx,ty,tz]`: rays per second of one CPU thread.
 //
 // The workloads of verify/trace/kernel/workload.h for a picture of 320 x 176 pixels, 16 rays per
-// pixel for soft shadows and ambient occlusion, which reaches a twentieth of the scene. Three ways:
-// the plain traversal, the fast one of the file, and the 64-tree's. Every answer of the fast ways
-// is compared with the plain traversal's.
+// pixel for soft shadows and ambient occlusion, whose rays are a twentieth of the scene long.
+// Three methods: the plain traversal, the fast one of the file, and that of the 64-tree. All
+// results of the fast methods are compared with those of the plain traversal.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -19,7 +19,7 @@
 namespace svdag {
 namespace {
 
-// Of this process's processor time: the machine may have other work.
+// CPU time of this process, so that other load does not count.
 double now() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -50,7 +50,7 @@ bool same_voxel(const Hit& a, const Hit& b) {
          a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
 }
 
-// Returns how many hits differ.
+// Returns the number of hits that differ.
 uint64_t measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
   const size_t n = batch->rays.size();
   std::vector<Hit> plain(n);
@@ -78,7 +78,7 @@ uint64_t measure(const DagView& dag, const Tree64View& tree, Batch* batch) {
   return different;
 }
 
-// Primary rays again, tile by tile, with the time of their beams in it.
+// Primary rays again, tile by tile; the time includes that of their beams.
 double beam_rate(const DagView& dag, const Tree64View& tree, const Picture& picture,
                  const Batch& primary, std::vector<Hit>* all) {
   std::vector<Hit>& hits = *all;
@@ -114,7 +114,7 @@ uint64_t measure_beams(const DagView& dag, const Tree64View& tree, const Picture
 }
 
 Camera camera_of(const DagFile& file, const char* text) {
-  const VoxelBounds box = occupied_bounds(file.view());
+  const VoxelBounds box = framing_bounds(file.view());
   double c[6];
   if (text == nullptr ||
       std::sscanf(text, "%lf,%lf,%lf,%lf,%lf,%lf", c, c + 1, c + 2, c + 3, c + 4, c + 5) != 6)
@@ -136,7 +136,7 @@ int run(int argc, char** argv) {
   const Tree64 tree(dag);
   std::printf("64-tree: %.1f MB of %.1f MB in %.2f s\n\n", 1e-6 * double(tree.bytes()),
               1e-6 * double(file.header().file_bytes), now() - start);
-  const VoxelBounds box = occupied_bounds(dag);
+  const VoxelBounds box = framing_bounds(dag);
   const Picture picture{camera_of(file, argc > 2 ? argv[2] : nullptr), 320, 176};
   const double diagonal = length(box.max - box.min);
   Light light{(box.min + box.max) * 0.5, 0.02 * diagonal};

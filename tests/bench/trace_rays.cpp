@@ -7,7 +7,7 @@
 namespace svdag::bench {
 namespace {
 
-// Calls visit(x, y) for all pixels, tile by tile: rays that lie together are traced together.
+// Calls visit(x, y) for all pixels, tile by tile, so that neighbouring rays are traced together.
 template <class Visit>
 void for_tiles(uint32_t width, uint32_t height, const Visit& visit) {
   for (uint32_t ty = 0; ty < height; ty += kTile) {

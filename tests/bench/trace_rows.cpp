@@ -1,10 +1,9 @@
-// MRays/s of one thread, by the DAG and by Embree on the triangles, in turns:
+// `trace_rows FILE.svdag SCENE LIGHT VIEW...`: MRays/s of one thread through the DAG and, by
+// Embree, through the triangles, as CSV.
 //
-//   trace_rows FILE.svdag SCENE LIGHT VIEW...
-//
-// LIGHT is x,y,z,r0,r1,...  VIEW is px,py,pz,tx,ty,tz,fov; both in units of the world. Prints CSV.
-// Each figure is the median of kRounds rounds, in each of which every method traces the same rays
-// once; time is the thread's processor time, so other work on the machine counts little.
+// LIGHT is x,y,z,r0,r1,...; VIEW is px,py,pz,tx,ty,tz,fov; both are in world units. Each result is
+// the median of kRounds rounds, in each of which every method traces the same rays once. Time is
+// CPU time of the thread, so that other load counts little.
 #include "tests/bench/trace_rows.h"
 
 #include <algorithm>
@@ -28,8 +27,9 @@ namespace svdag::bench {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr size_t kBundle = kTile * kTile;           // rays of one beam
-constexpr double kReaches[] = {1, 0.05};            // of ambient occlusion, of the scene's diagonal
+constexpr size_t kBundle = kTile * kTile;  // rays of one beam
+constexpr double kReaches[] = {1,
+                               0.05};  // length of ambient occlusion rays / diagonal of the scene
 constexpr double kConeSpread = 0.3167688806490681;  // 2 tan(9 degrees): 0.077 sr, the paper's cone
 
 using Method = std::function<RayRun(const RayBatch&)>;
@@ -39,7 +39,7 @@ struct Contestant {
   Method trace;
 };
 
-// As the program traces them. `tree` may be that of nothing: then by the DAG itself.
+// Traces rays as svdag-trace does: through the 64-tree, or through the DAG if `tree` is empty.
 Method in_batches(const DagView& dag, const Tree64View& tree = {}, const Cut& cut = {}) {
   return [&dag, tree, cut](const RayBatch& batch) {
     const size_t count = batch.rays.size();
@@ -59,9 +59,9 @@ Method in_batches(const DagView& dag, const Tree64View& tree = {}, const Cut& cu
   };
 }
 
-// The same, each bundle of kBundle rays within the span of its beam: a tile of pixels, or the rays
-// from one pixel to a light (which the 64-tree answers sooner than such a small beam). The rays of
-// ambient occlusion have no direction in common.
+// The same with beams: each bundle of kBundle rays within the span of its beam. A bundle is a tile
+// of pixels, or the rays from one pixel to a light (which the 64-tree traces faster without a
+// beam). Rays of ambient occlusion have no common direction.
 Method in_beams(const DagView& dag, const Tree64View& tree = {}) {
   const Method without = in_batches(dag, tree);
   return [&dag, tree, without](const RayBatch& batch) {
@@ -92,7 +92,7 @@ Method in_beams(const DagView& dag, const Tree64View& tree = {}) {
   };
 }
 
-// One by one; `trace_one(ray, span)` says whether there is a hit.
+// Traces rays one by one; `trace_one(ray, span)` returns whether there is a hit.
 template <class TraceOne>
 Method one_by_one(const TraceOne& trace_one, bool fast) {
   return [trace_one, fast](const RayBatch& batch) {
@@ -149,7 +149,7 @@ std::vector<Contestant> embree(const EmbreePeer& peer) {
           {"Embree, stream coherent", with(Way::kStream, true)}};
 }
 
-// All our ways but the cone's give the same answers, or there is nothing to compare.
+// Fails unless all methods of svdag except for the cone give the same hits.
 void require_same_hits(const RayBatch& batch, const std::vector<Contestant>& contestants,
                        const std::vector<uint64_t>& hits) {
   std::set<uint64_t> exact;
@@ -158,7 +158,7 @@ void require_same_hits(const RayBatch& batch, const std::vector<Contestant>& con
     if (name.starts_with("svdag") && name != "svdag, cut") exact.insert(hits[i]);
   }
   if (exact.size() > 1)
-    throw Error(ExitCode::kDiffers, batch.name + ": the ways to trace them give other hits");
+    throw Error(ExitCode::kDiffers, batch.name + ": the methods give different hits");
 }
 
 void measure(const RayBatch& batch, const std::vector<Contestant>& contestants) {
@@ -239,7 +239,7 @@ int run(int argc, char** argv) {
   const Vec3 middle{{half, half, half}};
   const std::vector<FloatTriangle> triangles = load(argv[2], file.grid(), middle);
   const EmbreePeer peer(triangles);
-  const ViewConfig config = views(file.grid(), occupied_bounds(dag), argv + 3, argv + argc);
+  const ViewConfig config = views(file.grid(), framing_bounds(dag), argv + 3, argv + argc);
   const Tree64 tree(dag);
   const RelaidDag as_in_file(dag, RelaidDag::Layout::kAsInFile);
   const RelaidDag levels(dag, RelaidDag::Layout::kDepthFirst);

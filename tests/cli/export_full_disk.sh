@@ -2,7 +2,6 @@
 svdag-scene city -n 3K -q -o a.ply
 svdag build a.ply -r 256 -o a.svdag -q
 echo old > a.vdb
-trap '' XFSZ
 ulimit -f 8
 svdag export a.svdag -o a.nvdb || echo "exit $?"
 code=0

@@ -7,8 +7,8 @@ svdag build tiny.obj -r 64 -o box.svdag -q
 svdag build far.obj -s 0.0003 -o far.svdag -q
 svdag build far.obj -r 64 -o farbox.svdag -q
 for name in tiny box far farbox; do
-  for type in "" --bool; do
-    svdag export $name.svdag -o $name.vdb -q $type
+  for type in bool mask; do
+    svdag export $name.svdag -o $name.vdb -q --vdb-type $type
     svdag import $name.vdb -o back.svdag -q
     grid_of $name.svdag > before
     grid_of back.svdag > after

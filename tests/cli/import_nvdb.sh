@@ -7,6 +7,6 @@ svdag import a.nvdb -o b.svdag || echo "exit $?"
 svdag-verify vdb a.svdag a.nvdb || echo "exit $?"
 svdag import a.vdb -o b.svdag --iso=0,1 || echo "exit $?"
 svdag-verify vdb a.svdag a.vdb --iso=0,1 || echo "exit $?"
-svdag export a.svdag -o b.nvdb --bool || echo "exit $?"
-svdag export a.svdag -o b.npz --bool || echo "exit $?"
+svdag export a.svdag -o b.nvdb --vdb-type mask || echo "exit $?"
+svdag export a.svdag -o b.npz --vdb-type bool || echo "exit $?"
 ls

@@ -1,4 +1,4 @@
-# A shard is baked as its plan says: options that it would ignore are rejected.
+# The plan of a shard sets most options: those that the shard would ignore are rejected.
 svdag-scene speck -n 100 -q -o s.ply
 svdag plan s.ply -r 64 --shards 2 -o p -q
 for options in '-r 64' '-s 0.1' '--rule thin' '--bounds 0,0,0,1,1,1' '--include x' '--exclude x' '--skip-invalid' \

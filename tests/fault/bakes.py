@@ -1,8 +1,8 @@
-"""What the fault tests share: small bakes, the folder of one run, what may be left in it, the summary.
+"""Shared parts of the fault tests: small bakes, the folder of a run, the files that may remain in it, the summary.
 
-    NAME_test.py BUILD [--long]      BUILD: folder of the built programs; SVDAG_LONG=1 is --long
+    NAME_test.py BUILD [--long]      BUILD: folder of the built programs; SVDAG_LONG=1 is the same as --long
 
-Constants in capitals hold what the program promises; a test is made stricter by changing one of them.
+Constants are the guarantees of the program; change one to make a test stricter.
 """
 import os
 import pathlib
@@ -19,18 +19,18 @@ SHIM = BUILD / "tests/libsvdag_fault_shim.so"
 LONG = "--long" in sys.argv or os.environ.get("SVDAG_LONG") == "1"
 
 OUTPUT = "out.svdag"
-SCRATCH = OUTPUT + ".scratch"  # a bake's own folder beside the output
-SHARED_SCRATCH = "scratch"  # the folder of bakes whose options say --scratch scratch
+SCRATCH = OUTPUT + ".scratch"  # the default scratch folder of a bake
+SHARED_SCRATCH = "scratch"  # the parent of scratch folders, for bakes with --scratch scratch
 OF_SCRATCH = rf"{re.escape(SCRATCH)}|{SHARED_SCRATCH}/[^/]+"
-# What a process that was killed may leave: its scratch folder, and the name that a finished file has between
-# linkat and rename (from the start, where O_TMPFILE is missing).
+# Files that a killed process may leave: its scratch folder, and the temporary name of the output between linkat and
+# rename (from the start, where O_TMPFILE is missing).
 LEFT_BY_KILL = [OF_SCRATCH, r"\.svdag-[0-9a-f]{16}\.tmp"]
 
 
 class Bake(NamedTuple):
-    """A scene of svdag-scene and the options of its bake (here go --memory small, --scratch DIR).
+    """A scene of svdag-scene and the options of its bake, such as a small --memory or --scratch DIR.
 
-    With parts, it is the merge of their runs that is disturbed; `grid` is how those are baked.
+    With `parts`, the tested command is the merge of their runs, which are baked with the options `grid`.
     """
     name: str
     scene: list
@@ -46,7 +46,7 @@ class Bake(NamedTuple):
                 *self.options, *more]
 
 
-# Small enough that every call can fail once; the second has triangles, runs and maps to spill.
+# Small enough that every call can fail once; the second spills triangles, runs and maps.
 SMALL = [Bake("small", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "2"]),
          Bake("spilling", ["hairball", "-n", "5K"], ["-r", "256", "-m", "3M", "-j", "1", "--scratch", SHARED_SCRATCH]),
          Bake("merge", ["hairball", "-n", "2K"], ["-m", "1M", "-j", "1"], 3, ["-r", "128"])]
@@ -54,23 +54,23 @@ SMALL_LONG = SMALL + [
     Bake("one thread", ["hairball", "-n", "2K"], ["-r", "128", "-m", "256M", "-j", "1"]),
     Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
     Bake("hairball", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "16M", "-j", "2"])]
-# Small, and yet it spills triangles and runs and saves both for --resume.
+# Small, but it spills triangles and runs and saves both for --resume.
 SAVING = Bake("saving", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "8M", "-j", "2", "--checkpoint", "0.001"])
-# Long enough to be caught in the middle, and with work to resume.
+# Long enough to be interrupted, with work to resume.
 HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "32M", "-j", "2"])
 A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2", "--checkpoint", "0.1"])
 SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "128M", "-j", "2"])
 
 
-class Kitchen:
-    """A scene, an old file and the bytes that an undisturbed bake gives; copies of it are where bakes run."""
+class BakeFixture:
+    """A scene, an old output and the bytes of an undisturbed bake; each test runs in a copy of its folder."""
 
     def __init__(self, bake):
         self.bake = bake
         self.folder = tempfile.TemporaryDirectory(prefix="svdag-fault-")
         self.root = pathlib.Path(self.folder.name).resolve()
         self.scene = self.root / "scene.ply"
-        self.lay(self.root)
+        self.make_scratch(self.root)
         subprocess.run([BUILD / "svdag-scene", *bake.scene, "-q", "-o", self.scene], check=True)
         for i, run in enumerate(bake.inputs() if bake.parts else (), 1):
             subprocess.run([BUILD / "svdag", "build", "scene.ply", "-o", run, "-q", *bake.grid, "--part",
@@ -91,22 +91,22 @@ class Kitchen:
         (self.root / OUTPUT).unlink()
         return data
 
-    def lay(self, folder):
-        """The folder that the options name."""
+    def make_scratch(self, folder):
+        """Creates the folder of --scratch, if the options have it."""
         if "--scratch" in self.bake.options:
             (folder / self.bake.options[self.bake.options.index("--scratch") + 1]).mkdir()
 
-    def table(self):
-        """A fresh folder with the scene, or the runs, and the old file."""
+    def new_folder(self):
+        """A new folder with the scene, or the runs, and the old output."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="table-", dir=self.root))
         for name in self.bake.inputs():
             shutil.copy(self.root / name, folder)
-        self.lay(folder)
+        self.make_scratch(folder)
         (folder / OUTPUT).write_bytes(self.old)
         return folder
 
     def state(self, folder, output=OUTPUT):
-        """What the output name holds: "old", "new", or what is wrong with it."""
+        """The state of the output: "old", "new", "nothing" or "a damaged file"."""
         path = folder / output
         data = path.read_bytes() if path.exists() else None
         return "nothing" if data is None else {self.old: "old", self.new: "new"}.get(data, "a damaged file")
@@ -117,40 +117,40 @@ def is_input(path):
 
 
 def others(folder):
-    """Names of what is neither input nor output; for the shared scratch folder, of what is in it."""
+    """The names of all other files than inputs and output, and of the files in the shared scratch folder."""
     names = {p.name for p in folder.iterdir() if not is_input(p)} - {OUTPUT, SHARED_SCRATCH}
     shared = folder / SHARED_SCRATCH
     return sorted(names | {f"{SHARED_SCRATCH}/{p.name}" for p in (shared.iterdir() if shared.exists() else ())})
 
 
 def leftovers(folder, allowed=()):
-    """Complaints about files that should not be there."""
-    return [f"{name} was left" for name in others(folder) if not any(re.fullmatch(a, name) for a in allowed)]
+    """Failures: files that should not remain."""
+    return [f"{name} remains" for name in others(folder) if not any(re.fullmatch(a, name) for a in allowed)]
 
 
-def scratch_left(folder):
-    """Complaints about scratch folders that outlived a finished bake."""
-    return [f"{name} outlived the bake" for name in others(folder) if re.fullmatch(OF_SCRATCH, name)]
+def remaining_scratch(folder):
+    """Failures: scratch folders that remain after a finished bake."""
+    return [f"{name} remains after the bake" for name in others(folder) if re.fullmatch(OF_SCRATCH, name)]
 
 
-def sentences(stderr):
-    """Complaints unless `stderr` is one sentence of the program."""
+def check_message(stderr):
+    """A failure unless `stderr` is one message of one line."""
     if re.fullmatch(r"svdag: [^\n]+\n", stderr) and not re.search("internal error|report this", stderr):
         return []
-    return [f"said {stderr!r}, not one sentence"]
+    return [f"printed {stderr!r}, not one message"]
 
 
 class Report:
-    """Counts and the last line that run_tests.py reads."""
+    """Counts the results and prints the summary line that run_tests.py reads."""
 
     def __init__(self):
         self.passed = self.failed = self.skipped = 0
 
-    def judge(self, name, complaints):
-        self.passed += not complaints
-        self.failed += bool(complaints)
-        if complaints:
-            print(f"FAILED {name}: {'; '.join(complaints)}", flush=True)
+    def record(self, name, failures):
+        self.passed += not failures
+        self.failed += bool(failures)
+        if failures:
+            print(f"FAILED {name}: {'; '.join(failures)}", flush=True)
 
     def skip(self, reason):
         self.skipped += 1

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""A plan on a file server, its scratch on a local disk: what NFS says and local disks do not, and the right verdict.
+"""Tests a plan on a simulated NFS server, with scratch on a local disk, against the behaviour of NFS.
 
-No O_TMPFILE; folders that cannot be synced; a rename that is done, sent again, and then said to have failed; no locks,
-or such as need a file that is open for writing; files that the server has replaced (ESTALE), a server that does not
-answer (ETIMEDOUT).
+No O_TMPFILE; fsync of folders fails; a rename succeeds, is sent again, and returns an error; no locks, or locks that
+need a file open for writing; files replaced on the server (ESTALE); a server that does not respond (ETIMEDOUT).
 """
 import errno
 import fcntl
@@ -23,7 +22,7 @@ STEPS = [["build", "--shard", "1"], ["build", "--shard", "2"], ["merge", "--step
 
 
 class Farm:
-    """A plan of two shards in `served`, whose every call counts, and a folder for scratch that is local."""
+    """A plan of two shards in the folder `served`, whose calls can fail, and a scratch folder `local`."""
 
     def __init__(self, root):
         self.served, self.local = root / "served", root / "local"
@@ -43,68 +42,68 @@ class Farm:
         scratch = ["--scratch", self.local] if local_scratch else []
         return shim.run(bakes.SHIM, [SVDAG, step[0], "plan", *step[1:], "-q", "-m", "3M", *scratch], self.served, fault)
 
-    def complaints(self, fault):
-        """All steps with the fault: each must be done, and the file be that of one bake."""
+    def failures(self, fault):
+        """Failures of all steps with the fault: each must succeed, and the output equal that of one bake."""
         self.clear()
         found = []
         for step in STEPS:
             outcome = self.step(step, fault)
             if outcome.code != 0:
                 found.append(f"{step}: exit {outcome.code}, {outcome.stderr!r}")
-        return found + self.complaints_about_file()
+        return found + self.failures_of_output()
 
-    def complaints_about_file(self):
+    def failures_of_output(self):
         output = self.served / "plan" / "scene.svdag"
         same = output.exists() and output.read_bytes() == self.bytes
         left = [p.name for p in (self.served / "plan" / "runs").iterdir() if p.suffix not in (".run", ".json")]
-        return ([] if same else ["not the bytes of one bake"]) + [f"{name} was left" for name in left]
+        return ([] if same else ["the bytes differ from those of one bake"]) + [f"{name} remains" for name in left]
 
 
-def judge_oddities(report, farm):
-    report.judge("no O_TMPFILE", farm.complaints(Fault(no_tmpfile=True)))
+def check_oddities(report, farm):
+    report.record("no O_TMPFILE", farm.failures(Fault(no_tmpfile=True)))
     for error in (errno.EINVAL, errno.EOPNOTSUPP):
-        report.judge(f"no fsync of folders: {errno.errorcode[error]}", farm.complaints(Fault(folder_sync=error)))
-    report.judge("renames sent twice", farm.complaints(Fault(no_tmpfile=True, rename_twice=True)))
+        report.record(f"no fsync of folders: {errno.errorcode[error]}", farm.failures(Fault(folder_sync=error)))
+    report.record("renames sent twice", farm.failures(Fault(no_tmpfile=True, rename_twice=True)))
 
 
-def judge_locks(report, farm):
-    none = Fault("lock", 1, str(errno.ENOLCK), True)
-    report.judge("no locks, local scratch", farm.complaints(none))
+def check_locks(report, farm):
+    no_locks = Fault("lock", 1, str(errno.ENOLCK), True)
+    report.record("no locks, local scratch", farm.failures(no_locks))
     farm.clear()
-    outcome = farm.step(STEPS[0], none, local_scratch=False)
-    said = [] if outcome.code == 4 and "--scratch" in outcome.stderr else [f"exit {outcome.code}, {outcome.stderr!r}"]
-    report.judge("no locks, scratch on the server", said + bakes.sentences(outcome.stderr))
+    outcome = farm.step(STEPS[0], no_locks, local_scratch=False)
+    output = [] if outcome.code == 4 and "--scratch" in outcome.stderr else [f"exit {outcome.code}, {outcome.stderr!r}"]
+    report.record("no locks, scratch on the server", output + bakes.check_message(outcome.stderr))
 
 
-def judge_range_locks(report, farm):
-    """Scratch on the server, a step that another process does: no process of ours begins it meanwhile."""
+def check_range_locks(report, farm):
+    """Scratch on the server: a step that another process runs is not started a second time."""
     farm.clear()
     runs = farm.served / "plan" / "runs"
     scratch = runs / "shard-1.run.scratch"
     scratch.mkdir(mode=0o700)
     with open(scratch / "owner", "w") as owner:
         fcntl.flock(owner, fcntl.LOCK_EX)
-        ours = threading.Thread(target=give_back_after, args=(owner, runs / "shard-2.json"))
-        ours.start()
+        holder = threading.Thread(target=unlock_after, args=(owner, runs / "shard-2.json"))
+        holder.start()
         outcome = shim.run(bakes.SHIM, [SVDAG, "run", "plan", "-j", "1", "-q"], farm.served, Fault(range_locks=True))
-        ours.join()
+        holder.join()
     found = [] if outcome.code == 0 else [f"exit {outcome.code}, {outcome.stderr!r}"]
-    said = (farm.served / "plan" / "logs" / "shard-1.log").read_text()
-    report.judge("locks as of NFS", found + [said] * (said != "") + farm.complaints_about_file())
+    output = (farm.served / "plan" / "logs" / "shard-1.log").read_text()
+    report.record("locks of NFS", found + [output] * (output != "") + farm.failures_of_output())
 
 
-def give_back_after(lock, receipt):
-    """What another process does, until the receipt is there."""
-    patience = time.monotonic() + 60
-    while not receipt.exists() and time.monotonic() < patience:
+def unlock_after(lock, receipt):
+    """Simulates the other process: holds the lock until the receipt exists."""
+    deadline = time.monotonic() + 60
+    while not receipt.exists() and time.monotonic() < deadline:
         time.sleep(0.02)
     fcntl.flock(lock, fcntl.LOCK_UN)
 
 
-def judge_losses(report, farm):
-    """Each open and read of the server's files fails once: exit 4, and the step done again gives the file."""
+def check_lost_calls(report, farm):
+    """Each open and read of the served files fails once: exit code 4, and repeating the step gives the file."""
     fired = 0
-    farm.complaints(Fault())
+    farm.failures(Fault())
     for number, step in enumerate(STEPS):
         farm.clear()
         for before in STEPS[:number]:
@@ -121,25 +120,25 @@ def judge_losses(report, farm):
                 fired += bool(outcome.fired)
                 found = [] if outcome.code in (0, 4) else [f"exit {outcome.code}, {outcome.stderr!r}"]
                 if outcome.code == 4:
-                    found += bakes.sentences(outcome.stderr)
+                    found += bakes.check_message(outcome.stderr)
                     again = farm.step(step, Fault())
                     found += [f"again: exit {again.code}, {again.stderr!r}"] * (again.code != 0)
-                found += ["other bytes"] * (not output.exists() or output.read_bytes() != expected)
-                report.judge(f"{step}: {kind} {k} says {errno.errorcode[error]}", found)
+                found += ["the bytes differ"] * (not output.exists() or output.read_bytes() != expected)
+                report.record(f"{step}: {kind} {k} returns {errno.errorcode[error]}", found)
         farm.step(step, Fault())
-    report.judge("after all that", farm.complaints_about_file())
-    report.judge("faults fire", ["none did"] * (fired == 0))
-    print(f"{fired} calls were answered as by a file server in trouble")
+    report.record("the output after all faults", farm.failures_of_output())
+    report.record("faults fire", ["none fired"] * (fired == 0))
+    print(f"{fired} calls failed")
 
 
 def main():
     report = bakes.Report()
     with tempfile.TemporaryDirectory(prefix="svdag-fault-") as folder:
         farm = Farm(pathlib.Path(folder).resolve())
-        judge_oddities(report, farm)
-        judge_locks(report, farm)
-        judge_range_locks(report, farm)
-        judge_losses(report, farm)
+        check_oddities(report, farm)
+        check_locks(report, farm)
+        check_range_locks(report, farm)
+        check_lost_calls(report, farm)
     report.finish()
 
 

@@ -1,5 +1,5 @@
-// What a library of another project may do to a program that loads it, for LD_PRELOAD: numbers
-// next to zero are taken for zero (gcc's -ffast-math does that), and sums are rounded up.
+// A library for LD_PRELOAD that changes the floating-point modes, as other libraries may do:
+// flushes denormals to zero (like gcc's -ffast-math) and rounds up.
 #include <cfenv>
 
 #if defined(__x86_64__)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A library that changes how the processor rounds, and drops denormals, changes no byte of a bake and no verdict."""
+"""Tests that a library that sets another rounding mode and flushes denormals does not affect bakes and verdicts."""
 import os
 import pathlib
 import random
@@ -9,7 +9,7 @@ import tempfile
 import bakes
 
 MODIFIED = dict(os.environ, LD_PRELOAD=str(bakes.BUILD / "tests/libsvdag_float_modes.so"))
-SCENES = {"denormals": 2e-306, "ordinary": 7.3}  # their size; a voxel of the first is a normal number, just so
+SCENES = {"denormals": 2e-306, "ordinary": 7.3}  # their sizes; the voxel size of the first is barely a normal number
 
 
 def write_scene(path, size):
@@ -18,8 +18,8 @@ def write_scene(path, size):
     path.write_text("".join(lines) + "".join(f"f {i} {i + 1} {i + 2}\n" for i in range(1, 120, 3)))
 
 
-def answer(folder, environment, output, scene):
-    """What is baked of the scene, and what the judge says of it."""
+def bake_and_verify(folder, environment, output, scene):
+    """(the bytes of the bake, the messages of the commands)"""
     def run(program, *words):
         done = subprocess.run([bakes.BUILD / program, *words], cwd=folder, env=environment, capture_output=True, text=True)
         return f"{program} {words[0]}: exit {done.returncode} {done.stdout}{done.stderr}".replace(output, "OUTPUT")
@@ -34,11 +34,11 @@ def main():
         folder = pathlib.Path(name).resolve()
         for scene, size in SCENES.items():
             write_scene(folder / f"{scene}.obj", size)
-            data, texts = answer(folder, os.environ, "plain.svdag", f"{scene}.obj")
-            report.judge(f"{scene}: as it is", [text for text in texts if "exit 0" not in text])
-            modified, said = answer(folder, MODIFIED, "modified.svdag", f"{scene}.obj")
-            report.judge(f"{scene}: other modes", ["other bytes"] * (modified != data) +
-                         [f"{b!r} instead of {a!r}" for a, b in zip(texts, said) if a != b])
+            data, texts = bake_and_verify(folder, os.environ, "plain.svdag", f"{scene}.obj")
+            report.record(f"{scene}: default modes", [text for text in texts if "exit 0" not in text])
+            modified, modified_texts = bake_and_verify(folder, MODIFIED, "modified.svdag", f"{scene}.obj")
+            report.record(f"{scene}: other modes", ["the bytes differ"] * (modified != data) +
+                         [f"{b!r} instead of {a!r}" for a, b in zip(texts, modified_texts) if a != b])
     report.finish()
 
 

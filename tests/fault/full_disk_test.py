@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A disk that is too small, of many sizes: exit 4, one sentence, and the old file alone is left.
+"""Tests full disks of many sizes: exit code 4, one message, and only the old file remains.
 
-The disks are tmpfs in a mount namespace of this test, which vanishes with it.
+The disks are tmpfs mounts in a mount namespace of this test, which ends with it.
 """
 import contextlib
 import os
@@ -21,11 +21,11 @@ UNSHARED = "SVDAG_TEST_UNSHARED"
 
 
 class Case(NamedTuple):
-    """The files on the small disk, which is the folder `disk` beside the scene."""
+    """A bake with some of its files on the small disk, the folder `disk` beside the scene."""
     name: str
     bake: bakes.Bake
     output: str
-    exact: bool  # a disk that is smaller than the old and the new file together never suffices
+    exact: bool  # a disk smaller than the old and the new file together is never enough
 
 
 CASES = [Case("output", bakes.Bake("city", ["city", "-n", "60K"], ["-r", "1K", "-m", "256M", "-j", "2"]),
@@ -35,7 +35,7 @@ CASES = [Case("output", bakes.Bake("city", ["city", "-n", "60K"], ["-r", "1K", "
 
 
 def in_own_namespace():
-    """Starts this test once more in a mount namespace of its own; the reason if that is not allowed."""
+    """Restarts this test in its own mount namespace; returns the reason if that is not possible."""
     if os.environ.get(UNSHARED) == "1":
         return None
     unshare = ["unshare", "-m" if os.geteuid() == 0 else "-rm", "--propagation", "private"]
@@ -45,14 +45,14 @@ def in_own_namespace():
     except OSError as error:
         return f"unshare: {error.strerror}"
     if tried.returncode != 0:
-        return f"no mounts are allowed here: {tried.stderr.strip()}"
+        return f"cannot mount: {tried.stderr.strip()}"
     os.execvpe(unshare[0], [*unshare, sys.executable, "-B", *sys.argv], dict(os.environ, **{UNSHARED: "1"}))
 
 
 @contextlib.contextmanager
-def small_disk(kitchen, case, size):
-    """A folder as Kitchen.table(), with `disk` of `size` bytes."""
-    folder = kitchen.table()
+def small_disk(fixture, case, size):
+    """A folder as of BakeFixture.new_folder(), with a `disk` of `size` bytes."""
+    folder = fixture.new_folder()
     (folder / "disk").mkdir(exist_ok=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", folder / "disk"], check=True)
     try:
@@ -64,9 +64,9 @@ def small_disk(kitchen, case, size):
         shutil.rmtree(folder)
 
 
-def peak_use(kitchen, case):
-    """Bytes that the bake uses on an ample disk at most, as far as polling sees."""
-    with small_disk(kitchen, case, AMPLE) as folder:
+def peak_use(fixture, case):
+    """Peak bytes that the bake uses on an ample disk, measured by polling."""
+    with small_disk(fixture, case, AMPLE) as folder:
         program = subprocess.Popen(case.bake.command(output=case.output), cwd=folder)
         peak, tick = 0, threading.Event()
         while program.poll() is None:
@@ -87,34 +87,34 @@ def pages(data):
 
 def leftovers(case, folder):
     names = {p.name for p in (folder / "disk").iterdir()} - {pathlib.Path(case.output).name}
-    return [f"disk/{name} was left" for name in sorted(names)] + \
-           [c for c in bakes.leftovers(folder) if c != "disk was left"]
+    return [f"disk/{name} remains" for name in sorted(names)] + \
+           [c for c in bakes.leftovers(folder) if c != "disk remains"]
 
 
-def complaints_about(kitchen, case, size, must_fail):
-    with small_disk(kitchen, case, size) as folder:
+def failures_of(fixture, case, size, must_fail):
+    with small_disk(fixture, case, size) as folder:
         done = subprocess.run(case.bake.command(output=case.output), cwd=folder, capture_output=True, text=True)
-        state, found = kitchen.state(folder, case.output), leftovers(case, folder)
+        state, found = fixture.state(folder, case.output), leftovers(case, folder)
     if done.returncode == 0 and not must_fail:
         return found + (["exit 0, but no new file"] if state != "new" else [])
     if done.returncode != 4:
         found.append(f"exit {done.returncode}, {done.stderr!r}")
     if not any(word in done.stderr for word in ("full", "free", "space")):
-        found.append(f"does not speak of the disk: {done.stderr!r}")
-    return found + bakes.sentences(done.stderr) + (["the old file is gone"] if state != "old" else [])
+        found.append(f"the message does not mention the disk: {done.stderr!r}")
+    return found + bakes.check_message(done.stderr) + (["the old file is gone"] if state != "old" else [])
 
 
 def run_case(report, case):
-    with bakes.Kitchen(case.bake) as kitchen:
-        old, both = pages(kitchen.old), pages(kitchen.old) + pages(kitchen.new)
-        need = max(peak_use(kitchen, case), both if case.exact else 0)
+    with bakes.BakeFixture(case.bake) as fixture:
+        old, both = pages(fixture.old), pages(fixture.old) + pages(fixture.new)
+        need = max(peak_use(fixture, case), both if case.exact else 0)
         low = old if case.exact else 0
         sizes = sorted({low + (need - low) * i // SIZES // PAGE * PAGE for i in range(SIZES)} - {0})
         for size in sizes:
-            report.judge(f"{case.name}: disk of {size} bytes",
-                         complaints_about(kitchen, case, size, case.exact and size < both))
-        report.judge(f"{case.name}: an ample disk", complaints_about(kitchen, case, 2 * need, False))
-        print(f"{case.name}: {len(sizes)} sizes from {sizes[0]} to {sizes[-1]} bytes, {need} are needed")
+            report.record(f"{case.name}: disk of {size} bytes",
+                         failures_of(fixture, case, size, case.exact and size < both))
+        report.record(f"{case.name}: an ample disk", failures_of(fixture, case, 2 * need, False))
+        print(f"{case.name}: {len(sizes)} sizes from {sizes[0]} to {sizes[-1]} bytes, {need} needed")
 
 
 def main():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""kill -9 at any moment, some bakes killed again while they resume: --resume gives the same bytes.
+"""Tests that a bake killed by SIGKILL at a random moment can be resumed to the same bytes, even if killed twice.
 
-Without --resume, a bake that can be resumed is a sentence and exit 2; --restart begins again.
+Without --resume, an unfinished bake gives one message and exit code 2; --restart begins again.
 """
 import shutil
 import signal
@@ -10,52 +10,52 @@ import subprocess
 import bakes
 from moments import Moments, hit, time_of
 
-DOUBLE = 5  # every fifth bake is killed once more while it resumes
-# Bakes, and how many of each are killed. One that has something to resume has so little memory that it spills.
+DOUBLE = 5  # every fifth bake is killed again while it resumes
+# Bakes, and the number of kills of each. Their memory is so small that they spill and have work to resume.
 BAKES = [(bakes.A_SECOND, 900), (bakes.SECONDS, 100)] if bakes.LONG else [(bakes.HALF_A_SECOND, 10)]
 
 
-def run(kitchen, folder, *more):
-    return subprocess.run(kitchen.bake.command(*more), cwd=folder, capture_output=True, text=True)
+def run(fixture, folder, *more):
+    return subprocess.run(fixture.bake.command(*more), cwd=folder, capture_output=True, text=True)
 
 
-def complaints_about_the_end(kitchen, folder, done):
+def failures_of_end(fixture, folder, done):
     found = [] if done.returncode == 0 else [f"exit {done.returncode}, {done.stderr!r}"]
-    if kitchen.state(folder) != "new":
-        found.append(f"the output is {kitchen.state(folder)}")
-    return found + bakes.scratch_left(folder) + bakes.leftovers(folder, bakes.LEFT_BY_KILL)
+    if fixture.state(folder) != "new":
+        found.append(f"the output is {fixture.state(folder)}")
+    return found + bakes.remaining_scratch(folder) + bakes.leftovers(folder, bakes.LEFT_BY_KILL)
 
 
-def complaints_without_resume(kitchen, folder):
-    """What is left is either taken over silently, for there is nothing to resume, or spoken of."""
-    before = kitchen.state(folder)
-    done = run(kitchen, folder)
+def failures_without_resume(fixture, folder):
+    """Failures of a bake without --resume: it succeeds if there is no work to resume, else it reports the options."""
+    before = fixture.state(folder)
+    done = run(fixture, folder)
     if done.returncode == 0:
-        return [f"without --resume: the output is {kitchen.state(folder)}"] * (kitchen.state(folder) != "new")
+        return [f"without --resume: the output is {fixture.state(folder)}"] * (fixture.state(folder) != "new")
     found = [] if done.returncode == 2 else [f"without --resume: exit {done.returncode}"]
-    found += bakes.sentences(done.stderr)
-    found += [f"does not tell of {name}: {done.stderr!r}" for name in ("--resume", "--restart")
+    found += bakes.check_message(done.stderr)
+    found += [f"the message does not mention {name}: {done.stderr!r}" for name in ("--resume", "--restart")
               if name not in done.stderr]
-    return found + (["the output changed"] if kitchen.state(folder) != before else [])
+    return found + (["the output changed"] if fixture.state(folder) != before else [])
 
 
-def kill_and_resume(kitchen, moments, n):
-    folder = kitchen.table()
+def kill_and_resume(fixture, moments, n):
+    folder = fixture.new_folder()
     times = [moments.next() for _ in range(2 if n % DOUBLE == 0 else 1)]
     found, killed = [], 0
     for i, moment in enumerate(times):
-        ending = hit(kitchen.bake.command(*["--resume"] * (i > 0)), folder, moment, [signal.SIGKILL])
+        ending = hit(fixture.bake.command(*["--resume"] * (i > 0)), folder, moment, [signal.SIGKILL])
         killed += ending.code != 0
         if i == 0:
             moments.learn(ending)
         if ending.code not in (0, -signal.SIGKILL):
             found.append(f"exit {ending.code}, {ending.stderr!r}")
-        if kitchen.state(folder) not in ("old", "new"):
-            found.append(f"the output is {kitchen.state(folder)}")
+        if fixture.state(folder) not in ("old", "new"):
+            found.append(f"the output is {fixture.state(folder)}")
     if n % 3 == 0:
-        found += complaints_without_resume(kitchen, folder)
-    done = run(kitchen, folder, "--restart" if n % 10 == 9 else "--resume")
-    found += complaints_about_the_end(kitchen, folder, done)
+        found += failures_without_resume(fixture, folder)
+    done = run(fixture, folder, "--restart" if n % 10 == 9 else "--resume")
+    found += failures_of_end(fixture, folder, done)
     shutil.rmtree(folder)
     return f"killed after {', '.join(f'{t:.3f}' for t in times)} s", found, killed
 
@@ -63,16 +63,16 @@ def kill_and_resume(kitchen, moments, n):
 def main():
     report = bakes.Report()
     for bake, runs in BAKES:
-        with bakes.Kitchen(bake) as kitchen:
-            folder = kitchen.table()
-            moments = Moments(time_of(kitchen.bake.command("--resume"), folder))  # nothing to resume: as a new bake
-            report.judge(f"{bake.name}: --resume begins afresh", ["other bytes"] * (kitchen.state(folder) != "new"))
+        with bakes.BakeFixture(bake) as fixture:
+            folder = fixture.new_folder()
+            moments = Moments(time_of(fixture.bake.command("--resume"), folder))  # there is nothing to resume yet
+            report.record(f"{bake.name}: --resume without an unfinished bake", ["the bytes differ"] * (fixture.state(folder) != "new"))
             killed = 0
             for n in range(runs):
-                name, complaints, kills = kill_and_resume(kitchen, moments, n)
-                report.judge(f"{bake.name}: {name}", complaints)
+                name, failures, kills = kill_and_resume(fixture, moments, n)
+                report.record(f"{bake.name}: {name}", failures)
                 killed += kills
-            report.judge(f"{bake.name}: kills come in time", [f"only {killed}"] * (4 * killed < runs))
+            report.record(f"{bake.name}: kills come in time", [f"only {killed}"] * (4 * killed < runs))
             print(f"{bake.name}: {killed} kills in {moments.seconds:.1f} s bakes, seed {moments.seed}")
     report.finish()
 

@@ -1,13 +1,13 @@
-// A log of all that changes the watched folders, in the order in which it happened; replay.py
-// builds from it what a disk may hold after a power cut.
+// The log of all changes to the watched folders, in order; replay.py derives from it the possible
+// states of the disk after a power cut.
 //
-//   SVDAG_FAULT_LOG   a file: gets a line "WHAT INODE OFFSET SIZE PATH" per operation; OFFSET is
-//   that of
-//                     a write (whose SIZE bytes follow the line) or the size that a truncate gave
+//   SVDAG_FAULT_LOG   path of the log: a line "WHAT INODE OFFSET SIZE PATH" per operation.
 //
+// OFFSET is that of a write (whose SIZE bytes follow the line) or the size of a truncate.
 // WHAT is make (anonymous), open (for writing), write, truncate, link, rename (from INODE's name to
-// PATH), unlink, mkdir, rmdir, sync, syncdir, or other: what replay.py does not know how to follow.
-// Operation and line are one step for all threads, so that no fsync claims a write it has not seen.
+// PATH), unlink, mkdir, rmdir, sync, syncdir, or other, which replay.py does not support.
+// An operation and its line are one atomic step, so that the log has the real order of writes and
+// fsyncs.
 #pragma once
 
 #include <sys/stat.h>
@@ -26,7 +26,7 @@ struct Log {
                                 O_WRONLY | O_CREAT | O_APPEND, 0644);
 };
 
-// Never destroyed, as the plan.
+// Never destroyed, like the plan (plan.h).
 inline Log& the_log() {
   const OwnRequests own;
   static Log& the = *new Log;
@@ -42,8 +42,8 @@ inline void put(const void* bytes, size_t size) {
   }
 }
 
-inline void tell(const char* what, ino_t inode, off_t offset, const std::string& path,
-                 const void* data = nullptr, size_t size = 0) {
+inline void log_operation(const char* what, ino_t inode, off_t offset, const std::string& path,
+                          const void* data = nullptr, size_t size = 0) {
   const std::string line = std::string(what) + " " + std::to_string(inode) + " " +
                            std::to_string(offset) + " " + std::to_string(size) + " " + path + "\n";
   put(line.data(), line.size());
@@ -61,7 +61,7 @@ inline ino_t inode_of(int folder, const char* path, int flags) {
   return status.st_ino;
 }
 
-// call(), and if it succeeds on something watched, then(result).
+// Runs call(), and then(result) if it succeeds on a watched path.
 template <class Call, class Then>
 auto logged(bool watched, Call call, Then then) -> decltype(call()) {
   if (!watched || the_log().fd < 0) return call();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A .svdag that is cut short, or copied over, while a program reads it ends that program with a sentence and no output.
+"""Tests that truncating or overwriting a .svdag while a program reads it gives one message and no output.
 
-svdag-trace reads it into memory, the others map it."""
+svdag-trace reads the file into memory, the other programs map it."""
 import os
 import pathlib
 import signal
@@ -11,12 +11,12 @@ import time
 
 import bakes
 
-SENTENCES = ["can no longer be read: it was cut short, or its disk failed",  # a page was lost
-             "was changed while it was read",                                # zeros, or other bytes, were read
-             "ends too early"]                                               # nothing was read
+MESSAGES = ["can no longer be read: it was cut short, or its disk failed",  # a mapped page is missing
+             "was changed while it was read",                                # zeros or other bytes were read
+             "ends too early"]                                               # the read returned no bytes
 BAD_INPUT = 3
-TRIES = 20  # a program that ended before it was stopped is run again
-# Programs that walk the file for a while, and what they would leave.
+TRIES = 20  # a program that ends before it is stopped is run again
+# Commands that read the file for some time, and their outputs.
 COMMANDS = {
     "check": (["svdag-verify", "check", "lost.svdag"], []),
     "diff": (["svdag-verify", "diff", "kept.svdag", "lost.svdag"], []),
@@ -26,16 +26,16 @@ COMMANDS = {
 }
 
 
-def cut(lost, _):
+def truncate(lost, _):
     os.truncate(lost, 100)
 
 
 def copy_over(lost, larger):
-    lost.write_bytes(larger.read_bytes())  # cut to nothing first, as by a shell's ">"
+    lost.write_bytes(larger.read_bytes())  # truncates first, like ">" of a shell
 
 
 def copy_into(lost, larger):
-    with open(lost, "r+b") as file:  # as by cp: other nodes stand where the checked ones stood
+    with open(lost, "r+b") as file:  # overwrites checked nodes by others
         file.write(larger.read_bytes())
 
 
@@ -44,18 +44,18 @@ def maps(process, path):
 
 
 def reads(process, path):
-    """With the file open, and some of it in memory."""
+    """Whether the process has the file open and a part of it in memory."""
     words = pathlib.Path(f"/proc/{process.pid}/statm").read_text().split()
     return any(link.readlink() == path for link in pathlib.Path(f"/proc/{process.pid}/fd").iterdir()) \
         and int(words[1]) * os.sysconf("SC_PAGESIZE") > path.stat().st_size // 4
 
 
 def stop_when(holds, process, path):
-    """True if the process was stopped, and has still work to do, while it holds the file."""
+    """Stops the process while it holds the file; False if it ended before."""
     while process.poll() is None:
         try:
             held = holds(process, path)
-        except OSError:  # it ended, or closed a file, meanwhile
+        except OSError:  # the process ended or closed a file
             held = False
         if held:
             process.send_signal(signal.SIGSTOP)
@@ -64,14 +64,14 @@ def stop_when(holds, process, path):
     return False
 
 
-def run_and_spoil(spoil, folder, words, outputs):
-    """The exit code and standard error of a program whose file was changed; None if it was faster."""
+def run_and_damage(damage, folder, words, outputs):
+    """(exit code, stderr) of a program whose file was changed; None if it finished before."""
     lost = folder / "lost.svdag"
     lost.write_bytes((folder / "kept.svdag").read_bytes())
     process = subprocess.Popen([bakes.BUILD / words[0], *words[1:]], cwd=folder, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
     if stop_when(reads if words[0] == "svdag-trace" else maps, process, lost):
-        spoil(lost, folder / "larger.svdag")
+        damage(lost, folder / "larger.svdag")
         process.send_signal(signal.SIGCONT)
     text = process.communicate()[1]
     if process.returncode == 0:
@@ -82,10 +82,10 @@ def run_and_spoil(spoil, folder, words, outputs):
 
 def failures(ended, left):
     if ended is None:
-        return [f"never caught in {TRIES} tries"]
+        return [f"never stopped in time in {TRIES} tries"]
     code, text = ended
-    reported = code == BAD_INPUT and len(text.splitlines()) == 1 and any(s in text for s in SENTENCES)
-    return [f"ended with {ended}"] * (not reported) + [f"left {sorted(left)}"] * bool(left)
+    reported = code == BAD_INPUT and len(text.splitlines()) == 1 and any(s in text for s in MESSAGES)
+    return [f"ended with {ended}"] * (not reported) + [f"{sorted(left)} remain"] * bool(left)
 
 
 def main():
@@ -95,12 +95,12 @@ def main():
         subprocess.run([bakes.BUILD / "svdag-scene", "hairball", "-n", "100K", "-q", "-o", "s.ply"], cwd=folder, check=True)
         for resolution, bake in (("2K", "kept.svdag"), ("4K", "larger.svdag")):
             subprocess.run([bakes.BUILD / "svdag", "build", "s.ply", "-r", resolution, "-q", "-o", bake], cwd=folder, check=True)
-        for spoil in (cut, copy_over, copy_into):
+        for damage in (truncate, copy_over, copy_into):
             for case, (words, outputs) in COMMANDS.items():
                 before = set(os.listdir(folder)) | {"lost.svdag"}
-                tries = (run_and_spoil(spoil, folder, words, outputs) for _ in range(TRIES))
+                tries = (run_and_damage(damage, folder, words, outputs) for _ in range(TRIES))
                 ended = next((each for each in tries if each), None)
-                report.judge(f"{case}, {spoil.__name__}", failures(ended, set(os.listdir(folder)) - before))
+                report.record(f"{case}, {damage.__name__}", failures(ended, set(os.listdir(folder)) - before))
     report.finish()
 
 

@@ -1,8 +1,8 @@
-// Memory that runs out, for LD_PRELOAD: the k-th request of the program after its main() has begun
-// is refused (plan.h: kind "alloc").
+// A library for LD_PRELOAD: the k-th allocation after main() has begun fails (plan.h: kind
+// "alloc").
 //
-// Requests of the C library for itself count, too, where they come through malloc. Nothing here may
-// ask for memory but through libc's own names.
+// Allocations of the C library through malloc count too. The code here may allocate only by the
+// internal names of libc.
 #include <dlfcn.h>
 #include <sys/mman.h>
 

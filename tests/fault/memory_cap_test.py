@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Under a cap from outside of --memory + 64 MiB a bake is not killed, gives the same bytes, and stays within.
+"""Tests that a bake runs under an external memory limit of --memory + 64 MiB, with the same bytes.
 
-The cap is a cgroup if SVDAG_CGROUP names a folder of the memory controller (v1 or v2) that was given to us,
-else RLIMIT_DATA, which counts what is mapped, touched or not.
+The limit is a cgroup if SVDAG_CGROUP is a folder of the memory controller (v1 or v2) in which this test may create
+groups, else RLIMIT_DATA, which counts mapped memory, whether it is touched or not.
 """
 import contextlib
 import os
@@ -16,12 +16,12 @@ import bakes
 from peak import Peak
 
 MIB = 1 << 20
-MARGIN = 64 * MIB  # code, stacks, the heap's small change
+MARGIN = 64 * MIB  # code, stacks, small allocations
 GIVEN_CGROUP = os.environ.get("SVDAG_CGROUP")
 
 
 class Row(NamedTuple):
-    """A bake within a budget; the verdict is "finishes", or "refuses" (exit 5, one sentence)."""
+    """A bake within a budget; the verdict is "finishes", or "refuses" (exit code 5, one message)."""
     scene: list
     resolution: str
     threads: int
@@ -42,7 +42,7 @@ ROWS_LONG = ROWS + [
 
 @contextlib.contextmanager
 def cap(limit):
-    """What a child calls before it becomes the program, so that it gets `limit` bytes at most."""
+    """A function for preexec_fn that limits the memory of the child to `limit` bytes."""
     if GIVEN_CGROUP is None:
         yield lambda: resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
         return
@@ -51,7 +51,7 @@ def cap(limit):
     try:
         v2 = (group / "memory.max").exists()
         (group / ("memory.max" if v2 else "memory.limit_in_bytes")).write_text(str(limit))
-        with contextlib.suppress(OSError):  # no swap: the cap is about memory
+        with contextlib.suppress(OSError):  # no swap, so that only memory is limited
             (group / ("memory.swap.max" if v2 else "memory.memsw.limit_in_bytes")).write_text("0" if v2 else str(limit))
         yield lambda: (group / "cgroup.procs").write_text(str(os.getpid()))
     finally:
@@ -70,22 +70,22 @@ def run_capped(command, cwd, limit):
         program.returncode = os.waitstatus_to_exitcode(status)
         peak.done.set()
         peak.join()
-    # The kernel's own peak counts files, too, and misses no moment.
+    # The kernel's peak includes mapped files, but misses no moment between two polls.
     return program.returncode, stderr, max(peak.own, 1024 * usage.ru_maxrss - peak.of_files)
 
 
-def complaints_about(kitchen, row):
-    folder, limit = kitchen.table(), row.mib * MIB + MARGIN
-    code, stderr, peak = run_capped(kitchen.bake.command("-m", f"{row.mib}M", "-j", str(row.threads)), folder, limit)
+def failures_of(fixture, row):
+    folder, limit = fixture.new_folder(), row.mib * MIB + MARGIN
+    code, stderr, peak = run_capped(fixture.bake.command("-m", f"{row.mib}M", "-j", str(row.threads)), folder, limit)
     found = bakes.leftovers(folder)
     if peak > limit:
         found.append(f"peak {peak / MIB:.1f} MiB")
     if code != (0 if row.verdict == "finishes" else 5):
         found.append(f"exit {code}, {stderr!r}")
     if row.verdict == "refuses":
-        found += bakes.sentences(stderr)
-    if kitchen.state(folder) != ("new" if row.verdict == "finishes" else "old"):
-        found.append(f"the output is {kitchen.state(folder)}")
+        found += bakes.check_message(stderr)
+    if fixture.state(folder) != ("new" if row.verdict == "finishes" else "old"):
+        found.append(f"the output is {fixture.state(folder)}")
     shutil.rmtree(folder)
     return found, peak
 
@@ -93,13 +93,13 @@ def complaints_about(kitchen, row):
 def main():
     report = bakes.Report()
     rows = ROWS_LONG if bakes.LONG else ROWS
-    print(f"the cap is {'a cgroup' if GIVEN_CGROUP else 'RLIMIT_DATA'}")
+    print(f"the limit is {'a cgroup' if GIVEN_CGROUP else 'RLIMIT_DATA'}")
     for scene, resolution in dict.fromkeys((tuple(row.scene), row.resolution) for row in rows):
-        with bakes.Kitchen(bakes.Bake(scene[0], list(scene), ["-r", resolution])) as kitchen:
+        with bakes.BakeFixture(bakes.Bake(scene[0], list(scene), ["-r", resolution])) as fixture:
             for row in [r for r in rows if (tuple(r.scene), r.resolution) == (scene, resolution)]:
                 name = f"{scene[0]} {scene[2]} at {resolution}, {row.threads} threads, {row.mib} MiB"
-                complaints, peak = complaints_about(kitchen, row)
-                report.judge(f"{name}: {row.verdict}", complaints)
+                failures, peak = failures_of(fixture, row)
+                report.record(f"{name}: {row.verdict}", failures)
                 print(f"{name}: {row.verdict}, peak {peak / MIB:.1f} MiB")
     report.finish()
 

@@ -1,4 +1,4 @@
-"""A bake that is hit by a signal at a random moment of its life."""
+"""Runs bakes and sends them signals at random moments."""
 import random
 import subprocess
 import time
@@ -8,9 +8,9 @@ TIMEOUT = 120
 
 
 class Ending(NamedTuple):
-    code: int  # minus the number of the signal that ended it, else the exit status
+    code: int  # exit status, or minus the number of the signal that killed it
     stderr: str
-    seconds: float  # from the (last) signal to the end; of the whole bake if it ended before
+    seconds: float  # from the first signal to the end; of the whole bake if it ended before
 
 
 def time_of(command, cwd):
@@ -20,7 +20,7 @@ def time_of(command, cwd):
 
 
 def hit(command, cwd, moment, signals):
-    """Starts the bake, sends it `signals` after `moment` seconds, a hundredth of a second between them."""
+    """Runs the bake and sends it `signals` after `moment` seconds, 0.01 s apart."""
     begin = start = time.monotonic()
     program = subprocess.Popen(command, cwd=cwd, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     try:
@@ -31,13 +31,13 @@ def hit(command, cwd, moment, signals):
             time.sleep(0.01 * (i > 0))
             program.send_signal(number)
     stderr = program.communicate(timeout=TIMEOUT)[1]
-    if program.returncode == 0:  # the signal met one that was done already
+    if program.returncode == 0:  # the bake had finished before the signal
         start = begin
     return Ending(program.returncode, stderr, time.monotonic() - start)
 
 
 class Moments:
-    """Random moments of a bake that takes `seconds`; the seed is printed, so that a failure can be reproduced."""
+    """Random moments within the duration of a bake; tests print the seed to reproduce a failure."""
 
     def __init__(self, seconds, seed=None):
         self.seed = random.randrange(10**6) if seed is None else seed
@@ -47,6 +47,6 @@ class Moments:
         return self.random.uniform(0, self.seconds)
 
     def learn(self, ending):
-        """A bake that was faster than the signal updates the expected duration."""
+        """Shortens the expected duration if the bake finished before the signal."""
         if ending.code == 0:
             self.seconds = min(self.seconds, ending.seconds)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Many bakes at once in one scratch folder, some killed, two of them of one output: no byte of one in another's file.
+"""Tests concurrent bakes with one --scratch folder: some are killed, two have the same output, and none affects another.
 
-Who comes second to an output is refused, in a sentence and with exit 2. What a killed bake left goes with the next
-bake of its output.
+The second bake of an output is rejected with one message and exit code 2. The next bake of an output removes the
+scratch folder of a killed one.
 """
 import pathlib
 import random
@@ -21,7 +21,7 @@ OPTIONS = ["-m", "3M", "-j", "1", "--checkpoint", "0.02", "--scratch", bakes.SHA
 
 
 class Neighbour:
-    """The bake of one output, time after time."""
+    """Repeated bakes of one output."""
 
     def __init__(self, folder, number):
         self.folder, self.output = folder, f"{number}.svdag"
@@ -36,46 +36,46 @@ class Neighbour:
     def forget(self):
         (self.folder / self.output).unlink(missing_ok=True)
 
-    def complaints(self):
+    def failures(self):
         path = self.folder / self.output
-        return [f"{self.output}: other bytes"] * (path.exists() and path.read_bytes() != self.expected)
+        return [f"{self.output}: the bytes differ"] * (path.exists() and path.read_bytes() != self.expected)
 
 
-def round_of(neighbours, chance):
-    """Complaints about one round, and how many were refused and killed in it."""
+def round_of(neighbours, random_source):
+    """(failures of one round, number of rejected bakes, number of killed bakes)"""
     for neighbour in neighbours:
         neighbour.forget()
-    twice = chance.choice(neighbours)
+    twice = random_source.choice(neighbours)
     started = [(n, n.begin()) for n in [*neighbours, twice]]
-    killed = {process.pid for _, process in started if chance.random() < 0.3}
-    time.sleep(chance.random() * 0.2)
+    killed = {process.pid for _, process in started if random_source.random() < 0.3}
+    time.sleep(random_source.random() * 0.2)
     for _, process in started:
         if process.pid in killed:
             process.kill()
-    found, refused, died, done = [], 0, 0, set()
+    found, rejected, died, done = [], 0, 0, set()
     for neighbour, process in started:
-        _, said = process.communicate(timeout=120)
-        if process.returncode == 2 and IN_USE in said:
-            refused += 1
-            found += bakes.sentences(said) + ["refused alone"] * (neighbour is not twice)
+        _, stderr = process.communicate(timeout=120)
+        if process.returncode == 2 and IN_USE in stderr:
+            rejected += 1
+            found += bakes.check_message(stderr) + ["rejected without a second bake"] * (neighbour is not twice)
         elif process.returncode == 0:
             done.add(neighbour.output)
         elif process.pid in killed and process.returncode == -9:
             died += 1
         else:
-            found.append(f"{neighbour.output}: exit {process.returncode}, {said!r}")
+            found.append(f"{neighbour.output}: exit {process.returncode}, {stderr!r}")
     for neighbour in neighbours:
-        found += neighbour.complaints()
-        found += [f"{neighbour.output} is not there"] * (neighbour.output in done and
+        found += neighbour.failures()
+        found += [f"{neighbour.output} is missing"] * (neighbour.output in done and
                                                          not (neighbour.folder / neighbour.output).exists())
-    return found, refused, died
+    return found, rejected, died
 
 
-def complaints_about_a_second(neighbour):
-    """While the first is there, and does not go on, a second bake of its output does not begin."""
-    for _ in range(20):  # the first may be quicker than we are
+def failures_of_second_bake(neighbour):
+    """Failures unless a second bake of an output is rejected while the first is stopped."""
+    for _ in range(20):  # the first may finish before it is stopped
         neighbour.forget()
-        neighbour.begin().communicate(timeout=120)  # what a killed one left is gone
+        neighbour.begin().communicate(timeout=120)  # removes the scratch folder of a killed bake
         neighbour.forget()
         first = neighbour.begin()
         while first.poll() is None and not list(neighbour.folder.glob(f"{bakes.SHARED_SCRATCH}/{neighbour.output}-*/journal")):
@@ -85,42 +85,42 @@ def complaints_about_a_second(neighbour):
             break
         first.communicate()
     else:
-        return ["the first was never caught"]
+        return ["the first was never stopped in time"]
     second = neighbour.begin()
-    said = second.communicate(timeout=120)[1]
-    refused = second.returncode == 2 and IN_USE in said
+    stderr = second.communicate(timeout=120)[1]
+    rejected = second.returncode == 2 and IN_USE in stderr
     first.send_signal(signal.SIGCONT)
     first.communicate(timeout=120)
-    found = [] if refused else [f"the second: exit {second.returncode}, {said!r}"]
-    return found + [f"the first: exit {first.returncode}"] * (first.returncode != 0) + neighbour.complaints()
+    found = [] if rejected else [f"the second: exit {second.returncode}, {stderr!r}"]
+    return found + [f"the first: exit {first.returncode}"] * (first.returncode != 0) + neighbour.failures()
 
 
 def main():
     report = bakes.Report()
-    chance = random.Random(SEED)
+    random_source = random.Random(SEED)
     with tempfile.TemporaryDirectory(prefix="svdag-fault-") as name:
         folder = pathlib.Path(name).resolve()
         (folder / bakes.SHARED_SCRATCH).mkdir()
         subprocess.run([bakes.BUILD / "svdag-scene", "hairball", "-n", "5K", "-q", "-o", folder / "scene.ply"], check=True)
         neighbours = [Neighbour(folder, n) for n in range(PROCESSES)]
-        report.judge("their bytes differ", ["some do not"] * (len({n.expected for n in neighbours}) != PROCESSES))
-        refused = died = 0
+        report.record("their bytes differ", ["some do not"] * (len({n.expected for n in neighbours}) != PROCESSES))
+        rejected = died = 0
         for number in range(ROUNDS):
-            found, more_refused, more_died = round_of(neighbours, chance)
-            report.judge(f"round {number}", found)
-            refused, died = refused + more_refused, died + more_died
-        report.judge("two of one output", complaints_about_a_second(neighbours[0]))
-        report.judge("kills come in time", [f"only {died}"] * (died < ROUNDS / 4))
+            found, more_refused, more_died = round_of(neighbours, random_source)
+            report.record(f"round {number}", found)
+            rejected, died = rejected + more_refused, died + more_died
+        report.record("two of one output", failures_of_second_bake(neighbours[0]))
+        report.record("kills come in time", [f"only {died}"] * (died < ROUNDS / 4))
         for neighbour in neighbours:
             neighbour.forget()
             process = neighbour.begin()
-            said = process.communicate(timeout=120)[1]
-            report.judge(f"{neighbour.output} at last", [f"exit {process.returncode}, {said!r}"] *
-                         (process.returncode != 0) + neighbour.complaints())
+            stderr = process.communicate(timeout=120)[1]
+            report.record(f"{neighbour.output}: final bake", [f"exit {process.returncode}, {stderr!r}"] *
+                         (process.returncode != 0) + neighbour.failures())
         left = sorted(p.name for p in (folder / bakes.SHARED_SCRATCH).iterdir())
         left += sorted(p.name for p in folder.iterdir() if p.suffix not in (".svdag", ".expected", ".ply") and p.is_file())
-        report.judge("nothing is left", left)
-        print(f"{died} killed, {refused} refused")
+        report.record("no file remains", left)
+        print(f"{died} killed, {rejected} rejected")
     report.finish()
 
 

@@ -1,4 +1,4 @@
-"""Watches a process from outside: its memory, and what it has read."""
+"""Polls the memory and the bytes read of another process."""
 import contextlib
 import pathlib
 import threading
@@ -9,7 +9,7 @@ def fields_of(path):
 
 
 class Peak(threading.Thread):
-    """Watches anonymous and shared memory of a process; the largest sum seen, and the largest of its files."""
+    """Records the peaks of anonymous plus shared memory (`own`) and of mapped files (`of_files`) of a process."""
 
     def __init__(self, pid, interval=0.002):
         super().__init__(daemon=True)

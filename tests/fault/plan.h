@@ -1,21 +1,19 @@
-// What the shim is to do, and where: one plan per process, read from the environment.
+// The plan of the shim: which call fails and how. One per process, read from the environment.
 //
 //   SVDAG_FAULT_UNDER   the watched folders, absolute and resolved, separated by ':'
-//   SVDAG_FAULT_MARK    a file: gets "fired KIND K PATH", and "count KIND N" per kind at the end
+//   SVDAG_FAULT_MARK    the output: "fired KIND K PATH", and "count KIND N" per kind at the end
 //   SVDAG_FAULT_KIND    open, read, write, fsync, close, rename, link, unlink, truncate, mkdir,
-//                       lock, mode or alloc; without it the calls are only counted
+//                       lock, mode or alloc; if not set, calls are only counted
 //   SVDAG_FAULT_AT      k, from 1
 //   SVDAG_FAULT_DO      an errno (a number), "short" or "exit" (status 137, before the call)
-//   SVDAG_FAULT_STAYS   1: so do all later calls of the kind
+//   SVDAG_FAULT_STAYS   1: all later calls of the kind fail too
 //   SVDAG_FAULT_NO_TMPFILE   1: the file system has no O_TMPFILE (not counted as a call)
-//   SVDAG_FAULT_FOLDER_SYNC  an errno: what every fsync of a folder says (not counted)
-//   SVDAG_FAULT_RENAME_TWICE 1: every rename is done, and returns ENOENT: an NFS server retried it
-//   twice
-//   SVDAG_FAULT_RANGE_LOCKS  1: as NFS clients make record locks of flock, one that excludes needs
-//   a descriptor that may write, a shared one a descriptor that may read
+//   SVDAG_FAULT_FOLDER_SYNC  an errno that every fsync of a folder returns (not counted)
+//   SVDAG_FAULT_RENAME_TWICE 1: every rename succeeds but returns ENOENT (NFS sent it twice)
+//   SVDAG_FAULT_RANGE_LOCKS  1: flock has the rules of record locks, as on NFS clients
 //
-// Only descriptors and paths below the watched folders count, so that libraries, /proc and stdout
-// stay out of the game.
+// With record locks an exclusive lock needs a writable descriptor, a shared one a readable one.
+// Only descriptors and paths below the watched folders count, not libraries, /proc and stdout.
 #pragma once
 
 #include <fcntl.h>
@@ -31,7 +29,7 @@
 
 namespace fault {
 
-constexpr int kShort = -1;  // among errno values: transfer less
+constexpr int kShort = -1;  // beside errno values: a short transfer
 constexpr int kExit = -2;
 constexpr int kDescriptors = 4096;
 
@@ -48,14 +46,14 @@ enum Kind {
   kMkdir,
   kLock,
   kMode,
-  kAlloc,  // requests for memory (memory.cpp)
+  kAlloc,  // allocations (memory.cpp)
   kKinds
 };
 constexpr const char* kNames[kKinds] = {"open",   "read", "write",  "fsync",    "close",
                                         "rename", "link", "unlink", "truncate", "mkdir",
                                         "lock",   "mode", "alloc"};
 
-// While one lives, its thread's requests for memory are the shim's own and are not refused.
+// While an object exists, the allocations of its thread are the shim's own and do not fail.
 [[gnu::tls_model("initial-exec")]] inline thread_local int own_requests = 0;
 struct OwnRequests {
   OwnRequests() { ++own_requests; }
@@ -93,7 +91,7 @@ inline Plan& plan() {
   return the;
 }
 
-// Raw system calls, so that the mark is not counted as a call.
+// Raw system calls, so that the output is not counted as a call.
 inline void mark(const std::string& line) {
   const long fd =
       syscall(SYS_openat, AT_FDCWD, plan().mark.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
@@ -134,7 +132,7 @@ inline bool is_watched(int fd) {
   return fd >= 0 && fd < kDescriptors && plan().watched[size_t(fd)];
 }
 
-// Counts one call; what is to happen to it: 0 (nothing), an errno, kShort.
+// Counts one call; returns its fault: 0 (none), an errno or kShort.
 inline int strike(Kind kind, const std::string& path) {
   const OwnRequests own;
   Plan& p = plan();

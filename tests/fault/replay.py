@@ -1,9 +1,9 @@
-"""What a disk may hold after a power cut: the log of log.h, replayed up to any operation.
+"""Possible states of a disk after a power cut: replays the log of log.h up to any operation.
 
-A file holds what was synced. Of the writes and cuts after its last sync any may be there, writes in part (in blocks
-of 4 KiB), and a file that grew may be zeros where nothing arrived. A folder has the names that it had when it was
-synced; of those made, replaced and removed since then any may be there, each for itself, which is more than file
-systems with a journal allow. After leveldb's fault injection and ALICE (Pillai et al., OSDI 2014).
+A file has its synced content. Any of the writes and truncations after its last sync may be present, writes also in part
+(in blocks of 4 KiB); a file that grew may have zeros where data is missing. A folder has its names at its last sync; any
+of the later creations, replacements and removals may be present, independently, which is weaker than journaling file
+systems guarantee. After LevelDB's fault injection and ALICE (Pillai et al., OSDI 2014).
 """
 import pathlib
 from typing import NamedTuple
@@ -20,7 +20,7 @@ class Operation(NamedTuple):
 
 
 def operations(log):
-    """The operations of a log, which is bytes."""
+    """Parses the bytes of a log."""
     found, at = [], 0
     while at < len(log):
         end = log.index(b"\n", at)
@@ -30,12 +30,12 @@ def operations(log):
     return found
 
 
-def written(content, offset, data):
+def write_at(content, offset, data):
     content.extend(bytes(max(0, offset + len(data) - len(content))))
     content[offset:offset + len(data)] = data
 
 
-def cut(content, size):
+def resize(content, size):
     content.extend(bytes(max(0, size - len(content))))
     del content[size:]
 
@@ -43,20 +43,20 @@ def cut(content, size):
 class File:
     def __init__(self, content=b""):
         self.durable = bytearray(content)
-        self.pending = []  # (offset, data), or (size, None) of a cut
+        self.pending = []  # (offset, data), or (size, None) of a truncation
         self.syncs = 0
 
     def change(self, content, kept=lambda: True):
         for offset, data in self.pending:
             if data is None:
                 if kept():
-                    cut(content, offset)
+                    resize(content, offset)
                 continue
             begin = offset
             while begin < offset + len(data):
                 end = min(offset + len(data), (begin // BLOCK + 1) * BLOCK)
                 if kept():
-                    written(content, begin, data[begin - offset:end - offset])
+                    write_at(content, begin, data[begin - offset:end - offset])
                 begin = end
         return content
 
@@ -72,15 +72,15 @@ class File:
         if not self.pending or chance == 1:
             return bytes(self.now())
         content = self.change(bytearray(self.durable), lambda: random.random() < chance)
-        if random.random() < 0.5:  # the size arrived, what it counts did not
-            cut(content, max(len(content), len(self.now())))
+        if random.random() < 0.5:  # the size is on disk, the data is not
+            resize(content, max(len(content), len(self.now())))
         return bytes(content)
 
 
 class Folder:
     def __init__(self, names=()):
         self.durable = dict(names)
-        self.pending = []  # {name: File, Folder or None}: what one operation changes
+        self.pending = []  # {name: File, Folder or None}: the changes of one operation
 
     def now(self):
         names = dict(self.durable)
@@ -101,23 +101,23 @@ class Folder:
 
 
 def loaded(path):
-    """A folder of the real disk, as one that is synced."""
+    """A Folder with the content of a real folder, synced."""
     return Folder((p.name, loaded(p) if p.is_dir() else File(p.read_bytes())) for p in path.iterdir())
 
 
 class Disk:
-    """The files below `root`, which it reads when it is made."""
+    """The files below `root`, initially those of the real disk."""
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
         self.top = loaded(self.root)
-        self.files = {}  # by inode; an inode that is used again is another file
+        self.files = {}  # by inode; a reused inode is a new file
 
     def apply(self, operation):
         getattr(self, "do_" + operation.what)(operation)
 
     def find(self, path):
-        """What has this path now, or None; the path is from the root of the real disk."""
+        """The File or Folder at an absolute path, or None."""
         here = self.top
         for part in pathlib.Path(path).relative_to(self.root).parts:
             here = here.now().get(part) if isinstance(here, Folder) else None
@@ -163,13 +163,13 @@ class Disk:
 
     def do_syncdir(self, op):
         folder = self.find(op.path)
-        if folder is not None:  # else it was removed meanwhile
+        if folder is not None:  # None if it has been removed
             folder.sync()
 
     def after_cut(self, random, folder=None, whole=None):
-        """{name: bytes, or the same of a folder}: one of the states that a power cut now may leave.
+        """{name: bytes, or such a dict of a folder}: a random state after a power cut at this point.
 
-        Some states lose all that was not synced, some lose nothing; else every file and folder has its own luck."""
+        Some states lose all unsynced data, some lose none; in the others each file and folder has its own chance."""
         if folder is None:
             folder, whole = self.top, random.choice([0, 1, None, None, None])
         chance = lambda: random.choice([0, 0.1, 0.5, 0.9, 1]) if whole is None else whole
@@ -178,11 +178,11 @@ class Disk:
                 for name, what in folder.names_after_cut(chance(), random).items()}
 
 
-def lay(state, folder):
-    """Makes the state real."""
+def write_state(state, folder):
+    """Writes the files of a state to `folder`."""
     for name, what in state.items():
         if isinstance(what, dict):
             (folder / name).mkdir(mode=0o700)
-            lay(what, folder / name)
+            write_state(what, folder / name)
         else:
             (folder / name).write_bytes(what)

@@ -1,8 +1,8 @@
-// Faults from outside, for LD_PRELOAD: at the k-th call of one kind the system says no, transfers
-// less than asked, or the process is gone (plan.h says where from; shim.py sets it). Or nothing
-// fails, and what changes files is logged (log.h).
+// A library for LD_PRELOAD that injects faults: the k-th call of one kind returns an error,
+// transfers fewer bytes than requested, or ends the process (plan.h; set by shim.py). Without a
+// fault, it logs the changes of files (log.h).
 //
-// fopen and opendir open inside libc and are not seen; the program opens its files by open().
+// fopen and opendir open files inside libc and are not counted; the program opens files by open().
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
@@ -20,26 +20,26 @@ using namespace fault;
 
 namespace {
 
-[[gnu::destructor]] void tell_counts() {
+[[gnu::destructor]] void write_counts() {
   std::string lines;
   for (int k = 0; k < kKinds; ++k)
     lines += std::string("count ") + kNames[k] + " " + std::to_string(plan().counts[k]) + "\n";
   mark(lines);
 }
 
-// Logged as `what`; `inode` is that of what gets a name.
+// Logs the operation as `what`; `inode` is that of the file that gets a name.
 template <class Call>
 auto on_path(Kind kind, const char* what, int folder, const char* path, Call call, ino_t inode = 0)
     -> decltype(call()) {
   const std::string full = absolute(folder, path);
   const bool watched = is_watched(full);
   const int error = watched ? strike(kind, full) : 0;
-  if (error <= 0) return logged(watched, call, [&](int) { tell(what, inode, 0, full); });
+  if (error <= 0) return logged(watched, call, [&](int) { log_operation(what, inode, 0, full); });
   errno = error;
   return -1;
 }
 
-// Logged by then(result).
+// Runs the call, which then(result) logs.
 template <class Call, class Then>
 auto on_descriptor(Kind kind, int fd, Call call, Then then) -> decltype(call()) {
   const bool watched = is_watched(fd);
@@ -54,13 +54,13 @@ auto on_descriptor(Kind kind, int fd, Call call) -> decltype(call()) {
   return on_descriptor(kind, fd, call, [](int) {});
 }
 
-void tell_sync(int fd) {
+void log_sync(int fd) {
   struct stat status = {};
   fstat(fd, &status);
-  tell(S_ISDIR(status.st_mode) ? "syncdir" : "sync", status.st_ino, 0, of_descriptor(fd));
+  log_operation(S_ISDIR(status.st_mode) ? "syncdir" : "sync", status.st_ino, 0, of_descriptor(fd));
 }
 
-// A folder of a file system that cannot bring folders to disk.
+// Whether fsync of this folder must fail (SVDAG_FAULT_FOLDER_SYNC).
 bool is_unsyncable(int fd) {
   struct stat status = {};
   return plan().folder_sync != 0 && is_watched(fd) && fstat(fd, &status) == 0 &&
@@ -74,7 +74,7 @@ bool may_lock_range(int fd, int operation) {
          !((operation & LOCK_SH) != 0 && access == O_WRONLY);
 }
 
-// Half of n, and whole pages of a file that is written directly.
+// The size of a short transfer: half of n, in whole pages for direct I/O.
 size_t less_than(size_t n) {
   return n >= 8192 ? n / 2 & ~size_t(4095) : std::max<size_t>(n / 2, 1);
 }
@@ -110,7 +110,10 @@ int on_open(int folder, const char* path, int flags, Call call) {
   if (error > 0) return errno = error, -1;
   const bool writes = (flags & (O_WRONLY | O_RDWR)) != 0;
   const int fd = logged(watched && writes, call, [&](int made) {
-    tell(anonymous ? "make" : (flags & O_TRUNC) != 0 ? "other" : "open", inode_of(made), 0, full);
+    log_operation(anonymous                ? "make"
+                  : (flags & O_TRUNC) != 0 ? "other"
+                                           : "open",
+                  inode_of(made), 0, full);
   });
   if (fd >= 0 && fd < kDescriptors) plan().watched[size_t(fd)] = watched;
   return fd;
@@ -118,7 +121,7 @@ int on_open(int folder, const char* path, int flags, Call call) {
 
 }  // namespace
 
-// The next definition of the same name: libc's. Looking it up may take memory.
+// The next definition of the same name, that of libc. The lookup may allocate.
 #define NEXT(name)                                                     \
   static const auto next = [] {                                        \
     const fault::OwnRequests own;                                      \
@@ -151,17 +154,17 @@ int on_open(int folder, const char* path, int flags, Call call) {
     NEXT(name);                                                                        \
     return on_bytes(kind, fd, n, [&](size_t m) { return next(fd, data, m, offset); }); \
   }
-#define PWRITE(name)                                                                    \
-  ssize_t name(int fd, const void* data, size_t n, off_t offset) {                      \
-    NEXT(name);                                                                         \
-    const auto call = [&](size_t m) {                                                   \
-      return logged(                                                                    \
-          is_watched(fd), [&] { return next(fd, data, m, offset); },                    \
-          [&](ssize_t done) {                                                           \
-            tell("write", inode_of(fd), offset, of_descriptor(fd), data, size_t(done)); \
-          });                                                                           \
-    };                                                                                  \
-    return on_bytes(kWrite, fd, n, call);                                               \
+#define PWRITE(name)                                                                             \
+  ssize_t name(int fd, const void* data, size_t n, off_t offset) {                               \
+    NEXT(name);                                                                                  \
+    const auto call = [&](size_t m) {                                                            \
+      return logged(                                                                             \
+          is_watched(fd), [&] { return next(fd, data, m, offset); },                             \
+          [&](ssize_t done) {                                                                    \
+            log_operation("write", inode_of(fd), offset, of_descriptor(fd), data, size_t(done)); \
+          });                                                                                    \
+    };                                                                                           \
+    return on_bytes(kWrite, fd, n, call);                                                        \
   }
 #define VECTOR(name, kind)                                                           \
   ssize_t name(int fd, const iovec* v, int n, off_t offset) {                        \
@@ -169,26 +172,30 @@ int on_open(int folder, const char* path, int flags, Call call) {
     return on_vector(kind, fd, v, n,                                                 \
                      [&](const iovec* w, int m) { return next(fd, w, m, offset); }); \
   }
-#define SYNC(name)                                                          \
-  int name(int fd) {                                                        \
+#define SYNC(name)                                                         \
+  int name(int fd) {                                                       \
+    NEXT(name);                                                            \
+    if (is_unsyncable(fd)) return errno = plan().folder_sync, -1;          \
+    return on_descriptor(                                                  \
+        kFsync, fd, [&] { return next(fd); }, [&](int) { log_sync(fd); }); \
+  }
+#define TRUNCATE(name)                                                  \
+  int name(int fd, off_t size) noexcept {                               \
+    NEXT(name);                                                         \
+    const auto then = [&](int) {                                        \
+      log_operation("truncate", inode_of(fd), size, of_descriptor(fd)); \
+    };                                                                  \
+    return on_descriptor(                                               \
+        kTruncate, fd, [&] { return next(fd, size); }, then);           \
+  }
+#define ALLOCATE(name)                                                      \
+  int name(int fd, int mode, off_t offset, off_t size) {                    \
     NEXT(name);                                                             \
-    if (is_unsyncable(fd)) return errno = plan().folder_sync, -1;           \
+    const auto then = [&](int) {                                            \
+      log_operation("other", inode_of(fd), offset, of_descriptor(fd));      \
+    };                                                                      \
     return on_descriptor(                                                   \
-        kFsync, fd, [&] { return next(fd); }, [&](int) { tell_sync(fd); }); \
-  }
-#define TRUNCATE(name)                                                                       \
-  int name(int fd, off_t size) noexcept {                                                    \
-    NEXT(name);                                                                              \
-    const auto then = [&](int) { tell("truncate", inode_of(fd), size, of_descriptor(fd)); }; \
-    return on_descriptor(                                                                    \
-        kTruncate, fd, [&] { return next(fd, size); }, then);                                \
-  }
-#define ALLOCATE(name)                                                                      \
-  int name(int fd, int mode, off_t offset, off_t size) {                                    \
-    NEXT(name);                                                                             \
-    const auto then = [&](int) { tell("other", inode_of(fd), offset, of_descriptor(fd)); }; \
-    return on_descriptor(                                                                   \
-        kTruncate, fd, [&] { return next(fd, mode, offset, size); }, then);                 \
+        kTruncate, fd, [&] { return next(fd, mode, offset, size); }, then); \
   }
 #define ON_PATH(name, what)                                                    \
   int name(const char* path) noexcept {                                        \
@@ -230,11 +237,11 @@ ssize_t write(int fd, const void* data, size_t n) {
   return on_bytes(kWrite, fd, n, [&](size_t m) {
     return logged(
         is_watched(fd), [&] { return next(fd, data, m); },
-        [&](ssize_t) { tell("other", inode_of(fd), 0, of_descriptor(fd)); });
+        [&](ssize_t) { log_operation("other", inode_of(fd), 0, of_descriptor(fd)); });
   });
 }
 
-// As on Linux, the descriptor is closed whatever close() says.
+// As on Linux, the descriptor is closed even if close() returns an error.
 int close(int fd) {
   NEXT(close);
   if (!is_watched(fd)) return next(fd);

@@ -1,4 +1,4 @@
-"""Runs a program with the shim under it (shim.cpp): one fault, and what came of it."""
+"""Runs a program with the shim (shim.cpp) preloaded: injects one fault and returns the outcome."""
 import os
 import pathlib
 import re
@@ -11,15 +11,15 @@ TIMEOUT = 120
 
 
 class Fault(NamedTuple):
-    """The k-th call of a kind fails; without a kind the calls are only counted."""
+    """A fault: call number `at` of a kind fails; without a kind, calls are only counted."""
     kind: str = ""
     at: int = 0
-    action: str = ""  # the number of an errno, "short" or "exit"
-    stays: bool = False
+    action: str = ""  # an errno as text, "short" or "exit"
+    stays: bool = False  # all later calls of the kind fail too
     no_tmpfile: bool = False  # the file system has no O_TMPFILE
-    folder_sync: int = 0  # the number of an errno: what every fsync of a folder says
-    rename_twice: bool = False  # every rename is done, and then returns ENOENT
-    range_locks: bool = False  # flock needs what a record lock needs: to exclude, a file open for writing
+    folder_sync: int = 0  # errno that every fsync of a folder returns; 0: none
+    rename_twice: bool = False  # every rename succeeds but returns ENOENT
+    range_locks: bool = False  # an exclusive flock needs a file open for writing, like a record lock
 
 
 class Outcome(NamedTuple):
@@ -39,9 +39,9 @@ def environment(library, folders, mark, fault, log=""):
 
 
 def run(library, command, cwd, fault, folders=(), log=""):
-    """Runs `command` in `cwd`; calls below `cwd` and the `folders` count. A program that hangs is killed.
+    """Runs `command` in `cwd`; calls on files below `cwd` and `folders` count. Kills it after TIMEOUT.
 
-    `log`: a file that gets all that changes those folders (log.h)."""
+    `log`: path of a log of all changes in those folders (log.h)."""
     with tempfile.NamedTemporaryFile(prefix="svdag-mark-") as mark:
         program = subprocess.Popen(command, cwd=cwd, env=environment(library, [cwd, *folders], mark.name, fault, log),
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -49,7 +49,7 @@ def run(library, command, cwd, fault, folders=(), log=""):
             _, stderr = program.communicate(timeout=TIMEOUT)
         except subprocess.TimeoutExpired:
             program.send_signal(signal.SIGKILL)
-            stderr = program.communicate()[1] + f"did not end within {TIMEOUT} s\n".encode()
+            stderr = program.communicate()[1] + f"timed out after {TIMEOUT} s\n".encode()
         text = pathlib.Path(mark.name).read_text()
     fired = [(kind, int(k), path) for kind, k, path in re.findall(r"^fired (\w+) (\d+) (.*)$", text, re.M)]
     counts = {kind: int(n) for kind, n in re.findall(r"^count (\w+) (\d+)$", text, re.M)}

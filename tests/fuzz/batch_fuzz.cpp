@@ -1,5 +1,5 @@
-// Arbitrary bytes as a list of bakes: command lines that make sense, or an Error (usage, or no
-// list). Nothing is baked.
+// Arbitrary bytes as a list of bakes: valid command lines or an Error (usage or bad input). Nothing
+// is baked.
 #include "builder/commands/commands.h"
 #include "tests/fuzz/file_fuzz.h"
 

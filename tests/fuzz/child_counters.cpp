@@ -1,13 +1,13 @@
-// Lets a fuzzer see what its children have reached (streaming/process/limited_child.h): the
-// counters of coverage are in memory that it shares with them, instead of in pages that fork()
-// copies.
+// Shares the coverage counters of a fuzzer with its child processes
+// (streaming/process/limited_child.h), so that it sees the coverage of the children.
 //
-// The compiler gathers the counters in sections of their own, and the linker says where these begin
-// and end. The directives below add nothing but the alignment of a page, so that sharing begins
-// with the first counter (this must be the first object that is linked); behind the last one, its
-// page continues with constants. No counters of this file itself: its names would clash with those
-// that they bring. Rejected: __libfuzzer_extra_counters (a child would have to copy its counters
-// before it ends, and one that crashes does not).
+// The compiler stores the counters in separate sections, whose bounds the linker defines. The
+// directives below only align the sections to a page, so that sharing begins with the first
+// counter; this must be the first linked object. After the last counter, its page continues with
+// constants. This file is compiled without counters, whose symbols would clash with its own.
+// Rejected:
+// __libfuzzer_extra_counters (a child would copy its counters before it ends; a crashed one does
+// not).
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 
-// libFuzzer's, and those of clang's source-based coverage (coverage.py), if there are any.
+// The counters of libFuzzer, and those of clang's source-based coverage (coverage.py), if present.
 asm(".pushsection __sancov_cntrs,\"aw\",@progbits\n.balign 4096\n.popsection");
 asm(".pushsection __llvm_prf_cnts,\"aw\",@progbits\n.balign 4096\n.popsection");
 extern "C" {

@@ -1,5 +1,5 @@
-// Arbitrary bytes as a command line of svdag, a word per line: understood, or an Error (usage). It
-// is parsed, and nothing is done: no file is touched before a command begins.
+// Arbitrary bytes as a command line of svdag, a word per line: a command or an Error (usage). The
+// command is not run, and parsing accesses no file.
 #include <CLI/CLI.hpp>
 
 #include "builder/commands/options.h"
@@ -11,9 +11,9 @@ namespace {
 
 constexpr size_t kMostWords = 64;
 
-// All commands. To make them takes ten times as long as to understand a line, so they are made
-// once; the library forgets the line before with the next one, but not what that line made
-// unnecessary (--batch needs no grid): it is required again.
+// All commands, constructed once because that takes ten times as long as parsing a line. CLI11
+// resets the values of the last line, but not options that it made optional (--batch needs no
+// grid): these are made required again.
 class Program {
  public:
   Program() : app_("", "svdag") {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""coverage.py [--seconds N] [TARGET ...]: how much of each reader its fuzzer reaches.
+"""coverage.py [--seconds N] [TARGET ...]: measures the line coverage of each reader by its fuzzer.
 
 Builds the preset `coverage` (the fuzzers with clang's source-based coverage), runs each for N seconds from its seeds
-(default 60), and prints the lines reached of the files that it is for, after all that is in its corpus; functions that
-were never entered (writers, ways through a second file) are named instead of counted.
+(default 60), and prints the covered lines of the fuzzed files. Functions that were never entered (writers, code for a
+second file) are named instead of counted.
 """
 import argparse
 import os
@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build" / "coverage"
 TEXT = ["io/scene/readers/text_scan.cpp", "io/scene/readers/decimal.h", "io/scene/polygons/triangulate.cpp"]
-GLTF = [f"io/scene/gltf{part}.cpp" for part in ("", "_buffers", "_document", "_elements", "_json", "_kept", "_nodes", "_transform", "_uri")]
+GLTF = [f"io/scene/gltf/gltf{part}.cpp" for part in ("", "_buffers", "_document", "_elements", "_json", "_kept", "_nodes", "_transform", "_uri")]
 READERS = {
     "ply": ["io/scene/readers/ply.cpp", "io/scene/readers/ply_header.cpp", "io/scene/readers/ply_values.h", "io/scene/readers/ply_faces.h"],
     "stl": ["io/scene/readers/stl.cpp"],
@@ -49,11 +49,11 @@ def build(targets):
     for command in (["cmake", "--preset", "coverage", "--log-level=WARNING"],
                     ["cmake", "--build", "--preset", "coverage", "--target", *[f"{t}_fuzz" for t in targets]]):
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "CCACHE_DISABLE": "1"})  # it would name files as the build did that filled it
+                       env={**os.environ, "CCACHE_DISABLE": "1"})  # cached objects have the file names of other builds
 
 
 def run(binary, target, seconds, profile):
-    """Fuzzes, then passes once over all there is; returns the executions."""
+    """Fuzzes, then runs the whole corpus once; returns the number of executions."""
     corpus, seeds = BUILD / "corpus" / target, ROOT / "tests" / "fuzz" / "corpus" / f"{target}_fuzz"
     dictionary = ROOT / "tests" / "fuzz" / f"{target}_fuzz.dict"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -75,7 +75,7 @@ def run(binary, target, seconds, profile):
 
 
 def lines(binary, profile, files):
-    """{file: (lines reached, lines, names of functions that were never entered)}; lines are those of functions entered,
+    """{file: (covered lines, lines, names of functions never entered)}; only lines of entered functions are counted,
     since the writer of a format is in the same file as its reader."""
     merged = profile.with_suffix(".profdata")
     llvm = lambda tool: shutil.which(tool) or shutil.which(f"{tool}-14") or sys.exit(f"{tool} is missing: install llvm")
@@ -106,14 +106,14 @@ def readable(names):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seconds", type=int, default=60)
-    parser.add_argument("--binaries", type=pathlib.Path, help="folder of fuzzers that are built already")
+    parser.add_argument("--binaries", type=pathlib.Path, help="folder of built fuzzers")
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     arguments = parser.parse_args()
     targets = arguments.targets or list(READERS)
     BUILD.mkdir(parents=True, exist_ok=True)
     if not arguments.binaries:
         build(targets)
-    print("| fuzzer | executions | file | lines reached | of | % | functions never entered |\n|---|---|---|---|---|---|---|")
+    print("| fuzzer | executions | file | lines covered | of | % | functions never entered |\n|---|---|---|---|---|---|---|")
     for target in targets:
         binary = (arguments.binaries or BUILD / "tests").resolve() / f"{target}_fuzz"
         profile = BUILD / f"{target}.profraw"

@@ -1,6 +1,6 @@
-// The common body of the fuzz targets of our own files: any bytes are read, or an Error of one of
-// the expected codes with a sentence, and nothing else. Checksums are repaired by the targets
-// rather than by a mutator of libFuzzer: so the corpus means the same where it is replayed without.
+// The common body of the fuzz targets of svdag's own files: any bytes are read or give an Error
+// with an expected code and a message. The targets repair checksums, not a mutator of libFuzzer, so
+// that replaying the corpus without libFuzzer gives the same inputs.
 #pragma once
 
 #include <cstdlib>

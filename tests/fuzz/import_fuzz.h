@@ -1,5 +1,5 @@
-// The common bodies of the fuzz targets of `svdag import`: any bytes are a DAG, or a list of
-// voxels, or an Error (bad input), and nothing else.
+// The common bodies of the fuzz targets of `svdag import`: any bytes are a DAG, a list of
+// voxels, or an Error (bad input).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Arbitrary bytes as the journal of a bake, as they are and with their checksums repaired: what is
-// whole of it is read, and makes sense or is an Error; what makes sense can be written and read
-// again. A journal of another layout is one of nothing.
+// Arbitrary bytes as the journal of a bake, unchanged and with repaired checksums: its complete
+// records are a saved bake, which can be written and read again, or an Error. A journal of another
+// layout is empty.
 #include "builder/bake/saved_bake.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
@@ -13,7 +13,7 @@ JournalRecord record_of(SavedKind kind, const RecordWriter& record) {
   return {uint32_t(kind), {record.bytes().begin(), record.bytes().end()}};
 }
 
-// Nothing may be thrown here.
+// Must not throw.
 void write_and_read_again(const SavedBake& saved) noexcept {
   std::vector<JournalRecord> records = {
       record_of(SavedKind::kBake, bake_record(saved.description, saved.grid, saved.block_bytes))};

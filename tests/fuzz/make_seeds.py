@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""make_seeds.py PROGRAMS CORPUS: valid files of our own as seeds of the fuzzers.
+"""make_seeds.py PROGRAMS CORPUS: writes small valid files as seeds of the fuzzers.
 
-Small ones, as the programs write them; the journal as builder/bake/saved_bake.cpp has it. They are kept in tests/fuzz/corpus,
-so this is run again where a format changes.
+Most are written by the programs; the journal follows builder/bake/saved_bake.cpp. The seeds are stored in
+tests/fuzz/corpus: run this again when a format changes.
 """
 import base64
 import io
@@ -55,7 +55,7 @@ def journal(lattice):
 
 
 def scenes(corpus):
-    """glTF of every kind of element: sparse, instances, small integers, Draco."""
+    """glTF files with every kind of element: sparse, instances, small integers, Draco."""
     document = hostile_counts_test.gltf()
     yield "sparse_instances.gltf", json.dumps(document).encode()
     yield "sparse_instances.glb", hostile_counts_test.glb()[0]
@@ -93,7 +93,7 @@ def scenes(corpus):
 
 
 def plys():
-    """Every type of number as a coordinate, in both orders of bytes."""
+    """PLY files with every number type as coordinates, in both byte orders."""
     types = [("char", "b"), ("uchar", "B"), ("short", "h"), ("ushort", "H"), ("int", "i"), ("uint", "I"), ("float", "f"), ("double", "d")]
     for order, name in (("<", "little"), (">", "big")):
         for first in (0, 3, 5):
@@ -107,7 +107,7 @@ def plys():
 
 
 def npzs():
-    """Voxels with their place, as numbers of every type that is read, and of some that are not."""
+    """Voxels with a placement of every supported number type, and of some unsupported ones."""
     rows, solid = numpy.array([[1, 2, 3], [0, 7, 4]]), numpy.zeros((2, 3, 4), bool)
     solid[1, 2, 0] = True
     for name, arrays in (
@@ -129,7 +129,7 @@ def npzs():
 
 
 def vdbs(folder):
-    """Grids as OpenVDB writes them: of one leaf, of a tile, of values, of vectors; two in a file, two of one tree."""
+    """OpenVDB grids: one leaf, a tile, values, vectors; two in a file, two that share a tree."""
     bools = pyopenvdb.BoolGrid()
     bools.name = "b"
     bools.fill((0, 0, 0), (2, 1, 0), True, True)
@@ -152,7 +152,7 @@ def vdbs(folder):
         yield name + ".vdb", data + bytes(len(data) % 2)
         if name in ("two", "instance"):  # an odd number of bytes selects grid "b"
             yield name + "_named.vdb", data + bytes(1 - len(data) % 2)
-        if name == "bool":               # as a stream writes it
+        if name == "bool":               # as written to a stream
             yield name + "_streamed.vdb", data[:20] + b"\0" + data[21:]
 
 

@@ -1,4 +1,4 @@
-// A folder of a fuzzer, for readers that ask for names; it is gone with the process.
+// A temporary folder of a fuzzer, for readers that need file names; removed when the process ends.
 #pragma once
 
 #include <stdlib.h>
@@ -20,8 +20,7 @@ class OwnFolder {
 
   const std::string& path() const { return folder_.path(); }
   const Folder& folder() const { return folder_; }
-  // The file of that name has these bytes. Those that were written stay open: half the system
-  // calls.
+  // Writes the bytes to the file of that name. Files stay open, which halves the system calls.
   void write(const std::string& name, std::string_view bytes) {
     auto file = files_.find(name);
     if (file == files_.end()) file = files_.emplace(name, folder_.create(name)).first;

@@ -1,5 +1,5 @@
-// Arbitrary bytes as a pack of a cell cache, as they are and with their checksums repaired: an
-// Error, or cells that can be taken.
+// Arbitrary bytes as a pack of the cell cache, unchanged and with repaired checksums: an Error, or
+// cells that can be loaded.
 #include "builder/cache/cell_pack.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_files.h"

@@ -1,6 +1,6 @@
 // Arbitrary bytes as the .svdag that svdag-trace reads by itself: an Error, or a file that can be
-// traced, with the same hits through its pointers as through its 64-tree. What svdag-verify check
-// calls sound, svdag-trace takes.
+// traced, with the same hits through its pointers as through its 64-tree. svdag-trace accepts
+// every file that svdag-verify check accepts.
 #include <cstdlib>
 #include <vector>
 
@@ -30,8 +30,7 @@ bool is_sound(std::string bytes) {
 }
 
 void trace(const DagView& dag) {
-  const Camera camera =
-      preset_camera("iso", dag, occupied_bounds(dag), 1, Camera::kDefaultFov, 1.0);
+  const Camera camera = preset_camera("iso", dag, framing_bounds(dag), 1, Camera::kDefaultFov, 1.0);
   const Picture picture{camera, kSide, kSide};
   std::vector<Ray> rays;
   for (uint32_t i = 0; i < kSide * kSide; ++i) rays.push_back(picture.ray(i % kSide, i / kSide));

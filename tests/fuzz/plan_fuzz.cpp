@@ -1,5 +1,5 @@
-// Arbitrary bytes as a plan: plan.json, index and receipts, one after the other with a line
-// "---" between them; with their hashes repaired. An Error, or a plan whose steps, bins and
+// Arbitrary bytes as a plan: plan.json, index and receipts, separated by lines "---", with repaired
+// hashes. An Error, or a plan whose steps, bins and
 // receipts can be looked up.
 #include "builder/farm/plan/leaf_bins.h"
 #include "builder/farm/plan/plan.h"
@@ -20,7 +20,7 @@ std::string next_part(std::string_view* rest) {
   return part;
 }
 
-// Puts `hash` where the value of `key` begins, if there is one of its length.
+// Replaces the value of `key` by `hash`, if it exists and has the same length.
 void put_hash(const std::string& key, const std::string& hash, std::string* json) {
   const size_t at = json->find("\"" + key + "\": \"");
   const size_t value = at + key.size() + 5;
@@ -38,6 +38,7 @@ void try_plan(OwnFolder& folder, std::string_view rest) {
   std::string json = next_part(&rest);
   const std::string index = next_part(&rest);
   put_hash("index_hash", hash_of(index), &json);
+  seal_plan(&json);
   folder.write("plan.json", json);
   folder.write("index", index);
   const Plan plan = load_plan(folder.path(), true);

@@ -1,5 +1,5 @@
-// The common body of the readers' fuzz targets: any bytes are a scene or an Error (bad input, or
-// more memory than the budget), and nothing else.
+// The common body of the readers' fuzz targets: any bytes are a scene or an Error (bad input or
+// memory).
 #pragma once
 
 #include <cstdlib>

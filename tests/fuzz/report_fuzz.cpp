@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-// A small file, and what the command finds out about it.
+// A small file and its statistics, as the command computes them.
 struct Baked {
   MemoryFile memory{RawFile(raw_dag(test_grid(5), {{1, 2, 3}, {9, 10, 11}, {31, 31, 0}})).bytes()};
   DagFile file = DagFile::open(memory.file().path());

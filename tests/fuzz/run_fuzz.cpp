@@ -1,5 +1,5 @@
-// Arbitrary bytes as a `.run`, as they are and with their checksums repaired: an Error, or a run
-// that check_run() proves and whose levels can be read.
+// Arbitrary bytes as a `.run`, unchanged and with repaired checksums: an Error, or a run
+// that passes check_run() and whose levels can be read.
 #include "builder/run/run_check.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_files.h"

@@ -1,9 +1,9 @@
-// What the fuzzers ask of AddressSanitizer, for speed; ASAN_OPTIONS overrules it.
+// The options of AddressSanitizer for fuzzers, for speed; ASAN_OPTIONS overrides them.
 //
-// Four frames of each allocation instead of thirty: a finding is run again by itself for the rest,
-// with ASAN_OPTIONS=malloc_context_size=30. Pages are not given back to the system, which would
-// have to clear them again. Freed memory is kept from use for 8 MiB of frees, more than most inputs
-// make, so that it is still in the processor's cache when it is used again.
+// Four frames of each allocation instead of thirty: rerun a finding alone with
+// ASAN_OPTIONS=malloc_context_size=30 for all frames. Pages are not returned to the system, which
+// would have to clear them again. The quarantine of freed memory is 8 MiB, more than most inputs
+// free, so that reused memory is still in the processor's cache.
 extern "C" const char* __asan_default_options();
 
 const char* __asan_default_options() {

@@ -1,4 +1,4 @@
-// Arbitrary bytes as a .svdag, as they are and with their checksums repaired: an Error, or a file
+// Arbitrary bytes as a .svdag, unchanged and with repaired checksums: an Error, or a file
 // whose every node can be walked.
 #include <algorithm>
 #include <cstdlib>

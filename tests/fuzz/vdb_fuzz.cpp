@@ -1,12 +1,12 @@
 // Arbitrary bytes as a .vdb of masks or of values: OpenVDB reads them in a child process, and
-// whatever it sends or dies of is a grid or an Error.
+// its output or crash gives a grid or an Error.
 #include "io/formats/vdb.h"
 #include "tests/fuzz/import_fuzz.h"
 
 namespace svdag {
 namespace {
 
-// Values around a level set; a mask has none and is taken as it is.
+// The values around a level set; a mask has no values.
 constexpr ValueRange kRange = {-0.5, 0.5};
 
 void visit(const VdbGrid& grid) {
@@ -23,7 +23,7 @@ void visit(const VdbGrid& grid) {
 }  // namespace
 }  // namespace svdag
 
-// The only grid, or the one named "b" where the number of bytes is odd.
+// Reads the only grid, or the grid "b" if the number of bytes is odd.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace svdag;
   const MemoryFile memory(std::as_bytes(std::span(data, size)));

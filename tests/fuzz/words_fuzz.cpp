@@ -1,5 +1,5 @@
-// Arbitrary bytes as one word of a command line: a letter selects the parser of the rest. It is
-// understood, and then means the same when it is written down and read again, or an Error (usage).
+// Arbitrary bytes as one word of a command line: a letter selects the parser of the rest. The
+// result is a value, which is the same after formatting and parsing it again, or an Error (usage).
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -49,7 +49,7 @@ void try_iso(const std::string& word) {
   require(same.low == range.low && same.high == range.high);
 }
 
-// Two words with a space between them.
+// Two words separated by a space.
 void try_nearest(const std::string& words) {
   const size_t space = std::min(words.find(' '), words.size());
   const std::string a = words.substr(0, space);

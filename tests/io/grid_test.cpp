@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "io/lattice.h"
@@ -68,6 +69,49 @@ TEST(CoveredLattice, RejectsVoxelSizesThatAreNotPositiveNormalNumbers) {
     EXPECT_SVDAG_ERROR(cover_lattice(box, size), ExitCode::kUsage, "not a positive normal number");
 }
 
+TEST(CoveredLattice, IsNoLargerThanASmallSceneNeeds) {
+  EXPECT_EQ(cover_lattice(box_of({0, 0, 0}, {10, 10, 10}), 1).resolution(), 16);
+  EXPECT_EQ(cover_lattice(box_of({-5, -5, -5}, {5, 5, 5}), 1).resolution(), 16);
+  EXPECT_EQ(cover_lattice(box_of({4090, 0, 0}, {4100, 1, 1}), 1).resolution(), 16);
+}
+
+TEST(CoveredLattice, NamesTheSmallestVoxelSize) {
+  const Box box = box_of({0, 0, 0}, {123.4, 1, 1});
+  EXPECT_SVDAG_ERROR(cover_lattice(box, 1e-6), ExitCode::kUsage, "voxels of at least 0.00012,");
+  EXPECT_EQ(cover_lattice(box, 0.00012).levels, kMaxLevels);
+}
+
+TEST(DividedCube, HasItsCornersAtThoseOfTheCube) {
+  const GridCube cube{{-1, 2, 3}, 6};
+  for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
+    const Grid grid = divide_cube(cube, levels);
+    EXPECT_EQ(grid.corner(), cube.min);
+    EXPECT_EQ(grid.voxel_size * double(grid.resolution()), cube.side);
+    EXPECT_TRUE(grid.bounded && grid.is_valid());
+    EXPECT_EQ(grid.selection, grid.whole());
+  }
+  for (const double side : {0.0, -1.0, 1e-310, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_SVDAG_ERROR(divide_cube({Point(0), side}, 3), ExitCode::kUsage, "--cube: the side");
+}
+
+// So the snapped scene, and with it every conservative voxel, is the same at these resolutions.
+RC_GTEST_PROP(DividedCube, SnapsTheSameFrom64KOn, ()) {
+  const Box box = *boxes();
+  const double side = std::abs(box.max.x - box.min.x) + std::abs(box.max.y - box.min.y);
+  RC_PRE(std::isnormal(side * 0x1p-40) && std::isfinite(side));
+  const GridCube cube{box.min, side};
+  const Lattice coarse(divide_cube(cube, 16)), fine(divide_cube(cube, *any_of(17, 20)));
+  for (const Point& p : {box.min, box.max, 0.3 * box.min + 0.7 * box.max}) {
+    LatticePoint q;
+    try {
+      q = coarse.snap(p);
+    } catch (const Error&) {
+      RC_DISCARD("too far from the cube");
+    }
+    RC_ASSERT(q == fine.snap(p));
+  }
+}
+
 TEST(CoveredLattice, RejectsMoreThanAMillionVoxels) {
   EXPECT_SVDAG_ERROR(cover_lattice(box_of({0, 0, 0}, {2e6, 1, 1}), 1), ExitCode::kUsage,
                      "more than 1M voxels");
@@ -83,11 +127,14 @@ RC_GTEST_PROP(CoveredLattice, IsTheSmallestThatHoldsEveryTouchedVoxel, ()) {
   const LatticePoint low = lattice.snap(box.min), high = lattice.snap(box.max);
   bool needed = grid.levels == kMinLevels;
   for (int a = 0; a < 3; ++a) {
-    RC_ASSERT(grid.k0[a] % 1024 == 0);
-    RC_ASSERT(lattice.first_voxel(low[a]) >= 0 && lattice.first_voxel(low[a]) < 1024);
-    RC_ASSERT(lattice.last_voxel(high[a]) < grid.resolution());
+    const int64_t step = corner_step(grid.levels);
+    const int64_t first = lattice.first_voxel(low[a]), last = lattice.last_voxel(high[a]);
+    RC_ASSERT(grid.k0[a] % step == 0);
+    RC_ASSERT(first >= 0 && first < step);
+    RC_ASSERT(last < grid.resolution());
     // One level less does not suffice on some axis. Its finer lattice may move q by one voxel.
-    needed = needed || lattice.last_voxel(high[a]) >= grid.resolution() / 2 - 1;
+    const int64_t corner = first & -corner_step(grid.levels - 1);
+    needed = needed || last - corner >= grid.resolution() / 2 - 1;
   }
   RC_ASSERT(needed);
 }

@@ -419,7 +419,7 @@ class HostileCounts(unittest.TestCase):
         def delete_runs():
             for file in (plan / "runs").glob("*"):
                 file.unlink()
-        self.judge(path, text, json_fields(json.loads(text)), command, prepare=delete_runs)
+        self.judge(path, text, json_fields(json.loads(text)), command, "plan", prepare=delete_runs)
         index, data = plan / "index", (plan / "index").read_bytes()
         for which, at in enumerate(range(0, len(data) - 7, 8)):
             HostileCounts.fields += 1
@@ -430,6 +430,7 @@ class HostileCounts(unittest.TestCase):
                 right, hashes = re.subn(rb'"index_hash": "\w+"', b'"index_hash": "%s"' % hash_of(changed), text)
                 self.assertEqual(hashes, 1)
                 path.write_bytes(right)
+                subprocess.run([PROGRAMS / "tests" / "repair_file", "plan", path], check=True)
                 answer = run(command, self.folder)
                 self.check(f"index, word {which} = {value}", answer, Result(0, "", 8 * MIB), len(data))
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 
+#include "builder/farm/plan/plan.h"
 #include "tests/repair_checksums.h"
 #include "tests/repair_files.h"
 
@@ -21,6 +22,8 @@ int main(int argc, char** argv) {
     svdag::repair_pack(&bytes);
   } else if (kind == "journal") {
     svdag::repair_journal(&bytes);
+  } else if (kind == "plan") {
+    svdag::seal_plan(&bytes);
   } else {
     return 2;
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What `cmake --install` gives other projects, and the packages for Debian.
+"""Tests the development files of `cmake --install` in other projects, and the Debian packages.
 
-BUILD is the folder of a finished build; everything else happens in a temporary folder.
+BUILD is the folder of a finished build; all other files are in a temporary folder.
 """
 import json
 import os
@@ -63,7 +63,7 @@ class Package(unittest.TestCase):
             source.write_text(f'#include "{header}"\n')
             run("g++", "-std=c++20", "-fsyntax-only", f"-I{include}", source)
 
-    def test_a_project_that_can_do_without_is_not_ended(self):
+    def test_find_package_without_REQUIRED_does_not_fail(self):
         source, prefix = self.root / "optional", self.install()
         source.mkdir()
         (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(optional LANGUAGES CXX)\n"
@@ -73,11 +73,11 @@ class Package(unittest.TestCase):
         self.assertIn("found 0", run(*without_xxhash, *configure))
         self.assertIn("found 1", run(*configure))
 
-    def test_installed_programs_run_where_they_were_put(self):
+    def test_installed_programs_run(self):
         program = self.install() / "bin" / "svdag-verify"
         self.assertIn("ok", run(program, "check", self.file))
 
-    def test_a_project_that_holds_this_one_finds_its_headers(self):
+    def test_a_project_that_contains_this_one_finds_its_headers(self):
         source, build = self.root / "holder", self.root / "holder_build"
         source.mkdir()
         (source / "CMakeLists.txt").write_text(
@@ -90,7 +90,7 @@ class Package(unittest.TestCase):
         self.assertEqual(run(build / "mapped", self.file).split(), self.counts)
         self.assertFalse((build / "CPackConfig.cmake").exists(), "packaging is the other project's")
 
-    def test_debian_packages_name_what_they_need(self):
+    def test_debian_packages_have_complete_dependencies(self):
         run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.root / "deb")
         packages = {p.name.split("_")[0]: p for p in (self.root / "deb").glob("*.deb")}
         self.assertEqual(sorted(packages), ["libsvdag-dev", "svdag"])
@@ -115,7 +115,7 @@ class Package(unittest.TestCase):
         self.assertIn("./usr/share/doc/libsvdag-dev/format.md\n", held)
 
     def require_links(self, held):
-        """Links of the pages in a package lead to its files, but for those to the sources."""
+        """Links in packaged pages lead to files of the package, except for links to sources."""
         folder = "./usr/share/doc/svdag/"
         pages = [pathlib.Path(page) for page in re.findall(rf"{folder}(\S+\.md)\n", held)]
         self.assertGreater(len(pages), 12)

@@ -135,7 +135,7 @@ int run(const RenderCommandConfig& config) {
 
   const DagFile file = DagFile::open(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
-  const VoxelBounds box = occupied_bounds(file.view());
+  const VoxelBounds box = framing_bounds(file.view());
   const double aspect = double(picture.width) / picture.height;
   const Camera first = make_camera(config, file, int(up), aspect, box);
   // The light does not move with the camera.

@@ -35,7 +35,7 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   if (dag.empty()) return pictures;
   const RenderConfig picture = parse_size(config.size);
   const int up = int(std::string("xyz").find(config.up));
-  const VoxelBounds box = occupied_bounds(dag);
+  const VoxelBounds box = framing_bounds(dag);
   const double aspect = double(picture.width) / picture.height;
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);

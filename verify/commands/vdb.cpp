@@ -68,7 +68,7 @@ void write_difference(const VdbConfig& config, const VdbComparison& comparison,
                 config.write_diff);
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
   comparer->write_difference(writer.get());
-  writer->write(config.write_diff, VdbFormat::kMask);
+  writer->write(config.write_diff, VdbFormat::kBool);
 }
 
 }  // namespace

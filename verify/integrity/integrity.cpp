@@ -198,14 +198,14 @@ class OutsideSearch {
   std::vector<std::unordered_map<uint32_t, uint64_t>> searched_;
 };
 
-// Checks the corner's lattice plane k0, a multiple of 1024 so that cells of up to 1024 voxels have
-// the same content in every grid of the lattice. A box has no such planes.
+// Checks the corner's lattice plane k0, a multiple of corner_step(). A box has no such planes.
 void check_lattice(const Header& header, std::vector<std::string>* defects) {
   const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
+  const int64_t step = corner_step(int(header.levels));
   for (const int64_t k0 : header.k0) {
-    if (lattice && k0 % 1024 != 0)
+    if (lattice && k0 % step != 0)
       defects->push_back("the lattice plane k0 of the grid's corner is " + std::to_string(k0) +
-                         ", not a multiple of 1024");
+                         ", not a multiple of " + std::to_string(step));
     if (!lattice && k0 != 0)
       defects->push_back("the grid is a box, but has a lattice plane k0 = " + std::to_string(k0));
   }

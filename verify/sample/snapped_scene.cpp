@@ -59,9 +59,10 @@ GridJudgement judge_grid(const Grid& grid, const Box& bounds) {
   judgement.recomputed = follows_from(grid, bounds);
   if (grid.kind == Grid::Kind::kLattice) {
     for (int a = 0; a < 3; ++a) {
-      if (grid.k0[a] % 1024 != 0)
+      const int64_t step = corner_step(grid.levels);
+      if (grid.k0[a] % step != 0)
         judgement.defects.push_back("the corner of the grid, plane " + std::to_string(grid.k0[a]) +
-                                    ", is not a multiple of 1024");
+                                    ", is not a multiple of " + std::to_string(step));
     }
   }
   if (grid.bounded) return judgement;

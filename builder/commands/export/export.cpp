@@ -24,7 +24,7 @@ struct FormatRow {
 
 // The only table of formats.
 constexpr FormatRow kFormats[] = {
-    {{"vdb", "vdb", "OpenVDB, a mask grid (or --bool)"}, export_vdb},
+    {{"vdb", "vdb", "OpenVDB, a grid of --vdb-type"}, export_vdb},
     {{"nvdb", "nvdb", "NanoVDB, a mask grid"}, export_nvdb},
     {{"hashdag", "dag.bin", "HashDAG, -o DIR/NAME"}, export_hashdag, hashdag_path},
     {{"symvox", "svdag", "SymVox, a different .svdag"}, export_symvox},
@@ -67,8 +67,8 @@ int checked_level(const DagFile& file, std::optional<int> requested) {
 
 void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& config) {
   const std::string format = row.format.name;
-  if (config.as_bool && row.write != export_vdb)
-    fail_usage("--bool: only vdb has grids of type bool, the format is " + format);
+  if (config.vdb_type && row.write != export_vdb)
+    fail_usage("--vdb-type: only vdb has grids of several types, the format is " + format);
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
   if (config.max_voxels && std::find(lists.begin(), lists.end(), row.write) == lists.end())
     fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, the format is " + format);
@@ -105,7 +105,7 @@ int run(const ExportConfig& options) {
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
   reject_input_as_output(row, config);
-  AtomicFile::check(config.output);
+  AtomicFile::check(config.output, config.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (!config.quiet)

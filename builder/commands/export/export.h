@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/formats/vdb.h"
 #include "io/triangle.h"
 
 namespace svdag {
@@ -20,8 +21,9 @@ struct ExportConfig {
   std::optional<int> level;   // the level whose nodes are exported as voxels; none: L, the finest
   std::optional<Box> bounds;  // only the voxels whose interior meets this box
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
-  bool as_bool = false;                // VDB grids of type bool, for readers without masks
+  std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
   uint64_t memory = 0;                 // 0: half of the machine's memory
+  bool no_clobber = false;             // -n: an existing output is an error
   bool quiet = false;
 };
 

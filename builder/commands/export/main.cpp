@@ -39,9 +39,19 @@ void set_up(CLI::App* app, ExportConfig* config) {
          [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },
          "npz, binvox, vox, ply: reject more voxels than this (default: 10^9)")
       ->type_name("N");
-  app->add_flag("--bool", config->as_bool,
-                "vdb: grids of type bool instead of mask, for readers without mask grids");
+  one_of(app->add_option_function<std::string>(
+             "--vdb-type",
+             [config](const std::string& name) {
+               config->vdb_type = name == "mask"    ? VdbFormat::kMask
+                                  : name == "float" ? VdbFormat::kFloat
+                                                    : VdbFormat::kBool;
+             },
+             "vdb: bool (default), which every reader has; mask, the smallest in memory; float, "
+             "a fog volume of 1 in 0"),
+         {"bool", "mask", "float"})
+      ->type_name("TYPE");
   add_memory_budget(app, &config->memory);
+  add_no_clobber(app, &config->no_clobber);
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,
                {"svdag export city.svdag -o city.vdb --level 10",

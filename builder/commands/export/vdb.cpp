@@ -19,22 +19,22 @@ VdbMetadata grid_metadata(const Selection& selection) {
 }
 
 // Reserves the memory of the grid before it is allocated.
-MemoryBudget::Reservation reserve(Selection* selection, MemoryBudget* budget) {
-  const uint64_t max_leaves = budget->limit() / vdb_bytes(1, 0, 0);
+MemoryBudget::Reservation reserve(VdbFormat format, Selection* selection, MemoryBudget* budget) {
+  const uint64_t max_leaves = budget->limit() / vdb_bytes(format, 1, 0, 0);
   const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, max_leaves);
   if (counts.blocks > max_leaves)
     throw Error(ExitCode::kMemory,
                 "the grid would have more than " + format_count(max_leaves) +
                     " leaves, too many for --memory: export a coarser --level, or a part with "
                     "--bounds");
-  return budget->reserve(vdb_bytes(counts.blocks, counts.middle, counts.large),
+  return budget->reserve(vdb_bytes(format, counts.blocks, counts.middle, counts.large),
                          "leaves of the grid");
 }
 
 uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& config,
                    MemoryBudget* budget) {
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
-  const auto reservation = reserve(selection, budget);
+  const auto reservation = reserve(format, selection, budget);
   writer->begin("occupancy", voxel_centres(selection->grid));
   writer->metadata(grid_metadata(*selection));
   uint64_t voxels = 0, cubes = 0;
@@ -51,7 +51,7 @@ uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& c
 }  // namespace
 
 uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_as(config.as_bool ? VdbFormat::kBool : VdbFormat::kMask, selection, config, budget);
+  return export_as(config.vdb_type.value_or(VdbFormat::kBool), selection, config, budget);
 }
 
 uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {

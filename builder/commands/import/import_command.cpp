@@ -136,7 +136,7 @@ int run(const ImportCommandConfig& config) {
   if (names_run(config.import.output))
     fail_usage(config.import.output +
                ": an import writes a .svdag, not a run: choose another name");
-  AtomicFile::check(config.import.output);
+  AtomicFile::check(config.import.output, config.no_clobber);
   const File file = File::open_read(config.file);
   InputWatch inputs;
   inputs.add(file);

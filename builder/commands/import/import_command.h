@@ -21,7 +21,8 @@ struct ImportCommandConfig {
   std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
   bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
-  size_t threads = 0;  // 0: all processors
+  size_t threads = 0;       // 0: all processors
+  bool no_clobber = false;  // -n: an existing output is an error
   bool quiet = false;
 };
 

@@ -21,7 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 4;  // changes with the keys of plan.json and the contents of the index
+constexpr int kFormat = 5;  // changes with the keys of plan.json and the contents of the index
+
+constexpr size_t kHashDigits = 32;
 
 constexpr const char* kOtherVersion =
     "written by another version of svdag: create the plan again with svdag plan";
@@ -68,6 +70,12 @@ struct GetJson {
     for (int a = 0; a < 3; ++a) v[a] = whole_number<int64_t>(in.at(name).at(size_t(a)));
   }
 };
+
+std::string hash_of(const std::string& text) {
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(text)));
+  return to_hex(hasher.digest());
+}
 
 double rounded(double seconds) {
   return std::round(1000 * seconds) / 1000;
@@ -145,16 +153,29 @@ PlanStep get_step(const Json& json, const Plan& plan) {
   return step;
 }
 
+Rule get_rule(const Json& json, const Plan& plan) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    if (json == rule_name(rule)) return rule;
+  }
+  fail_plan(plan, "unknown rule " + json.dump());
+}
+
 void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   const Json json = Json::parse(text);
   if (json.at("format") != kFormat) fail_plan(*plan, kOtherVersion);
+  std::string sealed = text;
+  plan->hash = seal_plan(&sealed);
+  if (sealed != text)
+    fail_plan(*plan, "was changed after it was planned: create the plan again with svdag plan");
   for (const Json& input : json.at("inputs"))
     plan->inputs.push_back({input.at("path"), count_of(input, "bytes"), input.at("hash")});
   plan->description = json.at("description");
   if (!is_of_this_algorithm(plan->description)) fail_plan(*plan, kOtherVersion);
   visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
   if (!plan->grid.is_valid()) fail_plan(*plan, "invalid grid");
-  plan->rule = json.at("rule") == "thin" ? Rule::kThin : Rule::kConservative;
+  plan->rule = get_rule(json.at("rule"), *plan);
+  if (!describes(plan->description, plan->rule, plan->grid))
+    fail_plan(*plan, "rule and grid are not those of the description");
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
   plan->cells = count_of(json.at("one_bake"), "cells");
@@ -213,17 +234,26 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
   json["bins"] = plan.bins.size();
   json["index_hash"] = index_hash;
   for (const PlanStep& step : plan.steps) json["steps"].push_back(step_json(plan, step));
+  json["hash"] = std::string(kHashDigits, '0');
   return json.dump(1) + "\n";
 }
 
+std::string seal_plan(std::string* json) {
+  const std::string key = "\"hash\": \"";
+  const size_t at = json->rfind(key);
+  if (at == std::string::npos || json->size() - at < key.size() + kHashDigits) return "";
+  json->replace(at + key.size(), kHashDigits, kHashDigits, '0');
+  const std::string hash = hash_of(*json);
+  json->replace(at + key.size(), kHashDigits, hash);
+  return hash;
+}
+
 void save_plan(Plan* plan) {
-  const std::string text = plan_json(*plan, save_index(*plan));
+  std::string text = plan_json(*plan, save_index(*plan));
+  plan->hash = seal_plan(&text);
   AtomicFile file(plan->path(kPlanJson));
   file.append(text);
   file.commit();
-  Hasher128 hasher;
-  hasher.update(std::as_bytes(std::span(text)));
-  plan->hash = to_hex(hasher.digest());
 }
 
 Plan load_plan(const std::string& folder, bool with_bins) {
@@ -242,9 +272,6 @@ Plan load_plan(const std::string& folder, bool with_bins) {
     if (!error.path().empty()) throw;
     fail_input(path, error.what());  // from io/json_number.h
   }
-  Hasher128 hasher;
-  hasher.update(std::as_bytes(std::span(text)));
-  plan.hash = to_hex(hasher.digest());
   if (with_bins) load_index(index_hash, &plan);
   return plan;
 }

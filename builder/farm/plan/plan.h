@@ -6,9 +6,10 @@
 //   PLAN/runs/       the outputs of the steps, and a receipt of each (builder/farm/plan/receipt.h)
 //   PLAN/logs/       the messages of the steps
 //
-// Once plan.json exists, only runs/ and logs/ change. The hash of plan.json identifies the plan in
-// receipts, so a run of another plan, or of an older plan in the same folder, is detected. A step
-// reads the plan and the outputs of the steps before it, never the scene.
+// Once plan.json exists, only runs/ and logs/ change. plan.json ends with a hash of itself: every
+// step rejects an edited plan, which would bake something else. The hash also identifies the plan
+// in receipts, so a run of another plan, or of an older plan in the same folder, is detected. A
+// step reads the plan and the outputs of the steps before it, never the scene.
 #pragma once
 
 #include <string>
@@ -50,7 +51,7 @@ struct PlanInput {
 
 struct Plan {
   std::string folder;  // absolute
-  std::string hash;    // of plan.json, 32 hex digits
+  std::string hash;    // of plan.json without this hash, 32 hex digits
   std::vector<PlanInput> inputs;
   std::string description;  // builder/bake/description.h
   Grid grid;
@@ -79,6 +80,9 @@ Plan load_plan(const std::string& folder, bool with_bins);
 void save_plan(Plan* plan);
 // plan.json as text.
 std::string plan_json(const Plan& plan, const std::string& index_hash);
+// Puts the hash of `json`, the text of a plan.json, into its last key and returns it; does nothing
+// and returns "" if that key is missing.
+std::string seal_plan(std::string* json);
 
 // Throws Error (kUsage) if the plan has no step of this name.
 const PlanStep& find_step(const Plan& plan, const std::string& name);

@@ -111,9 +111,8 @@ void Planner::read_scene() {
     scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
   progress_->phase("read bounds", 0);
   inputs_ = scene_.watch();
-  const Box box = config_.build.bounds ? Box() : scene_.bounds();
   plan_.folder = config_.folder;
-  plan_.grid = choose_grid(config_.build, box);
+  plan_.grid = choose_grid(config_.build, scene_);
   plan_.rule = config_.build.descent.rule;
   progress_->phase("hash", 0);
   describe_inputs();

@@ -91,17 +91,22 @@ void write_grids(const std::string& path, const openvdb::GridPtrVec& grids) {
   if (!reads_back<GridType>(path, grids)) throw openvdb::IoError("reads back differently");
 }
 
-openvdb::GridPtrVec as_bool(const std::vector<openvdb::MaskGrid::Ptr>& masks) {
+// Writes the grids with values of another type: 1 (true) where `masks` are active, else 0 (false).
+template <class GridType>
+void write_as(const std::string& path, const std::vector<openvdb::MaskGrid::Ptr>& masks,
+              openvdb::GridClass grid_class) {
+  using Value = typename GridType::ValueType;
   openvdb::GridPtrVec grids;
   for (const openvdb::MaskGrid::Ptr& mask : masks) {
-    const auto tree =
-        std::make_shared<openvdb::BoolTree>(mask->tree(), false, true, openvdb::TopologyCopy());
-    const auto grid = std::make_shared<WritableGrid<openvdb::BoolGrid>>(tree);
+    const auto tree = std::make_shared<typename GridType::TreeType>(
+        mask->tree(), Value(0), Value(1), openvdb::TopologyCopy());
+    const auto grid = std::make_shared<WritableGrid<GridType>>(tree);
     grid->insertMeta(*mask);
     grid->setTransform(mask->transformPtr());
+    grid->setGridClass(grid_class);
     grids.push_back(grid);
   }
-  return grids;
+  write_grids<GridType>(path, grids);
 }
 
 class Writer final : public VdbWriter {
@@ -141,7 +146,9 @@ class Writer final : public VdbWriter {
         SVDAG_ASSERT(grids_.size() == 1);
         write_nano(*grids_.front(), file.open_name());
       } else if (format == VdbFormat::kBool) {
-        write_grids<openvdb::BoolGrid>(file.open_name(), as_bool(grids_));
+        write_as<openvdb::BoolGrid>(file.open_name(), grids_, openvdb::GRID_UNKNOWN);
+      } else if (format == VdbFormat::kFloat) {
+        write_as<openvdb::FloatGrid>(file.open_name(), grids_, openvdb::GRID_FOG_VOLUME);
       } else {
         write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()});
       }

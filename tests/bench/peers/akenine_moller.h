@@ -3,7 +3,7 @@
 // The separating axis theorem on 13 axes, with the box at its centre: 3 box normals, the plane of
 // the triangle, 9 cross products of an edge and an axis. Written from the paper's section 2, in its
 // order (3 boxes, 9 products, plane); edges and the normal are computed once per triangle instead
-// of once per test, which only helps it. World units, as its users call it.
+// of once per test, which only makes it faster. Works in world units, like its users.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,8 @@ class AkenineMoller {
   }
 
  private:
-  // The product of axis w and edge: both ends of the edge project to one value, `on`, the vertex
-  // opposite to another.
+  // The axis w x edge: both ends of the edge project to one value (that of `on`), the opposite
+  // vertex to another.
   static bool separates(const RealPoint<Real>& edge, const RealPoint<Real>& on,
                         const RealPoint<Real>& opposite, size_t w, Real half) {
     const size_t a = (w + 1) % 3, b = (w + 2) % 3;

@@ -1,9 +1,9 @@
-// CGAL's do_intersect(triangle, box) with two kernels; in a library of its own, because CGAL's
+// CGAL's do_intersect(triangle, box) with two kernels, in a separate library because CGAL's
 // target adds -frounding-math to everything that links it.
 //   EPICK  double coordinates, filtered exact predicates, constructions in double
 //   EPECK  lazy exact numbers throughout
-// A triangle of zero area is outside do_intersect's precondition: it goes in as a segment or a
-// point. Voxel units in double.
+// A triangle of zero area violates do_intersect's precondition: it is passed as a segment or a
+// point. Coordinates are doubles in voxel units.
 #pragma once
 
 #include <span>

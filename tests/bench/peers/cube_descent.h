@@ -1,11 +1,11 @@
-// The octree descent that every peer method runs in: from a cell to its voxels, with nothing but a
-// test of one triangle against one cube.
+// The octree descent of every peer method: from a cell to its voxels by a test of one triangle
+// against one cube.
 //
 // A Predicate has a type Setup (one triangle, prepared once per cell) and
 //   bool operator()(const Setup&, const LatticePoint& corner, int64_t side) const
 // with corner and side in voxels. A cube keeps the triangles that touch it; a child tests those of
 // its parent; a voxel stops at the first hit. All methods get the same lists and write the same
-// kind of output, so time per pair compares the tests and what they let the descent prune.
+// kind of output, so time per pair compares the tests and the pruning that they allow.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@
 
 namespace svdag::bench {
 
-// The bricks of a set of voxels, in Morton order; none is empty.
+// The bricks of a set of voxels, in Morton order, without empty ones.
 struct BrickAt {
   uint64_t code;
   Brick voxels;

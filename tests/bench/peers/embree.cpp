@@ -8,7 +8,7 @@
 namespace svdag::bench {
 namespace {
 
-// A packet of kWidth rays, and how Embree traces it.
+// A packet of kWidth rays, and the functions of Embree that trace it.
 template <class RayHit, class Ray, unsigned kWidth>
 struct Packet {
   alignas(64) RayHit hits;

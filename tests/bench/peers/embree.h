@@ -1,4 +1,4 @@
-// Embree as its users would have it: one mesh, high build quality, single rays, packets and
+// Embree in its usual configuration: one mesh, high build quality; single rays, packets and
 // streams.
 #pragma once
 
@@ -12,7 +12,7 @@ struct FloatTriangle {
   float v[3][3];
 };
 
-// A ray relative to the same middle as the triangles, from t = 0.
+// A ray relative to the same origin as the triangles, from t = 0.
 struct FloatRay {
   float origin[3];
   float direction[3];
@@ -20,7 +20,7 @@ struct FloatRay {
 };
 
 struct RayRun {
-  double seconds = 0;  // of this thread's processor time
+  double seconds = 0;  // CPU time of this thread
   uint64_t hits = 0;
 };
 
@@ -32,8 +32,8 @@ class EmbreePeer {
   explicit EmbreePeer(std::span<const FloatTriangle> triangles);
   ~EmbreePeer();
 
-  // Traces all rays, one after the other or `way` many at once; the layout that Embree wants is
-  // made before the time is taken. `coherent`: neighbouring rays are similar.
+  // Traces all rays, singly or `way` many at once; the conversion to Embree's layout is not timed.
+  // `coherent`: neighbouring rays are similar.
   RayRun closest(std::span<const FloatRay> rays, Way way, bool coherent) const;
   RayRun any(std::span<const FloatRay> rays, Way way, bool coherent) const;
 
@@ -42,7 +42,7 @@ class EmbreePeer {
   std::unique_ptr<Scene> scene_;
 };
 
-// Of this thread's processor time: the machine may have other work.
+// CPU time of this thread, so that other load does not count.
 double thread_seconds();
 
 }  // namespace svdag::bench

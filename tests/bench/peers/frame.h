@@ -1,8 +1,8 @@
-// The coordinates in which a peer method works: those of its users.
+// The conversion of world coordinates for a peer method, as its users do it.
 //
-// A world coordinate is first rounded to Real, as a mesh in memory is, then taken relative to the
+// A world coordinate is first rounded to Real, like a mesh in memory, then made relative to the
 // grid's corner in Real. Akenine-Möller's test is used in world units (box centre and half size),
-// Schwarz and Seidel's in voxel units (the grid is theirs), so the frame knows both.
+// Schwarz and Seidel's in voxel units, so the frame converts to both.
 #pragma once
 
 #include <array>

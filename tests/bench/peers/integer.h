@@ -1,6 +1,5 @@
-// The builder's own formulas (builder/overlap/triangle_setup.h) on the snapped triangle, every
-// value in 128-bit integers: what exactness costs without the floating-point filter. |q| must be
-// less than 2^41.
+// The builder's formulas (builder/overlap/triangle_setup.h) on the snapped triangle in 128-bit
+// integers: measures the cost of exactness without the floating-point filter. Requires |q| < 2^41.
 #pragma once
 
 #include <algorithm>

@@ -4,10 +4,10 @@
 //
 // Notation: p the box's minimum corner, D its side (cubes here, so the critical point's terms are D
 // times a sum over the normal's positive components, and one setup serves every level). Written
-// from the paper's equations, voxel units, closed comparisons.
+// from the paper's equations, in voxel units, with closed comparisons.
 //
-// `epsilon` > 0 makes it the common repair: every half-space is moved outward by that many voxels,
-// so rounding cannot lose a voxel, at the price of voxels that the triangle does not touch.
+// `epsilon` > 0 is the common remedy: every half-space is moved outward by that many voxels, so
+// that rounding misses no voxel, but the triangle sets voxels that it does not touch.
 #pragma once
 
 #include <algorithm>

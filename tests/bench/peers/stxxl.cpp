@@ -7,7 +7,7 @@
 namespace svdag::bench {
 namespace {
 
-// Blocks of two megabytes, its default, would be too few for one pass over an eighth of the data.
+// STXXL's default of 2 MB gives too few blocks for one pass over an eighth of the data.
 constexpr unsigned kBlock = 1 << 19;
 
 struct Less {
@@ -30,18 +30,18 @@ void stxxl_disk(const std::string& path, uint64_t bytes) {
 SortCost stxxl_sort(std::span<const Key> keys, uint64_t memory, const Digest& expected) {
   const stxxl::stats_data before(*stxxl::stats::get_instance());
   const StopWatch watch;
-  Judge judge;
+  SortCheck check;
   {
     stxxl::sorter<Key, Less, kBlock> sorter(Less(), memory);
     for (const Key& key : keys) sorter.push(key);
     sorter.sort();
-    for (; !sorter.empty(); ++sorter) judge.add(*sorter);
+    for (; !sorter.empty(); ++sorter) check.add(*sorter);
   }
   SortCost cost = watch.cost();
   const stxxl::stats_data moved = stxxl::stats_data(*stxxl::stats::get_instance()) - before;
   cost.written = moved.get_written_volume();
   cost.read = moved.get_read_volume();
-  cost.right = judge.content(expected);
+  cost.right = check.matches(expected);
   return cost;
 }
 

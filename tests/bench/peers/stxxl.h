@@ -9,7 +9,7 @@
 
 namespace svdag::bench {
 
-// Its disk: `bytes` in the file `path` (O_DIRECT), or in memory if `path` is empty. To be called
+// Configures its disk: `bytes` in the file `path` (O_DIRECT), or in memory if `path` is empty. Call
 // once per process, before the first sort; the file is removed when the process ends.
 void stxxl_disk(const std::string& path, uint64_t bytes);
 // Pushes the keys, sorts, and pulls them, with `memory` bytes.

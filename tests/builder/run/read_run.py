@@ -1,6 +1,6 @@
 """An independent reader of `.run` files, written from docs/run-format.md alone.
 
-It checks every property that the page states and lists the set voxels. It holds all voxels in memory: for small grids.
+It checks every property that the page states and lists the set voxels. It holds all voxels in memory, so grids must be small.
 """
 import struct
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The independent Python reader finds in the runs of all parts the voxels of the whole bake."""
+"""Tests with the independent Python reader that the runs of all parts hold the voxels of the whole bake."""
 import pathlib
 import random
 import subprocess

@@ -63,7 +63,7 @@ class Svdag:
         demand(not any(self.data[648:1016]), "reserved bytes")
         demand(self.bounded or self.selection == [0, 0, 0] + [2**self.L] * 3, "selection")
         if self.kind == 1:
-            demand(all(k % 1024 == 0 for k in self.k0), "k0")
+            demand(all(k % min(1024, 1 << self.L >> 1) == 0 for k in self.k0), "k0")
             demand(all(c == (k + 0.5) * self.voxel_size for c, k in zip(self.corner, self.k0)), "corner")
         else:
             demand(self.k0 == [0, 0, 0], "k0")

@@ -57,12 +57,15 @@ class Vdb : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(Vdb, VoxelsComeBackFromBothTypes) {
-  for (const auto& [format, type] :
-       {std::pair{VdbFormat::kMask, "mask"}, {VdbFormat::kBool, "bool"}}) {
+TEST_F(Vdb, VoxelsComeBackFromEveryType) {
+  for (const auto& [format, type] : {std::pair{VdbFormat::kMask, "mask"},
+                                     {VdbFormat::kBool, "bool"},
+                                     {VdbFormat::kFloat, "float"}}) {
     const VoxelSet voxels = bodies(6, 3);
     write("a.vdb", blocks_of(voxels), format);
-    const auto grid = read_vdb(path("a.vdb"), "", {});
+    std::optional<ValueRange> range;
+    if (format == VdbFormat::kFloat) range = parse_iso("0.5,1");
+    const auto grid = read_vdb(path("a.vdb"), "", range);
     EXPECT_EQ(grid->type(), type);
     EXPECT_EQ(voxels_of(*grid), voxels);
     for (const auto& [x, y, z] : voxels) {

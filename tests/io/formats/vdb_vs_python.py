@@ -85,7 +85,7 @@ class VdbVsPython(unittest.TestCase):
 
     def export(self, *options):
         path = self.at / "x.vdb"
-        run("svdag", "export", self.dag, "-o", path, "--bool", "-q", *options)
+        run("svdag", "export", self.dag, "-o", path, "-q", *options)
         return pyopenvdb.read(str(path), "occupancy")
 
     def centres(self, voxels, size):
@@ -95,6 +95,13 @@ class VdbVsPython(unittest.TestCase):
         found = worlds(self.export())
         self.assertGreater(len(found), 1000)
         self.assertEqual(as_set(found, self.size), as_set(self.centres(self.voxels, self.size), self.size))
+
+    def test_all_grids_of_an_export_are_read(self):
+        for kind, value in ([], True), (["--vdb-type", "float"], 1.0):
+            self.export(*kind)
+            grids, _ = pyopenvdb.readAll(str(self.at / "x.vdb"))
+            self.assertEqual([grid.name for grid in grids], ["occupancy"])
+            self.assertEqual({item["value"] for item in grids[0].citerOnValues()}, {value})
 
     def test_an_export_is_on_the_mesh(self):
         found = worlds(self.export())
@@ -127,7 +134,7 @@ class VdbVsPython(unittest.TestCase):
             scene.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points) + "f 1 2 3\n")
             dag, path = self.at / "exact.svdag", self.at / "exact.vdb"
             run("svdag", "build", scene, "-s", size, "-o", dag, "-q")
-            run("svdag", "export", dag, "-o", path, "--bool", "-q")
+            run("svdag", "export", dag, "-o", path, "-q")
             grid = json.loads(run("svdag", "info", dag, "--json"))["grid"]
             transform = pyopenvdb.read(str(path), "occupancy").transform
             self.assertEqual(transform.voxelSize(), (size, size, size))

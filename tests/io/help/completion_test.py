@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Shells complete what the programs understand: commands, options, values with names, files by their endings.
+"""Tests the completion of commands, options, named values and files by extension in bash, fish and zsh.
 
-The scripts are run by the shells themselves; a shell that is not installed is skipped. BUILD is the folder of a
-finished build.
+The scripts run in the shells themselves; a shell that is not installed is skipped. BUILD is the folder of a finished
+build.
 """
 import os
 import pathlib
@@ -20,7 +20,7 @@ BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").
 SHARE = BUILD / "share"
 FILES = ["city.ply", "city.svdag", "hall.GLB", "notes.txt", "points.vdb", "report.json"]
 
-# What is typed, and all that is offered for its last word.
+# A typed line, and all suggestions for its last word.
 OFFERS = [
     ("svdag bu", {"build"}),
     ("svdag i", {"info", "import"}),
@@ -48,7 +48,7 @@ OFFERS = [
     ("svdag-trace ", {"city.svdag", "folder/"}),
 ]
 
-# What is typed, and what the line is after TAB.
+# A typed line, and the line after TAB.
 LINES = [("svdag bui", "svdag build "), ("svdag build --resol", "svdag build --resolution"),
          ("svdag build --rule th", "svdag build --rule thin"), ("svdag build --rule=th", "svdag build --rule=thin"),
          ("svdag-verify mesh ci", "svdag-verify mesh city.svdag "),
@@ -65,17 +65,17 @@ class Shell(unittest.TestCase):
         if not shutil.which(cls.program):
             print(f"{cls.program} is not installed")
             raise unittest.SkipTest(f"{cls.program} is not installed")
-        cls.kitchen = tempfile.TemporaryDirectory(prefix="svdag-completion-")
-        cls.folder = pathlib.Path(cls.kitchen.name) / "work"
+        cls.temp_folder = tempfile.TemporaryDirectory(prefix="svdag-completion-")
+        cls.folder = pathlib.Path(cls.temp_folder.name) / "work"
         (cls.folder / "folder").mkdir(parents=True)
         for name in FILES:
             (cls.folder / name).touch()
         cls.commands = manuals.commands(BUILD)
-        cls.environment = dict(os.environ, HOME=cls.kitchen.name, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C.UTF-8")
+        cls.environment = dict(os.environ, HOME=cls.temp_folder.name, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C.UTF-8")
 
     @classmethod
     def tearDownClass(cls):
-        cls.kitchen.cleanup()
+        cls.temp_folder.cleanup()
 
     program = None
 
@@ -86,8 +86,8 @@ class Shell(unittest.TestCase):
         return set(done.stdout.splitlines())
 
     def check_offers(self, otherwise=()):
-        for line, wanted in (dict(OFFERS) | dict(otherwise)).items():
-            self.assertEqual(self.offers(line), wanted, line)
+        for line, expected in (dict(OFFERS) | dict(otherwise)).items():
+            self.assertEqual(self.offers(line), expected, line)
 
     def check_options(self):
         for command in self.commands.values():
@@ -99,10 +99,10 @@ class Shell(unittest.TestCase):
         try:
             shell.write(setup)
             self.assertTrue(shell.wait_for(prompt), shell.seen)
-            for line, wanted in LINES + [(f"{name} --hel", f"{name} --help") for name in self.commands]:
-                shell.write("\x15" + line)  # ^U takes back what is there
+            for line, expected in LINES + [(f"{name} --hel", f"{name} --help") for name in self.commands]:
+                shell.write("\x15" + line)  # ^U clears the line
                 shell.write("\t")
-                self.assertTrue(shell.wait_for(wanted.encode()), f"{line}: {shell.seen[-400:]}")
+                self.assertTrue(shell.wait_for(expected.encode()), f"{line}: {shell.seen[-400:]}")
         finally:
             shell.close()
 
@@ -142,7 +142,7 @@ class Fish(Shell):
         return {offer.split("\t")[0] for offer in self.run_shell(f"source {script}; complete -C '{line}'", "--no-config")}
 
     def test_offers(self):
-        # Its script does not count arguments: each may be any of them.
+        # The script does not count arguments: each may be any of them.
         self.check_offers({"svdag-verify mesh ": {"city.svdag", "city.ply", "hall.GLB", "folder/"},
                            "svdag build --output=": {"--output=city.svdag", "--output=folder/"},
                            "svdag build --output=ci": {"--output=city.svdag"}, "svdag build --cache=": {"--cache=folder/"}})
@@ -156,7 +156,7 @@ class Zsh(Shell):
     interactive = ["zsh", "-f", "-i"]
     script = SHARE / "zsh" / "site-functions" / "_svdag"
 
-    def test_the_script_is_sound(self):
+    def test_the_script_is_valid(self):
         self.run_shell(f"zsh -n {self.script}", "-f")
 
     def test_is_found_by_the_names_of_the_programs(self):

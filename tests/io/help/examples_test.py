@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every command line that the help shows can be meant: in an empty folder it fails for want of its files, never as usage.
+"""Tests that every example in the help parses: in an empty folder it fails because of missing files, not of usage.
 
-Examples are those of --help and of the topics. PROGRAMS is the folder of the built programs.
+The examples are those of --help and of the topics. PROGRAMS is the folder of the built programs.
 """
 import os
 import pathlib
@@ -16,7 +16,7 @@ import manuals
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 TOPICS = pathlib.Path(__file__).resolve().parents[3] / "builder" / "commands" / "topics"
-USAGE, MISSING = 2, {3, 4}  # a scene, or a folder for what is spilled
+USAGE, MISSING = 2, {3, 4}  # a missing scene, or a missing scratch folder
 
 
 def run(line):
@@ -26,14 +26,14 @@ def run(line):
 
 
 class Examples(unittest.TestCase):
-    def check(self, lines, least):
-        self.assertGreaterEqual(len(lines), least)
+    def check(self, lines, min_count):
+        self.assertGreaterEqual(len(lines), min_count)
         for line in lines:
             done = run(line)
-            wanted = {0} if " help " in line else MISSING
-            if "city.plan is not a plan folder" in done.stderr:  # a shard of a plan that is missing
-                wanted = {USAGE}
-            self.assertIn(done.returncode, wanted, f"{line}: {done.stderr}")
+            expected = {0} if " help " in line else MISSING
+            if "city.plan is not a plan folder" in done.stderr:  # a shard of a missing plan
+                expected = {USAGE}
+            self.assertIn(done.returncode, expected, f"{line}: {done.stderr}")
 
     def test_of_help(self):
         self.check([line.strip() for command in manuals.commands(PROGRAMS).values() for line in command.notes
@@ -49,22 +49,22 @@ class Examples(unittest.TestCase):
             if command.name != "svdag help":
                 self.assertTrue(any(line.startswith(f"  {command.name} ") for line in command.notes), command.name)
 
-    def test_one_that_cannot_be_meant_is_found(self):
+    def test_an_invalid_example_is_found(self):
         self.assertEqual(run("svdag build city.glb -o city.svdag --rule thick").returncode, USAGE)
 
 
-# A command line for each command that has options with named values, in a folder with a small scene and its DAG. No
-# plan is there, so that none is handed to a farm.
+# A command line for each command that has options with named values, in a folder with a small scene and its DAG, but
+# without a plan, so that none is submitted to a farm.
 LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
          "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.npz", "svdag import": "city.npz -o in.svdag",
          "svdag-verify mesh": "city.svdag city.ply", "svdag-verify render": "city.svdag -o city.png --size 16x16",
          "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
-BY_MACHINE = ["--vectors"]  # which there are depends on the processor
+BY_MACHINE = ["--vectors"]  # the values depend on the processor
 
 
 class Choices(unittest.TestCase):
-    """The values that completion offers are those that the program takes."""
+    """Tests that the values that completion offers are those that the program accepts."""
 
     @classmethod
     def setUpClass(cls):
@@ -86,8 +86,8 @@ class Choices(unittest.TestCase):
         done = self.run_line(f"{command} {LINES[command]} {option.names[-1]} {value}")
         return done.returncode == USAGE and f"{option.names[-1]}: " in done.stderr
 
-    def test_every_choice_is_understood_and_nothing_else(self):
-        asked = 0
+    def test_exactly_the_offered_values_are_accepted(self):
+        tested = 0
         for command in manuals.commands(PROGRAMS).values():
             for option in command.options:
                 if not option.choices or option.names[-1] in BY_MACHINE:
@@ -96,8 +96,8 @@ class Choices(unittest.TestCase):
                 for value in option.choices:
                     self.assertFalse(self.refused(command.name, option, value), f"{command.name} {option.names} {value}")
                     self.assertIn(value, option.text, command.name)
-                    asked += 1
-        self.assertGreater(asked, 40)
+                    tested += 1
+        self.assertGreater(tested, 40)
 
 
 class Topics(unittest.TestCase):
@@ -108,7 +108,7 @@ class Topics(unittest.TestCase):
             self.assertLessEqual(max(map(len, lines)), 80, topic.name)
             self.assertTrue(20 <= len(lines) <= 45, f"{topic.name}: {len(lines)} lines")
 
-    def test_are_shown_as_they_were_written(self):
+    def test_are_shown_as_written(self):
         for topic in TOPICS.glob("*.txt"):
             shown = run(f"svdag help {topic.stem}").stdout
             self.assertEqual(shown.split(), topic.read_text().split())

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Man pages are made of the options that programs have: all of them, and no others; man(1) has nothing to complain of.
+"""Tests that man pages document exactly the options of the programs, and that man(1) shows them without warnings.
 
-BUILD is the folder of a finished build. Without man-db nothing is tested but that the pages are there.
+BUILD is the folder of a finished build. Without man-db, the test only checks that the pages exist.
 """
 import os
 import pathlib
@@ -20,7 +20,7 @@ TOPICS = pathlib.Path(__file__).resolve().parents[3] / "builder" / "commands" / 
 
 
 def read(page):
-    """(the page as man shows it, its warnings), in lines so long that none is broken."""
+    """(the page as man shows it, its warnings), with lines too long to be broken."""
     done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", page], capture_output=True, text=True,
                           env=dict(os.environ, MANWIDTH="1000", LC_ALL="C.UTF-8"))
     return done.stdout, done.stderr
@@ -36,7 +36,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(p.name for p in (MAN / "man7").iterdir()),
                          sorted(f"svdag-{p.stem}.7" for p in TOPICS.glob("*.txt")))
 
-    def test_pages_refer_to_pages_that_are_there(self):
+    def test_references_between_pages_are_valid(self):
         for page in MAN.rglob("*.[17]"):
             others = re.findall(r"^\.BR (\S+) \((\d)\)", page.read_text(), re.M)
             self.assertGreater(len(others), 5, page.name)
@@ -47,13 +47,13 @@ class Pages(unittest.TestCase):
 
 @unittest.skipUnless(shutil.which("man"), "man-db is not installed")
 class Rendered(unittest.TestCase):
-    def test_man_warns_of_nothing(self):
+    def test_man_gives_no_warning(self):
         for page in sorted(MAN.rglob("*.[17]")):
             text, warnings = read(page)
             self.assertEqual(warnings, "", page.name)
             self.assertIn("SEE ALSO", text, page.name)
 
-    def test_a_broken_page_is_warned_of(self):
+    def test_a_broken_page_gives_a_warning(self):
         broken = BUILD / "share" / "broken.1"
         broken.write_text(".TH BROKEN 1\n.SH NAME\n\\fZbroken\\fR\n.NOSUCH\n")
         self.assertNotEqual(read(broken)[1], "")
@@ -79,7 +79,7 @@ class Rendered(unittest.TestCase):
                 if line.startswith("  svdag"):
                     self.assertIn(line.strip(), text, command.name)
 
-    def test_topics_are_whole(self):
+    def test_topics_are_complete(self):
         for topic in TOPICS.glob("*.txt"):
             squeezed = " ".join(read(MAN / "man7" / f"svdag-{topic.stem}.7")[0].split())
             for line in topic.read_text().splitlines()[1:]:

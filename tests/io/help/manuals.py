@@ -48,6 +48,6 @@ def commands(programs):
 
 
 def options_in(title):
-    """The names of options at the beginning of a line of a manual."""
+    """The option names at the beginning of a line of a manual."""
     found = re.match(r"((?:--?[A-Za-z][\w-]*(?:, )?)+)", title)
     return found.group(1).split(", ") if found else []

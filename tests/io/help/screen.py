@@ -11,7 +11,7 @@ import time
 
 
 class Screen:
-    """A program whose standard streams are a terminal, but for its results if they go elsewhere."""
+    """A program whose standard streams are a terminal, except stdout if it is redirected."""
 
     def __init__(self, command, columns, environment=None, folder=None, results=None):
         master, slave = pty.openpty()
@@ -25,7 +25,7 @@ class Screen:
         self.seen = b""
 
     def read(self, timeout):
-        """What comes within `timeout` seconds; b"" if nothing does or the program has ended."""
+        """The output within `timeout` seconds; b"" if there is none or the program has ended."""
         if not select.select([self.master], [], [], timeout)[0]:
             return b""
         try:
@@ -36,9 +36,9 @@ class Screen:
         return data
 
     def wait_for(self, text, seconds=20):
-        """Whether `text` comes to be seen, from here on."""
+        """Whether `text` appears from now on."""
         start, end = len(self.seen), time.monotonic() + seconds
-        while text not in re.sub(rb"\x1b\[[\d;?]*[A-Za-z]", b"", self.seen[start:]):  # what is bold, what is erased
+        while text not in re.sub(rb"\x1b\[[\d;?]*[A-Za-z]", b"", self.seen[start:]):  # without escape sequences
             if time.monotonic() > end:
                 return False
             self.read(0.2)
@@ -54,7 +54,7 @@ class Screen:
 
 
 def shown(command, columns, environment=None, folder=None, results=None):
-    """(exit code, all that a program showed)."""
+    """(exit code, complete output) of a program."""
     screen = Screen(command, columns, environment, folder, results)
     while screen.program.poll() is None:
         screen.read(0.1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Help and progress fit the terminal; pipes, NO_COLOR and dumb terminals get plain text.
+"""Tests that help and progress fit the terminal, and that pipes, NO_COLOR and dumb terminals get plain text.
 
 PROGRAMS is the folder of the built programs.
 """
@@ -35,12 +35,12 @@ def piped(command, **environment):
 
 
 def drawn(text):
-    """The lines that were drawn over each other."""
+    """The lines that were drawn over one another."""
     return [line for line in re.split(r"[\r\n]", text) if line.strip()]
 
 
 class Help(unittest.TestCase):
-    def test_fits_every_terminal_from_40_columns_on(self):
+    def test_fits_every_terminal_of_at_least_40_columns(self):
         for command in manuals.commands(PROGRAMS):
             for columns in (40, 57, 80, 100):
                 code, text = screen.shown(help_of(command), columns)
@@ -53,18 +53,18 @@ class Help(unittest.TestCase):
             self.assertEqual(code, 0)
             self.assertLessEqual(widest(text), 40, text)
 
-    def test_uses_the_room_there_is_but_no_more_than_can_be_read(self):
+    def test_uses_the_width_of_the_terminal_up_to_a_readable_limit(self):
         self.assertGreater(widest(screen.shown(help_of("svdag build"), 100)[1]), 80)
         self.assertLessEqual(widest(screen.shown(help_of("svdag build"), 300)[1]), 100)
 
-    def test_is_80_columns_wide_in_a_pipe_unless_COLUMNS_says_otherwise(self):
+    def test_is_80_columns_wide_in_a_pipe_unless_COLUMNS_is_set(self):
         text = piped(help_of("svdag build")).stdout
         self.assertTrue(70 < widest(text) <= 80)
         self.assertLessEqual(widest(piped(help_of("svdag build"), COLUMNS="50").stdout), 50)
         self.assertEqual(piped(help_of("svdag build"), COLUMNS="7").stdout, piped(help_of("svdag build"), COLUMNS="40").stdout)
         self.assertEqual(piped(help_of("svdag build"), COLUMNS="many").stdout, text)
 
-    def test_says_the_same_words_at_every_width(self):
+    def test_has_the_same_words_at_every_width(self):
         for command in manuals.commands(PROGRAMS):
             words = [piped(help_of(command), COLUMNS=columns).stdout.replace("\\\n", "").split() for columns in ("40", "100")]
             self.assertEqual(words[0], words[1], command)
@@ -74,7 +74,7 @@ class Help(unittest.TestCase):
         self.assertIn("\\\n", text)
         self.assertIn("svdag plan city.glb -r 64K --shards 16 -m 4G -o city.plan", re.sub(r" \\\n +", " ", text))
 
-    def test_a_reader_that_has_gone_is_no_error(self):
+    def test_a_closed_pipe_is_not_an_error(self):
         for command in ("svdag build", "svdag-verify", "svdag-trace"):
             reader, writer = os.pipe()
             os.close(reader)
@@ -114,7 +114,7 @@ class Shown(unittest.TestCase):
             self.assertGreater(len(drawn(text)), 3, text)
             self.assertLess(max(map(len, drawn(text))), 40, text)
 
-    def test_progress_is_cut_where_the_terminal_ends(self):
+    def test_progress_is_truncated_to_the_width_of_the_terminal(self):
         code, text = self.judge(NARROW, "-q")
         self.assertEqual((code, max(map(len, drawn(text)))), (0, NARROW - 1), text)
 

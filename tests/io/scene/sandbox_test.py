@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""--sandbox decides nothing: the same bytes, the same sentences and exit codes, in a process that is limited."""
+"""Tests that --sandbox gives the same bytes, messages and exit codes."""
 import pathlib
 import subprocess
 import sys

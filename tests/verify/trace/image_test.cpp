@@ -15,7 +15,7 @@ TEST_P(PictureOf, DoesNotDependOnBeamsOrThreads) {
   for (int64_t i = 0; i < 256 * 256; ++i) voxels.emplace(i / 256, 20, i % 256);  // a floor
   const RawFile file(raw_dag(test_grid(8), voxels));
   const DagView dag = file.view();
-  const VoxelBounds box = occupied_bounds(dag);
+  const VoxelBounds box = framing_bounds(dag);
   const Camera camera = preset_camera("iso", dag, box, 1, 40, 1.6);
   Shading shading = make_shading(GetParam(), camera, 1, box);
   shading.levels = 8;

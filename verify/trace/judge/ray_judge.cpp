@@ -25,7 +25,7 @@ VoxelBounds scene_box(const DagView& dag, std::span<const VoxelTriangle> triangl
     box.add(own);
   }
   if (!dag.empty()) {
-    const VoxelBounds occupied = occupied_bounds(dag);
+    const VoxelBounds occupied = framing_bounds(dag);
     box.add(Point(occupied.min[0], occupied.min[1], occupied.min[2]));
     box.add(Point(occupied.max[0], occupied.max[1], occupied.max[2]));
   }

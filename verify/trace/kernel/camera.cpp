@@ -76,7 +76,7 @@ Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov
   return camera;
 }
 
-VoxelBounds occupied_bounds(const DagView& dag) {
+VoxelBounds framing_bounds(const DagView& dag) {
   VoxelBounds box;
   if (!dag.empty()) grow(dag, 0, 0, {}, &box);
   return box;

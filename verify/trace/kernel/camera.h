@@ -38,6 +38,6 @@ Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov
 
 // Bounds of the set voxels, rounded outwards to 1/256 of the grid or to bricks, whichever is
 // larger: precise enough to frame a picture.
-VoxelBounds occupied_bounds(const DagView& dag);
+VoxelBounds framing_bounds(const DagView& dag);
 
 }  // namespace svdag

@@ -174,7 +174,7 @@ std::optional<TraceOptions> parse_trace_options(int argc, char** argv) {
 
 Workload make_workload(const TraceOptions& options, const PlainFile& file) {
   if (file.view.empty()) fail_usage(options.file + ": has no voxel to trace");
-  const VoxelBounds box = occupied_bounds(file.view);
+  const VoxelBounds box = framing_bounds(file.view);
   Workload work{{make_camera(options, file, box), options.width, options.height}, {}, {}};
   const double diagonal = length(box.max - box.min);
   work.light.centre = (box.min + box.max) * 0.5;

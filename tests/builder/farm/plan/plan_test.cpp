@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -125,7 +126,8 @@ TEST_F(Plans, ThatAreDamagedAreRejected) {
   plan_of(config());
   const std::string json = folder_.file("plan/plan.json"), index = folder_.file("plan/index");
   const std::string text = read_bytes(json), bytes = read_bytes(index);
-  const auto write = [](const std::string& path, const std::string& content) {
+  const auto write = [](const std::string& path, std::string content) {
+    if (path.ends_with(".json")) seal_plan(&content);
     std::ofstream(path, std::ios::binary) << content;
   };
   for (const size_t kept : {size_t(0), text.size() / 2, text.size() - 3}) {
@@ -163,6 +165,16 @@ TEST_F(Plans, ThatAreDamagedAreRejected) {
   write(json, kind);
   EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput,
                      "plan.json: unknown kind of grid (hexagons)");
+  const std::pair<const char*, const char*> edits[] = {{"\"conservative\"", "\"exact\""},
+                                                       {"\"conservative\"", "\"thin\""},
+                                                       {"\"levels\": 9", "\"levels\": 10"}};
+  for (const auto& [before, after] : edits) {
+    std::string other = text;
+    ASSERT_NE(other.find(before), std::string::npos) << before;
+    other.replace(other.find(before), std::strlen(before), after);
+    write(json, other);
+    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "rule");
+  }
   write(json, text);
   std::string flipped = bytes;
   flipped[flipped.size() / 2] ^= 1;
@@ -185,8 +197,22 @@ TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
     const size_t value = text.find("\"" + key + "\": ") + key.size() + 4;
     std::string changed = text;
     changed.replace(value, changed.find_first_of(",}\n", value) - value, number);
+    seal_plan(&changed);
     std::ofstream(json, std::ios::binary) << changed;
     EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "out of range");
+  }
+}
+
+// Whatever digit, letter or space of it is changed.
+TEST_F(Plans, ThatWereEditedAreRejected) {
+  plan_of(config());
+  const std::string json = folder_.file("plan/plan.json"), text = read_bytes(json);
+  load_plan(folder_.file("plan"), true);
+  for (size_t i = 0; i < text.size(); ++i) {
+    std::string edited = text;
+    edited[i] = text[i] == '1' ? '2' : text[i] == ' ' ? '\t' : text[i] == 'a' ? 'b' : '1';
+    std::ofstream(json, std::ios::binary) << edited;
+    EXPECT_THROW(load_plan(folder_.file("plan"), true), Error) << edited.substr(i, 20);
   }
 }
 
@@ -199,6 +225,7 @@ TEST_F(Plans, WithRandomBytesAreLoadedOrRejected) {
     std::string other = text;
     for (int k = 0; k < 3; ++k)
       other[random() % other.size()] = "0-9.e\"[]{},:/\x01"[random() % 15];
+    seal_plan(&other);
     std::ofstream(json, std::ios::binary) << other;
     try {
       load_plan(folder_.file("plan"), true);

@@ -32,7 +32,7 @@ TEST(Camera, FramesTheWholeBox) {
 
 TEST(Camera, BoundsOfSmallGridsAreThoseOfBricks) {
   const RawFile file(raw_dag(test_grid(6), {{5, 40, 63}, {20, 41, 0}}));
-  const VoxelBounds box = occupied_bounds(file.view());
+  const VoxelBounds box = framing_bounds(file.view());
   const Vec3 min{{4, 40, 0}}, max{{24, 44, 64}};
   for (int a = 0; a < 3; ++a) {
     EXPECT_EQ(box.min[a], min[a]);
@@ -51,7 +51,7 @@ TEST(Camera, InsideIsInEmptySpace) {
   }
   const RawFile file(raw_dag(test_grid(6), voxels));
   const Camera camera =
-      preset_camera("inside", file.view(), occupied_bounds(file.view()), 1, 40, 1.5);
+      preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
   EXPECT_GT(camera.position[0], 21);
   EXPECT_LT(camera.position[0], 32);
   EXPECT_GT(camera.forward[0], 0.99);
@@ -72,7 +72,7 @@ TEST(Camera, InsideAvoidsASmallRoomInTheMiddle) {
   }
   const RawFile file(raw_dag(test_grid(6), voxels));
   const Camera camera =
-      preset_camera("inside", file.view(), occupied_bounds(file.view()), 1, 40, 1.5);
+      preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
   bool in_room = true;
   for (int a = 0; a < 3; ++a)
     in_room = in_room && camera.position[a] >= (a == 1 ? 10 : 30) &&

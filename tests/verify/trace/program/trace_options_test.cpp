@@ -58,7 +58,7 @@ TEST(TraceOptions, ALightWithoutARadiusIsAPoint) {
 }
 
 TEST(TraceOptions, TheDefaultLightIsAboveTheVoxels) {
-  const VoxelBounds box = occupied_bounds(small_file().view);
+  const VoxelBounds box = framing_bounds(small_file().view);
   for (int up = 0; up < 3; ++up) {
     const Workload work = work_of({"--up", std::string(1, char('x' + up))});
     for (int a = 0; a < 3; ++a) {
@@ -80,7 +80,7 @@ TEST(TraceOptions, OnlyThePresetInsideMovesTheLight) {
 
 TEST(TraceOptions, PresetsAreThoseOfRender) {
   const PlainFile file = small_file();
-  const VoxelBounds box = occupied_bounds(file.view);
+  const VoxelBounds box = framing_bounds(file.view);
   for (const std::string name : {"iso", "front", "back", "left", "right", "top", "inside"}) {
     const Camera camera = preset_camera(name, file.view, box, 2, Camera::kDefaultFov, 80.0 / 60);
     const Workload work = work_of({"--preset", name, "--up", "z", "--size", "80x60"});
@@ -146,8 +146,8 @@ TEST(TraceOptions, InvalidValuesAreUsageErrors) {
       {{"--light", "1,2,3,-1"}, "the radius 0 or more"},
       {{"--cone", "45"}, "--cone: \"45\""},
       {{"--reach", "-1"}, "--reach: \"-1\""},
-      {{"b.svdag"}, "not expected: b.svdag"},
-      {{"--", "-b"}, "not expected: -b"},
+      {{"b.svdag"}, "unexpected argument: b.svdag"},
+      {{"--", "-b"}, "unexpected argument: -b"},
   };
   for (const auto& [words, sentence] : cases)
     EXPECT_SVDAG_ERROR(work_of(words), ExitCode::kUsage, sentence);

@@ -1,0 +1,79 @@
+// `svdag query FILE.svdag < POINTS`: which points are in a set voxel.
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "builder/commands/commands.h"
+#include "io/dag/cube_at.h"
+#include "io/dag/dag_file.h"
+#include "io/dag/occupied_bounds.h"
+#include "io/lattice.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+// "1 2.5 3" or "1,2.5,3", also with more text after a further separator.
+Point parse_point(const std::string& line, uint64_t number) {
+  Point p;
+  const char *at = line.data(), *end = at + line.size();
+  const auto is_separator = [](char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r'; };
+  for (int a = 0; a < 3; ++a) {
+    while (at != end && is_separator(*at)) ++at;
+    const auto [stop, error] = std::from_chars(at, end, p[a]);
+    if (error != std::errc() || (stop != end && !is_separator(*stop)) || !std::isfinite(p[a]))
+      fail_input("standard input",
+                 "line " + std::to_string(number) + " is not a point: give x y z");
+    at = stop;
+  }
+  return p;
+}
+
+// The voxel of a point by the rounding of a bake, if it is in the grid; a point on a plane between
+// two voxels is in the upper one.
+std::optional<LatticePoint> voxel_of(const Lattice& lattice, const Grid& grid, const Point& p) {
+  const double reach = 2 * double(grid.resolution()) * grid.voxel_size;
+  LatticePoint voxel;
+  for (int a = 0; a < 3; ++a) {
+    if (!(std::abs(p[a] - grid.corner()[a]) < reach))
+      return std::nullopt;  // may be too far to snap
+  }
+  const LatticePoint q = lattice.snap(p);
+  for (int a = 0; a < 3; ++a) voxel[a] = lattice.last_voxel(q[a]);
+  if (!grid.whole().holds({voxel, voxel + int64_t(1)})) return std::nullopt;
+  return voxel;
+}
+
+void print_cube(const DagFile& file, const Grid& grid, const LatticePoint& voxel) {
+  const CubeAt cube = cube_at(file.view(), voxel);
+  const LatticePoint end = cube.min + (int64_t(1) << (grid.levels - cube.level));
+  const Box box = world_box(grid, {cube.min, end});
+  std::printf("%s %d  %.17g %.17g %.17g  %.17g %.17g %.17g\n", cube.set ? "set" : "empty",
+              cube.level, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
+}
+
+}  // namespace
+
+int run(const QueryCommand& command) {
+  const DagFile file = DagFile::open(command.file);
+  const Grid grid = file.grid();
+  const Lattice lattice(grid);
+  std::string line;
+  for (uint64_t number = 1; std::getline(std::cin, line); ++number) {
+    check_interrupt();
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (const auto voxel = voxel_of(lattice, grid, parse_point(line, number))) {
+      print_cube(file, grid, *voxel);
+    } else {
+      std::puts("outside");
+    }
+  }
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag
