@@ -94,8 +94,8 @@ void visit_fields(AnyGrid& grid, const Visit& visit) {
   visit("selection_max", grid.selection.max);
 }
 
-// The kBox grid that divides `box` into 2^levels voxels on its longest axis. A box without extent,
-// or whose voxel size is not a normal number, is an Error (kUsage).
+// The kBox grid of 2^levels voxels a side around `box`, whose longest side is 2^levels - 1 voxels.
+// A box without extent, or whose voxel size is not a normal number, is an Error (kUsage).
 Grid divide_box(const Box& box, int levels);
 
 // A cube in world units.

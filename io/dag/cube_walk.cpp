@@ -58,14 +58,14 @@ bool CubeWalk::visit(const VoxelBox& box, const VoxelCubeSink& sink) {
 }
 
 bool CubeWalk::visit(const WalkNode& at, const VoxelBox& box, const VoxelCubeSink& sink) {
-  const Overlap part = overlap(at.origin, side(at.level), box);
-  if (part == Overlap::kNone) return true;
+  const Overlap overlapping = overlap(at.origin, side(at.level), box);
+  if (overlapping == Overlap::kNone) return true;
   if (at.level + 3 == levels_) {
     VoxelCube cube{at.origin, kBlockSide, block_of(dag_, at.level, at.node)};
-    if (part == Overlap::kPart) cube.block.cut(at.origin, box);
+    if (overlapping == Overlap::kPart) cube.block.cut(at.origin, box);
     return cube.block.empty() || sink(cube);
   }
-  if (part == Overlap::kWhole && is_full(at.level, at.node))
+  if (overlapping == Overlap::kWhole && is_full(at.level, at.node))
     return sink({at.origin, side(at.level), {}});
   for (unsigned c = 0; c < 8; ++c) {
     const WalkNode next = child(at, c);
@@ -126,9 +126,9 @@ uint64_t CubeWalk::count_voxels(const VoxelBox& box) {
 }
 
 uint64_t CubeWalk::count_voxels(const WalkNode& at, const VoxelBox& box) {
-  const Overlap part = overlap(at.origin, side(at.level), box);
-  if (part == Overlap::kNone) return 0;
-  if (part == Overlap::kWhole) return voxels_below(at.level, at.node);
+  const Overlap overlapping = overlap(at.origin, side(at.level), box);
+  if (overlapping == Overlap::kNone) return 0;
+  if (overlapping == Overlap::kWhole) return voxels_below(at.level, at.node);
   if (at.level + 3 == levels_) {
     Block block = block_of(dag_, at.level, at.node);
     block.cut(at.origin, box);

@@ -74,23 +74,23 @@ std::string heading_of(const CLI::App& group) {
 }
 
 // `heading` is "" for the command itself, whose options are in CLI11's group "Options".
-ManualOption entry_of(const CLI::Option& option, const std::string& heading) {
-  ManualOption entry;
-  for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
-  if (option.get_positional()) entry.names = {option.get_name(true)};
+ManualOption describe_option(const CLI::Option& option, const std::string& heading) {
+  ManualOption described;
+  for (const std::string& name : option.get_snames()) described.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) described.names.push_back("--" + name);
+  if (option.get_positional()) described.names = {option.get_name(true)};
   const bool is_flag = option.get_items_expected_max() == 0;
-  if (!is_flag && !option.get_positional()) entry.value = option.get_type_name();
-  entry.text = with_conditions(option);
-  entry.group = !heading.empty()                  ? heading
-                : option.get_group() == "Options" ? ""
-                                                  : option.get_group();
-  entry.choices = hint_words(option, kChoices);
-  entry.endings = hint_words(option, kEndings);
-  entry.required = option.get_required();
-  entry.repeated = option.get_items_expected_max() > 1 &&
-                   (option.get_positional() || option.get_allow_extra_args());
-  return entry;
+  if (!is_flag && !option.get_positional()) described.value = option.get_type_name();
+  described.text = with_conditions(option);
+  described.group = !heading.empty()                  ? heading
+                    : option.get_group() == "Options" ? ""
+                                                      : option.get_group();
+  described.choices = hint_words(option, kChoices);
+  described.endings = hint_words(option, kEndings);
+  described.required = option.get_required();
+  described.repeated = option.get_items_expected_max() > 1 &&
+                       (option.get_positional() || option.get_allow_extra_args());
+  return described;
 }
 
 void describe_options(const CLI::App& app, const std::string& heading, Manual* manual) {
@@ -101,8 +101,8 @@ void describe_options(const CLI::App& app, const std::string& heading, Manual* m
     if (option->get_group().empty()) continue;  // hidden
     if (!heading.empty() && option == app.get_help_ptr())
       continue;  // CLI11 adds one to every group
-    ManualOption entry = entry_of(*option, heading);
-    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(entry));
+    ManualOption described = describe_option(*option, heading);
+    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(described));
   }
 }
 

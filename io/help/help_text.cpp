@@ -87,7 +87,7 @@ std::string preformatted(const std::string& line, size_t width) {
          "\n";
 }
 
-std::string entry(const std::string& title, const std::string& text, size_t width) {
+std::string name_and_text(const std::string& title, const std::string& text, size_t width) {
   const bool beside = width >= kMinTwoColumnWidth;
   const size_t column = beside ? kTextColumn : 6;
   std::string out = "  " + fill(title, 2, indentation(4), width);
@@ -104,7 +104,7 @@ std::string options_text(const std::vector<ManualOption>& options, size_t width)
   for (const std::string& group : groups_of(options)) {
     out += "\n" + (group.empty() ? std::string("Options") : group) + ":\n";
     for (const ManualOption& option : options) {
-      if (option.group == group) out += entry(title_of(option), option.text, width);
+      if (option.group == group) out += name_and_text(title_of(option), option.text, width);
     }
   }
   return out;
@@ -140,12 +140,13 @@ std::string help_text(const Manual& manual, size_t width) {
   if (!manual.commands.empty()) {
     out += "\nCommands:\n";
     for (const Manual& command : manual.commands)
-      out += entry(command.command.substr(command.command.find(' ') + 1), command.text, width);
+      out +=
+          name_and_text(command.command.substr(command.command.find(' ') + 1), command.text, width);
   }
   if (!manual.operands.empty()) {
     out += "\nArguments:\n";
     for (const ManualOption& operand : manual.operands)
-      out += entry(title_of(operand), operand.text, width);
+      out += name_and_text(title_of(operand), operand.text, width);
   }
   out += options_text(manual.options, width);
   if (!manual.notes.empty()) out += "\n" + fill_paragraphs(manual.notes, width);
