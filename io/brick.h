@@ -1,8 +1,8 @@
-// Bricks: 4x4x4 voxels in one u64.
+// A brick: 4x4x4 voxels in one u64.
 //
 // Children of a node and voxels of a 2x2x2 block are numbered c = 4x + 2y + z. Bit 8*c1 + c2 of a
-// brick is the voxel in child c1 of the outer and child c2 of the inner 2x2x2 (the layout of
-// HashDAG and SymVox, so that bricks go there unchanged).
+// brick is the voxel in child c1 of the outer and child c2 of the inner 2x2x2. HashDAG and SymVox
+// use the same layout, so bricks are exported unchanged.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ using Brick = uint64_t;
 
 constexpr int kBrickSide = 4;
 
-// The child of a cube in which the upper bits (x, y, z in {0, 1}) lie.
+// The number of the child of a cube at (x, y, z), each 0 or 1.
 constexpr unsigned child_index(unsigned x, unsigned y, unsigned z) {
   return 4 * x + 2 * y + z;
 }

@@ -16,12 +16,12 @@ void check_voxel_size(double size) {
                ", which is not a positive normal number: give --voxel-size or --bounds");
 }
 
-// `step`: a power of two.
+// `step` is a power of two.
 constexpr int64_t floor_to_step(int64_t k, int64_t step) {
   return k & -step;
 }
 
-// `size` with two digits, not less.
+// `size` rounded up to two significant digits.
 std::string rounded_up(double size) {
   const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
   char text[32];
@@ -29,7 +29,7 @@ std::string rounded_up(double size) {
   return text;
 }
 
-// Tries to hold `box` in 2^levels voxels of the lattice; false if it does not fit.
+// Returns false if `box` does not fit 2^levels voxels of the lattice.
 bool try_cover(const Box& box, double size, int levels, Grid* out) {
   Grid grid;
   grid.kind = Grid::Kind::kLattice;
@@ -55,7 +55,7 @@ Point Grid::corner() const {
   return p;
 }
 
-bool Grid::is_possible() const {
+bool Grid::is_valid() const {
   if (levels < kMinLevels || levels > kMaxLevels || !std::isnormal(voxel_size) || voxel_size < 0)
     return false;
   for (int a = 0; a < 3; ++a) {
@@ -112,7 +112,7 @@ Grid cover_lattice(const Box& box, double size) {
 }
 
 VoxelBox voxels_in(const Grid& grid, const Box& bounds) {
-  // Beyond the voxels of any grid, and still in the reach of the snap.
+  // Outside every grid, but within the range of the snap.
   const Point reach(0x1.8p38 * grid.voxel_size);
   const Point middle = grid.kind == Grid::Kind::kBox ? grid.origin : Point(0);
   const auto near = [&](const Point& p) { return glm::clamp(p, middle - reach, middle + reach); };

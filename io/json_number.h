@@ -1,5 +1,5 @@
-// Whole numbers of a JSON document. The library converts whatever number is there: a fraction or
-// 1e24 to an integer, which is undefined behaviour, and 2^32 + 11 to the int 11.
+// Checked reading of integers from JSON. nlohmann's library converts any number: 1e24 to an
+// integer, which is undefined behaviour, and 2^32 + 11 to the int 11.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace svdag {
 
-// `json` as a T. Error (kBadInput) if it is not a whole number in the range of T. `Json` is one of
-// nlohmann's types, which only few files may name.
+// Returns `json` as a T; Error (kBadInput) if it is not an integer in the range of T. `Json` is a
+// nlohmann type, a parameter so that this header does not include the library.
 template <class T, class Json>
 T whole_number(const Json& json) {
   if (json.is_number_unsigned()) {
@@ -20,7 +20,7 @@ T whole_number(const Json& json) {
     const auto value = json.template get<int64_t>();
     if (std::in_range<T>(value)) return T(value);
   }
-  throw Error(ExitCode::kBadInput, "has a number that is not whole, or does not fit");
+  throw Error(ExitCode::kBadInput, "a number is not an integer or is out of range");
 }
 
 }  // namespace svdag

@@ -23,7 +23,7 @@ LatticePoint Lattice::snap(const Point& p, double* move) const {
     const double offset = box ? p[a] - grid_.origin[a] : p[a];
     const double exact = offset / grid_.voxel_size * scale_;
     const double rounded = std::nearbyint(exact);
-    // Also refuses NaN and infinity, which the comparison does not hold for.
+    // The comparison is also false for NaN and infinity.
     if (!(std::abs(rounded) < 0x1p62))
       throw Error(ExitCode::kBadInput,
                   "a vertex is too far from the grid (more than 2^62 lattice steps): choose larger "

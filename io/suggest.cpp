@@ -6,27 +6,27 @@
 namespace svdag {
 namespace {
 
-std::string meant(const std::string& guess, const std::string& otherwise) {
+std::string did_you_mean(const std::string& guess, const std::string& otherwise) {
   return guess.empty() ? otherwise : "; did you mean " + guess + "?";
 }
 
-// An option's name without its value; "" if the argument is not an option.
-std::string option_in(const std::string& argument) {
+// The name of an option without its value; "" if the argument is not an option.
+std::string option_name(const std::string& argument) {
   const bool is_option =
       argument.size() > 1 && argument[0] == '-' &&
       (argument[1] == '-' || std::isalpha(static_cast<unsigned char>(argument[1])));
   return is_option && argument != "--" ? argument.substr(0, argument.find('=')) : "";
 }
 
-bool knows(const std::vector<std::string>& options, const std::string& option) {
+bool has_option(const std::vector<std::string>& options, const std::string& option) {
   if (std::find(options.begin(), options.end(), option) != options.end()) return true;
   // -j4 is -j with its value
   return option[1] != '-' &&
          std::find(options.begin(), options.end(), option.substr(0, 2)) != options.end();
 }
 
-// The commands of each program. `trace` alone suggests the tracer, since the command of that name
-// in svdag-verify needs a scene.
+// The commands of each program. `trace` is not listed for svdag-verify, where it needs a scene: the
+// word suggests svdag-trace.
 constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
     {"svdag", "build plan run submit merge info query export import"},
     {"svdag-verify", "check mesh diff vdb render report"},
@@ -78,7 +78,7 @@ std::string plain_usage_error(const std::string& message) {
   return message;
 }
 
-std::string elsewhere(std::string_view word) {
+std::string command_of_other_program(std::string_view word) {
   for (const auto& [program, commands] : kPrograms) {
     const std::string name(program);
     if (word == program || "svdag-" + std::string(word) == program) return name;
@@ -110,14 +110,14 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
   std::string best;
-  size_t least = word.size() / 3 + 1;
+  size_t best_distance = word.size() / 3 + 1;
   for (const std::string& candidate : candidates) {
-    // Every letter that one of the two has more is an edit.
+    // The difference in length is a lower bound of the distance.
     const size_t longer = std::max(word.size(), candidate.size());
-    if (longer - std::min(word.size(), candidate.size()) >= least) continue;
+    if (longer - std::min(word.size(), candidate.size()) >= best_distance) continue;
     const size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
+    if (distance < best_distance) {
+      best_distance = distance;
       best = candidate;
     }
   }
@@ -127,7 +127,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments) {
   if (arguments.empty()) return "";
-  const bool of_program = commands.size() == 1 || !option_in(arguments[0]).empty();
+  const bool of_program = commands.size() == 1 || !option_name(arguments[0]).empty();
   const std::string name = of_program ? "" : arguments[0];
   const std::string whole = of_program ? program : program + " " + name;
   std::vector<std::string> names;
@@ -138,16 +138,17 @@ std::string explain_unknown(const std::string& program, std::span<const CommandW
   }
   if (command == nullptr) {
     if (of_program) return "";
-    const std::string there = elsewhere(name);
+    const std::string other = command_of_other_program(name);
     return "unknown command \"" + name + "\" of " + program +
-           meant(there.empty() ? nearest(name, names) : there, "; see " + program + " --help");
+           did_you_mean(other.empty() ? nearest(name, names) : other,
+                        "; see " + program + " --help");
   }
   for (const std::string& argument : arguments.subspan(of_program ? 0 : 1)) {
     if (argument == "--") break;
-    const std::string option = option_in(argument);
-    if (option.empty() || knows(command->options, option)) continue;
+    const std::string option = option_name(argument);
+    if (option.empty() || has_option(command->options, option)) continue;
     return "unknown option " + option + " of " + whole +
-           meant(nearest(option, command->options), "; see " + whole + " --help");
+           did_you_mean(nearest(option, command->options), "; see " + whole + " --help");
   }
   return "";
 }

@@ -1,7 +1,7 @@
-// What a word on a command line was meant to be.
+// Suggestions for misspelt commands and options.
 //
-// Nearest by the number of letters that were left out, added, changed or swapped with their
-// neighbour (Damerau 1964; the restricted form, where no piece is edited twice).
+// Words are compared by their edit distance: the number of letters left out, added, changed or
+// swapped with a neighbour (Damerau 1964; the restricted form, where no substring is edited twice).
 #pragma once
 
 #include <exception>
@@ -15,30 +15,30 @@ namespace svdag {
 
 size_t edit_distance(std::string_view a, std::string_view b);
 
-// The candidate nearest to `word`, the first one of equals; "" if none is near enough to have been
-// meant: at most every third letter may be wrong.
+// The candidate nearest to `word`, the first of equals; "" if more than every third letter of
+// `word` is wrong.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
-// Where a command is that another program of the project has: "svdag-verify check" for "check", or
-// for its program's name ("verify", "svdag-verify") that; "" for other words.
-std::string elsewhere(std::string_view word);
+// The command of another program of the project: "svdag-verify check" for "check", "svdag-verify"
+// for "verify" or "svdag-verify"; "" for other words.
+std::string command_of_other_program(std::string_view word);
 
 struct CommandWords {
   std::string name;                  // "": the program itself
   std::vector<std::string> options;  // with their dashes
 };
 
-// A message about the first argument that is neither a command nor an option of its command, with
-// the most similar one; "" if all are known. `arguments` without the program's name. A program
-// whose only entry is its own has no commands.
+// A message about the first argument that is neither a command nor an option of its command, with a
+// suggestion; "" if all are known. `arguments` does not include the program's name. `commands` of a
+// program without commands has one element, the program itself.
 std::string explain_unknown(const std::string& program, std::span<const CommandWords> commands,
                             std::span<const std::string> arguments);
 
-// Restates an error message of CLI11 in the style of this program's messages; returns a message that
-// it does not know unchanged. The tests of each program hold the messages that users can get.
+// Rewrites an error message of CLI11 in the style of this program's messages. Returns other
+// messages unchanged.
 std::string plain_usage_error(const std::string& message);
 
-// The options of a command of CLI11 (App), those in its groups included.
+// The options of a CLI11 command, including those of its option groups.
 template <class App>
 std::vector<std::string> option_names(const App& app) {
   std::vector<std::string> names;
@@ -53,14 +53,14 @@ std::vector<std::string> option_names(const App& app) {
   return names;
 }
 
-// What is wrong with a command line that CLI11 could not parse, as `error` says, unless a word of
-// it is unknown. `words`: without the program's name.
+// A message about a command line that CLI11 could not parse: the first unknown word if there is
+// one, else `error`. `words` does not include the program's name.
 template <class App>
 std::string explain(const App& app, const std::vector<std::string>& words,
                     const std::exception& error) {
   std::vector<CommandWords> commands = {{"", option_names(app)}};
   for (const App* command : app.get_subcommands({})) {
-    if (!command->get_name().empty())  // else a group, whose options are the program's
+    if (!command->get_name().empty())  // else an option group, part of the program itself
       commands.push_back({command->get_name(), option_names(*command)});
   }
   const std::string unknown = explain_unknown(app.get_name(), commands, words);

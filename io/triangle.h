@@ -27,14 +27,14 @@ struct LatticeBox {
   LatticePoint min{0};
   LatticePoint max{0};
 
-  // Whether they have a point in common: closed boxes that touch do.
+  // Whether the closed boxes have a point in common; boxes that touch do.
   bool meets(const LatticeBox& other) const noexcept {
     for (int a = 0; a < 3; ++a) {
       if (max[a] < other.min[a] || min[a] > other.max[a]) return false;
     }
     return true;
   }
-  // Whether all of `other` is in it.
+  // Whether `other` is a subset of this box.
   bool holds(const LatticeBox& other) const noexcept {
     for (int a = 0; a < 3; ++a) {
       if (other.min[a] < min[a] || other.max[a] > max[a]) return false;
@@ -58,7 +58,7 @@ inline LatticeBox box_of(const LatticeTriangle& t) noexcept {
   return box;
 }
 
-// A closed box of the world; empty until a point was added.
+// A closed box in world space; empty until a point is added.
 struct Box {
   Point min{std::numeric_limits<double>::infinity()};
   Point max{-std::numeric_limits<double>::infinity()};
@@ -70,8 +70,8 @@ struct Box {
       if (p[a] > max[a]) max[a] = p[a];
     }
   }
-  // Finite corners, in order, as three calls would, but without a branch: of equals (0 and -0)
-  // the earlier stays.
+  // Adds the three corners, which must be finite, without branches. Same result as three calls in
+  // order: of equal values (0 and -0) the earlier one stays.
   void add(const Triangle& t) {
     const auto less = [](double first, double then) { return then < first ? then : first; };
     const auto more = [](double first, double then) { return first < then ? then : first; };

@@ -1,4 +1,5 @@
-// Numbers as people write them: resolutions "64K", sizes "4G"; K, M, G, T are powers of 1024.
+// Parses and prints numbers with units: resolutions ("64K"), sizes ("4G"). K, M, G, T are powers
+// of 1024.
 #pragma once
 
 #include <cstdint>

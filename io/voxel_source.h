@@ -1,8 +1,8 @@
-// Set voxels of another program, one by one or as cubes.
+// Sinks for the set voxels of imported files, as lists of voxels or as full cubes.
 //
-// A file that lists voxels (npz, binvox, vox) hands them to a sink in batches, in its own order,
-// repetitions included; their placement is known at the end. A sparse volume (vdb) has
-// cubes besides that are set as a whole.
+// A reader of voxel lists (npz, binvox, vox) passes voxels to a sink in batches, in file order,
+// with repetitions; their placement is known at the end. Sparse volumes (vdb) also contain full
+// cubes.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ struct FullCube {
 };
 using FullCubeSink = std::function<void(const FullCube&)>;
 
-// Where voxel (0, 0, 0) has its corner, how large a voxel is, and how many there are per axis. What
-// a file does not say is 0, 1 and 0.
+// The world position of the corner of voxel (0, 0, 0), the voxel size, and the voxels per axis. The
+// defaults apply to what a file does not specify.
 struct GridPlacement {
   Point corner{0};
   double voxel_size = 1;
-  uint64_t resolution = 0;  // at least; 0: as many as the voxels need
+  uint64_t resolution = 0;  // a minimum; 0: as many as the voxels need
 };
 
 // Collects voxels into batches.

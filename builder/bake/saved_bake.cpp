@@ -61,7 +61,7 @@ void get_bake(RecordReader* in, const std::string& path, SavedBake* saved) {
                 path);
   in->get(&saved->description);
   visit_fields(saved->grid, GetField{in});
-  in->require(saved->grid.is_possible(), "impossible grid");
+  in->require(saved->grid.is_valid(), "impossible grid");
   in->get(&saved->block_bytes);
   in->require(Scratch::is_block_size(saved->block_bytes), "impossible size of blocks");
 }

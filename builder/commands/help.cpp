@@ -56,13 +56,13 @@ int run(const HelpCommand& help) {
   const size_t width = text_width(stdout);
   if (subject.empty()) return print(help_text(program, width));
   for (const Topic& topic : topics()) {
-    if (topic.name == subject) return print(filled(topic.text, width));
+    if (topic.name == subject) return print(fill_paragraphs(topic.text, width));
   }
   if (is_sibling(subject)) print_sibling_help(subject);
   for (const Manual& command : program.commands) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }
-  const std::string there = elsewhere(subject);
+  const std::string there = command_of_other_program(subject);
   const std::string guess =
       there.empty() ? nearest(subject, help_subjects(program)) : there + " --help";
   fail_usage("unknown command or topic \"" + subject + "\"" +

@@ -136,7 +136,7 @@ int run(const InfoCommand& config) {
     reject(config.levels, "--levels", "run");
     info_run(config);
   } else {
-    if (one && first.ends_with(".svdag")) refuse_symvox(File::open_read(first));
+    if (one && first.ends_with(".svdag")) reject_symvox(File::open_read(first));
     reject(config.levels, "--levels", "scene");
     info_scene(config);
   }

@@ -39,7 +39,7 @@ void check_counts(const File& file, const RunHeader& h) {
               offsetof(RunHeader, header_bytes));
   require_run(h.block_bytes == kRunBlockBytes, file, "wrong block size",
               offsetof(RunHeader, block_bytes));
-  require_run(h.file_bytes == size, file, "its size is not the one in its header",
+  require_run(h.file_bytes == size, file, "its size differs from the size in its header",
               offsetof(RunHeader, file_bytes));
   require_run(h.voxels <= uint64_t(1) << 3 * h.levels, file, "impossible number of voxels",
               offsetof(RunHeader, voxels));

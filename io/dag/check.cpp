@@ -48,15 +48,15 @@ void check_fields(const File& file, const Header& h) {
     require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }
 
-// The parts follow each other exactly as the format defines, so every byte is accounted for.
+// The sections must follow one another exactly as the format defines, so every byte is checked.
 void check_layout(const File& file, const Header& h) {
   uint64_t end = sizeof(Header);
   const uint64_t size = file.size();
-  require(h.file_bytes == size, file, "its size is not the one in its header",
+  require(h.file_bytes == size, file, "its size differs from the size in its header",
           offsetof(Header, file_bytes));
-  const auto place = [&](uint64_t offset, uint64_t bytes, uint64_t field) {
+  const auto expect_section = [&](uint64_t offset, uint64_t bytes, uint64_t field) {
     require(offset == aligned(end) && offset <= size && bytes <= size - offset, file,
-            "a section is not where it belongs", field);
+            "a section is at the wrong offset", field);
     end = offset + bytes;
   };
   for (uint32_t k = kMaxSections; k-- > 0;) {
@@ -66,13 +66,13 @@ void check_layout(const File& file, const Header& h) {
       require(s.offset == 0 && s.bytes == 0 && s.nodes == 0, file, "unused section", field);
       continue;
     }
-    place(s.offset, s.bytes, field);
+    expect_section(s.offset, s.bytes, field);
     const uint64_t unit = k + 1 == h.section_count ? 8 : 4;
     require(s.bytes % unit == 0 && s.bytes / unit <= kMaxWords, file, "impossible section size",
             field);
   }
-  place(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
-  place(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
+  expect_section(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
+  expect_section(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
   const uint64_t payload = h.checksum_offset - sizeof(Header);
   const uint64_t blocks = (payload + kChecksumBlock - 1) / kChecksumBlock;
   require(h.checksum_bytes == 8 * blocks && end == size, file, "wrong checksum table",
@@ -93,19 +93,18 @@ std::vector<uint64_t> read_table(const File& file, const Header& h) {
   return table;
 }
 
-// Walks the sections as their bytes go by; words may straddle nothing, since offsets and block
-// sizes are multiples of 8.
+// Checks the structure of the sections while the file is read in blocks. Offsets and block sizes
+// are multiples of 8, so no word is in two blocks.
 class StructureScan {
  public:
   StructureScan(const File& file, const Header& h) : file_(file), h_(h), level_(h.section_count) {
     next_level();
   }
 
-  // `bytes` of the payload, which begin at file offset `offset`.
+  // Checks the payload bytes at file offset `offset`; calls must be contiguous.
   void feed(uint64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-      const uint64_t part = part_end();
-      const size_t n = size_t(std::min<uint64_t>(bytes.size(), part - offset));
+      const size_t n = size_t(std::min<uint64_t>(bytes.size(), region_end() - offset));
       if (in_section(offset)) {
         scan(offset, bytes.first(n));
       } else if (offset < h_.metadata_offset || offset >= h_.metadata_offset + h_.metadata_bytes) {
@@ -121,7 +120,7 @@ class StructureScan {
   void finish() const {
     const Section& root = h_.sections[0];
     const bool empty = h_.sections[h_.section_count - 1].nodes == 0;
-    require(root.nodes == (empty ? 0U : 1U), file_, "it has not one root", root.offset);
+    require(root.nodes == (empty ? 0U : 1U), file_, "wrong number of roots", root.offset);
   }
 
  private:
@@ -129,7 +128,8 @@ class StructureScan {
   bool in_section(uint64_t offset) const {
     return !done_ && offset >= section().offset && offset < section().offset + section().bytes;
   }
-  uint64_t part_end() const {  // of the part (padding, section, rest) that is being read
+  // The end of the region (padding, section or rest) that contains the position.
+  uint64_t region_end() const {
     if (done_)
       return position_ < h_.metadata_offset ? h_.metadata_offset
              : position_ < h_.metadata_offset + h_.metadata_bytes
@@ -160,7 +160,7 @@ class StructureScan {
   void close_level() const {
     const bool bricks = level_ + 2 == h_.levels;
     require(pending_ == 0 && (bricks ? section().bytes / 8 : nodes_) == section().nodes, file_,
-            "a level has another number of nodes than its header says", section().offset);
+            "a level and the header differ in the number of nodes", section().offset);
   }
 
   void scan(uint64_t offset, std::span<const std::byte> bytes) {
@@ -174,12 +174,12 @@ class StructureScan {
         pending_ = std::popcount(word);
         ++nodes_;
       } else {
-        require(starts_below(word), file_, "a pointer leads nowhere", offset + i);
+        require(starts_below(word), file_, "a child pointer does not lead to a node", offset + i);
         --pending_;
       }
     }
   }
-  // Any u64 is safe to follow; but of 0 the masks above would say that there is a voxel.
+  // Any u64 is a safe brick, but 0 contradicts the child masks above it.
   void scan_bricks(uint64_t offset, std::span<const std::byte> bytes) const {
     for (size_t i = 0; i < bytes.size(); i += 8) {
       uint64_t brick;
@@ -198,21 +198,23 @@ class StructureScan {
   uint32_t level_;
   bool done_ = false;
   uint64_t position_ = sizeof(Header);
-  std::vector<uint64_t> starts_, below_;  // bitmaps: word w begins a node
+  std::vector<uint64_t> starts_, below_;  // bitmaps of the words that begin a node
   uint64_t nodes_ = 0;
   uint64_t word_ = 0;
-  int pending_ = 0;  // pointers still to come of the node being read
+  int pending_ = 0;  // pointers of the current node that are not read yet
 };
 
 }  // namespace
 
 Header check_dag(const File& file) {
   Header h;
-  const size_t got = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
-  if (got >= sizeof h.magic && std::memcmp(h.magic, kMagic, sizeof kMagic) == 0 && got < sizeof h)
-    fail_input(file.path(), "damaged file: it ends within its header", got);
-  if (got < sizeof h.magic || std::memcmp(h.magic, kMagic, sizeof kMagic) != 0) refuse_symvox(file);
-  if (got < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
+  const size_t bytes_read = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
+  const bool has_magic =
+      bytes_read >= sizeof h.magic && std::memcmp(h.magic, kMagic, sizeof kMagic) == 0;
+  if (has_magic && bytes_read < sizeof h)
+    fail_input(file.path(), "damaged file: it ends within its header", bytes_read);
+  if (!has_magic) reject_symvox(file);
+  if (bytes_read < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
   check_identity(file, h);
   check_fields(file, h);
   check_layout(file, h);

@@ -1,10 +1,10 @@
-// Proves, by pread alone, that a `.svdag` is sound: what a reader must know before it maps the file
-// and follows pointers without looking.
+// Validates a `.svdag` file with pread alone, so that a reader may then map it and follow its
+// pointers without checks.
 //
-// One pass in file order: checksums of all blocks and, because the deepest section is first, a
-// bitmap of the node starts of one level suffices to check the pointers of the level above.
-// Pointers lead strictly to the next level, so the graph is acyclic and bounded. Whether nodes are
-// in order, unique and minimal is a question for verify/integrity/integrity.h.
+// One pass in file order verifies the checksums of all blocks and the structure. The deepest
+// section is first, so a bitmap of the node starts of one level suffices to check the pointers of
+// the level above. Pointers lead to the next level only, so the graph is acyclic and bounded.
+// Whether nodes are in order, unique and minimal is checked by verify/integrity/integrity.h.
 #pragma once
 
 #include "io/dag/format.h"
@@ -12,7 +12,7 @@
 
 namespace svdag {
 
-// Returns the header of a sound file; anything else is an Error (kBadInput) with path and offset.
+// Returns the header of a valid file; Error (kBadInput) with path and offset for any other.
 Header check_dag(const File& file);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// What a DAG has at one voxel: the voxel, or the largest empty cube around it.
+// A point query of a DAG: the set voxel at a position, or the largest empty cube around it.
 #pragma once
 
 #include "io/dag/dag_view.h"
@@ -12,7 +12,8 @@ struct CubeAt {
   LatticePoint min;  // its first voxel
 };
 
-// `voxel` must be in the grid.
+// The voxel at `voxel`, which must be in the grid, or the largest empty cube of the octree around
+// it.
 inline CubeAt cube_at(const DagView& dag, const LatticePoint& voxel) {
   const int levels = int(dag.levels);
   const auto at_level = [&](bool set, int level) {

@@ -9,6 +9,7 @@ namespace {
 
 enum class Overlap { kNone, kPart, kWhole };
 
+// The overlap of the cube at `origin` with `box`.
 Overlap overlap(const LatticePoint& origin, int64_t side, const VoxelBox& box) {
   bool whole = true;
   for (int a = 0; a < 3; ++a) {
@@ -36,18 +37,19 @@ CubeWalk::CubeWalk(const DagView& dag, uint32_t levels)
   SVDAG_ASSERT(levels >= 3 && levels <= dag.levels);
 }
 
-CubeWalk::At CubeWalk::child(const At& at, unsigned c) const {
+CubeWalk::WalkNode CubeWalk::child(const WalkNode& at, unsigned c) const {
   const int64_t half = side(at.level + 1);
   const LatticePoint step((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
   return {at.level + 1, dag_child(dag_, at.level, at.node, c), at.origin + step};
 }
 
-bool CubeWalk::full(uint32_t level, uint32_t node) {
+bool CubeWalk::is_full(uint32_t level, uint32_t node) {
   if (level + 2 == levels_) return dag_brick_at(dag_, level, node) == ~uint64_t(0);
   if ((dag_.words[level][node] & 0xffU) != 0xffU) return false;
-  if (const auto known = full_[level].find(node); known != full_[level].end()) return known->second;
+  if (const auto cached = full_[level].find(node); cached != full_[level].end())
+    return cached->second;
   bool all = true;
-  for (unsigned c = 0; all && c < 8; ++c) all = full(level + 1, dag_child(dag_, level, node, c));
+  for (unsigned c = 0; all && c < 8; ++c) all = is_full(level + 1, dag_child(dag_, level, node, c));
   return full_[level][node] = all;
 }
 
@@ -55,35 +57,37 @@ bool CubeWalk::visit(const VoxelBox& box, const VoxelCubeSink& sink) {
   return dag_.empty() || visit({0, 0, LatticePoint(0)}, box, sink);
 }
 
-bool CubeWalk::visit(const At& at, const VoxelBox& box, const VoxelCubeSink& sink) {
-  const Overlap part = overlap(at.origin, side(at.level), box);
-  if (part == Overlap::kNone) return true;
+bool CubeWalk::visit(const WalkNode& at, const VoxelBox& box, const VoxelCubeSink& sink) {
+  const Overlap overlapping = overlap(at.origin, side(at.level), box);
+  if (overlapping == Overlap::kNone) return true;
   if (at.level + 3 == levels_) {
     VoxelCube cube{at.origin, kBlockSide, block_of(dag_, at.level, at.node)};
-    if (part == Overlap::kPart) cube.block.cut(at.origin, box);
+    if (overlapping == Overlap::kPart) cube.block.cut(at.origin, box);
     return cube.block.empty() || sink(cube);
   }
-  if (part == Overlap::kWhole && full(at.level, at.node))
+  if (overlapping == Overlap::kWhole && is_full(at.level, at.node))
     return sink({at.origin, side(at.level), {}});
   for (unsigned c = 0; c < 8; ++c) {
-    const At next = child(at, c);
+    const WalkNode next = child(at, c);
     if (next.node != kNoChild && !visit(next, box, sink)) return false;
   }
   return true;
 }
 
-CubeCounts CubeWalk::count_cubes(const VoxelBox& box, uint64_t most) {
+CubeCounts CubeWalk::count_cubes(const VoxelBox& box, uint64_t max_blocks) {
   CubeCounts counts;
   if (dag_.empty()) return counts;
-  // Grids smaller than a cube have one of it all the same.
+  // A grid smaller than a cube counts as one cube.
   counts.middle = levels_ < 7 ? 1 : 0;
   counts.large = levels_ < 12 ? 1 : 0;
-  count({0, 0, LatticePoint(0)}, box, most, &counts);
+  count({0, 0, LatticePoint(0)}, box, max_blocks, &counts);
   return counts;
 }
 
-void CubeWalk::count(const At& at, const VoxelBox& box, uint64_t most, CubeCounts* counts) const {
-  if (counts->blocks > most || overlap(at.origin, side(at.level), box) == Overlap::kNone) return;
+void CubeWalk::count(const WalkNode& at, const VoxelBox& box, uint64_t max_blocks,
+                     CubeCounts* counts) const {
+  if (counts->blocks > max_blocks || overlap(at.origin, side(at.level), box) == Overlap::kNone)
+    return;
   counts->large += at.level + 12 == levels_;
   counts->middle += at.level + 7 == levels_;
   if (at.level + 3 == levels_) {
@@ -91,15 +95,15 @@ void CubeWalk::count(const At& at, const VoxelBox& box, uint64_t most, CubeCount
     return;
   }
   for (unsigned c = 0; c < 8; ++c) {
-    const At next = child(at, c);
-    if (next.node != kNoChild) count(next, box, most, counts);
+    const WalkNode next = child(at, c);
+    if (next.node != kNoChild) count(next, box, max_blocks, counts);
   }
 }
 
 uint64_t CubeWalk::voxels_below(uint32_t level, uint32_t node) {
   if (level + 2 == levels_) return uint64_t(std::popcount(dag_brick_at(dag_, level, node)));
-  if (const auto known = voxels_[level].find(node); known != voxels_[level].end())
-    return known->second;
+  if (const auto cached = voxels_[level].find(node); cached != voxels_[level].end())
+    return cached->second;
   uint64_t sum = 0;
   for (unsigned c = 0; c < 8; ++c) {
     const uint32_t child = dag_child(dag_, level, node, c);
@@ -108,23 +112,23 @@ uint64_t CubeWalk::voxels_below(uint32_t level, uint32_t node) {
   return voxels_[level][node] = sum;
 }
 
-bool CubeWalk::is_all(const VoxelBox& box) const {
+bool CubeWalk::covers_grid(const VoxelBox& box) const {
   return box.holds({LatticePoint(0), LatticePoint(side(0))});
 }
 
-uint64_t CubeWalk::bytes_to_count(const VoxelBox& box) const {
-  return is_all(box) ? bytes_of_count(dag_, levels_) : 0;
+uint64_t CubeWalk::counting_bytes(const VoxelBox& box) const {
+  return covers_grid(box) ? level_counting_bytes(dag_, levels_) : 0;
 }
 
 uint64_t CubeWalk::count_voxels(const VoxelBox& box) {
-  if (is_all(box)) return count_level_voxels(dag_, levels_);  // and remembers nothing
+  if (covers_grid(box)) return count_level_voxels(dag_, levels_);  // caches nothing
   return dag_.empty() ? 0 : count_voxels({0, 0, LatticePoint(0)}, box);
 }
 
-uint64_t CubeWalk::count_voxels(const At& at, const VoxelBox& box) {
-  const Overlap part = overlap(at.origin, side(at.level), box);
-  if (part == Overlap::kNone) return 0;
-  if (part == Overlap::kWhole) return voxels_below(at.level, at.node);
+uint64_t CubeWalk::count_voxels(const WalkNode& at, const VoxelBox& box) {
+  const Overlap overlapping = overlap(at.origin, side(at.level), box);
+  if (overlapping == Overlap::kNone) return 0;
+  if (overlapping == Overlap::kWhole) return voxels_below(at.level, at.node);
   if (at.level + 3 == levels_) {
     Block block = block_of(dag_, at.level, at.node);
     block.cut(at.origin, box);
@@ -132,15 +136,15 @@ uint64_t CubeWalk::count_voxels(const At& at, const VoxelBox& box) {
   }
   uint64_t sum = 0;
   for (unsigned c = 0; c < 8; ++c) {
-    const At next = child(at, c);
+    const WalkNode next = child(at, c);
     if (next.node != kNoChild) sum += count_voxels(next, box);
   }
   return sum;
 }
 
-// The brick that holds voxel `at`; coordinates inside the grid.
+// The brick that holds voxel `at`, which is inside the grid.
 Brick CubeWalk::brick(const LatticePoint& at) const {
-  At node{0, 0, LatticePoint(0)};
+  WalkNode node{0, 0, LatticePoint(0)};
   while (node.level + 2 < levels_) {
     const uint32_t shift = levels_ - 1 - node.level;
     node = child(node, child_index(at.x >> shift & 1, at.y >> shift & 1, at.z >> shift & 1));

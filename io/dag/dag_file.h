@@ -1,5 +1,5 @@
-// A `.svdag` opened for reading. Header and structure are validated with pread before the file is
-// mapped, so code that walks the view needs no checks.
+// A `.svdag` file mapped for reading. Header and structure are validated with pread before the file
+// is mapped, so code that walks the view needs no checks.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace svdag {
 
 class DagFile {
  public:
-  // Throws Error (kBadInput) with path and offset if anything is not as docs/format.md says:
-  // magic, version, sizes, checksums, pointers out of bounds. Order and minimality are not looked
-  // at (verify/integrity/integrity.h does).
+  // Error (kBadInput) with path and offset if the file violates docs/format.md: magic, version,
+  // sizes, checksums, pointers. Order and minimality are not checked (verify/integrity/integrity.h
+  // does).
   static DagFile open(const std::string& path);
 
   const std::string& path() const { return file_.path(); }

@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-// The child mask of a node of `level`; of a brick its eight octants.
+// The child mask of a node of `level`; for a brick, the mask of its nonempty octants.
 uint32_t octants(const DagView& dag, uint32_t level, uint32_t index) {
   if (level < dag.brick_level()) return dag.words[level][index] & 0xffU;
   const uint64_t brick = dag.bricks[index];

@@ -91,14 +91,14 @@ uint64_t count_level_voxels(const DagView& dag, uint32_t levels) {
   return levels < dag.levels ? stats.blocks : stats.voxels;
 }
 
-uint64_t bytes_of_count(const DagView& dag, uint32_t levels) {
-  uint64_t most = 0, above = 0;
+uint64_t level_counting_bytes(const DagView& dag, uint32_t levels) {
+  uint64_t max_words = 0, above = 0;
   for (uint32_t level = 0; level <= std::min(levels, dag.brick_level()); ++level) {
     const uint64_t here = level < dag.brick_level() ? dag.word_count[level] : dag.brick_count;
-    most = std::max(most, above + here);
+    max_words = std::max(max_words, above + here);
     above = here;
   }
-  return 8 * most;
+  return 8 * max_words;
 }
 
 }  // namespace svdag

@@ -1,9 +1,10 @@
-// A view of a `.svdag` in memory, without decoding it; no dependency, for host and CUDA.
+// A view of a `.svdag` file in memory, used without decoding, by host and CUDA code. No
+// dependencies.
 //
-// Notation: level 0 is the root, a node of level k covers 2^(L-k) voxels a side; bricks are at
+// Notation: level 0 is the root; a node of level k is a cube of side 2^(L-k) voxels; bricks are at
 // level L-2. An inner node is a word whose low 8 bits are the child mask, followed by one word per
 // present child, ascending: the index of the child's first word in the section of the next level,
-// or of the brick. Pointers lead strictly to the next level.
+// or the index of the brick. Pointers lead to the next level only.
 #pragma once
 
 #include "io/dag/format.h"
@@ -66,8 +67,8 @@ SVDAG_HD inline bool dag_voxel(const DagView& dag, uint32_t x, uint32_t y, uint3
   return (dag_brick(dag, x >> 2, y >> 2, z >> 2) >> (8 * outer + inner)) & 1U;
 }
 
-// Makes a view of the whole file at `data` (8-byte aligned), trusting a header and pointers that
-// were checked before (io/dag/check.h).
+// A view of the file at `data` (8-byte aligned). The file must have been validated
+// (io/dag/check.h).
 inline DagView dag_view(const void* data) {
   const Header& header = *static_cast<const Header*>(data);
   const char* base = static_cast<const char*>(data);

@@ -10,8 +10,8 @@
 
 namespace svdag {
 
-DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t most_words)
-    : file_(path), most_words_(most_words), level_(grid.levels - 1) {
+DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t max_words)
+    : file_(path), max_words_(max_words), level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kMagic, sizeof kMagic);
   header_.version = kFormatVersion;
@@ -49,7 +49,7 @@ void DagWriter::align() {
 }
 
 void DagWriter::close_level() {
-  if (level_ == int(header_.section_count)) return;  // none was begun yet
+  if (level_ == int(header_.section_count)) return;  // no level was begun yet
   Section& section = header_.sections[level_];
   section.bytes = position() - section.offset;
 }
@@ -67,7 +67,7 @@ void DagWriter::begin_level(int level) {
 uint32_t DagWriter::add_brick(Brick brick) {
   SVDAG_ASSERT(last_brick_ < brick && level_ + 2 == int(header_.levels));
   last_brick_ = brick;
-  if (words_ >= most_words_)
+  if (words_ >= max_words_)
     throw Error(ExitCode::kOutput,
                 "the scene needs more than 2^32 - 2 different bricks, which "
                 "format version 1 cannot hold: lower the resolution");
@@ -87,7 +87,7 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   words[0] = mask;
   SVDAG_ASSERT(last_node_ < children && level_ + 2 < int(header_.levels));
   last_node_ = children;
-  if (uint64_t(words_) + count > most_words_)
+  if (uint64_t(words_) + count > max_words_)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " needs more than 2^32 - 2 words, which format "
                                        "version 1 cannot hold: lower the resolution");

@@ -1,6 +1,6 @@
-// Writes a `.svdag` level by level, deepest first, in one sequential pass.
+// Writes a `.svdag` file level by level, deepest first, in one sequential pass.
 //
-// The levels arrive in canonical order (docs/format.md, "Order"), so the writer holds one block of
+// Nodes arrive in canonical order (docs/format.md, "Order"), so the writer holds only one block of
 // 64 KiB and the checksum table. The file appears under its name only after finish().
 #pragma once
 
@@ -21,17 +21,18 @@ using NodeKey = std::array<uint32_t, 8>;
 
 class DagWriter {
  public:
-  // `most_words`: of a section; tests ask for less than the format holds.
-  DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t most_words = kMaxWords);
+  // `max_words`: limit of a section; tests lower it.
+  DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t max_words = kMaxWords);
 
   // Begins the section of `level`; the order is L-2, L-3, ..., 0, each exactly once.
   void begin_level(int level);
-  // Appends a brick to level L-2, greater than the one before; returns its index. A full section is
-  // an Error (kOutput).
+  // Appends a brick to level L-2 and returns its index. Bricks must ascend. A full section is an
+  // Error (kOutput).
   uint32_t add_brick(Brick brick);
-  // Appends a node to an inner level, greater than the one before; returns its first word's index.
+  // Appends a node to an inner level and returns the index of its first word. Nodes must ascend. A
+  // full section is an Error (kOutput).
   uint32_t add_node(const NodeKey& children);
-  // Writes metadata, checksums and header, and gives the file its name.
+  // Writes metadata, checksums and header, and renames the file to its name.
   void finish(uint64_t voxels, double largest_snap);
 
   const Header& header() const { return header_; }
@@ -45,10 +46,10 @@ class DagWriter {
 
   AtomicFile file_;
   Header header_{};
-  uint64_t most_words_;
+  uint64_t max_words_;
   int level_;             // the level being written
   uint32_t words_ = 0;    // words (bricks) in it
-  Brick last_brick_ = 0;  // the keys before, to assert their order
+  Brick last_brick_ = 0;  // the previous keys, to assert the order
   NodeKey last_node_{};
   uint64_t written_ = 0;          // payload bytes in the file
   std::vector<std::byte> block_;  // payload bytes not yet written, less than kChecksumBlock

@@ -1,9 +1,9 @@
-// The file format `.svdag`, version 1: the structures of docs/format.md.
+// The structures of the `.svdag` file format, version 1 (docs/format.md).
 //
 //   header (1024 bytes) | level sections, deepest first, 64-byte aligned | metadata (JSON) |
 //   checksum table | end
 //
-// Little-endian. No dependency at all: host and CUDA code include this file through dag_view.h.
+// Little-endian. No dependencies: host and CUDA code include this file through dag_view.h.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr uint32_t kFormatVersion = 1;
 constexpr uint32_t kMaxSections = 19;  // levels 0 .. L-2, L <= 20
 constexpr uint64_t kSectionAlignment = 64;
 constexpr uint64_t kChecksumBlock = 65536;   // bytes covered by one entry of the checksum table
-constexpr uint64_t kMaxWords = 0xfffffffeU;  // of a section: the last two u32 values stay free
+constexpr uint64_t kMaxWords = 0xfffffffeU;  // per section: the last two u32 values are reserved
 
 enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
 
@@ -42,16 +42,16 @@ struct Header {
   double corner[3];       // world position of the corner of voxel (0, 0, 0)
   double voxel_size;
   int64_t k0[3];           // kLattice: plane number of the corner; else 0
-  uint32_t bounded;        // 1 if voxels outside the selection were left empty on demand
+  uint32_t bounded;        // 1 if --bounds was given: voxels outside the selection are empty
   uint32_t section_count;  // L-1
   uint32_t selection_min[3];
   uint32_t selection_max[3];  // exclusive
   uint64_t voxels;            // set voxels
-  double largest_snap;        // in voxels, the largest move of a coordinate by the snap
+  double largest_snap;        // largest move of a coordinate by the snap, in voxels
   uint64_t metadata_offset, metadata_bytes;
   uint64_t checksum_offset, checksum_bytes;
   uint64_t file_bytes;
-  Section sections[kMaxSections];  // [k] is level k; unused ones are zero
+  Section sections[kMaxSections];  // [k] is level k; unused sections are zero
   uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table
   unsigned char reserved[368];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before

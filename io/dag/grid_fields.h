@@ -1,5 +1,5 @@
-// The grid fields in the headers of `.svdag` and `.run` files. Both headers begin with them, at the
-// same offsets and under the same names, except for the corner (docs/format.md and
+// The grid fields at the beginning of the headers of `.svdag` and `.run` files. Both headers have
+// them at the same offsets and under the same names, except the corner (docs/format.md,
 // docs/run-format.md).
 #pragma once
 
@@ -42,7 +42,7 @@ Grid get_grid(const H& header, const double (&corner)[3]) {
   return grid;
 }
 
-// Checks each field with require(condition, message, offset).
+// Checks the fields, each with a call of require(condition, message, offset).
 template <class H, class Require>
 void check_grid(const H& h, const Require& require) {
   require(h.levels >= uint32_t(kMinLevels) && h.levels <= uint32_t(kMaxLevels),

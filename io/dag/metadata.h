@@ -1,4 +1,4 @@
-// The metadata of a .svdag: the header as one line of JSON (docs/format.md, "Metadata").
+// The metadata of a `.svdag` file: the header as one line of JSON (docs/format.md, "Metadata").
 #pragma once
 
 #include <string>

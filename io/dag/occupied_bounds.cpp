@@ -7,10 +7,10 @@
 namespace svdag {
 namespace {
 
-// Distances from one side of a node's cube to its first set voxel, in voxels.
+// The distance from one side of a node's cube to its first set voxel, in voxels, cached per node.
 class SideDistance {
  public:
-  // `axis`: 0 .. 2. `high`: from the upper side.
+  // `axis`: 0 .. 2. `high`: distance from the upper side.
   SideDistance(const DagView& dag, int axis, bool high)
       : dag_(dag), bit_(4U >> axis), near_(high ? bit_ : 0), memo_(dag.brick_level()) {}
 
@@ -27,7 +27,7 @@ class SideDistance {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  // Over the children whose bit `bit_` is `side`; kNone if there are none.
+  // The minimum over the children whose bit `bit_` equals `side`; kNone if there are none.
   uint32_t of_half(uint32_t node, uint32_t level, unsigned side) {
     uint32_t best = kNone;
     for (unsigned c = 0; c < 8 && best != 0; ++c) {

@@ -1,8 +1,8 @@
 // The box of the set voxels of a DAG.
 //
-// Each of its six sides is found by a descent that enters only the half of a node that is nearer to
-// that side, unless it is empty; the answer for a node is computed once. So its cost is that of the
-// nodes at the surface of the box, not of the voxels.
+// Each of the six sides is found by a descent that enters only the half of a node that is nearer to
+// that side, unless this half is empty. The result of a node is computed once. So the cost depends
+// on the nodes at the surface of the box, not on the number of voxels.
 #pragma once
 
 #include "io/dag/dag_view.h"

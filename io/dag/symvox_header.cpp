@@ -21,10 +21,10 @@ bool read_symvox_header(const File& file, SymvoxHeader* header) {
   return true;
 }
 
-void refuse_symvox(const File& file) {
+void reject_symvox(const File& file) {
   SymvoxHeader header;
   if (read_symvox_header(file, &header))
-    fail_input(file.path(), "this is a SymVox .svdag; use svdag import");
+    fail_input(file.path(), "is a SymVox .svdag: convert it with svdag import");
 }
 
 }  // namespace svdag

@@ -1,7 +1,8 @@
-// Cubes: what foreign voxel formats are made of, a block of 8^3 voxels or a larger cube wholly set.
+// Voxel cubes, the unit of exchange with foreign voxel formats: a block of 8^3 voxels, or a larger
+// full cube.
 //
-// A block is eight u64; voxel (x, y, z), each 0 .. 7, is bit 8y + z of word x. That is the layout
-// of the leaves of OpenVDB and NanoVDB, so blocks go there and come from there unchanged.
+// A block is eight u64; voxel (x, y, z), each 0 .. 7, is bit 8y + z of word x. Leaves of OpenVDB
+// and NanoVDB have the same layout, so blocks are copied unchanged.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,7 @@ struct Block {
   }
   bool get(unsigned x, unsigned y, unsigned z) const { return words[x] >> (8 * y + z) & 1; }
   void set(unsigned x, unsigned y, unsigned z) { words[x] |= uint64_t(1) << (8 * y + z); }
-  // Puts a brick in the octant whose corner is (x, y, z), each 0 or 4.
+  // Adds a brick to the octant whose corner is (x, y, z), each 0 or 4.
   void set_brick(unsigned x, unsigned y, unsigned z, Brick brick) {
     for (; brick != 0; brick &= brick - 1) {
       const auto [bx, by, bz] = brick_voxel(unsigned(std::countr_zero(brick)));
@@ -69,7 +70,7 @@ struct Block {
   }
 };
 
-// Voxels origin .. origin + side - 1 on each axis. Side 8: those of `block`. Larger: all of them.
+// Voxels origin .. origin + side - 1 on each axis. Side 8: the voxels of `block`; larger: all set.
 struct VoxelCube {
   LatticePoint origin{0};
   int64_t side = kBlockSide;
@@ -81,7 +82,7 @@ struct VoxelCube {
   }
 };
 
-// Takes one cube after the other until it returns false.
+// Receives cubes one by one; returns false to stop.
 using VoxelCubeSink = std::function<bool(const VoxelCube&)>;
 
 }  // namespace svdag

@@ -15,11 +15,11 @@
 namespace svdag {
 namespace {
 
-// CLI11 keeps a hint as the name of a validator.
+// A hint is stored in CLI11 as the name of a validator: one of these prefixes, and words.
 constexpr const char* kChoices = "choices ";
 constexpr const char* kEndings = "endings ";
 
-constexpr uint64_t kMinMemory = 1 << 20;  // with less not even small scenes can be read
+constexpr uint64_t kMinMemory = 1 << 20;  // less does not suffice to read even small scenes
 
 CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words,
                   CLI::Validator validator = CLI::Validator("")) {
@@ -28,22 +28,23 @@ CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::
   return option->check(validator.name(name));
 }
 
-// CLI11 reads -1 as 2^64 - 1, and what is larger as that too.
-std::string refuse_no_whole_number(const std::string& text) {
+// Returns the error. CLI11 itself would read -1, and numbers that are too large, as 2^64 - 1.
+std::string check_whole_number(const std::string& text) {
   uint64_t value = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-  return whole ? "" : "\"" + text + "\" is not a whole number of 0 to 2^64 - 1";
+  return whole ? "" : "\"" + text + "\" is not a whole number from 0 to 2^64 - 1";
 }
 
-// An empty name is one that was lost on its way: a script's "$OUT" that was never set.
-std::string refuse_empty(const std::string& name) {
+// Returns the error. An empty name is a mistake, such as an unset variable in a script.
+std::string check_not_empty(const std::string& name) {
   return name.empty() ? "the name is empty" : "";
 }
 
-std::vector<std::string> hinted(const CLI::Option& option, const std::string& kind) {
+// The words of a hint.
+std::vector<std::string> hint_words(const CLI::Option& option, const std::string& kind) {
   std::vector<std::string> words;
-  auto& validators = const_cast<CLI::Option&>(option);  // CLI11 only has this for what can change
+  auto& validators = const_cast<CLI::Option&>(option);  // CLI11 has no const accessor
   for (int i = 0;; ++i) {
     const CLI::Validator* validator = nullptr;
     try {
@@ -72,24 +73,24 @@ std::string heading_of(const CLI::App& group) {
   return name;
 }
 
-// The heading "" is that of the command itself, for CLI11 "Options".
-ManualOption entry_of(const CLI::Option& option, const std::string& heading) {
-  ManualOption entry;
-  for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
-  if (option.get_positional()) entry.names = {option.get_name(true)};
+// `heading` is "" for the command itself, whose options are in CLI11's group "Options".
+ManualOption describe_option(const CLI::Option& option, const std::string& heading) {
+  ManualOption described;
+  for (const std::string& name : option.get_snames()) described.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) described.names.push_back("--" + name);
+  if (option.get_positional()) described.names = {option.get_name(true)};
   const bool is_flag = option.get_items_expected_max() == 0;
-  if (!is_flag && !option.get_positional()) entry.value = option.get_type_name();
-  entry.text = with_conditions(option);
-  entry.group = !heading.empty()                  ? heading
-                : option.get_group() == "Options" ? ""
-                                                  : option.get_group();
-  entry.choices = hinted(option, kChoices);
-  entry.endings = hinted(option, kEndings);
-  entry.required = option.get_required();
-  entry.repeated = option.get_items_expected_max() > 1 &&
-                   (option.get_positional() || option.get_allow_extra_args());
-  return entry;
+  if (!is_flag && !option.get_positional()) described.value = option.get_type_name();
+  described.text = with_conditions(option);
+  described.group = !heading.empty()                  ? heading
+                    : option.get_group() == "Options" ? ""
+                                                      : option.get_group();
+  described.choices = hint_words(option, kChoices);
+  described.endings = hint_words(option, kEndings);
+  described.required = option.get_required();
+  described.repeated = option.get_items_expected_max() > 1 &&
+                       (option.get_positional() || option.get_allow_extra_args());
+  return described;
 }
 
 void describe_options(const CLI::App& app, const std::string& heading, Manual* manual) {
@@ -97,10 +98,11 @@ void describe_options(const CLI::App& app, const std::string& heading, Manual* m
     if (group->get_name().empty()) describe_options(*group, heading_of(*group), manual);
   }
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;                       // hidden
-    if (!heading.empty() && option == app.get_help_ptr()) continue;  // every group has its own
-    ManualOption entry = entry_of(*option, heading);
-    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(entry));
+    if (option->get_group().empty()) continue;  // hidden
+    if (!heading.empty() && option == app.get_help_ptr())
+      continue;  // CLI11 adds one to every group
+    ManualOption described = describe_option(*option, heading);
+    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(described));
   }
 }
 
@@ -126,8 +128,8 @@ Manual requested_manual(const CLI::App& program) {
              : describe(*parsed.front(), program.get_name() + " " + parsed.front()->get_name());
 }
 
-// "help mesh" as "mesh --help", for a program that has no command help.
-std::vector<char*> without_help(const Manual& program, int argc, char** argv) {
+// Turns "help mesh" into "mesh --help", for a program without a command "help".
+std::vector<char*> help_command_to_option(const Manual& program, int argc, char** argv) {
   static char option[] = "--help";
   std::vector<char*> words(argv, argv + argc);
   const auto is_help = [&](const Manual& each) {
@@ -156,7 +158,8 @@ std::vector<char*> help_or_version_first(const CLI::App& program, std::vector<ch
   return words;
 }
 
-// "biuld" of "biuld --help", which CLI11 would answer with the help of the program.
+// Whether the first word is an unknown command, as in "biuld --help", for which CLI11 would print
+// the help of the program.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
          requested_manual(program).command == program.get_name();
@@ -176,13 +179,13 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     std::fputs(to_table(manual_of(*program)).c_str(), stdout);
     return 0;
   }
-  std::vector<char*> words = without_help(manual_of(*program), argc, argv);
+  std::vector<char*> words = help_command_to_option(manual_of(*program), argc, argv);
   words = help_or_version_first(*program, std::move(words));
   argc = int(words.size());
   argv = words.data();
   const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
-  const std::string lost = explain_lost_value(*program, given);
-  if (!lost.empty()) fail_usage(lost);
+  const std::string missing = explain_missing_value(*program, given);
+  if (!missing.empty()) fail_usage(missing);
   try {
     program->parse(argc, argv);
     return std::nullopt;
@@ -212,11 +215,11 @@ CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices
 }
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
-  return hint(option, kEndings, endings, CLI::Validator(refuse_empty, ""));
+  return hint(option, kEndings, endings, CLI::Validator(check_not_empty, ""));
 }
 
 CLI::Option* takes_whole_number(CLI::Option* option) {
-  return option->check(CLI::Validator(refuse_no_whole_number, ""));
+  return option->check(CLI::Validator(check_whole_number, ""));
 }
 
 CLI::Option* takes_folder(CLI::Option* option) {

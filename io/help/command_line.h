@@ -1,5 +1,5 @@
-// The command line of every program, parsed by CLI11: --help from the manual of its options, errors
-// as one sentence, with the option that a typo resembles.
+// Parses the command line of every program with CLI11. --help is generated from the manual of the
+// options; an error is one sentence, with a suggestion for a misspelt option.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,31 @@ namespace svdag {
 // The manual of a program: its options and commands.
 Manual manual_of(const CLI::App& program);
 
-// Parses a command line; returns the exit code if nothing else is to be done (--help, --version).
-// Error: kUsage.
+// Parses a command line. Returns the exit code if the program has nothing else to do (--help,
+// --version). A wrong command line is an Error (kUsage).
 std::optional<int> read_command_line(CLI::App* program, int argc, char** argv);
 
-// Hints for the manual about an option's values that CLI11 does not know. Each returns the option.
-CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices);  // and no other
+// Each of these declares the values of an option, for the manual and completions, and returns the
+// option. takes_files() and takes_folder() reject only empty names, suggests() rejects nothing.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choices);
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings);
 CLI::Option* takes_folder(CLI::Option* option);
 CLI::Option* takes_whole_number(CLI::Option* option);               // of 64 bits
-CLI::Option* from_to(CLI::Option* option, size_t min, size_t max);  // whole numbers
+CLI::Option* from_to(CLI::Option* option, size_t min, size_t max);  // integers
 
-// -n, --no-clobber.
+// Adds -n, --no-clobber.
 void add_no_clobber(CLI::App* command, bool* no_clobber);
 
-// -m, the memory budget of a command, with the text of its help; less than 1M is an Error (kUsage).
+// Adds -m, the memory budget of a command, with its help text. Less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,
                        const std::string& text = "Memory budget in bytes");
 
-// The notes of a command: `before`, examples (one command each), and the exit codes.
+// Sets the notes of a command: `before`, examples (one command line each), and the exit codes.
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before = "");
 
+// The name extensions of scene files.
 extern const std::vector<std::string> kSceneEndings;
 
 }  // namespace svdag

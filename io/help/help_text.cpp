@@ -3,8 +3,8 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kColumn = 28;  // of the texts of options
-constexpr size_t kRoom = 70;    // columns from which on there is room for it
+constexpr size_t kTextColumn = 28;         // column of the texts of options
+constexpr size_t kMinTwoColumnWidth = 70;  // in a narrower terminal, texts are below the names
 
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
@@ -21,8 +21,8 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-// Words in lines of at most `width` columns; the first one begins at the column `at`, the others
-// with `indent`. Each but the last ends with `line_end`.
+// Breaks words into lines of at most `width` columns. The first line begins at column `at`, the
+// others with `indent`. Each line except the last ends with `line_end`.
 std::string fill(const std::vector<std::string>& words, size_t at, const std::string& indent,
                  size_t width, const char* line_end = "") {
   const size_t reserve = std::string_view(line_end).size();
@@ -48,13 +48,13 @@ std::string fill(std::string_view text, size_t at, const std::string& indent, si
   return fill(words_of(text), at, indent, width);
 }
 
-// The words of a command, options together with what follows them where that fits into `room`.
-std::vector<std::string> with_values(const std::vector<std::string>& words, size_t room) {
+// The words of a command line, with each option and its value joined if they fit `max_length`.
+std::vector<std::string> with_values(const std::vector<std::string>& words, size_t max_length) {
   std::vector<std::string> out;
   bool open = false;  // the last word is an option that may have a value
   for (const std::string& word : words) {
     const bool is_option = word[0] == '-' && word != "--";
-    if (open && !is_option && word != "--" && out.back().size() + 1 + word.size() <= room)
+    if (open && !is_option && word != "--" && out.back().size() + 1 + word.size() <= max_length)
       out.back() += " " + word;
     else
       out.push_back(word);
@@ -67,14 +67,14 @@ std::string indentation(size_t columns) {
   return std::string(columns, ' ');
 }
 
-// Where the second column of a line of a table begins; 0 if it has none.
+// Where the second column of a table row begins; 0 if it has none.
 size_t second_column(const std::string& line, size_t indent) {
   const size_t gap = line.find("  ", indent);
   return gap == line.npos ? 0 : line.find_first_not_of(' ', gap);
 }
 
-// A line that keeps its shape, unless it is a command or a row too long for the terminal.
-std::string kept(const std::string& line, size_t width) {
+// A preformatted line. Commands and table rows that exceed `width` are broken, other lines are not.
+std::string preformatted(const std::string& line, size_t width) {
   const size_t indent = line.find_first_not_of(' ');
   if (line.size() <= width) return line + "\n";
   if (line.compare(indent, 5, "svdag") == 0) {
@@ -87,9 +87,9 @@ std::string kept(const std::string& line, size_t width) {
          "\n";
 }
 
-std::string entry(const std::string& title, const std::string& text, size_t width) {
-  const bool beside = width >= kRoom;
-  const size_t column = beside ? kColumn : 6;
+std::string name_and_text(const std::string& title, const std::string& text, size_t width) {
+  const bool beside = width >= kMinTwoColumnWidth;
+  const size_t column = beside ? kTextColumn : 6;
   std::string out = "  " + fill(title, 2, indentation(4), width);
   if (beside && out.size() + 2 <= column)
     out += indentation(column - out.size());
@@ -98,13 +98,13 @@ std::string entry(const std::string& title, const std::string& text, size_t widt
   return out + fill(text, column, indentation(column), width) + "\n";
 }
 
-// Options by their headings; those of none are just options.
+// Options by heading; those without one are under "Options".
 std::string options_text(const std::vector<ManualOption>& options, size_t width) {
   std::string out;
   for (const std::string& group : groups_of(options)) {
     out += "\n" + (group.empty() ? std::string("Options") : group) + ":\n";
     for (const ManualOption& option : options) {
-      if (option.group == group) out += entry(title_of(option), option.text, width);
+      if (option.group == group) out += name_and_text(title_of(option), option.text, width);
     }
   }
   return out;
@@ -119,17 +119,17 @@ std::string title_of(const ManualOption& option) {
   return title + (option.repeated ? "..." : "");
 }
 
-std::string filled(std::string_view text, size_t width) {
+std::string fill_paragraphs(std::string_view text, size_t width) {
   std::string out;
-  bool apart = false;
+  bool separate = false;
   for (const Paragraph& paragraph : paragraphs_of(text)) {
-    if (apart) out += '\n';
-    apart = paragraph.kind != Paragraph::Kind::kHeading;
+    if (separate) out += '\n';
+    separate = paragraph.kind != Paragraph::Kind::kHeading;
     if (paragraph.kind == Paragraph::Kind::kHeading) out += paragraph.lines[0] + ":\n";
     if (paragraph.kind == Paragraph::Kind::kText)
       out += fill(paragraph.lines[0], 0, "", width) + "\n";
     if (paragraph.kind != Paragraph::Kind::kLines) continue;
-    for (const std::string& line : paragraph.lines) out += kept(line, width);
+    for (const std::string& line : paragraph.lines) out += preformatted(line, width);
   }
   return out;
 }
@@ -140,15 +140,16 @@ std::string help_text(const Manual& manual, size_t width) {
   if (!manual.commands.empty()) {
     out += "\nCommands:\n";
     for (const Manual& command : manual.commands)
-      out += entry(command.command.substr(command.command.find(' ') + 1), command.text, width);
+      out +=
+          name_and_text(command.command.substr(command.command.find(' ') + 1), command.text, width);
   }
   if (!manual.operands.empty()) {
     out += "\nArguments:\n";
     for (const ManualOption& operand : manual.operands)
-      out += entry(title_of(operand), operand.text, width);
+      out += name_and_text(title_of(operand), operand.text, width);
   }
   out += options_text(manual.options, width);
-  if (!manual.notes.empty()) out += "\n" + filled(manual.notes, width);
+  if (!manual.notes.empty()) out += "\n" + fill_paragraphs(manual.notes, width);
   return out;
 }
 

@@ -13,27 +13,27 @@ const CLI::App& command_of(const CLI::App& program, const std::string& word) {
   return program;
 }
 
-// A word that starts as options do, in its two parts: "--size=4" and "-j4" hold their values.
-struct Word {
-  explicit Word(const std::string& word)
+// A word that begins like an option, divided into name and value, as in "--size=4" and "-j4".
+struct OptionWord {
+  explicit OptionWord(const std::string& word)
       : is_long(word.starts_with("--")),
         end(is_long ? std::min(word.find('='), word.size()) : std::min<size_t>(2, word.size())),
         name(word.substr(0, end)),
-        rest(word.substr(end)) {}
+        value(word.substr(end)) {}
 
   bool is_long;
   size_t end;
-  std::string name, rest;  // rest: with the "="
+  std::string name, value;  // value: including a "="
 };
 
 const CLI::Option* option_of(const CLI::App& command, const std::string& word) {
   if (word.size() < 2 || word[0] != '-' || word == "--") return nullptr;
-  return command.get_option_no_throw(Word(word).name);
+  return command.get_option_no_throw(OptionWord(word).name);
 }
 
 }  // namespace
 
-std::string explain_lost_value(const CLI::App& program, std::span<const std::string> words) {
+std::string explain_missing_value(const CLI::App& program, std::span<const std::string> words) {
   if (words.empty()) return "";
   const CLI::App& command = command_of(program, words[0]);
   const std::string where = "; see " + program.get_name() +
@@ -41,11 +41,11 @@ std::string explain_lost_value(const CLI::App& program, std::span<const std::str
   for (size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
     const CLI::Option* option = option_of(command, words[i]);
     if (option == nullptr || option->get_items_expected_max() == 0) continue;
-    const Word word(words[i]);
-    if (!word.is_long && word.rest.starts_with("="))
-      return words[i] + ": the value starts with \"=\": leave that out" + where;
-    if (word.rest == "=") return word.name + ": the value is empty" + where;
-    if (!word.rest.empty() || i + 1 == words.size()) continue;
+    const OptionWord word(words[i]);
+    if (!word.is_long && word.value.starts_with("="))
+      return words[i] + ": the value starts with \"=\": remove the \"=\"" + where;
+    if (word.value == "=") return word.name + ": the value is empty" + where;
+    if (!word.value.empty() || i + 1 == words.size()) continue;
     const std::string& value = words[++i];
     if (value.empty()) return word.name + ": the value is empty" + where;
     if (option_of(command, value) != nullptr)

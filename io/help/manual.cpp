@@ -46,19 +46,19 @@ std::string usage_of(const Manual& manual) {
 
 std::vector<Paragraph> paragraphs_of(std::string_view text) {
   std::vector<Paragraph> paragraphs;
-  bool apart = true;  // the next line begins a paragraph
+  bool starts_paragraph = true;
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     const std::string line(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) {
-      apart = true;
+      starts_paragraph = true;
       continue;
     }
-    const auto kind = line[0] == ' '              ? Paragraph::Kind::kLines
-                      : apart && is_heading(line) ? Paragraph::Kind::kHeading
-                                                  : Paragraph::Kind::kText;
-    if (apart || paragraphs.back().kind != kind) {
+    const auto kind = line[0] == ' '                         ? Paragraph::Kind::kLines
+                      : starts_paragraph && is_heading(line) ? Paragraph::Kind::kHeading
+                                                             : Paragraph::Kind::kText;
+    if (starts_paragraph || paragraphs.back().kind != kind) {
       paragraphs.push_back({kind, {line}});
     } else if (kind == Paragraph::Kind::kText) {
       paragraphs.back().lines[0] += " " + line;
@@ -66,7 +66,7 @@ std::vector<Paragraph> paragraphs_of(std::string_view text) {
       paragraphs.back().lines.push_back(line);
     }
     if (kind == Paragraph::Kind::kHeading) paragraphs.back().lines[0].pop_back();
-    apart = false;
+    starts_paragraph = false;
   }
   return paragraphs;
 }

@@ -42,7 +42,7 @@ void try_plan(OwnFolder& folder, std::string_view rest) {
   folder.write("plan.json", json);
   folder.write("index", index);
   const Plan plan = load_plan(folder.path(), true);
-  if (plan.steps.empty() || !plan.grid.is_possible()) std::abort();
+  if (plan.steps.empty() || !plan.grid.is_valid()) std::abort();
   for (const PlanStep& step : plan.steps) {
     if (plan.command(step).empty()) std::abort();
     if (step.is_shard()) bins_of(plan.bins, step.cells, plan.grid.levels);

@@ -20,7 +20,7 @@ TEST(Brick, TheInnerBlockIsTheLowByte) {
   EXPECT_EQ(brick_bit(3, 3, 3), 63U);
 }
 
-TEST(Brick, EachOfThe64VoxelsHasItsOwnBit) {
+TEST(Brick, The64VoxelsHaveDistinctBits) {
   std::set<unsigned> bits;
   for (unsigned x = 0; x < 4; ++x)
     for (unsigned y = 0; y < 4; ++y)

@@ -1,6 +1,6 @@
-// For snap_vs_fractions.py: snaps one position a line. "box|lattice L SIZE  ORIGIN|K0 (3)  POSITION
-// (3)", numbers as
-// "%a"; answers "q q q", or "far" for what is refused.
+// Snaps positions, for snap_vs_fractions.py. Input lines:
+// "box|lattice L SIZE  ORIGIN|K0 (3)  POSITION (3)", with numbers as "%a". Prints "q q q", or "far"
+// for a position that is rejected.
 #include <cstdio>
 #include <cstring>
 

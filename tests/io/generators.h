@@ -1,4 +1,4 @@
-// RapidCheck generators for the vocabulary of io/.
+// RapidCheck generators for the types of io/.
 #pragma once
 
 #include <rapidcheck.h>
@@ -10,7 +10,7 @@
 
 namespace svdag {
 
-// A coordinate: round, tiny, huge or between, of both signs.
+// Coordinates of both signs: multiples of 1/4, and numbers of any magnitude.
 inline rc::Gen<double> coordinates() {
   return rc::gen::map(rc::gen::tuple(any_of<int64_t>(-1'000'000, 1'000'000), any_of(-30, 10),
                                      rc::gen::arbitrary<bool>()),
@@ -28,7 +28,7 @@ inline rc::Gen<Point> points() {
                       });
 }
 
-// A box around two or three points, with an extent on at least one axis.
+// The box of two points, with an extent on at least one axis.
 inline rc::Gen<Box> boxes() {
   return rc::gen::suchThat(rc::gen::map(rc::gen::pair(points(), points()),
                                         [](const std::pair<Point, Point>& p) {

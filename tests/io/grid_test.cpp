@@ -53,7 +53,7 @@ RC_GTEST_PROP(DividedBox, HasItsOutermostFacesMidVoxel, ()) {
   RC_ASSERT(grid.selection == grid.whole());
 }
 
-TEST(DividedBox, WithoutAnExtentOrANormalVoxelSizeIsAUsageError) {
+TEST(DividedBox, WithoutExtentOrNormalVoxelSizeIsAUsageError) {
   EXPECT_SVDAG_ERROR(divide_box(box_of({1, 2, 3}, {1, 2, 3}), 10), ExitCode::kUsage,
                      "voxel size would be 0");
   EXPECT_SVDAG_ERROR(divide_box(box_of({0, 0, 0}, {1e-306, 0, 0}), 12), ExitCode::kUsage,
@@ -62,7 +62,7 @@ TEST(DividedBox, WithoutAnExtentOrANormalVoxelSizeIsAUsageError) {
                      "would be inf");
 }
 
-TEST(CoveredLattice, RefusesVoxelSizesThatAreNotPositiveNormalNumbers) {
+TEST(CoveredLattice, RejectsVoxelSizesThatAreNotPositiveNormalNumbers) {
   const Box box = box_of({0, 0, 0}, {1, 1, 1});
   for (const double size : {0.0, -1.0, 1e-310, std::numeric_limits<double>::infinity(),
                             std::numeric_limits<double>::quiet_NaN()})
@@ -87,14 +87,14 @@ TEST(DividedCube, HasItsCornersAtThoseOfTheCube) {
     const Grid grid = divide_cube(cube, levels);
     EXPECT_EQ(grid.corner(), cube.min);
     EXPECT_EQ(grid.voxel_size * double(grid.resolution()), cube.side);
-    EXPECT_TRUE(grid.bounded && grid.is_possible());
+    EXPECT_TRUE(grid.bounded && grid.is_valid());
     EXPECT_EQ(grid.selection, grid.whole());
   }
   for (const double side : {0.0, -1.0, 1e-310, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_SVDAG_ERROR(divide_cube({Point(0), side}, 3), ExitCode::kUsage, "--cube: the side");
 }
 
-// So the snapped scene, and with it every conservative voxel, is the same at all of them.
+// So the snapped scene, and with it every conservative voxel, is the same at these resolutions.
 RC_GTEST_PROP(DividedCube, SnapsTheSameFrom64KOn, ()) {
   const Box box = *boxes();
   const double side = std::abs(box.max.x - box.min.x) + std::abs(box.max.y - box.min.y);
@@ -112,7 +112,7 @@ RC_GTEST_PROP(DividedCube, SnapsTheSameFrom64KOn, ()) {
   }
 }
 
-TEST(CoveredLattice, RefusesMoreThanAMillionVoxels) {
+TEST(CoveredLattice, RejectsMoreThanAMillionVoxels) {
   EXPECT_SVDAG_ERROR(cover_lattice(box_of({0, 0, 0}, {2e6, 1, 1}), 1), ExitCode::kUsage,
                      "more than 1M voxels");
   EXPECT_SVDAG_ERROR(cover_lattice(box_of({0, 0, 0}, {1e300, 1, 1}), 1e-300), ExitCode::kUsage,
@@ -132,24 +132,24 @@ RC_GTEST_PROP(CoveredLattice, IsTheSmallestThatHoldsEveryTouchedVoxel, ()) {
     RC_ASSERT(grid.k0[a] % step == 0);
     RC_ASSERT(first >= 0 && first < step);
     RC_ASSERT(last < grid.resolution());
-    // One level fewer would not do on some axis; its finer lattice may move q by one voxel.
+    // One level less does not suffice on some axis. Its finer lattice may move q by one voxel.
     const int64_t corner = first & -corner_step(grid.levels - 1);
     needed = needed || last - corner >= grid.resolution() / 2 - 1;
   }
   RC_ASSERT(needed);
 }
 
-TEST(Grid, ACornerBeyondEveryLatticeIsImpossible) {
+TEST(Grid, ACornerBeyondTheFarthestPlaneIsInvalid) {
   Grid grid = cover_lattice(box_of({0, 0, 0}, {5, 5, 5}), 1);
   for (const int64_t sign : {-1, 1}) {
     grid.k0.y = sign * kFarthestPlane;
-    EXPECT_TRUE(grid.is_possible());
+    EXPECT_TRUE(grid.is_valid());
     grid.k0.y += sign;
-    EXPECT_FALSE(grid.is_possible());
+    EXPECT_FALSE(grid.is_valid());
   }
 }
 
-TEST(SelectedBounds, MayLieFurtherThanTheSnapReaches) {
+TEST(SelectedBounds, MayBeOutsideTheRangeOfTheSnap) {
   const double far = 1e300;
   Grid corner = cover_lattice(box_of({0, 0, 0}, {5, 5, 5}), 1);
   corner.k0 = LatticePoint(kFarthestPlane);
@@ -162,7 +162,7 @@ TEST(SelectedBounds, MayLieFurtherThanTheSnapReaches) {
   }
 }
 
-// By brute force: the open voxel (k, k + 1) meets the closed interval [low, high].
+// Brute force: does the open voxel meet the closed interval?
 RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
   Grid grid = divide_box(box_of({0, 0, 0}, {15, 15, 15}), 4);  // voxels of size 1 from -1/2
   const auto quarter = [] { return double(*any_of(-12, 80)) / 4; };
@@ -186,7 +186,7 @@ RC_GTEST_PROP(SelectedBounds, AreTheVoxelsWhoseInteriorMeetsTheBox, ()) {
   }
   grid.selection = selected.selection;
   grid.bounded = true;
-  RC_ASSERT(grid == selected);  // the lattice itself did not move
+  RC_ASSERT(grid == selected);  // the grid did not move
 }
 
 TEST(Corner, IsTheWorldPositionOfTheFirstVoxelsCorner) {

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Every count, size and offset of every file that we read, set to 0, 1, 2^31, 2^32-1, 2^63 and 2^64-1.
+"""Sets every count, size and offset of every file format to 0, 1, 2^31, 2^32-1, 2^63 and 2^64-1.
 
-Checksums are repaired, so that the field itself is judged. The program answers within 10 s with one of its exit
-codes and one message, never with a signal, and takes at most 16 times the file and 64 MiB beyond what
-the undamaged file takes. FORMATS is the table: for each format a small valid file, the fields in it, and the
-command that reads it. SVDAG_LONG=1 takes every word of the binary files as a field.
+Checksums are recomputed, so the field itself is tested. The program must end within 10 s with one of its exit codes
+and one message, never by a signal. It may use 64 MiB, and 16 times the size of the file, more memory than for the valid
+file. Each test has a small valid file per format, the fields in it, and the command that reads it. SVDAG_LONG=1 takes
+every word of the binary files as a field.
 """
 import json
 import os
@@ -27,10 +27,10 @@ LONG = bool(os.environ.get("SVDAG_LONG"))
 VALUES = [0, 1, 2**31, 2**32 - 1, 2**63, 2**64 - 1]
 SECONDS = 10
 MIB = 1 << 20
-GUARD = 2048 * MIB  # RLIMIT_DATA: a bomb ends here and not in the machine's swap
+GUARD = 2048 * MIB  # RLIMIT_DATA: ends a huge allocation before the machine swaps
 
 
-# --- Fields: functions from a value to the bytes of the file.
+# --- Fields: functions that map a value to the bytes of the changed file.
 
 def put(data, at, width, value):
     return data[:at] + (value & 2**(8 * width) - 1).to_bytes(width, "little") + data[at + width:]
@@ -40,11 +40,11 @@ def word(data, at, width):
     return lambda value: put(data, at, width, value)
 
 
-def words(data, places, width=4):
-    """Fields of `width` bytes; in the long form, every word there is."""
+def words(data, offsets, width=4):
+    """Fields of `width` bytes; with SVDAG_LONG, every word."""
     if LONG:
         return [word(data, at, w) for w in (4, 8) for at in range(0, min(len(data) - w, 1200) + 1, 4)]
-    return [word(data, at, width) for at in places]
+    return [word(data, at, width) for at in offsets]
 
 
 def number(text, which):
@@ -58,7 +58,7 @@ def numbers(text, *which):
 
 
 def varints(data, at, count):
-    """`count` LEB128 numbers from byte `at` on."""
+    """`count` LEB128 numbers, starting at byte `at`."""
     fields = []
     for _ in range(count):
         end = at
@@ -78,7 +78,7 @@ def leb128(value):
 
 
 def leaves(value, path=()):
-    """The paths of all whole numbers in a JSON value."""
+    """The paths of all integers in a JSON value."""
     if isinstance(value, dict):
         for key, inner in value.items():
             yield from leaves(inner, path + (key,))
@@ -111,7 +111,7 @@ VOXELS = [(1, 2, 3), (5, 0, 2), (7, 7, 6), (0, 4, 1)]
 
 
 def gltf():
-    """A triangle: sparse positions, sparse-free indices, two instances, embedded."""
+    """A triangle with sparse positions, plain indices, two instances and an embedded buffer."""
     import base64
     data = TRIANGLE + struct.pack("<3H2xI", 0, 1, 2, 1) + struct.pack("<3f", 1, 0, 1) + struct.pack("<6f", 0, 0, 0, 3, 0, 0)
     view = [(0, 36), (36, 6), (44, 4), (48, 12), (60, 24)]
@@ -164,47 +164,47 @@ def scenes():
     yield "a.glb", data, [word(data, at, 4) for at in places]
     for name, count in (("sequential_0", 2), ("edgebreaker_0", 0), ("edgebreaker_11", 0)):
         drc = (CORPUS / "draco_fuzz" / f"tetrahedron_{name}.drc").read_bytes()
-        # Behind 11 bytes of header: faces, points; or the kind of traversal, vertices, faces, seams, symbols, splits.
+        # After an 11-byte header: faces, points; or kind of traversal, vertices, faces, seams, symbols, splits.
         fields = varints(drc, 11, 2) if count else varints(drc, 12, 2) + varints(drc, 15, 2)
         yield f"{name}.drc", drc, fields + ([word(drc, at, 4) for at in range(11, len(drc) - 3)] if LONG else [])
 
 
 def openmesh():
-    """Behind the header with the numbers of vertices, faces and edges, chunks: of 5 points, of the halfedges that
-    lead to each other, of vertices and of faces, each behind two bytes that say what it is."""
+    """A header with the numbers of vertices, faces and edges, then chunks of 5 points, of halfedges, of vertices and of
+    faces, each with a two-byte type."""
     om = (CORPUS / "openmesh_fuzz" / "double.om").read_bytes()
     halfedges = 18 + 5 * 24
     return om, words(om, [4, 8, 12, *range(halfedges + 2, 176, 4)]) + words(om, [16, halfedges, 176, 184], 2)
 
 
 class Vdb:
-    """A walk through a .vdb of one mask grid, which notes the places of its counts, lengths and offsets."""
+    """Parses a .vdb of one mask grid and records the offsets of its counts, lengths and offsets."""
 
     def __init__(self, data):
         self.data, self.at, self.places, self.types = data, 0, [], set()
         self.skip(8)                             # magic number
         for _ in range(3):                       # versions of the format and of the library
             self.number()
-        self.skip(1 + 36)                        # whether there are offsets, unique name
+        self.skip(1 + 36)                        # flag for offsets, unique name
         self.metadata()
         self.number()                            # grids
-        for _ in range(3):                       # name, type, whose tree it has
+        for _ in range(3):                       # name, type, name of the grid that it instances
             self.skip(self.number())
         assert self.number(8) == self.at + 16, "the grid begins behind its offsets"
         for _ in range(2):
             self.number(8)
         self.number()                            # compression
         self.metadata()
-        self.skip(self.number())                 # the transform's type,
-        self.skip(15 * 8)                        # and its numbers
+        self.skip(self.number())                 # type of the transform
+        self.skip(15 * 8)                        # its 15 doubles
         self.number()                            # buffers
         self.skip(1)                             # background
-        for _ in range(2 + 3):                   # tiles and nodes of the root, the first node's place
+        for _ in range(2 + 3):                   # tiles and nodes of the root, origin of the first node
             self.number()
-        for _ in range(2):                       # its masks: of nodes, of tiles
+        for _ in range(2):                       # its masks: nodes, tiles
             self.number(8)
             self.skip(32**3 // 8 - 8)
-        for back in (12, 8, 4):                  # the place of the last leaf
+        for back in (12, 8, 4):                  # origin of the last leaf
             self.places.append((len(data) - back, 4))
 
     def number(self, width=4):
@@ -222,12 +222,12 @@ class Vdb:
 
     def metadata(self):
         for _ in range(self.number()):
-            known = len(self.places)
+            before = len(self.places)
             self.text()
             kind = self.text()
             self.skip(self.number())
-            if kind in self.types:               # one of each type is enough
-                del self.places[known:]
+            if kind in self.types:               # one field per type is enough
+                del self.places[before:]
             self.types.add(kind)
 
     def fields(self):
@@ -261,20 +261,20 @@ def foreign():
 
 
 def number_at(data, match):
-    """The number keeps its width, since the length of a header precedes it."""
+    """A field that keeps its width, because the length of the header precedes it."""
     width = match.end() - match.start()
     return lambda value: data[:match.start()] + str(value).encode()[:width].ljust(width, b"0") + data[match.end():]
 
 
 # --- Running.
 
-class Answer:
+class Result:
     def __init__(self, code, text, memory):
         self.code, self.text, self.memory = code, text, memory
 
 
 def run(command, cwd):
-    """Exit code (negative: a signal), standard error, and the peak of memory in bytes."""
+    """Exit code (negative: a signal), standard error, and peak memory in bytes."""
     def limit():
         resource.setrlimit(resource.RLIMIT_DATA, (GUARD, GUARD))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -284,7 +284,7 @@ def run(command, cwd):
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         errors.seek(0)
-        return Answer(process.returncode, errors.read().decode("utf-8", "replace"), usage.ru_maxrss * 1024)
+        return Result(process.returncode, errors.read().decode("utf-8", "replace"), usage.ru_maxrss * 1024)
 
 
 class HostileCounts(unittest.TestCase):
@@ -300,8 +300,8 @@ class HostileCounts(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.holder.cleanup()
-        print(f"{HostileCounts.fields} fields x {len(VALUES)} values, {HostileCounts.runs} answers; "
-              f"{HostileCounts.largest / MIB:.1f} MiB at most beyond the undamaged file", file=sys.stderr)
+        print(f"{HostileCounts.fields} fields x {len(VALUES)} values, {HostileCounts.runs} runs; "
+              f"{HostileCounts.largest / MIB:.1f} MiB at most more than for the valid file", file=sys.stderr)
 
     def svdag(self, *words):
         done = subprocess.run([PROGRAMS / "svdag", *map(str, words)], cwd=self.folder, capture_output=True, text=True)
@@ -309,7 +309,7 @@ class HostileCounts(unittest.TestCase):
 
     def judge(self, path, data, fields, command, repair=None, prepare=lambda: None,
               is_behind_checksums=lambda answer: answer.text and "checksum" not in answer.text):
-        """`command` reads `path`, which is `data` with one of its fields changed."""
+        """Runs `command`, which reads `path`, with each field of `data` changed."""
         def write(content):
             prepare()
             path.write_bytes(content)
@@ -317,7 +317,7 @@ class HostileCounts(unittest.TestCase):
                 subprocess.run([PROGRAMS / "tests" / "repair_file", repair, path], check=True)
         write(data)
         base = run(command, self.folder)
-        self.assertEqual((base.code, base.text), (0, ""), f"{path.name}, undamaged")
+        self.assertEqual((base.code, base.text), (0, ""), f"{path.name}, valid")
         self.assertGreater(len(fields), 0)
         behind = 0
         for which, field in enumerate(fields):
@@ -328,7 +328,7 @@ class HostileCounts(unittest.TestCase):
                 answer = run(command, self.folder)
                 behind += content != data and bool(is_behind_checksums(answer))
                 self.check(f"{path.name}, field {which} = {value}", answer, base, len(data))
-        self.assertGreater(behind, 0, "no field was looked at")
+        self.assertGreater(behind, 0, "no changed field passed the checksums")
 
     def check(self, what, answer, base, size):
         HostileCounts.runs += 1
@@ -347,14 +347,14 @@ class HostileCounts(unittest.TestCase):
             self.judge(path, data, fields, [PROGRAMS / "svdag", "build", path, "-o", "out.svdag", "-r", "8", "-q",
                                             "-j", "1", "--restart"])
 
-    def test_scenes_of_a_known_kind_of_harm(self):
+    def test_hostile_scenes_of_the_corpora(self):
         base = run([PROGRAMS / "svdag", "build", "scene.stl", "-o", "out.svdag", "-r", "8", "-q"], self.folder)
         for file in sorted([*(CORPUS / "draco_fuzz").glob("hostile*"), *(CORPUS / "gltf_fuzz").glob("hostile*")]):
             answer = run([PROGRAMS / "svdag", "build", file, "-o", "out.svdag", "-r", "8", "-q"], self.folder)
             self.assertEqual(answer.code, 3, file)
             self.check(file.name, answer, base, file.stat().st_size)
 
-    def test_formats_of_others(self):
+    def test_foreign_formats(self):
         for name, data, fields in foreign():
             path = self.folder / name
             self.judge(path, data, fields, [PROGRAMS / "svdag", "import", path, "-o", "imported.svdag", "-q"])
@@ -364,18 +364,18 @@ class HostileCounts(unittest.TestCase):
         path = self.folder / "a.om"
         path.write_bytes(data)
         command = [PROGRAMS / "svdag", "build", path, "-o", "out.svdag", "-r", "8", "-q", "-j", "1", "--restart"]
-        self.skip_if_refused("cannot read", command)
+        self.skip_if_rejected("cannot read", command)
         self.judge(path, data, fields, command)
 
     def test_vdb(self):
         self.svdag("build", "scene.stl", "-o", "grid.svdag", "-r", "16", "-q")
         path = self.folder / "a.vdb"
-        self.skip_if_refused("built without OpenVDB", [PROGRAMS / "svdag", "export", "grid.svdag", "-o", path, "-q"])
+        self.skip_if_rejected("built without OpenVDB", [PROGRAMS / "svdag", "export", "grid.svdag", "-o", path, "-q"])
         data = path.read_bytes()
         fields = words(data, []) if LONG else Vdb(data).fields()
         self.judge(path, data, fields, [PROGRAMS / "svdag", "import", path, "-o", "imported.svdag", "-q"])
 
-    def skip_if_refused(self, sentence, command):
+    def skip_if_rejected(self, sentence, command):
         answer = run(command, self.folder)
         if sentence in answer.text:
             self.skipTest(answer.text)
@@ -401,7 +401,7 @@ class HostileCounts(unittest.TestCase):
         self.svdag(*command)
         pack = next((self.folder / "cache").iterdir())
         data = pack.read_bytes()
-        entry = len(data) - 8 - 48  # the last of them; behind it the checksum of the only block
+        entry = len(data) - 8 - 48  # the last entry, followed by the checksum of the only block
         fields = [word(data, at, 8) for at in [*range(16, 16 + 21 * 8, 8), 184, 192, 256, entry + 32]]
         fields += [word(data, at, 4) for at in (8, entry + 40, entry + 44)]
         self.judge(pack, data, fields, [PROGRAMS / "svdag", *command], "pack", prepare=self.empty_cache,
@@ -416,15 +416,15 @@ class HostileCounts(unittest.TestCase):
         plan = self.folder / "plan"
         path, text = plan / "plan.json", (plan / "plan.json").read_bytes()
         command = [PROGRAMS / "svdag", "build", "plan", "--shard", "1", "-q"]
-        def forget():
+        def delete_runs():
             for file in (plan / "runs").glob("*"):
                 file.unlink()
-        self.judge(path, text, json_fields(json.loads(text)), command, "plan", prepare=forget)
+        self.judge(path, text, json_fields(json.loads(text)), command, "plan", prepare=delete_runs)
         index, data = plan / "index", (plan / "index").read_bytes()
         for which, at in enumerate(range(0, len(data) - 7, 8)):
             HostileCounts.fields += 1
             for value in VALUES:
-                forget()
+                delete_runs()
                 changed = put(data, at, 8, value)
                 index.write_bytes(changed)
                 right, hashes = re.subn(rb'"index_hash": "\w+"', b'"index_hash": "%s"' % hash_of(changed), text)
@@ -432,7 +432,7 @@ class HostileCounts(unittest.TestCase):
                 path.write_bytes(right)
                 subprocess.run([PROGRAMS / "tests" / "repair_file", "plan", path], check=True)
                 answer = run(command, self.folder)
-                self.check(f"index, word {which} = {value}", answer, Answer(0, "", 8 * MIB), len(data))
+                self.check(f"index, word {which} = {value}", answer, Result(0, "", 8 * MIB), len(data))
 
 
 def hash_of(data):

@@ -12,7 +12,7 @@
 namespace svdag {
 namespace {
 
-// A grid of either kind that holds `box`.
+// A grid of the size of `box`, of either kind.
 Grid some_grid(const Box& box, int levels, bool of_lattice) {
   if (!of_lattice) return divide_box(box, levels);
   Grid grid;
@@ -24,7 +24,7 @@ Grid some_grid(const Box& box, int levels, bool of_lattice) {
   return grid;
 }
 
-// Points that have a lattice point: others are refused, see
+// Points in the range of the snap; others are rejected, see
 // TwoToThe62StepsAreAnErrorAndOneLessIsNot.
 rc::Gen<Point> points_near(const Grid& grid) {
   return rc::gen::suchThat(points(), [grid](const Point& p) {
@@ -56,7 +56,7 @@ RC_GTEST_PROP(Snap, MovesNoCoordinateByMoreThanHalfAStep, ()) {
   RC_ASSERT(move >= 0 && move <= 0.5);
 }
 
-// kBox: the formula of io/lattice.h, one rounding after the other.
+// kBox: the formula of io/lattice.h, rounded after every operation.
 RC_GTEST_PROP(Snap, OfABoxGridIsTheNearestStepFromTheOrigin, ()) {
   const Grid grid = divide_box(*boxes(), *level_counts());
   const Point p = *points_near(grid);
@@ -68,7 +68,7 @@ RC_GTEST_PROP(Snap, OfABoxGridIsTheNearestStepFromTheOrigin, ()) {
   }
 }
 
-// kLattice: the corner changes the result by whole voxels only, so tiles of one lattice agree.
+// kLattice: the corner changes the result by whole voxels, so tiles of one lattice agree.
 RC_GTEST_PROP(Snap, TilesOfOneLatticeAgree, ()) {
   Grid one = some_grid(*boxes(), *level_counts(), true), other = one;
   for (int k = 0; k < 3; ++k) other.k0[k] = 1024 * *any_of<int64_t>(-1'000'000, 1'000'000);
@@ -114,8 +114,8 @@ TEST(Snap, TwoToThe62StepsAreAnErrorAndOneLessIsNot) {
             LatticePoint((int64_t(1) << 62) - 512, -(int64_t(1) << 62) + 512, 0));
 }
 
-// A file may say anything; what is shifted by it would overflow.
-TEST(Snap, AGridFurtherAwayThanAnyIsAnError) {
+// An untrusted k0 could overflow the shift.
+TEST(Snap, AGridWithACornerTooFarAwayIsAnError) {
   Grid grid;
   grid.kind = Grid::Kind::kLattice;
   for (const int64_t sign : {-1, 1}) {

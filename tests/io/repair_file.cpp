@@ -1,5 +1,5 @@
-// repair_file KIND FILE: makes a damaged file look genuine, for tests in Python. The program's exit
-// code is not 0 if there is nothing that it could repair.
+// repair_file KIND FILE: recomputes the checksums of a changed file, for tests in Python. The exit
+// code is not 0 if the file is empty or the kind is unknown.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

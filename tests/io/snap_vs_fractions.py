@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The snap of vertices to the lattice against fractions: each operation rounded by itself, and its error in all.
+"""Compares the snap with exact fractions: every operation is rounded once, and the total error is bounded.
 
 Usage: snap_vs_fractions.py PROGRAM   (tests/io/dump_snapped.cpp)"""
 import random
@@ -18,17 +18,17 @@ def fraction_bits(levels):
 
 
 def snap(lattice, levels, size, origin, k0, p):
-    """A lattice coordinate, or None; float() of a Fraction is the nearest double."""
+    """The lattice coordinate, or None if it is too far; float() of a Fraction is the nearest double."""
     offset = Fraction(p) if lattice else Fraction(float(Fraction(p) - Fraction(origin)))
     quotient = Fraction(float(offset / Fraction(size)))
-    q = round(quotient * 2**fraction_bits(levels))  # halves to the even one
+    q = round(quotient * 2**fraction_bits(levels))  # ties to even
     if abs(q) >= FAR:
         return None
     return q - (2 * k0 + 1) * 2**(fraction_bits(levels) - 1) if lattice else q
 
 
-def exactly(lattice, levels, size, origin, k0, p):
-    """The position on the lattice, without any rounding."""
+def exact_position(lattice, levels, size, origin, k0, p):
+    """The lattice coordinate without rounding."""
     scale = 2**fraction_bits(levels)
     if lattice:
         return (Fraction(p) / Fraction(size) - k0 - Fraction(1, 2)) * scale
@@ -36,14 +36,14 @@ def exactly(lattice, levels, size, origin, k0, p):
 
 
 def some_number(chance, size):
-    """A coordinate: near the grid, far from it, on a plane of voxels or a step beside it."""
+    """A coordinate near the grid, far from it, or on a voxel plane."""
     near = chance.uniform(-1, 1) * size * 2**chance.randrange(24)
     return chance.choice([near, round(near / size) * size, (round(near / size) + 0.5) * size,
                           near * 2**chance.randrange(30), float(round(near, 3)), 0.0])
 
 
 class Snap(unittest.TestCase):
-    def test_every_operation_is_rounded_once_and_none_is_replaced(self):
+    def test_every_operation_is_rounded_once(self):
         chance = random.Random(7)
         cases, lines = [], []
         for _ in range(CASES):
@@ -68,8 +68,8 @@ class Snap(unittest.TestCase):
             found = [int(q) for q in answer.split()]
             self.assertEqual(found, expected)
             for q, axis in zip(found, axes):
-                true = exactly(lattice, levels, size, *axis)
-                away = abs(true) + abs(axis[1]) * 2**(fraction_bits(levels) + 1)  # of the lattice's own zero
+                true = exact_position(lattice, levels, size, *axis)
+                away = abs(true) + abs(axis[1]) * 2**(fraction_bits(levels) + 1)  # distance from the zero of the lattice
                 self.assertLessEqual(abs(q - true), Fraction(1, 2) + away / 2**52)
         self.assertLess(10, far)
         self.assertLess(far, CASES / 2)

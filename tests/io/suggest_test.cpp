@@ -1,4 +1,4 @@
-// A typo is answered with the word that was meant.
+// Tests the suggestions for misspelt words.
 #include "io/suggest.h"
 
 #include <gtest/gtest.h>
@@ -24,46 +24,46 @@ TEST(Suggest, CountsLeftOutAddedChangedAndSwappedLetters) {
   EXPECT_EQ(edit_distance("", "info"), 4U);
 }
 
-TEST(Suggest, NamesTheCommandThatWasMeant) {
+TEST(Suggest, SuggestsASimilarCommand) {
   EXPECT_EQ(explain({"biuld", "x.ply"}), "unknown command \"biuld\" of svdag; did you mean build?");
   EXPECT_EQ(explain({"frobnicate"}), "unknown command \"frobnicate\" of svdag; see svdag --help");
 }
 
-// Before any guess: "trace" is not a misspelt "plan".
-TEST(Suggest, NamesTheProgramThatHasTheCommand) {
+// Takes precedence over similar words: "trace" is not a misspelt "plan".
+TEST(Suggest, SuggestsTheProgramThatHasTheCommand) {
   EXPECT_EQ(explain({"check", "x.svdag"}),
             "unknown command \"check\" of svdag; did you mean svdag-verify check?");
   EXPECT_EQ(explain({"verify", "check", "x.svdag"}),
             "unknown command \"verify\" of svdag; did you mean svdag-verify?");
-  EXPECT_EQ(elsewhere("render"), "svdag-verify render");
-  EXPECT_EQ(elsewhere("trace"), "svdag-trace");
-  EXPECT_EQ(elsewhere("svdag-trace"), "svdag-trace");
-  EXPECT_EQ(elsewhere("build"), "svdag build");
-  EXPECT_EQ(elsewhere("import"), "svdag import");
+  EXPECT_EQ(command_of_other_program("render"), "svdag-verify render");
+  EXPECT_EQ(command_of_other_program("trace"), "svdag-trace");
+  EXPECT_EQ(command_of_other_program("svdag-trace"), "svdag-trace");
+  EXPECT_EQ(command_of_other_program("build"), "svdag build");
+  EXPECT_EQ(command_of_other_program("import"), "svdag import");
   for (const char* word : {"", " ", "b", "uild", "build plan", "checks"})
-    EXPECT_EQ(elsewhere(word), "") << word;
+    EXPECT_EQ(command_of_other_program(word), "") << word;
 }
 
-TEST(Suggest, NamesTheOptionThatWasMeant) {
+TEST(Suggest, SuggestsASimilarOption) {
   EXPECT_EQ(explain({"build", "x.ply", "--resolutoin=64"}),
             "unknown option --resolutoin of svdag build; did you mean --resolution?");
   EXPECT_EQ(explain({"info", "--quickly"}),
             "unknown option --quickly of svdag info; see svdag info --help");
 }
 
-TEST(Suggest, KnowsTheOptionsOfTheProgramItself) {
+TEST(Suggest, IncludesTheOptionsOfTheProgramItself) {
   EXPECT_EQ(explain({"--vesrion"}), "unknown option --vesrion of svdag; did you mean --version?");
   EXPECT_EQ(explain({"--version"}), "");
 }
 
-TEST(Suggest, AsksNoCommandOfAProgramThatHasNone) {
+TEST(Suggest, ExpectsNoCommandOfAProgramWithoutCommands) {
   const std::vector<CommandWords> alone = {{"", {"--output", "--level"}}};
   const std::vector<std::string> line = {"a.svdag", "--levle", "3"};
   EXPECT_EQ(explain_unknown("svdag export", alone, line),
             "unknown option --levle of svdag export; did you mean --level?");
 }
 
-TEST(Suggest, SaysNothingOfWhatIsKnownOrNoOption) {
+TEST(Suggest, HasNoMessageForKnownOptionsAndOtherArguments) {
   EXPECT_EQ(explain({"build", "x.ply", "-j4", "-r", "64K", "--rule=thin"}), "");
   EXPECT_EQ(explain({"build", "-5", "--", "--strange.ply"}), "");
   EXPECT_EQ(explain({}), "");

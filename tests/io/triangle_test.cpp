@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-TEST(Box, OfTrianglesIsThatOfTheirCornersInOrderToTheSignOfZero) {
+TEST(Box, AddingTrianglesEqualsAddingTheirCornersUpToTheSignOfZero) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> small(-2, 2);
   for (int scene = 0; scene < 20000; ++scene) {
@@ -16,7 +16,7 @@ TEST(Box, OfTrianglesIsThatOfTheirCornersInOrderToTheSignOfZero) {
     for (int i = 0; i < 4; ++i) {
       Triangle t;
       for (Point& p : t.v) {
-        // Few numbers, so that corners are often equal; zeros of both signs.
+        // Few values, so corners are often equal; zeros have both signs.
         for (int a = 0; a < 3; ++a) p[a] = small(random) * (random() % 2 == 0 ? 0.5 : -0.5);
       }
       by_triangle.add(t);

@@ -21,7 +21,7 @@ TEST(Units, SuffixesArePowersOf1024) {
   EXPECT_EQ(parse_count("2T", "-m"), uint64_t(2) << 40);
 }
 
-TEST(Units, WhatIsNoNumberNamesTheOptionAndTheText) {
+TEST(Units, AnInvalidNumberIsReportedWithItsOption) {
   for (const char* text : {"", "K", "-1", "1.5G", "4 G", "4X", "4GG", "4Ki", "0x10", "+3",
                            "18446744073709551616", "16777216T", "9999999999999G"})
     EXPECT_SVDAG_ERROR(parse_count(text, "--memory"), ExitCode::kUsage,
@@ -38,7 +38,7 @@ TEST(Units, ResolutionsArePowersOfTwoFrom8To1M) {
     EXPECT_SVDAG_ERROR(parse_resolution(text), ExitCode::kUsage, "--resolution");
 }
 
-TEST(Units, FormatsForPeople) {
+TEST(Units, FormatsNumbers) {
   EXPECT_EQ(format_resolution(8), "8");
   EXPECT_EQ(format_resolution(1000), "1000");
   EXPECT_EQ(format_resolution(65536), "64K");
@@ -63,7 +63,7 @@ RC_GTEST_PROP(Units, ADoubleReadsBackFromItsText, (uint64_t bits)) {
   RC_ASSERT(std::strtod(format_double(value).c_str(), nullptr) == value);
 }
 
-TEST(Units, DoublesAreAsShortAsTheyCanBe) {
+TEST(Units, DoublesHaveTheShortestText) {
   EXPECT_EQ(format_double(0.1), "0.1");
   EXPECT_EQ(format_double(-3), "-3");
   EXPECT_EQ(format_double(1e300), "1e+300");

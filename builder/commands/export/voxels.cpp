@@ -13,7 +13,7 @@ constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // default of --max-voxel
 
 // Counts the voxels: the count in the file's header is not trusted.
 VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const auto memory = budget->reserve(selection->walk.bytes_to_count(selection->grid.selection),
+  const auto memory = budget->reserve(selection->walk.counting_bytes(selection->grid.selection),
                                       "counts of voxels");
   const VoxelWindow window{selection->grid, &selection->walk,
                            selection->walk.count_voxels(selection->grid.selection)};

@@ -172,7 +172,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   plan->description = json.at("description");
   if (!is_of_this_algorithm(plan->description)) fail_plan(*plan, kOtherVersion);
   visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
-  if (!plan->grid.is_possible()) fail_plan(*plan, "invalid grid");
+  if (!plan->grid.is_valid()) fail_plan(*plan, "invalid grid");
   plan->rule = get_rule(json.at("rule"), *plan);
   if (!describes(plan->description, plan->rule, plan->grid))
     fail_plan(*plan, "rule and grid are not those of the description");

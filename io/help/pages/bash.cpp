@@ -3,11 +3,11 @@
 namespace svdag {
 namespace {
 
-// The kind of an option's value, for the script below.
+// The value of the script's variable `kind` for an option or operand.
 std::string kind_of(const ManualOption& option) {
-  if (!option.choices.empty()) return "words " + words(option.choices);
+  if (!option.choices.empty()) return "words " + join_words(option.choices);
   if (takes_any_file(option)) return "files ";
-  if (!option.endings.empty()) return "files " + words(option.endings);
+  if (!option.endings.empty()) return "files " + join_words(option.endings);
   return "value";
 }
 
@@ -20,13 +20,13 @@ std::string cases_of(const Manual& command) {
     std::string patterns;
     for (const std::string& each : option.names)
       patterns += (patterns.empty() ? "" : "|") + ("\"" + name + " " + each + "\"");
-    out += "    " + patterns + ") kind=" + quoted(kind_of(option)) + " ;;\n";
+    out += "    " + patterns + ") kind=" + single_quoted(kind_of(option)) + " ;;\n";
   }
   size_t number = 0;
   for (const ManualOption& operand : command.operands) {
     const std::string which = operand.repeated ? "\"" + name + " \"[0-9]*"
                                                : "\"" + name + " " + std::to_string(number) + "\"";
-    out += "    " + which + ") kind=" + quoted(kind_of(operand)) + " ;;\n";
+    out += "    " + which + ") kind=" + single_quoted(kind_of(operand)) + " ;;\n";
     ++number;
   }
   return out;
@@ -34,14 +34,15 @@ std::string cases_of(const Manual& command) {
 
 std::string options_of(const Manual& command) {
   std::string out;
-  for (const ManualOption& option : command.options) out += words(option.names) + " ";
+  for (const ManualOption& option : command.options) out += join_words(option.names) + " ";
   if (!out.empty()) out.pop_back();
-  return "    " + quoted(name_in_program(command)) + ") options=" + quoted(out) + " ;;\n";
+  return "    " + single_quoted(name_in_program(command)) + ") options=" + single_quoted(out) +
+         " ;;\n";
 }
 
-// @ is replaced by the name of the program's function.
+// @ is replaced by the name of the program's function, @COMMANDS by the list of its commands.
 constexpr const char* kEngine = R"sh(
-# Offers what fits the word so far: choices, or files and folders by their endings.
+# Offers completions of the current word: choices, or folders and files with the right endings.
 @_offer() {
   local kind=$1 name ending
   case $kind in
@@ -102,7 +103,8 @@ constexpr const char* kEngine = R"sh(
 }  // namespace
 
 std::string bash_completion(const Manual& program) {
-  std::string function = "_" + with(program.command, "-", "_"), cases, options, commands = " ";
+  std::string function = "_" + replace_all(program.command, "-", "_"), cases, options,
+              commands = " ";
   cases = cases_of(program);
   options = options_of(program);
   for (const Manual& command : program.commands) {
@@ -112,11 +114,11 @@ std::string bash_completion(const Manual& program) {
   }
   if (program.commands.empty()) commands = "  ";
   std::string out = "# Completion of " + program.command + " for bash.\n\n";
-  out += "# What an option takes, or the operand of a number: sets kind.\n" + function +
+  out += "# Sets kind: what an option, or the operand of a number, takes.\n" + function +
          "_kind() {\n  kind=\n  case \"$1 $2\" in\n" + cases + "  esac\n}\n\n";
-  out += "# The options of a command: sets options.\n" + function + "_options() {\n  case $1 in\n" +
+  out += "# Sets options: the options of a command.\n" + function + "_options() {\n  case $1 in\n" +
          options + "  esac\n}\n";
-  out += with(with(kEngine, "@COMMANDS", commands), "@", function);
+  out += replace_all(replace_all(kEngine, "@COMMANDS", commands), "@", function);
   return out + "\ncomplete -F " + function + " " + program.command + "\n";
 }
 

@@ -3,20 +3,20 @@
 namespace svdag {
 namespace {
 
-// fish knows two escapes within '...'.
+// In single quotes, fish has two escapes: \\ and \'.
 std::string fish_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += (c == '\'' || c == '\\' ? "\\" : "") + std::string(1, c);
   return out + "'";
 }
 
-// The completions of a value; @ is the name of the program's functions.
-std::string offer(const ManualOption& option) {
-  if (!option.choices.empty()) return " -x -a " + fish_quoted(words(option.choices));
+// The arguments of `complete` for a value; @ is the prefix of the program's functions.
+std::string value_completion(const ManualOption& option) {
+  if (!option.choices.empty()) return " -x -a " + fish_quoted(join_words(option.choices));
   if (takes_folders(option)) return " -x -a '(__fish_complete_directories (@_value))'";
   if (takes_any_file(option)) return " -r -F";
   if (option.endings.empty()) return " -x";
-  return " -x -k -a '(@_files " + words(option.endings) + ")'";
+  return " -x -k -a '(@_files " + join_words(option.endings) + ")'";
 }
 
 std::string lines_of(const Manual& command, const std::string& condition) {
@@ -26,11 +26,11 @@ std::string lines_of(const Manual& command, const std::string& condition) {
     out += start;
     for (const std::string& name : option.names)
       out += name[1] == '-' ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    if (!option.value.empty()) out += offer(option);
+    if (!option.value.empty()) out += value_completion(option);
     out += " -d " + fish_quoted(option.text) + "\n";
   }
   for (const ManualOption& operand : command.operands)
-    out += start + with(offer(operand), " -x", "") + "\n";
+    out += start + replace_all(value_completion(operand), " -x", "") + "\n";
   return out;
 }
 
@@ -46,7 +46,7 @@ function @_value
     string replace -r -- '^--[^=]*=' '' (commandline -ct)
 end
 
-# Files with these endings, and folders.
+# Folders, and files with these endings.
 function @_files
     set -l files (complete -C "__fish_command_without_completions "(@_value))
     string match -r -- '^.*/$' $files
@@ -71,8 +71,8 @@ std::string fish_completion(const Manual& program) {
            fish_quoted(command.text) + "\n";
     out += lines_of(command, "@_is " + name);
   }
-  out = with(out, "@COMMAND", program.command);
-  return with(out, "@_", "__" + with(program.command, "-", "_") + "_");
+  out = replace_all(out, "@COMMAND", program.command);
+  return replace_all(out, "@_", "__" + replace_all(program.command, "-", "_") + "_");
 }
 
 }  // namespace svdag

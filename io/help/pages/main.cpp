@@ -1,6 +1,6 @@
-// svdag-manual, which runs when the project is built: writes man pages and completions.
+// svdag-manual: writes man pages and completions, at build time.
 //
-//   svdag-manual FOLDER FILE...    a FILE is a table that a program printed, or a topic (.txt)
+//   svdag-manual FOLDER FILE...    FILE: a table printed by a program, or a help topic (.txt)
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -34,7 +34,8 @@ struct Sources {
   std::vector<std::string> topics;
 };
 
-// The manual of `svdag export` comes from svdag-export; svdag itself only names the command.
+// Adds a program, or replaces a command: the manual of `svdag export` is that of svdag-export, and
+// the table of svdag contains only its name and description.
 void add(Manual manual, std::vector<Manual>* programs) {
   for (Manual& program : *programs) {
     for (Manual& command : program.commands) {
@@ -61,7 +62,7 @@ Sources read(int argc, char** argv) {
   return sources;
 }
 
-// A page refers to its program and its siblings: commands to their program and the topics.
+// Every page refers to all programs and topics; the page of a program also to its commands.
 PageConfig page_config(const Sources& sources, const std::string& page) {
   PageConfig config = {"svdag " SVDAG_VERSION, {}};
   for (const Manual& program : sources.programs) config.see_also.push_back(program.command + "(1)");
@@ -102,7 +103,7 @@ void write_completions(const Sources& sources, const fs::path& folder) {
 }
 
 int run(int argc, char** argv) {
-  if (argc < 3) fail_usage("give a folder to write, and the tables of programs");
+  if (argc < 3) fail_usage("usage: svdag-manual FOLDER FILE...");
   const Sources sources = read(argc, argv);
   write_pages(sources, argv[1]);
   write_completions(sources, argv[1]);

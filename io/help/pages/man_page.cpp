@@ -6,8 +6,8 @@
 namespace svdag {
 namespace {
 
-// Text as troff prints it: a minus that can be copied, straight quotes, and no line that is taken
-// for a macro.
+// Escapes text for troff: a minus that can be copied, straight quotes, and no line that begins like
+// a macro.
 std::string roff(std::string_view text) {
   std::string out = text.substr(0, 1) == "." ? "\\&" : "";
   for (const char c : text) {
@@ -66,7 +66,7 @@ std::string start(const std::string& page, int section, const std::string& what,
          roff(lower) + "\n";
 }
 
-std::string entry(const ManualOption& option) {
+std::string option_entry(const ManualOption& option) {
   std::string title;
   for (const std::string& name : option.names) {
     if (!title.empty()) title += ", ";
@@ -82,7 +82,7 @@ std::string options(const std::vector<ManualOption>& all) {
   for (const std::string& group : groups_of(all)) {
     out += heading(group.empty() ? "Options" : group);
     for (const ManualOption& option : all) {
-      if (option.group == group) out += entry(option);
+      if (option.group == group) out += option_entry(option);
     }
   }
   return out;
@@ -96,7 +96,7 @@ std::string verbatim(const std::vector<std::string>& lines) {
   return out + ".fi\n.RE\n";
 }
 
-// Paragraphs; of notes with sections of their own, in `section` at the beginning.
+// The paragraphs of notes or a topic. Those before the first heading belong to `section`.
 std::string body(std::string_view text, std::string section) {
   constexpr std::string_view kExit = "Exit codes: ";
   std::string out;
@@ -144,7 +144,7 @@ std::string command_page(const Manual& manual, const PageConfig& config) {
   std::string out = start(page_of(manual.command), 1, manual.text, config);
   out += heading("Synopsis") + bold(manual.command) + " " + roff(usage_of(manual)) + "\n";
   out += heading("Description") + roff(manual.text) + (manual.text.back() == '.' ? "\n" : ".\n");
-  for (const ManualOption& operand : manual.operands) out += entry(operand);
+  for (const ManualOption& operand : manual.operands) out += option_entry(operand);
   if (!manual.commands.empty()) out += heading("Commands");
   for (const Manual& command : manual.commands) {
     const std::string name = command.command.substr(command.command.find(' ') + 1);

@@ -1,12 +1,11 @@
-// Pages for man(1) in the macros of man(7): section 1 of the manual of a command, section 7 of a
-// topic.
+// Man pages in the macros of man(7): section 1 for commands, section 7 for topics.
 #pragma once
 
 #include "io/help/manual.h"
 
 namespace svdag {
 
-// The content of every page.
+// What all pages have in common.
 struct PageConfig {
   std::string version;                // "svdag 0.1.0"
   std::vector<std::string> see_also;  // "svdag(1)"
@@ -14,7 +13,7 @@ struct PageConfig {
 
 std::string command_page(const Manual& manual, const PageConfig& config);
 
-// `text` begins with "NAME: what it is about".
+// `text` begins with "NAME: description".
 std::string topic_page(std::string_view text, const PageConfig& config);
 
 // The NAME of a topic's text.

@@ -3,8 +3,8 @@
 namespace svdag {
 namespace {
 
-// In the specifications of _arguments brackets and colons have a meaning.
-std::string plain(const std::string& text) {
+// Escapes the brackets and colons of a specification of _arguments.
+std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
@@ -13,11 +13,11 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-// ":N:(thin conservative)": a value, its name and what it may be.
+// ":N:(thin conservative)": the name of a value and its completions.
 std::string value_of(const std::string& name, const ManualOption& option) {
   std::string action;
   if (!option.choices.empty()) {
-    action = "(" + words(option.choices) + ")";
+    action = "(" + join_words(option.choices) + ")";
   } else if (takes_folders(option)) {
     action = "_files -/";
   } else if (takes_any_file(option)) {
@@ -27,42 +27,42 @@ std::string value_of(const std::string& name, const ManualOption& option) {
       action += (action.empty() ? "" : "|") + ending.substr(1);
     action = "_files -g \"(#i)*.(" + action + ")(-.)\"";
   }
-  return ":" + plain(name) + ":" + action;
+  return ":" + escaped(name) + ":" + action;
 }
 
-// One specification per name, which excludes the others unless the option may be repeated.
+// One specification per name. It excludes the other names unless the option may be repeated.
 std::string specifications(const ManualOption& option) {
-  const bool again = option.repeated;
   std::string out;
   for (const std::string& name : option.names) {
-    std::string spec = again ? "*" : "(" + words(option.names) + ")";
+    std::string spec = option.repeated ? "*" : "(" + join_words(option.names) + ")";
     spec += name;
     if (!option.value.empty()) spec += name[1] == '-' ? "=" : "+";
-    spec += "[" + plain(option.text) + "]";
+    spec += "[" + escaped(option.text) + "]";
     if (!option.value.empty()) spec += value_of(option.value, option);
-    out += " \\\n    " + quoted(spec);
+    out += " \\\n    " + single_quoted(spec);
   }
   return out;
 }
 
 std::string function_of(const Manual& command) {
-  std::string out = "_" + with(page_of(command.command), "-", "_") + "() {\n  _arguments -s -S";
+  std::string out =
+      "_" + replace_all(page_of(command.command), "-", "_") + "() {\n  _arguments -s -S";
   for (const ManualOption& option : command.options) out += specifications(option);
   for (const ManualOption& operand : command.operands) {
-    const std::string place = operand.repeated ? "*" : operand.required ? "" : ":";
-    out += " \\\n    " + quoted(place + value_of(operand.names.front(), operand));
+    const std::string prefix = operand.repeated ? "*" : operand.required ? "" : ":";
+    out += " \\\n    " + single_quoted(prefix + value_of(operand.names.front(), operand));
   }
   return out + "\n}\n\n";
 }
 
-// A program of commands: the first word chooses the function that completes the others.
+// A program with commands: the first word selects the function that completes the rest.
 std::string dispatcher_of(const Manual& program) {
   std::string out =
-      "_" + with(program.command, "-", "_") +
+      "_" + replace_all(program.command, "-", "_") +
       "_commands() {\n  local curcontext=$curcontext state line\n  local -a commands\n"
       "  commands=(\n";
   for (const Manual& command : program.commands)
-    out += "    " + quoted(name_in_program(command) + ":" + plain(command.text)) + "\n";
+    out += "    " + single_quoted(name_in_program(command) + ":" + escaped(command.text)) + "\n";
   out += "  )\n  _arguments -C";
   for (const ManualOption& option : program.options) out += specifications(option);
   out +=
@@ -71,7 +71,7 @@ std::string dispatcher_of(const Manual& program) {
       "in\n";
   for (const Manual& command : program.commands)
     out += "        " + name_in_program(command) + ") _" +
-           with(page_of(command.command), "-", "_") + " ;;\n";
+           replace_all(page_of(command.command), "-", "_") + " ;;\n";
   return out + "      esac\n      ;;\n  esac\n}\n\n";
 }
 
@@ -81,10 +81,11 @@ std::string zsh_completion(const std::vector<Manual>& programs) {
   std::string names, functions, cases;
   for (const Manual& program : programs) {
     names += " " + program.command;
-    std::string function = "_" + with(program.command, "-", "_") + "_commands";
+    std::string function = "_" + replace_all(program.command, "-", "_") + "_commands";
     if (program.commands.empty()) {
       functions +=
-          with(function_of(program), "_" + with(program.command, "-", "_") + "()", function + "()");
+          replace_all(function_of(program), "_" + replace_all(program.command, "-", "_") + "()",
+                      function + "()");
     } else {
       for (const Manual& command : program.commands) functions += function_of(command);
       functions += dispatcher_of(program);

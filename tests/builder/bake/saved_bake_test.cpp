@@ -128,7 +128,7 @@ TEST(SavedBake, AnyWordMayBeAnythingAndNothingLargeIsMadeOfIt) {
           try {
             const SavedBake saved = read(records);
             ++read_all_the_same;
-            EXPECT_TRUE(saved.grid.is_possible());
+            EXPECT_TRUE(saved.grid.is_valid());
             EXPECT_LE(saved.split->bins.size(), 2U);
             for (const SubDagRoot& root : saved.runs[0].roots) EXPECT_LT(root.level, 4);
           } catch (const Error& error) {

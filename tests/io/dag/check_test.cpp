@@ -1,4 +1,5 @@
-// A damaged file is never taken for a sound one: every bit, every truncation, every appended byte.
+// Tests that no damaged file is accepted: every flipped bit, every truncation, every appended
+// length.
 #include "io/dag/check.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@
 namespace svdag {
 namespace {
 
-// A file with random (sorted) content on every level, of about 16 KiB.
+// Writes a file of about 16 KiB with random sorted nodes on every level.
 std::string make_file(const std::string& path, int levels = 6, size_t width = 180) {
   Grid grid;
   grid.levels = levels;
@@ -93,7 +94,7 @@ TEST(CheckDag, FindsEveryTruncationAndEveryAppendedLength) {
   }
 }
 
-// Changes one field and repairs all checksums, as a hostile writer would.
+// Changes one word and recomputes all checksums, as an attacker would.
 void forge(std::string bytes, const std::string& path, size_t offset, uint32_t word) {
   std::memcpy(bytes.data() + offset, &word, 4);
   repair_checksums(&bytes);
@@ -111,7 +112,7 @@ TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
     forge(bytes, path, offset, word);
     if (!is_sound(path)) return;
     ++accepted;
-    // Whatever is accepted can be walked (the sanitizers watch).
+    // An accepted file can be walked; the sanitizers detect invalid accesses.
     const DagFile file = DagFile::open(path);
     for (uint32_t x = 0; x < file.view().resolution() / 4; ++x) dag_brick(file.view(), x, x, x / 2);
   };
@@ -123,11 +124,11 @@ TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
     for (const uint32_t word : {0U, 0xffU, 0x100U, 3U, 0x80000000U, 0xffffffffU})
       try_word(offset, word);
   }
-  EXPECT_GT(accepted, 0U);  // some changes are other valid files
+  EXPECT_GT(accepted, 0U);  // some changes give another valid file
 }
 
-// The masks above it would say that it has a voxel: who reads a coarser level believes them.
-TEST(CheckDag, RefusesAnEmptyBrick) {
+// The child masks above an empty brick contradict it, and coarser levels are read from those masks.
+TEST(CheckDag, RejectsAnEmptyBrick) {
   const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   std::string bytes = make_file(path, 5, 30);
@@ -142,7 +143,7 @@ TEST(CheckDag, RefusesAnEmptyBrick) {
   }
 }
 
-TEST(CheckDag, SaysWhatTheFileIsInstead) {
+TEST(CheckDag, ReportsOtherFormatsAndVersions) {
   const TempFolder folder;
   const std::string path = folder.file("a.svdag");
   write_bytes(path, std::string(5000, 'x'));

@@ -1,4 +1,4 @@
-// A query answers with the voxel, or with the largest empty cube of the octree around it.
+// Tests that a point query returns the voxel or the largest empty cube of the octree around it.
 #include "io/dag/cube_at.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-// By brute force: the set voxels in the cube of `level` around `voxel`.
+// Brute force: the number of set voxels in the cube of side 2^shift around `voxel`.
 size_t voxels_around(const VoxelSet& set, const LatticePoint& voxel, int shift) {
   size_t count = 0;
   for (const auto& [x, y, z] : set)

@@ -1,4 +1,4 @@
-// Blocks and full cubes of a box of a level: together exactly the voxels, however they are cut.
+// Tests that blocks and full cubes are exactly the voxels of a box of a level.
 #include "io/dag/cube_walk.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ VoxelSet inside(const VoxelSet& set, const VoxelBox& box) {
   return result;
 }
 
-// A walk emits all voxels, and none twice.
+// The voxels of a walk, which must emit none twice.
 VoxelSet walked(CubeWalk* walk, const VoxelBox& box, int64_t* largest = nullptr) {
   VoxelSet set;
   uint64_t count = 0;
@@ -43,7 +43,7 @@ class CubeWalkOf : public ::testing::TestWithParam<int> {
   const RawFile file_{raw_dag(grid_, voxels_)};
 };
 
-TEST_P(CubeWalkOf, EveryLevelHandsOutTheParentsOfTheVoxels) {
+TEST_P(CubeWalkOf, EveryLevelEmitsTheParentsOfTheVoxels) {
   for (int levels = 3; levels <= 6; ++levels) {
     CubeWalk walk(file_.view(), uint32_t(levels));
     const VoxelBox whole = level_grid(grid_, levels).whole();
@@ -53,7 +53,7 @@ TEST_P(CubeWalkOf, EveryLevelHandsOutTheParentsOfTheVoxels) {
   }
 }
 
-TEST_P(CubeWalkOf, ABoxCutsVoxelsAndNotBlocks) {
+TEST_P(CubeWalkOf, ABoxIsCutAtVoxels) {
   std::mt19937_64 random(uint64_t(GetParam()) + 100);
   CubeWalk walk(file_.view(), 6);
   for (int i = 0; i < 40; ++i) {
@@ -68,7 +68,7 @@ TEST_P(CubeWalkOf, ABoxCutsVoxelsAndNotBlocks) {
   }
 }
 
-TEST_P(CubeWalkOf, ABlockAnywhereIsWhatStandsThere) {
+TEST_P(CubeWalkOf, ABlockMayBeAnywhere) {
   std::mt19937_64 random(uint64_t(GetParam()) + 200);
   CubeWalk walk(file_.view(), 6);
   for (int i = 0; i < 200; ++i) {
@@ -83,7 +83,7 @@ TEST_P(CubeWalkOf, ABlockAnywhereIsWhatStandsThere) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CubeWalkOf, ::testing::Range(1, 6));
 
-TEST(CubeWalk, FullCubesAreHandedOutWhole) {
+TEST(CubeWalk, FullCubesAreEmittedWhole) {
   VoxelSet voxels;
   add_box(&voxels, {{32, 0, 32}, {64, 32, 64}});
   voxels.emplace(1, 2, 3);
@@ -97,7 +97,7 @@ TEST(CubeWalk, FullCubesAreHandedOutWhole) {
   EXPECT_EQ(cubes, 2);
 }
 
-TEST(CubeWalk, StopsWhenTheSinkHasEnough) {
+TEST(CubeWalk, StopsWhenTheSinkReturnsFalse) {
   const RawFile file(raw_dag(test_grid(6), bodies(6, 9)));
   CubeWalk walk(file.view(), 6);
   int cubes = 0;
@@ -116,7 +116,7 @@ TEST(CubeWalk, CountsTheLeavesAndNodesOfAVdbTree) {
   EXPECT_GT(walk.count_cubes(test_grid(8).whole(), 2).blocks, 2U);
 }
 
-TEST(CubeWalk, EmptyFileHasNothing) {
+TEST(CubeWalk, AnEmptyFileHasNoVoxels) {
   const RawFile file(raw_dag(test_grid(5), {}));
   CubeWalk walk(file.view(), 5);
   EXPECT_TRUE(walked(&walk, test_grid(5).whole()).empty());

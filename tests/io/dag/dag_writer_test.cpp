@@ -38,7 +38,7 @@ void write_two_voxels(const std::string& path) {
   writer.finish(2, 0.125);
 }
 
-TEST(DagWriter, WhatIsWrittenIsRead) {
+TEST(DagWriter, WritesAFileThatReadsBack) {
   const TempFolder folder;
   write_two_voxels(folder.file("a.svdag"));
   const DagFile file = DagFile::open(folder.file("a.svdag"));
@@ -68,7 +68,7 @@ TEST(DagStats, CountTreeAndDag) {
   EXPECT_EQ(stats.paper_dag_nodes(), 1U + 2 + 2 + 2);
 }
 
-TEST(DagWriter, ASectionThatIsFullIsToldOf) {
+TEST(DagWriter, AFullSectionIsAnError) {
   const TempFolder folder;
   DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, 4);
   writer.begin_level(2);
@@ -81,7 +81,7 @@ TEST(DagWriter, ASectionThatIsFullIsToldOf) {
   EXPECT_SVDAG_ERROR(writer.add_node({3}), ExitCode::kOutput, "level 1 needs more than");
 }
 
-TEST(DagWriter, RefusesWhatTheFormatForbids) {
+TEST(DagWriter, RejectsLevelsAndNodesThatViolateTheFormat) {
   const TempFolder folder;
   DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative);
   EXPECT_THROW(writer.begin_level(1), Error);

@@ -1,5 +1,5 @@
-// Prints every set voxel of a small `.svdag` as "x y z", by asking dag_voxel() for each:
-// the other side of the comparison in reader_test.py.
+// Prints every set voxel of a small `.svdag` as "x y z", found with dag_voxel(), for
+// reader_test.py.
 #include <cstdio>
 
 #include "io/dag/dag_file.h"

@@ -1,4 +1,4 @@
-// The box of the set voxels is that of a list of them.
+// Tests that the bounds of a DAG are those of its list of voxels.
 #include "io/dag/occupied_bounds.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(OccupiedBounds, OfNoVoxelAreEmpty) {
   EXPECT_TRUE(occupied_bounds(file.view()).empty());
 }
 
-TEST(OccupiedBounds, InTheWorldReachToTheEndOfTheLastVoxel) {
+TEST(OccupiedBounds, InTheWorldEndAtTheEndOfTheLastVoxel) {
   Grid grid;
   grid.voxel_size = 0.5;
   grid.origin = Point(10, 20, 30);

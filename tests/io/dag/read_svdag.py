@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A reader of `.svdag` files, written from docs/format.md alone.
 
-It checks everything that page promises (sizes, checksums, content hash, masks, pointers, order,
-minimality, counts, metadata) and lists the set voxels. For small grids: it holds all of them.
+It checks everything that the page guarantees (sizes, checksums, content hash, masks, pointers, order,
+minimality, counts, metadata) and lists the set voxels. It keeps all of them in memory: for small grids.
 
     read_svdag.py FILE             one line: resolution, voxels, SHA-256 of the sorted voxel list
     read_svdag.py FILE --voxels    the list itself, "x y z" per line, ascending
@@ -19,13 +19,13 @@ BLOCK = 65536
 HEADER = struct.Struct("<8s6I4d3q8IQd5Q")
 
 
-class Broken(Exception):
+class InvalidFile(Exception):
     pass
 
 
 def demand(condition, sentence):
     if not condition:
-        raise Broken(sentence)
+        raise InvalidFile(sentence)
 
 
 def aligned(offset):
@@ -71,8 +71,8 @@ class Svdag:
     def check_layout(self):
         at, parts = 1024, [self.entries[k][:2] for k in range(self.L - 2, -1, -1)]
         for offset, size in parts + [(self.metadata_at, self.metadata_size), (self.table_at, self.table_size)]:
-            demand(offset == aligned(at), "a section does not follow the one before")
-            demand(offset + size <= len(self.data), "a section ends after the file")
+            demand(offset == aligned(at), "a section does not follow the previous one")
+            demand(offset + size <= len(self.data), "a section ends beyond the end of the file")
             demand(not any(self.data[at:offset]), "padding is not zero")
             at = offset + size
         demand(at == self.file_size == len(self.data), "size of the file")
@@ -91,7 +91,7 @@ class Svdag:
         return self.data[offset:offset + size]
 
     def read_nodes(self, level):
-        """{first word: eight children, None where absent} of one level, in file order."""
+        """{first word: eight children, None where absent} of a level, in file order."""
         words = numpy.frombuffer(self.section(level), "<u4").tolist()
         nodes, at = {}, 0
         while at < len(words):
@@ -155,7 +155,7 @@ def main():
         try:
             dag = Svdag(file.read())
             voxels = dag.voxels()
-        except Broken as problem:
+        except InvalidFile as problem:
             sys.exit(f"{sys.argv[1]}: {problem}")
     if "--voxels" in sys.argv[2:]:
         print("\n".join(f"{x} {y} {z}" for x, y, z in voxels))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Python reader, written from docs/format.md, and the C++ readers see the same file."""
+"""Tests that the C++ reader and the Python reader, written from docs/format.md, find the same voxels."""
 import pathlib
 import random
 import subprocess
@@ -41,29 +41,29 @@ class Reader(unittest.TestCase):
             with self.subTest(kind=kind):
                 self.assertGreater(self.expect_same_voxels(self.bake(kind, count, *grid)), 20)
 
-    def test_a_part_of_a_grid_and_an_empty_part(self):
+    def test_bounds_and_empty_bounds(self):
         dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")
         self.assertGreater(self.expect_same_voxels(dag), 20)
         dag = self.bake("city", 1200, "-r", "64", "--bounds=500,500,500,501,501,501")
         self.assertEqual(self.expect_same_voxels(dag), 0)
 
-    def test_every_flipped_bit_is_seen_by_both(self):
+    def test_both_readers_detect_flipped_bits(self):
         dag = self.bake("rectangle", 2, "-r", "32")
         good = dag.read_bytes()
         chance = random.Random(1)
         for _ in range(60):
             damaged = bytearray(good)
             damaged[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
-            with self.assertRaises(read_svdag.Broken):
+            with self.assertRaises(read_svdag.InvalidFile):
                 read_svdag.Svdag(bytes(damaged))
             dag.write_bytes(damaged)
             with self.assertRaises(AssertionError):
                 run("tests/dump_voxels", dag)
 
-    def test_a_truncated_or_longer_file_is_seen(self):
+    def test_truncated_and_longer_files_are_detected(self):
         good = self.bake("rectangle", 2, "-r", "8").read_bytes()
         for bad in [b"", good[:1000], good[:1024], good[:-1], good + b"\0", good[1:]]:
-            with self.assertRaises(read_svdag.Broken):
+            with self.assertRaises(read_svdag.InvalidFile):
                 read_svdag.Svdag(bad)
 
 

@@ -65,17 +65,17 @@ class Shell(unittest.TestCase):
         if not shutil.which(cls.program):
             print(f"{cls.program} is not installed")
             raise unittest.SkipTest(f"{cls.program} is not installed")
-        cls.kitchen = tempfile.TemporaryDirectory(prefix="svdag-completion-")
-        cls.folder = pathlib.Path(cls.kitchen.name) / "work"
+        cls.temp_folder = tempfile.TemporaryDirectory(prefix="svdag-completion-")
+        cls.folder = pathlib.Path(cls.temp_folder.name) / "work"
         (cls.folder / "folder").mkdir(parents=True)
         for name in FILES:
             (cls.folder / name).touch()
         cls.commands = manuals.commands(BUILD)
-        cls.environment = dict(os.environ, HOME=cls.kitchen.name, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C.UTF-8")
+        cls.environment = dict(os.environ, HOME=cls.temp_folder.name, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C.UTF-8")
 
     @classmethod
     def tearDownClass(cls):
-        cls.kitchen.cleanup()
+        cls.temp_folder.cleanup()
 
     program = None
 
@@ -86,8 +86,8 @@ class Shell(unittest.TestCase):
         return set(done.stdout.splitlines())
 
     def check_offers(self, otherwise=()):
-        for line, wanted in (dict(OFFERS) | dict(otherwise)).items():
-            self.assertEqual(self.offers(line), wanted, line)
+        for line, expected in (dict(OFFERS) | dict(otherwise)).items():
+            self.assertEqual(self.offers(line), expected, line)
 
     def check_options(self):
         for command in self.commands.values():
@@ -99,10 +99,10 @@ class Shell(unittest.TestCase):
         try:
             shell.write(setup)
             self.assertTrue(shell.wait_for(prompt), shell.seen)
-            for line, wanted in LINES + [(f"{name} --hel", f"{name} --help") for name in self.commands]:
+            for line, expected in LINES + [(f"{name} --hel", f"{name} --help") for name in self.commands]:
                 shell.write("\x15" + line)  # ^U clears the line
                 shell.write("\t")
-                self.assertTrue(shell.wait_for(wanted.encode()), f"{line}: {shell.seen[-400:]}")
+                self.assertTrue(shell.wait_for(expected.encode()), f"{line}: {shell.seen[-400:]}")
         finally:
             shell.close()
 

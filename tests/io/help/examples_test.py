@@ -26,14 +26,14 @@ def run(line):
 
 
 class Examples(unittest.TestCase):
-    def check(self, lines, least):
-        self.assertGreaterEqual(len(lines), least)
+    def check(self, lines, min_count):
+        self.assertGreaterEqual(len(lines), min_count)
         for line in lines:
             done = run(line)
-            wanted = {0} if " help " in line else MISSING
+            expected = {0} if " help " in line else MISSING
             if "city.plan is not a plan folder" in done.stderr:  # a shard of a missing plan
-                wanted = {USAGE}
-            self.assertIn(done.returncode, wanted, f"{line}: {done.stderr}")
+                expected = {USAGE}
+            self.assertIn(done.returncode, expected, f"{line}: {done.stderr}")
 
     def test_of_help(self):
         self.check([line.strip() for command in manuals.commands(PROGRAMS).values() for line in command.notes
@@ -87,7 +87,7 @@ class Choices(unittest.TestCase):
         return done.returncode == USAGE and f"{option.names[-1]}: " in done.stderr
 
     def test_exactly_the_offered_values_are_accepted(self):
-        asked = 0
+        tested = 0
         for command in manuals.commands(PROGRAMS).values():
             for option in command.options:
                 if not option.choices or option.names[-1] in BY_MACHINE:
@@ -96,8 +96,8 @@ class Choices(unittest.TestCase):
                 for value in option.choices:
                     self.assertFalse(self.refused(command.name, option, value), f"{command.name} {option.names} {value}")
                     self.assertIn(value, option.text, command.name)
-                    asked += 1
-        self.assertGreater(asked, 40)
+                    tested += 1
+        self.assertGreater(tested, 40)
 
 
 class Topics(unittest.TestCase):

@@ -1,4 +1,4 @@
-// Help is filled to a width, and loses no word on the way.
+// Tests that help text is filled to a width without losing a word.
 #include "io/help/help_text.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ Manual example() {
   return manual;
 }
 
-TEST(HelpText, PutsTextsBesideNamesWhereThereIsRoom) {
+TEST(HelpText, PutsTextsBesideNamesInAWideTerminal) {
   EXPECT_EQ(help_text(example(), 80),
             "Bake scene files\n"
             "Usage: svdag build [OPTIONS] SCENE...\n"
@@ -58,19 +58,19 @@ TEST(HelpText, PutsTextsBesideNamesWhereThereIsRoom) {
             "  svdag build a.ply\n");
 }
 
-TEST(HelpText, PutsTextsBelowNamesWhereThereIsNone) {
+TEST(HelpText, PutsTextsBelowNamesInANarrowTerminal) {
   const std::string text = help_text(example(), 40);
   EXPECT_NE(text.find("  -q, --quiet\n      Print errors only\n"), text.npos) << text;
 }
 
-TEST(HelpText, ALongCommandGoesOnInTheNextLineAsAShellReadsIt) {
-  EXPECT_EQ(filled("  svdag build city.glb -o city.svdag -r 64K\n", 30),
+TEST(HelpText, ALongCommandIsContinuedWithABackslash) {
+  EXPECT_EQ(fill_paragraphs("  svdag build city.glb -o city.svdag -r 64K\n", 30),
             "  svdag build city.glb \\\n"
             "    -o city.svdag -r 64K\n");
 }
 
-TEST(HelpText, ALongRowOfATableGoesOnInItsSecondColumn) {
-  EXPECT_EQ(filled("  4   the disk is full\n  70  a defect\n", 17),
+TEST(HelpText, ALongTableRowIsContinuedInItsSecondColumn) {
+  EXPECT_EQ(fill_paragraphs("  4   the disk is full\n  70  a defect\n", 17),
             "  4   the disk is\n"
             "      full\n"
             "  70  a defect\n");

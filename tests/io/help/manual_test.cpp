@@ -1,4 +1,4 @@
-// A program's manual reaches the writers of pages unchanged.
+// Tests that a manual is the same after it was written as a table and read back.
 #include "io/help/manual.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using Kind = Paragraph::Kind;
 
-// Words, and a line of them, as options and texts hold them.
+// A word of an option or a text; line() is a line of words.
 rc::Gen<std::string> word() {
   return rc::gen::nonEmpty(
       rc::gen::container<std::string>(rc::gen::elementOf(std::string("abxyz09-,.;:'\"\\$%"))));
@@ -52,7 +52,7 @@ Manual any_manual() {
   return manual;
 }
 
-RC_GTEST_PROP(Manual, ComesOutOfATableAsItWentIn, ()) {
+RC_GTEST_PROP(Manual, ReadsBackFromItsTable, ()) {
   Manual program = any_manual();
   for (int i = *any_of(0, 3); i > 0; --i) program.commands.push_back(any_manual());
   const std::string table = to_table(program);
@@ -68,13 +68,14 @@ RC_GTEST_PROP(Manual, ComesOutOfATableAsItWentIn, ()) {
   }
 }
 
-TEST(Manual, ATableOfAnotherShapeIsRefused) {
+TEST(Manual, AnInvalidTableIsRejected) {
   EXPECT_SVDAG_ERROR(from_table("option\t-x\n"), ExitCode::kUsage, "begin with a program");
-  EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\noption\t-x\n"), ExitCode::kUsage, "not an option");
+  EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\noption\t-x\n"), ExitCode::kUsage,
+                     "not an option");
   EXPECT_SVDAG_ERROR(from_table("program\tp\tdoes\npicture\tx\n"), ExitCode::kUsage, "picture");
 }
 
-TEST(Manual, UsageNamesWhatIsRequired) {
+TEST(Manual, UsageNamesRequiredOptionsAndOperands) {
   Manual manual;
   manual.operands = {{{"SCENE"}, "", "", "", {}, {}, true, true}, {{"MORE"}, "", "", "", {}, {}}};
   manual.options = {{{"-o", "--output"}, "OUT", "", "", {}, {}, true},
@@ -83,7 +84,7 @@ TEST(Manual, UsageNamesWhatIsRequired) {
   EXPECT_EQ(page_of("svdag-verify mesh"), "svdag-verify-mesh");
 }
 
-TEST(Paragraphs, AreTextsHeadingsAndLinesThatKeepTheirShape) {
+TEST(Paragraphs, AreTextHeadingsAndPreformattedLines) {
   const std::vector<Paragraph> found = paragraphs_of(
       "One text\nof two lines\n\n    svdag info a\n    svdag info b\n\nExamples:\n  c\n");
   ASSERT_EQ(found.size(), 4U);
@@ -96,7 +97,7 @@ TEST(Paragraphs, AreTextsHeadingsAndLinesThatKeepTheirShape) {
   EXPECT_EQ(found[3].lines[0], "  c");
 }
 
-TEST(Paragraphs, ALineOfATextThatEndsWithAColonIsNoHeading) {
+TEST(Paragraphs, ATextLineThatEndsWithAColonIsNotAHeading) {
   const std::vector<Paragraph> found =
       paragraphs_of("It is cut in two, and one merges\nthe runs:\n");
   ASSERT_EQ(found.size(), 1U);

@@ -34,7 +34,7 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
   require(size >= sizeof(Header), path, "it ends within its header");
   Header header;
   file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
-  require(header.file_bytes == size, path, "its size is not the one in its header");
+  require(header.file_bytes == size, path, "its size differs from the size in its header");
   if (size > max_bytes)
     throw Error(ExitCode::kMemory,
                 "does not fit in memory: use svdag-verify render, which maps the file", path);
@@ -91,10 +91,10 @@ void check_pointers(const DagView& view, const std::string& path) {
         require(at < count, path, "the last node of a level is cut off");
         const bool valid = above_bricks ? words[at] < view.brick_count
                                         : words[at] < below.size() && below[words[at]];
-        require(valid, path, "a pointer leads nowhere");
+        require(valid, path, "a child pointer does not lead to a node");
       }
     }
-    require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "it has not one root");
+    require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "wrong number of roots");
     below.swap(starts);
   }
 }

@@ -199,7 +199,7 @@ TEST_F(Plans, WithNumbersThatDoNotFitAreDamaged) {
     changed.replace(value, changed.find_first_of(",}\n", value) - value, number);
     seal_plan(&changed);
     std::ofstream(json, std::ios::binary) << changed;
-    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "does not fit");
+    EXPECT_SVDAG_ERROR(load_plan(folder_.file("plan"), true), ExitCode::kBadInput, "out of range");
   }
 }
 

@@ -126,7 +126,8 @@ TEST_F(PlainFileTest, ObeysTheMemoryLimit) {
   EXPECT_SVDAG_ERROR(read_plain_file(path(), size - 1), ExitCode::kMemory, "svdag-verify render");
   // The size in the header is checked first, before memory is allocated.
   std::filesystem::resize_file(path(), uint64_t(1) << 40);
-  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "not the one in its header");
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput,
+                     "differs from the size in its header");
 }
 
 // A damaged word is rejected, or leads to other voxels, but never outside the file (the sanitizers
