@@ -5,7 +5,8 @@
 #           svdag-scene; man pages and completions below build/release/share
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
 #   test    build and run every test
-#   test-sanitized  build the unit tests with ASan and UBSan and run them
+#   test-sanitized  the unit tests under ASan and UBSan; the release build under Valgrind and beside one without
+#           optimisation
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's

@@ -18,10 +18,10 @@ using Face = std::array<uint32_t, 3>;
 
 constexpr double kLargeCoordinate = 1e5;
 
-// From where, and how finely, positions are compared.
+// Offset and step with which positions are compared.
 struct Frame {
   Point centre{0};  // subtracted
-  Point step{0};    // on the axes where something is, unless 0; see step_of()
+  Point step{0};    // rounding step of each axis, 0: none; see step_of()
 };
 
 // The last bit of a float as large as `value`.
@@ -29,14 +29,14 @@ double last_bit(double value) {
   return std::isnormal(value) ? std::ldexp(1.0, std::max(std::ilogb(value) - 23, -1022)) : 0;
 }
 
-// Doubles pull vertices apart that a float had in one place, by 2^-53 of the largest coordinate: a
-// step this fine joins them, and no floats that differ, be they of the scene's size or nearer to 0.
+// Double arithmetic separates vertices that were equal as floats, by 2^-53 of the largest
+// coordinate. This step joins them again, but no two floats that differ, however near to 0.
 double step_of(double side, double largest) {
   return std::min(last_bit(side), last_bit(largest));
 }
 
-// The centre is the rounded mean of all corners if a coordinate is large, and on an axis where all
-// are far from 0 for their extent.
+// The centre is the rounded mean of all corners if a coordinate is large, and on each axis where
+// all are far from 0 compared with their extent.
 Frame find_frame(const Scene& scene) {
   Point sum{0};
   Box box;
@@ -77,8 +77,8 @@ Position round_position(const Point& p, const Frame& frame) {
   return r;
 }
 
-// The sorted set of positions. Corners come in any number: whenever the array is full the repeats
-// leave it, and it grows only if more than half of it was new.
+// The sorted set of positions of any number of corners: whenever the array is full, repeats are
+// removed, and it grows only if more than half of it was new.
 class PositionSet {
  public:
   explicit PositionSet(MemoryBudget* budget) : memory_(budget->reserve(0, "mesh positions")) {
@@ -105,7 +105,7 @@ class PositionSet {
 
  private:
   void grow(size_t capacity) {
-    // While the array moves, old and new are there at once.
+    // While the array grows, old and new exist at once.
     memory_.resize((capacity_ + capacity) * sizeof(Position), "mesh positions");
     positions_.reserve(capacity);
     capacity_ = capacity;
@@ -166,7 +166,7 @@ void count_edges(const std::vector<Face>& faces, MemoryBudget* budget, MeshStats
   });
 }
 
-// Second look at every triangle, with the positions numbered: what one triangle alone can tell.
+// Second pass over the triangles, with numbered positions: properties of single triangles.
 std::vector<Face> number_faces(const Scene& scene, const Frame& frame, const PositionSet& set,
                                Components* components, MeshStats* stats) {
   std::vector<Face> faces;

@@ -22,8 +22,8 @@ bool finite(const Triangle& t) {
   return true;
 }
 
-// Whether all are finite for certain, without a branch per number: NaN and infinity stay in a sum.
-// A sum may overflow where no number was infinite, so `false` says nothing.
+// True only if all are finite, without a branch per number: NaN and infinity persist in a sum. A
+// sum of finite numbers may overflow, so `false` decides nothing.
 bool surely_finite(std::span<const Triangle> triangles) {
   Point sum(0);
   for (const Triangle& t : triangles) {

@@ -1,4 +1,4 @@
-// A scene: one or more files read as one triangle soup, as often as needed, never held in memory.
+// A scene: one or more files read as one triangle soup, any number of times, never held in memory.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ enum class SceneFormat { kPly, kStl, kObj, kOff, kGltf, kDraco, kOpenMesh };
 struct SceneConfig {
   std::vector<std::string> paths;  // at least one
   NameFilter names;                // --include, --exclude
-  bool skip_invalid = false;       // drop triangles with NaN or infinity instead of refusing them
-  bool sandbox = false;            // --sandbox: decoders of others run in a limited child process
+  bool skip_invalid = false;       // drop triangles with NaN or infinity instead of failing
+  bool sandbox = false;            // --sandbox: third-party decoders run in a limited child process
 };
 
 struct SceneCounts {
-  uint64_t triangles = 0;   // handed to the sink
+  uint64_t triangles = 0;   // passed to the sink
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
@@ -39,7 +39,7 @@ class Scene {
   // triangles is an Error (kBadInput).
   Box bounds(SceneCounts* counts = nullptr) const;
 
-  // All files that decide the triangles: those of the scene, and the buffers that a .gltf names.
+  // All files that determine the triangles: those of the scene, and the buffers that a .gltf names.
   void visit_files(const std::function<void(const File&)>& visit) const;
   // Records the state of all these files. Call before the scene is read.
   InputWatch watch() const;

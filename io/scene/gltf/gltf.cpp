@@ -4,8 +4,8 @@
 // triangles. Only the positions of an indexed primitive are held (or joined: corners.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
 // windows. Skins are not applied: a skinned mesh comes as stored, under its node's transform
-// (joints alone would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as
-// undeformed. Points and lines are left out. A Draco primitive that also has plain data is read
+// (only joints would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as
+// undeformed. Points and lines are skipped. A Draco primitive that also has plain data is read
 // from the plain data, which is exact.
 #include <algorithm>
 #include <array>
@@ -62,7 +62,7 @@ class GltfReader {
     }
   }
 
-  // Whether morph targets take part in the mesh: the weights of a node go before those of its mesh.
+  // Whether morph targets affect the mesh: a node's weights override those of its mesh.
   static bool has_weights(const JsonObject& object) {
     const auto weights = object.array("weights");
     return std::any_of(weights.begin(), weights.end(),
@@ -77,7 +77,7 @@ class GltfReader {
     });
   }
 
-  // Elsewhere than in Draco's data.
+  // Outside of Draco's data.
   bool has_data(uint64_t accessor) const {
     return document_.element("accessors", accessor).has("bufferView");
   }
@@ -120,7 +120,7 @@ class GltfReader {
     });
   }
 
-  // Whether the points fit in memory, and have the room of earlier ones if need be.
+  // Whether the points fit in memory, reusing the memory of earlier ones if necessary.
   bool make_room(uint64_t points, uint64_t instances) {
     if (options_.spill == nullptr) return true;
     const uint64_t copies = instances > 1 ? 2 : 1, share = options_.spill->share;

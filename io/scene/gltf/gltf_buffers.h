@@ -3,7 +3,7 @@
 // Notation: a Blob is one buffer: a part of a file (GLB chunk or .bin) or decoded base64. An
 // accessor is `count` elements of 1 to 4 components in a buffer view; a sparse accessor has
 // replacements for some elements. Elements are streamed through a small window, never held.
-// min and max of accessors are never read: files get them wrong.
+// min and max of accessors are not read: they are often wrong.
 #pragma once
 
 #include <cstdint>
@@ -83,7 +83,7 @@ class GltfBuffers {
 
   static constexpr const char* kAnyType = "";
 
-  // Accessor `index`, which must be of `type` ("SCALAR", "VEC3", "VEC4"; kAnyType: whichever) and
+  // Accessor `index`, which must be of `type` ("SCALAR", "VEC3", "VEC4"; kAnyType: any) and
   // inside its buffer.
   Accessor accessor(uint64_t index, const std::string& type);
   // The files that the buffers are in, beside the scene's own; none for one that cannot be opened.

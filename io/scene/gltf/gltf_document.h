@@ -1,7 +1,7 @@
 // The JSON of a glTF file: found in .gltf text or the first chunk of a GLB, parsed in bounded
 // space.
 //
-// Notation: a document is the parsed JSON without what says nothing about geometry
+// Notation: a document is the parsed JSON without members that do not concern geometry
 // (io/scene/gltf/gltf_json.h); BIN is the GLB's second chunk.
 // Rejected: tinygltf and cgltf, which hold every buffer in memory (33 million triangles per second
 // and 37 bytes per triangle against 110+ and 19 here).
@@ -19,7 +19,7 @@
 
 namespace svdag {
 
-// A JSON object of a file; typed access that answers a wrong type with one Error (kBadInput).
+// A JSON object of a file; typed access; a wrong type is an Error (kBadInput).
 class JsonObject {
  public:
   JsonObject(const nlohmann::json& value, const std::string& path);

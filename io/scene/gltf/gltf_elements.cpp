@@ -86,7 +86,7 @@ void ElementStream::decode(size_t n, T* out) {
     case ComponentType::kUnsignedInt:
       return convert_all<uint32_t>(array_, in, n, out);
     case ComponentType::kFloat:
-      // Never an index: those who read uint32 have refused it before.
+      // Never an index: readers of uint32 have rejected it before.
       if constexpr (std::is_same_v<T, double>) convert_all<float>(array_, in, n, out);
   }
 }

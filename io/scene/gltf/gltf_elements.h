@@ -26,8 +26,8 @@ class ElementStream {
  public:
   explicit ElementStream(const Accessor& accessor);
 
-  // The next elements as doubles or (integers only) uint32, out.size() / components at most;
-  // returns how many elements came.
+  // The next elements as doubles or (integers only) uint32, at most out.size() / components;
+  // returns the number of elements read.
   template <class T>
   size_t read(std::span<T> out);
 

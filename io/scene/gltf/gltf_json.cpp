@@ -31,7 +31,7 @@ class WindowBuffer : public std::streambuf {
     const auto window = bytes_.peek();
     shown_ = window.size();
     if (window.empty()) return traits_type::eof();
-    // The get area wants char*, but nothing is ever put back into it.
+    // The get area requires char*, but nothing is put back into it.
     char* begin = const_cast<char*>(reinterpret_cast<const char*>(window.data()));
     setg(begin, begin, begin + window.size());
     return traits_type::to_int_type(*begin);
@@ -112,7 +112,7 @@ class TreeBuilder {
     return open_.back()->get_ref<json::array_t&>().emplace_back(v);
   }
 
-  // Every event passes here with what it adds.
+  // Called for every event, with the value that it adds.
   void note(size_t bytes = 0) {
     if (depth_ > kMaxNesting) fail_input(path_, "nests its JSON too deeply");
     if (skipping_) return;
@@ -124,7 +124,7 @@ class TreeBuilder {
   uint64_t used_;
   MemoryBudget::Reservation* memory_;
   json root_;
-  std::vector<json*> open_;  // the objects and arrays around the next value; none that is skipped
+  std::vector<json*> open_;  // the objects and arrays around the next value, without skipped ones
   json* member_ = nullptr;
   int depth_ = 0;          // of all objects and arrays around the next value
   bool skipping_ = false;  // inside a member of the root that does not concern geometry

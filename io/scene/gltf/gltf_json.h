@@ -1,9 +1,9 @@
-// The JSON text of a glTF file into a tree of values, with everything that says nothing about
-// geometry (materials, images, animations, skins) left out while parsing.
+// Parses the JSON text of a glTF file into a tree of values, without members that do not concern
+// geometry (materials, images, animations, skins).
 //
-// The text is read through a window; what the values take is reserved in the budget. The tree is
-// built from the parser's events. Rejected: the parser's own callback filter, which searches every
-// array again for values to discard after each object in it.
+// The text is read through a window; the memory of the values is reserved in the budget. The tree
+// is built from the parser's events. Rejected: the parser's own callback filter, which searches
+// every array again for values to discard after each object in it.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// Small indexed primitives that are drawn again: decoded once, kept for the next nodes.
+// A cache of small indexed primitives that several nodes draw: decoded once.
 //
-// A scene of plants draws few hundred meshes thousands of times; reading and decoding one costs
-// more than its triangles. A primitive is kept when it is met for the second time, while it is
-// small and all that is kept stays within a 64th of the memory budget, and 16 MiB. Rejected:
-// keeping at the first meeting (terrain, drawn once, fills the room).
+// A scene of plants draws a few hundred meshes thousands of times; reading and decoding one costs
+// more than its triangles. A primitive is cached at its second use, if it is small and the cache
+// stays within a 64th of the memory budget, and 16 MiB. Rejected: caching at the first use
+// (terrain, drawn once, would fill the cache).
 #pragma once
 
 #include <algorithm>
@@ -29,12 +29,12 @@ class KeptPrimitives {
       : room_(std::min<uint64_t>(uint64_t(16) << 20, budget->limit() / 64)),
         memory_(budget->reserve(0, kPurpose)) {}
 
-  // The primitive that this JSON value describes, or null where it is not kept.
+  // The primitive that this JSON value describes, or null if it is not cached.
   const KeptPrimitive* find(const nlohmann::json& primitive) const {
     const auto found = met_.find(&primitive);
     return found == met_.end() || found->second.indices.empty() ? nullptr : &found->second;
   }
-  // Called at every reference to a primitive: keeps it now, or returns null.
+  // Called at every reference to a primitive: caches it now, or returns null.
   const KeptPrimitive* meet(const nlohmann::json& primitive, const Accessor& positions,
                             const Accessor& indices);
 

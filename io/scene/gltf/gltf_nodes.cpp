@@ -120,7 +120,7 @@ InstanceStream::InstanceStream(const JsonObject& node, const Affine& world, Gltf
   const auto extension = node.extension("EXT_mesh_gpu_instancing");
   if (!extension) return;
   instanced_ = true;
-  count_ = 0;  // without any attribute nothing says how many
+  count_ = 0;  // without an attribute the count is unknown
   const JsonObject attributes = extension->object("attributes");
   bool counted = false;
   for (const std::string& name : attributes.names()) {

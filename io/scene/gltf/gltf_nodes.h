@@ -15,15 +15,15 @@ namespace svdag {
 using NodeVisitor =
     std::function<void(const JsonObject& node, const std::string& name, const Affine& world)>;
 
-// Calls `visit` for every wanted node that has a mesh, depth first, a node before its children.
+// Calls `visit` for every selected node that has a mesh, depth first, a node before its children.
 // The roots are those of the default scene (`scene`, else the first; all roots without a scene). A
 // node that is reached twice (cycles too) or is deeper than 1000 levels is an Error.
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 
 // The instances of one node: itself, or those of EXT_mesh_gpu_instancing, as many as each of its
-// attributes has elements, those of an application's own (_ID) included. What they say nothing of
-// (TRANSLATION, ROTATION, SCALE) is identity.
+// attributes has elements, including application-specific ones (_ID). Missing attributes
+// (TRANSLATION, ROTATION, SCALE) are the identity.
 class InstanceStream {
  public:
   InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers);

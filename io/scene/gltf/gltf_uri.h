@@ -1,7 +1,7 @@
-// Where a glTF buffer's URI may lead: into the folder of the scene, or into the URI itself.
+// Resolves the URI of a glTF buffer: a file in the scene's folder, or data in the URI itself.
 //
 // A scene is untrusted: "../../etc/passwd", absolute paths, schemes, and symbolic links that leave
-// the folder are refused, and so is everything that is not a regular file.
+// the folder are rejected, and so is everything that is not a regular file.
 #pragma once
 
 #include <cstddef>

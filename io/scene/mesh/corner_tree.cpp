@@ -10,7 +10,7 @@ void CornerTree::build(std::span<const glm::dvec2> points) {
   order_.resize(n);
   std::iota(order_.begin(), order_.end(), 0U);
   place_.resize(n);
-  // In the level with so many nodes, ranges hold kLeaf corners at most.
+  // `nodes` of a level: its ranges hold at most kLeaf corners.
   const uint32_t leaves = std::bit_ceil((n + kLeaf - 1) / kLeaf);
   nodes_.assign(size_t(2) * leaves - 1, Node());
   build(points, root());

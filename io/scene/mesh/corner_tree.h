@@ -1,9 +1,9 @@
-// Corners of a polygon by where they lie: those in a region are found without asking all.
+// Corners of a polygon indexed by position: finds those in a region without testing all.
 //
-// A k-d tree (Bentley 1975) over fixed points that are taken out one by one. Each node knows the
-// box of its points and how many are left.
-// Rejected: a uniform grid, in one cell of which nearly all corners of an outline can lie that has
-// a fine part and a far corner; there every search would be linear again.
+// A k-d tree (Bentley 1975) over fixed points that are removed one by one. Each node stores the
+// box of its points and the number of those that remain.
+// Rejected: a uniform grid, where one cell may hold nearly all corners of an outline that has
+// a fine part and a distant corner: every search there would be linear.
 #pragma once
 
 #include <algorithm>
@@ -23,17 +23,17 @@ struct FlatBox {
 class CornerTree {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;
-  // The most that a corner takes: its places, and its part of the nodes.
+  // Max bytes per corner: its indices, and its share of the nodes.
   static constexpr size_t kBytesPerCorner = 2 * sizeof(uint32_t) + 8;
 
   // Points 0 ... n-1.
   void build(std::span<const glm::dvec2> points);
   void remove(uint32_t corner);
-  // Of all points, those that were taken out included.
+  // The box of all points, including removed ones.
   const FlatBox& box() const { return nodes_[0].box; }
 
-  // A corner that is left and for which is(corner) holds, or kNone. Nodes are passed over unless
-  // may_hold(box).
+  // A remaining corner for which is(corner) is true, or kNone. Skips nodes for which may_hold(box)
+  // is false.
   template <class MayHold, class Is>
   uint32_t find(const MayHold& may_hold, const Is& is) const;
 
@@ -42,7 +42,7 @@ class CornerTree {
 
   struct Node {
     FlatBox box;
-    uint32_t left = 0;  // corners that were not taken out
+    uint32_t left = 0;  // corners that were not removed
   };
   // Children of node k: 2k + 1 with the first half of its corners, 2k + 2 with the others.
   struct Range {
@@ -64,7 +64,7 @@ class CornerTree {
 
 template <class MayHold, class Is>
 uint32_t CornerTree::find(const MayHold& may_hold, const Is& is) const {
-  std::array<Range, 64> stack;  // at most one that waits in each level
+  std::array<Range, 64> stack;  // at most one pending in each level
   size_t waiting = 0;
   stack[waiting++] = root();
   while (waiting > 0) {

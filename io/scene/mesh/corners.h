@@ -17,14 +17,14 @@
 
 namespace svdag {
 
-// A run over spilled positions: how many there are so far.
+// A run over spilled positions: counts the vertices so far.
 class SpilledCorners {
  public:
-  // From when there were `size` of them.
+  // Starts when there are `size` vertices.
   SpilledCorners(Positions* positions, uint64_t size) : positions_(*positions), size_(size) {}
 
   uint64_t size() const { return size_; }
-  // The first run adds those that it meets, the others meet them again.
+  // The first run adds new vertices; the second one passes them again.
   void add(const Point& p) {
     if (size_ == positions_.size()) positions_.add(p);
     ++size_;
@@ -48,7 +48,7 @@ class CornerRecorder : public SpilledCorners {
   }
 };
 
-// The second run: returns the recorded corners from the beginning. One at a time.
+// The second run: returns the recorded corners from the beginning. Only one may exist.
 class CornerReplayer : public SpilledCorners {
  public:
   CornerReplayer(Positions* positions, uint64_t size) : SpilledCorners(positions, size) {
@@ -61,15 +61,15 @@ class CornerReplayer : public SpilledCorners {
   Point operator[](uint64_t i) { return positions_.windows().next(i); }
 };
 
-// For the box alone: corners that carry their number.
+// For the box only: corners that carry their index.
 class CornerNumbers : public SpilledCorners {
  public:
   using SpilledCorners::SpilledCorners;
   Point operator[](uint64_t i) { return {double(i), 0, 0}; }
 };
 
-// The triangle of three vertices. In memory they are read in whatever order is the quickest, else
-// in that of the arguments: both runs must ask alike.
+// The triangle of three vertices. In memory they are read in any order; spilled ones in the order
+// of the arguments, because both runs must request the same sequence.
 template <class Corners>
 void add_triangle(Corners& corners, uint64_t a, uint64_t b, uint64_t c, BatchWriter& writer) {
   if constexpr (std::is_same_v<Corners, Positions>) {
@@ -80,8 +80,8 @@ void add_triangle(Corners& corners, uint64_t a, uint64_t b, uint64_t c, BatchWri
   }
 }
 
-// A run that discards its triangles. Returns false for a damaged file, without an Error: the last
-// run reports it, after the triangles before the damage.
+// A run that discards its triangles. Returns false for a damaged file instead of throwing: the last
+// run reports the damage, after the triangles before it.
 template <class Corners, class Faces>
 bool finish_faces(Corners& corners, BatchWriter& writer, const Faces& faces) {
   try {
@@ -93,11 +93,11 @@ bool finish_faces(Corners& corners, BatchWriter& writer, const Faces& faces) {
   return true;
 }
 
-// Tries to do without the triangles: true if what they are was added to `into`.
+// Tries to find the box without the triangles; true if it was added to `into`.
 template <class Faces>
 bool read_box_alone(Positions* positions, uint64_t size, const Faces& faces, MeshBox* into) {
   const ReadOptions& options = positions->options();
-  const uint64_t room = options.spill->share - options.spill->share / 8;  // beside some blocks
+  const uint64_t room = options.spill->share - options.spill->share / 8;  // the rest is for blocks
   if (size / 8 > room) return false;
   VertexMarks marks(options.budget, room);
   uint64_t triangles = 0;
@@ -120,7 +120,7 @@ bool read_box_alone(Positions* positions, uint64_t size, const Faces& faces, Mes
   return true;
 }
 
-// The first run of spilled positions, from when there were `size`, and the join.
+// The first run over spilled positions, beginning when there are `size`, and the join.
 template <class Faces>
 void record_corners(Positions* positions, uint64_t size, const Faces& faces) {
   const TriangleSink nowhere = [](const TriangleBatch&) { check_interrupt(); };
@@ -131,9 +131,9 @@ void record_corners(Positions* positions, uint64_t size, const Faces& faces) {
   positions->windows().join();
 }
 
-// Calls faces(corners, writer), once, or where the positions were spilled or become so on the way
-// again and again from where it stopped. In the end `writer` has the same triangles, and the caller
-// the same Error.
+// Calls faces(corners, writer) once; if the positions are or become spilled, repeatedly from the
+// place where it stopped. `writer` gets the same triangles in both cases, and the caller the same
+// Error.
 template <class Faces>
 void read_corners(Positions* positions, BatchWriter& writer, const Faces& faces) {
   if (!positions->spilled()) faces(*positions, writer);

@@ -42,7 +42,7 @@ void BatchWriter::quantisation(double step) {
   quantisation_ = step;
 }
 
-// Batches are full but for the last of a mesh: until then the memory grows.
+// All batches but the last of a mesh are full; the memory grows until the first one is.
 void BatchWriter::make_room() {
   if (room_ == kBatch) return flush();
   auto larger = std::make_unique_for_overwrite<Triangle[]>(kBatch);

@@ -2,8 +2,8 @@
 //
 // One function per format, one file per function. A reader streams: it holds at most the vertex
 // positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
-// memory go to a spill file where it was given one (io/scene/mesh/positions.h). It checks every
-// count against the remaining bytes before it allocates, and answers a broken file with one Error
+// memory go to a spill file if it has one (io/scene/mesh/positions.h). It checks every count
+// against the remaining bytes before it allocates, and reports a damaged file as one Error
 // (kBadInput).
 // Readers pass non-finite coordinates on unchanged; io/scene/scene.cpp decides about them.
 #pragma once
@@ -33,37 +33,37 @@ struct TriangleBatch {
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
-// Which named parts of a scene are wanted: shell patterns (*, ?, [..]) against glTF node names (a
-// node is chosen if it or an ancestor matches), OBJ group and object names, names of solids in text
-// STL, and file names. Parts without a name have the name "".
+// Selects named parts of a scene by shell patterns (*, ?, [..]) against glTF node names (a
+// node is selected if it or an ancestor matches), OBJ group and object names, names of solids in
+// text STL, and file names. Parts without a name have the name "".
 struct NameFilter {
-  // Which patterns have matched a name, in their order.
+  // For each pattern, whether it has matched a name.
   struct Use {
     std::vector<bool> include, exclude;
   };
 
   std::vector<std::string> include;  // if not empty, only what matches one of these
-  std::vector<std::string> exclude;  // never what matches one of these
-  Use* use = nullptr;                // if not null, gets what matches
+  std::vector<std::string> exclude;  // nothing that matches one of these
+  Use* use = nullptr;                // if not null, records matches
 
   bool excludes(const std::string& name) const;
-  bool includes(const std::string& name) const;  // true where `include` is empty
+  bool includes(const std::string& name) const;  // true if `include` is empty
   bool empty() const { return include.empty() && exclude.empty(); }
 };
 
 class SpillFile;
 
-// Where a reader may put the vertex positions of a mesh that do not fit in memory. STL needs none;
-// Draco and OpenMesh are decoded in memory and take no notice.
+// Spill space for the vertex positions of a mesh that do not fit in memory. STL needs none; Draco
+// and OpenMesh are decoded in memory and ignore it.
 struct SpillSpace {
   // Bytes of the budget that the reader takes for positions: at least 16 blocks of the file. With
   // blocks of b bytes a mesh may have share^2 / 8b bytes of positions (12 or 24 a vertex) at least.
   uint64_t share = 0;
   std::function<SpillFile*()> file;         // opened by the first call
-  std::function<uint64_t()> stream_number;  // one that no stream of the file ever had
+  std::function<uint64_t()> stream_number;  // never used before in the file
 };
 
-// What is left of a mesh for who wants its box alone.
+// The result of reading a mesh for its box only.
 struct MeshBox {
   Box box;
   uint64_t triangles = 0;
@@ -76,12 +76,12 @@ struct ReadOptions {
   MemoryBudget* budget = nullptr;  // never null in a reader
   // Null: a mesh whose positions exceed the budget is an Error (kMemory).
   const SpillSpace* spill = nullptr;
-  // Not null: a reader may add triangles to this instead of handing them on, if all are finite.
+  // Not null: a reader may add triangles to this instead of passing them on, if all are finite.
   MeshBox* box_alone = nullptr;
-  // Decoders of others run in a limited child process (streaming/process/limited_child.h).
+  // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
 
-  // Whether a part called `name` inside the file is wanted.
+  // Whether the part `name` inside the file is selected.
   bool wants(const std::string& name) const {
     const bool included = names->includes(name);  // called in any case: a pattern that matches
     return !names->excludes(name) && (file_included || included);
@@ -96,7 +96,7 @@ void read_gltf(const File& file, const ReadOptions& options, const TriangleSink&
 void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
 void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
 
-// Collects triangles and hands them on in batches of up to kBatch; the readers' common tail.
+// Collects triangles and passes them on in batches of up to kBatch; used by all readers.
 class BatchWriter {
  public:
   static constexpr size_t kBatch = 4096;
@@ -107,8 +107,8 @@ class BatchWriter {
   void mesh(std::string_view name, bool undeformed = false);
   // The quantisation step of the triangles from here on.
   void quantisation(double step);
-  // Corner by corner to its place: a Triangle built first and copied then would be read back in
-  // other pieces than it was written in, which waits for the store buffer.
+  // Writes each corner to its place: a Triangle that is built first and then copied is read back in
+  // pieces of another size than it was written in, which stalls on the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
     Triangle& t = batch_[size_];
     t.v[0] = a;
@@ -119,7 +119,7 @@ class BatchWriter {
   void flush();
 
  private:
-  static constexpr size_t kFirst = 64;  // a small scene pays for few
+  static constexpr size_t kFirst = 64;  // small scenes need few
 
   void make_room();
 
@@ -129,7 +129,7 @@ class BatchWriter {
   double quantisation_ = 0;
   bool undeformed_ = false;
   std::unique_ptr<Triangle[]> batch_;
-  size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and for how many it has memory
+  size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and its capacity
 };
 
 }  // namespace svdag

@@ -13,7 +13,7 @@ void Positions::grow() {
   const uint64_t chunk = std::bit_ceil(std::min(kChunk, most_));
   const uint64_t bytes = reservation_.bytes() + bytes_of(chunk);
   const SpillSpace* space = options_.spill;
-  // An eighth of the share is kept for the blocks on their way out.
+  // An eighth of the share is reserved for the blocks being written.
   if (space != nullptr && bytes > space->share - space->share / 8) return spill();
   reservation_.resize(bytes, kPurpose);
   append_chunk(chunk);

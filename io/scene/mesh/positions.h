@@ -1,8 +1,8 @@
 // The vertex positions of one mesh: the only thing that a reader holds in memory.
 //
-// They grow in chunks, each reserved in the budget before it is allocated, so a header cannot ask
-// for more memory than the file has vertices, and growing never copies. The first chunk is no
-// larger than what the reader says there can be: small meshes take little. Positions that the file
+// They grow in chunks, each reserved in the budget before it is allocated, so a header cannot
+// request more memory than the file has vertices, and growing never copies. The first chunk is no
+// larger than the reader's upper bound: small meshes take little. Positions that the file
 // stores as float are kept as float: half the memory, the same values. Positions beyond the share
 // that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
 // (io/scene/mesh/corners.h).
@@ -24,7 +24,7 @@ class Positions {
  public:
   enum class Precision { kSingle, kDouble };
 
-  // There are `most` positions at most; more than that are a defect of the reader.
+  // `most`: upper bound on the number of positions; exceeding it is a defect of the reader.
   Positions(const ReadOptions& options, Precision precision, uint64_t most)
       : single_(precision == Precision::kSingle),
         options_(options),
@@ -51,13 +51,13 @@ class Positions {
   // Whether the positions have left memory.
   bool spilled() const { return windows_ != nullptr; }
   VertexWindows& windows() { return *windows_; }
-  // Spilled, and all were added: the windows have them all.
+  // Spilled, and all were added: all positions are in the windows.
   void hand_over() { hand_over(0, size_ - windows_->size()); }
   const ReadOptions& options() const { return options_; }
 
  private:
   static constexpr uint64_t kChunk = 1 << 15;
-  static constexpr uint64_t kOutgoing = 1 << 9;  // positions that go to the windows at once
+  static constexpr uint64_t kOutgoing = 1 << 9;  // positions passed to the windows at once
   static constexpr const char* kPurpose = "vertex positions";
 
   void grow();
@@ -86,7 +86,7 @@ class Positions {
   MemoryBudget::Reservation reservation_;
   std::vector<std::unique_ptr<float[]>> singles_;
   std::vector<std::unique_ptr<double[]>> doubles_;
-  std::unique_ptr<VertexWindows> windows_;  // spilled: the chunk is what is not yet there
+  std::unique_ptr<VertexWindows> windows_;  // spilled: the chunk holds those not yet passed on
 };
 
 }  // namespace svdag

@@ -5,7 +5,7 @@
 namespace svdag {
 namespace {
 
-// A box that knows whether the order in which points came can matter.
+// A box that records whether the order of its points can matter.
 class CertainBox {
  public:
   void add(const Point& p) {

@@ -32,7 +32,7 @@ class VertexMarks {
     return chunk < chunks_.size() && chunks_[chunk] &&
            (chunks_[chunk][i % kChunk / 64] >> i % 64 & 1) != 0;
   }
-  // Nothing where the marks cannot tell.
+  // Nothing if the marks do not determine the box.
   std::optional<Box> box(VertexWindows* positions) const;
 
  private:

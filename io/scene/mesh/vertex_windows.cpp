@@ -28,8 +28,8 @@ void fail_changed() {
   throw Error(ExitCode::kBadInput, "a scene file changed while it was being read");
 }
 
-// The largest windows that leave room for the references and the answers: few large windows give
-// few streams.
+// The largest windows that leave memory for the references and the answers: large windows mean few
+// streams.
 VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool single)
     : file_(space.file()),
       new_number_(space.stream_number),
@@ -106,7 +106,7 @@ void VertexWindows::load(const OwnedStream& positions, std::byte* to) const {
 template <class T>
 OwnedStream VertexWindows::answer(const OwnedStream& references, const std::byte* positions) {
   using Position = std::array<T, 3>;
-  std::array<Position, 256> batch;  // one call of the writer for so many
+  std::array<Position, 256> batch;  // passed to the writer in one call
   SpillReader reader = references.read(budget_);
   SpillWriter writer = new_stream();
   for (auto block = reader.next(); !block.empty(); block = reader.next()) {
@@ -130,7 +130,7 @@ void VertexWindows::rewind() {
   replay_.resize(answers_.size());
 }
 
-// A position of which not all bytes are in the block: some are in the next.
+// A position that crosses the end of the block.
 Point VertexWindows::next_beyond(Cursor& from, const OwnedStream& stream) {
   if (!from.reader && !stream.empty()) from.reader = stream.read(budget_);
   std::array<std::byte, 3 * sizeof(double)> position;

@@ -1,5 +1,5 @@
 // Vertex positions that do not fit in memory: an external join brings them to the corners that
-// refer to them, in sequential passes whatever the order of the faces.
+// refer to them, in sequential passes for any order of the faces.
 //
 // A window is a run of consecutive vertices that fits in memory.
 //   add      the positions go to one stream per window as they are read
@@ -8,8 +8,8 @@
 //   join     per window: its positions in memory, its references one by one, the position of each
 //            appended to the answers of the window
 //   next     the face loop runs again: each corner takes the next answer of its window
-// The order of the corners is known to the face loop alone, so nothing is sorted and no number of a
-// corner is stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
+// Only the face loop needs the order of the corners, so nothing is sorted and no index of a corner
+// is stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
 // back by corner (the same bytes three times).
 #pragma once
 
@@ -50,7 +50,7 @@ class OwnedStream {
   SpillStream stream_;
 };
 
-// A run over the same bytes met other corners or vertices than the run before.
+// Reports that a run over the same bytes found other corners or vertices than the previous one.
 [[noreturn]] void fail_changed();
 
 class VertexWindows {
@@ -58,7 +58,7 @@ class VertexWindows {
   // Positions are three floats each, or (`single` is false) three doubles.
   VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool single);
 
-  // Vertices of a window: a power of two.
+  // Number of vertices of a window: a power of two.
   uint64_t window() const { return uint64_t(1) << shift_; }
   uint64_t size() const { return size_; }
   uint64_t most_vertices() const { return most_windows_ << shift_; }
@@ -86,14 +86,14 @@ class VertexWindows {
   void join();
   // Restarts at the first recorded corner.
   void rewind();
-  // Position `i`, which must have been recorded here in the order of asking.
+  // Position `i`; calls must be in the recorded order.
   Point next(uint64_t i) {
     const uint64_t w = i >> shift_;
     return next_of(replay_[w], answers_[w]);
   }
 
  private:
-  // A place in a stream of positions.
+  // A cursor in a stream of positions.
   struct Cursor {
     const std::byte *here = nullptr, *end = nullptr;  // in the block of the reader
     std::optional<SpillReader> reader;
@@ -128,7 +128,7 @@ class VertexWindows {
   bool single_;
   size_t position_bytes_;
   int shift_;
-  uint64_t most_windows_;  // whose references can be written at once
+  uint64_t most_windows_;  // max windows whose references can be written at once
   uint64_t size_ = 0;
   std::optional<SpillWriter> positions_out_;  // of the last window
   std::vector<OwnedStream> positions_, answers_;

@@ -1,7 +1,7 @@
 // The corners of a polygon that may be ears: not tested since the ring last changed around them.
 //
-// A corner that is not an ear because another one is in its triangle waits for that one. Nothing
-// else can make it an ear, so it is not tested before, and the result equals that of testing all.
+// A corner that is not an ear because another one is in its triangle waits until that one is
+// removed. Nothing else can make it an ear, so the result equals that of testing all.
 // Rejected: testing every corner after each ear, which is quadratic where ears are rare.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace svdag {
 
-// Some of the numbers 0 ... n-1; the next one from any number on is found in a few steps.
+// A set of numbers 0 ... n-1; finds the next element from any number on in a few steps.
 class NumberSet {
  public:
   // All of them.
@@ -33,7 +33,7 @@ class NumberSet {
       if ((levels_[level][i / 64] &= ~(uint64_t(1) << i % 64)) != 0) return;
     }
   }
-  // The first one that is not below `from`, or UINT32_MAX.
+  // The first element >= `from`, or UINT32_MAX.
   uint32_t next(uint32_t from) const {
     uint64_t i = from;
     for (size_t level = 0; level < depth_; ++level) {
@@ -83,7 +83,7 @@ class EarCandidates {
     links_[corner] = {first, head};
     links_[head].next = links_[first].prev = corner;
   }
-  // Inserts those that wait for `other` and of which ask(corner) says so.
+  // Inserts those that wait for `other` and for which ask(corner) is true.
   template <class Ask>
   void wake(uint32_t other, const Ask& ask) {
     for (uint32_t i = links_[n_ + other].next, after; i != n_ + other; i = after) {

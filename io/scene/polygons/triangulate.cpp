@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-// Sum over the edges, from the first corner so that large offsets cost no digits.
+// Sum over the edges, relative to the first corner so that large offsets cost no digits.
 Point newell_normal(const std::vector<Point>& corners) {
   Point normal(0.0);
   Point a = corners.back() - corners.front();
@@ -64,7 +64,7 @@ void Triangulator::fan(BatchWriter& writer) const {
     writer.add(corners_[0], corners_[i - 1], corners_[i]);
 }
 
-// Fills flat_; false if the polygon has no area to speak of (or is not finite).
+// Fills flat_; false if the polygon has almost no area (or is not finite).
 bool Triangulator::project() {
   const Point normal = newell_normal(corners_);
   const int axis = dominant_axis(normal);
@@ -107,7 +107,7 @@ FlatBox Triangulator::reach(size_t a, size_t b, size_t c) const {
 }
 
 // No right turn, and once around only: a pentagram turns left everywhere, but goes around twice.
-// A corner that repeats the one before it is passed over, else it would hide a right turn there.
+// A corner that repeats the one before it is skipped: it would hide a right turn there.
 bool Triangulator::is_convex() const {
   size_t b = flat_.size() - 1, a = b;  // the edge from a to b, and the next corner c
   while (a > 0 && flat_[a] == flat_[b]) --a;
@@ -124,7 +124,7 @@ bool Triangulator::is_convex() const {
   return changes == 2;
 }
 
-// Whether the way from corner `from` to corner `to` of the ring leads into the triangle at once;
+// Whether the edge from corner `from` to corner `to` of the ring leads into the triangle at once;
 // left and right: the other two corners of the triangle, as seen from `from`.
 bool Triangulator::leads_inside(size_t from, size_t right, size_t left, size_t to) const {
   return turn(from, right, to) > 0 && turn(from, to, left) > 0;
@@ -201,7 +201,7 @@ void Triangulator::count_step() {
                           " corners is too entangled to be cut into triangles");
 }
 
-// The ring has changed at a corner: it may be an ear now, and what it forbade may be allowed.
+// The ring has changed at a corner: it may now be an ear, and corners that it blocked may be, too.
 void Triangulator::ask_again(uint32_t corner) {
   candidates_.insert(corner);
   candidates_.wake(corner, [&](uint32_t ear) {
@@ -210,7 +210,7 @@ void Triangulator::ask_again(uint32_t corner) {
   });
 }
 
-// Takes a corner out of the ring, as the triangle with its neighbours; returns the one before it.
+// Removes a corner from the ring as the triangle with its neighbours; returns the previous corner.
 uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
   const uint32_t a = prev_[corner], c = next_[corner];
   writer.add(corners_[a], corners_[corner], corners_[c]);
@@ -225,7 +225,7 @@ uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
   return a;
 }
 
-// Takes out what repeats the corner before it: nothing turns there, so it would be no ear.
+// Removes repeats of the previous corner: the ring does not turn there, so they are not ears.
 void Triangulator::clip_repeats(BatchWriter& writer) {
   for (uint32_t i = 0; i < corners_.size() && left_ > 3; ++i) {
     if (flat_[i] == flat_[prev_[i]]) clip(i, writer);
@@ -239,7 +239,7 @@ void Triangulator::clip_repeats(BatchWriter& writer) {
 uint32_t Triangulator::clip_slit(uint32_t corner, BatchWriter& writer) {
   while (left_ > 3 && flat_[prev_[corner]] == flat_[next_[corner]]) {
     corner = clip(corner, writer);
-    if (left_ > 3) clip(next_[corner], writer);  // the same point once more
+    if (left_ > 3) clip(next_[corner], writer);  // the same point again
   }
   return corner;
 }

@@ -3,11 +3,11 @@
 // A polygon of n corners gives n - 2 triangles whatever its shape: a fan from the first corner if
 // it is convex, else ears clipped in a fixed order (Meisters 1975), in double arithmetic of fixed
 // order on its projection along the dominant axis of its Newell normal (Sutherland, Sproull,
-// Schumacker 1974). What no ear can be cut from (self-intersecting, zero area) ends as a fan.
+// Schumacker 1974). A rest without ears (self-intersecting, zero area) becomes a fan.
 // Corners that repeat the one before them are clipped first, as triangles without area.
 //
 // Large outlines take some hundred steps per corner. A corner is tested when its neighbours change,
-// or when the corner that forbade it is gone (ear_candidates.h), and corners in its triangle are
+// or when the corner that blocked it is gone (ear_candidates.h), and corners in its triangle are
 // found by a tree (corner_tree.h), as FIST finds them by a grid (Held 2001). Both give the same
 // result as testing each corner against all others, to the last bit.
 //
@@ -38,7 +38,7 @@ class Triangulator {
  public:
   static constexpr uint64_t kStepsPerCorner = 1 << 14;
 
-  // `path`: of the scene, for an Error. `steps`: the most for each corner of a polygon.
+  // `path`: of the scene, for an Error. `steps`: max per corner of a polygon.
   Triangulator(MemoryBudget* budget, std::string path, uint64_t steps = kStepsPerCorner)
       : path_(std::move(path)), steps_(steps), reservation_(budget->reserve(0, kPurpose)) {}
 
@@ -47,10 +47,10 @@ class Triangulator {
     if (corners_.size() == corners_.capacity()) grow();
     corners_.push_back(p);
   }
-  // Hands the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
+  // Passes the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
   // One that takes too many steps is an Error (kBadInput); outlines take some hundreds per corner.
   void finish(BatchWriter& writer);
-  // That the search for ears took in the last polygon, if it was not convex.
+  // Steps of the search for ears in the last polygon; 0 if it was convex.
   uint64_t steps() const { return done_; }
 
  private:
@@ -81,7 +81,7 @@ class Triangulator {
   std::vector<Point> corners_;
   std::vector<glm::dvec2> flat_;       // the projection, counter-clockwise
   std::vector<uint32_t> prev_, next_;  // the ring of corners not clipped yet
-  uint32_t left_ = 0;                  // how many there are
+  uint32_t left_ = 0;                  // their number
   CornerTree tree_;                    // the corners of the ring by place
   EarCandidates candidates_;
   uint64_t done_ = 0;  // steps

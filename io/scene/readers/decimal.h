@@ -19,7 +19,7 @@ namespace svdag {
 static_assert(std::endian::native == std::endian::little);
 static_assert(FLT_EVAL_METHOD == 0);  // one division is one rounding
 
-// The digits at the start of eight characters: how many, and their value.
+// The number of digits at the start of eight characters, and their value.
 struct Digits {
   int count;
   uint64_t value;
@@ -52,7 +52,7 @@ std::from_chars_result parse_decimal(const char* first, const char* last, T& val
 }
 template <>
 inline std::from_chars_result parse_decimal(const char* first, const char* last, double& value) {
-  constexpr std::ptrdiff_t kReach = 32;  // more than is looked at below
+  constexpr std::ptrdiff_t kReach = 32;  // more than the code below reads
   constexpr int kMostDigits = 19;        // of a uint64 without overflow
   if (last - first < kReach) return std::from_chars(first, last, value);
   const bool negative = *first == '-';
@@ -79,7 +79,7 @@ inline std::from_chars_result parse_decimal(const char* first, const char* last,
   if (!plain || mantissa > uint64_t(1) << 53 || (*p | 0x20) == 'e')
     return std::from_chars(first, last, value);
   const double magnitude = double(mantissa) / kExactPowers[fraction];
-  // No branch: signs are what a predictor fails at.
+  // No branch: signs are unpredictable.
   value = std::bit_cast<double>(std::bit_cast<uint64_t>(magnitude) | uint64_t(negative) << 63);
   return {p, std::errc{}};
 }

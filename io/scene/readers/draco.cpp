@@ -30,7 +30,7 @@ constexpr uint64_t kBytesPerFace = 96;
 constexpr uint64_t kBytesPerFaceAndAttribute = 32;
 constexpr uint64_t kBytesPerPoint = 48;
 
-// Judges the claims of a mesh against its bytes, and reserves what they need.
+// Checks the counts of a mesh against its bytes, and reserves the memory they need.
 class Allowance {
  public:
   Allowance(const DracoSource& source, MemoryBudget* budget)
@@ -44,7 +44,7 @@ class Allowance {
     add(faces * (kBytesPerFace + attributes * kBytesPerFaceAndAttribute) + points * kBytesPerPoint);
   }
 
-  // Portable and final values of every attribute, of points that are known by now.
+  // Portable and final values of every attribute, of points whose number is known by now.
   void attributes(const draco::PointCloud& cloud) {
     uint64_t per_point = 0;
     for (int i = 0; i < cloud.num_attributes(); ++i) {
@@ -249,7 +249,7 @@ DracoMesh decode_here(const DracoSource& source, MemoryBudget* budget) {
   }
 }
 
-// A mesh as it comes out of a child, which may say anything: counts, positions, indices.
+// A mesh received from a child, whose data is untrusted: counts, positions, indices.
 class MeshReceiver {
  public:
   struct Counts {

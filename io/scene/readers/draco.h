@@ -1,12 +1,12 @@
-// Draco meshes: the narrow door to Google's Draco library, which only draco.cpp names.
+// Decodes Draco meshes; only draco.cpp uses Google's Draco library.
 //
 // Positions that Draco stores as integers q are dequantised here, in double: min + q * step with
 // step = range / (2^bits - 1); Draco itself would round to float at each operation.
 //
 // Memory: an entropy-coded mesh may take less than a bit per triangle, so the counts in its header
 // cannot be checked against its bytes. The bound is kMaxFree + kMaxPerByte * bytes triangles,
-// points and attribute bytes (a real mesh has below 16 triangles per byte); what a claim inside the
-// bound needs is reserved in the budget before Draco allocates it.
+// points and attribute bytes (a real mesh has below 16 triangles per byte); memory for counts
+// within the bound is reserved in the budget before Draco allocates it.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 // Wavefront OBJ: polygons and groups, in one pass if the positions fit in memory.
 //
 // A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
-// coordinates, normals and materials are skipped; free-form surfaces are refused, for they would be
-// missing from the scene. A face belongs to the last `o` and to all names of the last `g`: it is
-// wanted if none of these names is excluded and one of them is included.
+// coordinates, normals and materials are skipped; free-form surfaces are rejected, because they
+// would be missing from the scene. A face belongs to the last `o` and to all names of the last `g`:
+// it is selected if none of these names is excluded and one of them is included.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -18,7 +18,7 @@
 namespace svdag {
 namespace {
 
-// Statements without surface, or about its looks.
+// Statements that define no surface, or only its appearance.
 constexpr std::array<std::string_view, 28> kSkipped = {
     "vt",       "vn",  "usemtl",     "s",         "l",      "p",     "mtllib",
     "vp",       "mg",  "lod",        "usemap",    "maplib", "bevel", "c_interp",
@@ -48,7 +48,7 @@ class ObjLines {
         triangulator_(options.budget, file.path()),
         writer_(*writer) {}
 
-  // To the end of the file, or of the line with which the positions leave memory.
+  // Reads to the end of the file, or of the line at which the positions leave memory.
   ObjPlace read() {
     if (at_.offset == 0) choose();
     while (!positions_.spilled() && !scanner_.at_end()) {
@@ -61,8 +61,8 @@ class ObjLines {
   }
 
  private:
-  // A vertex or a face as nearly all files write them, or a line to skip; else false, and nothing
-  // was read.
+  // Reads a vertex or a face in the usual form, or a line to skip; else returns false without
+  // reading anything.
   bool read_plain_line() {
     const std::string_view text = scanner_.visible();
     const char* stop = nullptr;
@@ -161,7 +161,7 @@ class ObjLines {
     choose();
   }
 
-  // Decides about the faces that follow, and names their mesh.
+  // Selects or skips the faces that follow, and names their mesh.
   void choose() {
     std::vector<std::string> names = at_.groups;
     if (!at_.object.empty() || names.empty()) names.push_back(at_.object);

@@ -1,5 +1,5 @@
-// The lines of which an OBJ file consists, "v 1.5 2 -3" and "f 1 2 3" or "f 1/4/7 2/5/8 3/6/9",
-// taken straight from the window.
+// Fast parsing of the usual lines of an OBJ file, "v 1.5 2 -3" and "f 1 2 3" or "f 1/4/7 2/5/8
+// 3/6/9", directly in the window.
 //
 // Both functions read one line behind its statement and return where they stopped in it, or null
 // for everything that is not plain: tabs, signs of indices, many corners, the end of the window,
@@ -21,7 +21,7 @@ struct PlainFace {
 };
 
 namespace obj_plain {
-constexpr std::ptrdiff_t kReach = 64;  // bytes of a corner or a number that are looked at
+constexpr std::ptrdiff_t kReach = 64;  // max bytes of a corner or a number
 
 inline bool ends_line(char c) {
   return c == '\n' || c == '\r';
@@ -59,7 +59,7 @@ inline const char* read_plain_face(std::string_view text, uint64_t vertices, Pla
     if (p == nullptr) return nullptr;
     if (obj_plain::ends_line(*p)) return p;
     const Digits digits = leading_digits(p);
-    const uint64_t index = digits.value - 1;  // no digits: as index 0, refused with it
+    const uint64_t index = digits.value - 1;  // without digits: like index 0, which is rejected
     if (digits.count == 8 || index >= vertices) return nullptr;
     p = obj_plain::skip_references(p + digits.count);
     const bool fits = face->corners < face->index.size();

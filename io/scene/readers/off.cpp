@@ -1,7 +1,7 @@
 // OFF, the Object File Format (Geomview): text with polygons.
 //
-// Colours, normals and texture coordinates are what follows in the line of a vertex or a face;
-// they are skipped. The binary form and dimensions other than three are refused by name.
+// Colours, normals and texture coordinates follow in the line of a vertex or a face; they are
+// skipped. The binary form and dimensions other than three are rejected.
 #include <string>
 
 #include "io/scene/mesh/corners.h"
@@ -12,7 +12,7 @@
 namespace svdag {
 namespace {
 
-// A number of things that take at least `bytes` each (the last one may lack its line end).
+// A count of elements of at least `bytes` each (the last one may lack its line end).
 uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
   scanner.at_end();
   const int64_t n = scanner.integer();
@@ -64,7 +64,7 @@ class OffReader {
     read_keyword();
     const uint64_t vertices = read_count(scanner_, "vertices", 6);  // "0 0 0\n"
     const uint64_t faces = read_count(scanner_, "faces", 2);        // "0\n"
-    scanner_.next_line();  // the number of edges means nothing
+    scanner_.next_line();  // the number of edges is ignored
     for (uint64_t i = 0; i < vertices; ++i) read_vertex();
     BatchWriter writer(sink);
     read_corners(&positions_, writer, [&](auto& corners, BatchWriter& out) {

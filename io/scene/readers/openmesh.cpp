@@ -1,7 +1,7 @@
-// OpenMesh's own format (.om), which only OpenMesh reads.
+// Reads .om, OpenMesh's own format, with OpenMesh.
 //
 // OpenMesh holds the whole mesh (98 bytes per triangle) and drops faces that its halfedges cannot
-// express, so it reads nothing else for us, and its number of faces is checked against the file's.
+// express, so it reads no other format, and its number of faces is checked against the file's.
 // Broken files end it in an assertion, so it always runs in a process of its own; under --sandbox,
 // one that can only compute.
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -41,8 +41,8 @@ Header read_header(const File& file) {
   };
   if (b[0] != 'O' || b[1] != 'M') fail_input(file.path(), "is not an OpenMesh file");
   const Header header{u32(4), u32(8)};
-  // A vertex takes 12 bytes or more, a face 3 or more, an edge one or more: OpenMesh makes room for
-  // as many as are said here.
+  // A vertex takes 12 bytes or more, a face 3 or more, an edge one or more: OpenMesh allocates
+  // memory for the counts given here.
   if (header.vertices > file.size() / 12 || header.faces > file.size() / 3 ||
       u32(12) > file.size()) {
     fail_input(file.path(), "is cut off: fewer bytes than its vertices, faces and edges need");
@@ -135,7 +135,7 @@ void read_openmesh(const File& file, const ReadOptions& options, const TriangleS
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
   ChildLimits limits = decoder_limits(bytes.size(), *options.budget, options.sandbox);
-  limits.memory += memory.bytes();  // it is the child that takes it
+  limits.memory += memory.bytes();  // the child takes it
   decode_limited(file, bytes, header, limits, sink);
 }
 

@@ -1,8 +1,7 @@
 // The faces of a PLY file: polygons and triangle strips.
 //
 // Written once for text and binary (ply_values.h) and for positions in memory or not (corners.h).
-// Rows of plain triangles in a binary file, which is what scans consist of, are taken straight from
-// the window.
+// Rows of plain triangles in a binary file, as in scans, are taken directly from the window.
 #pragma once
 
 #include <algorithm>
@@ -87,7 +86,7 @@ class PlyFaces {
         const auto a = load<uint32_t>(p + 1, std::endian::native);
         const auto b = load<uint32_t>(p + 5, std::endian::native);
         const auto c = load<uint32_t>(p + 9, std::endian::native);
-        if (std::max({a, b, c}) >= positions_.size()) break;  // the slow path has the sentence
+        if (std::max({a, b, c}) >= positions_.size()) break;  // the slow path reports it
         add_triangle(positions_, a, b, c, writer_);
         p += row.bytes;
       }

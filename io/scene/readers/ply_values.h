@@ -1,8 +1,8 @@
 // The values in the body of a PLY file, one after the other, binary or as text.
 //
 // Both classes have the same interface, so that the reader is written once as a template: number,
-// integer, skip, the place to come back to, and the checks of counts against the bytes left. Behind
-// them what takes any of the two: lists, and rows to skip.
+// integer, skip, the position to return to, and the checks of counts against the remaining bytes.
+// Functions for both follow: lists, and rows to skip.
 #pragma once
 
 #include <bit>
@@ -120,7 +120,7 @@ class PlyTextValues {
   TextScanner scanner_;
 };
 
-// A count that the rest of the file cannot hold is refused before anything trusts it.
+// A count that the rest of the file cannot hold is rejected before it is used.
 template <class Values>
 void check_count(const Values& values, const PlyElement& element) {
   if (!element.properties.empty() && !values.may_hold(element))

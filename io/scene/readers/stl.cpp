@@ -1,8 +1,8 @@
 // STL (3D Systems 1989): binary and text.
 //
-// A file is binary if its size is that of its count of triangles, whatever it begins with: many
-// binary files begin with "solid" as well. Behind the triangles there may be less than another
-// would take (a line end, padding); with more, the count may be wrong, and the file is refused.
+// A file is binary if its size matches its count of triangles, whatever it begins with: many
+// binary files begin with "solid", too. Fewer bytes than one triangle may follow the last one (a
+// line end, padding); with more, the count may be wrong, and the file is rejected.
 // The normals and the attribute bytes are ignored. Solids of a text file have names, which serve as
 // mesh names.
 #include <array>
@@ -72,7 +72,7 @@ class TextReader {
       writer_->mesh(name);
       const bool wanted = options_.wants(name);
       while (next_is_facet()) read_facet(wanted);
-      scanner_.next_line();  // the name, once more
+      scanner_.next_line();  // the name again
     }
   }
 
@@ -100,7 +100,7 @@ class TextReader {
   }
   void read_facet(bool wanted) {
     expect("normal");
-    for (int i = 0; i < 3; ++i) next_word();  // often wrong, never needed
+    for (int i = 0; i < 3; ++i) next_word();  // often wrong, not needed
     expect("outer");
     expect("loop");
     std::array<Point, 3> v;

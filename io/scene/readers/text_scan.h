@@ -18,7 +18,7 @@
 
 namespace svdag {
 
-// That some editors put before UTF-8 text.
+// Some editors put this before UTF-8 text.
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 class TextScanner {
@@ -41,7 +41,7 @@ class TextScanner {
   uint64_t offset() const { return stream_->offset() + size_t(here_ - begin_); }
   uint64_t remaining() const { return stream_->remaining() - size_t(here_ - begin_); }
 
-  // Whether nothing but blanks and a comment is left in this line.
+  // Whether only blanks and a comment are left in this line.
   bool at_line_end() {
     skip_blanks();
     return here_ == end_ || is_line_end(*here_) || *here_ == syntax_.comment;
@@ -108,17 +108,17 @@ class TextScanner {
     here_ = p;
   }
 
-  // For readers with a quicker way through plain lines: the bytes in the window from here on, and
-  // a place in them, on this line, to go on from.
+  // For readers with a fast path for plain lines: the bytes in the window from here on, and a
+  // position in them, on this line, at which to continue.
   std::string_view visible() const { return {here_, size_t(end_ - here_)}; }
   void skip_to(const char* place) { here_ = place; }
 
-  // A broken file: one sentence that names this line.
+  // Throws the Error about a damaged file, with the number of this line.
   [[noreturn]] void fail(const std::string& sentence) const;
 
  private:
   static constexpr size_t kLookAhead = kLongestWord + 2;
-  static constexpr int kMostDigits = 18;  // of an int64 without a thought of overflow
+  static constexpr int kMostDigits = 18;  // of an int64, without overflow
 
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
@@ -138,7 +138,7 @@ class TextScanner {
     if (*p > ' ' && *p != '\\') return false;
     return is_blank(*p) || is_line_end(*p) || at_continuation(p);
   }
-  // from_chars takes no "+", and must not be handed the "-1" of "+-1".
+  // from_chars accepts no "+", and must not get the "-1" of "+-1".
   const char* behind_plus() const {
     const bool plus = end_ - here_ > 1 && here_[0] == '+' && here_[1] != '-';
     return here_ + (plus ? 1 : 0);
