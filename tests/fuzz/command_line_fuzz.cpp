@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kMostWords = 64;
+constexpr size_t kMaxWords = 64;
 
 // All commands, constructed once because that takes ten times as long as parsing a line. CLI11
 // resets the values of the last line, but not options that it made optional (--batch needs no
@@ -66,7 +66,7 @@ class Program {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::vector<std::string> words = {"svdag"};
-  for (size_t i = 0; i < size && words.size() < svdag::kMostWords; ++i) {
+  for (size_t i = 0; i < size && words.size() < svdag::kMaxWords; ++i) {
     if (i == 0 || data[i] == '\n') words.emplace_back();
     if (data[i] != '\n' && data[i] != 0) words.back() += char(data[i]);
   }

@@ -14,11 +14,12 @@ const std::vector<Kind>& kinds() {
 }
 
 std::unique_ptr<Mesh> make_scene(const std::string& name, uint64_t triangles, uint64_t seed) {
-  constexpr uint64_t kMost = uint64_t(1) << 32;
+  constexpr uint64_t kMaxTriangles = uint64_t(1) << 32;
   std::string names;
   for (const Kind& kind : kinds()) {
-    if (triangles > kMost)
-      fail_usage("--triangles: at most " + std::to_string(kMost) + " triangles can be made");
+    if (triangles > kMaxTriangles)
+      fail_usage("--triangles: at most " + std::to_string(kMaxTriangles) +
+                 " triangles can be made");
     if (kind.name == name)
       return kind.make(triangles == 0 ? kind.default_triangles : triangles, seed);
     names += (names.empty() ? "" : ", ") + std::string(kind.name);

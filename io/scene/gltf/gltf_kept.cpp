@@ -9,9 +9,9 @@ namespace svdag {
 const KeptPrimitive* KeptPrimitives::meet(const nlohmann::json& primitive,
                                           const Accessor& positions, const Accessor& indices) {
   // Both counts first: they are of the file, their bytes could overflow.
-  if (positions.count() > kMostBytes || indices.count() > kMostBytes) return nullptr;
+  if (positions.count() > kMaxBytes || indices.count() > kMaxBytes) return nullptr;
   const uint64_t bytes = positions.count() * sizeof(Point) + indices.count() * sizeof(uint32_t);
-  if (bytes > kMostBytes || memory_.bytes() + bytes > room_) return nullptr;
+  if (bytes > kMaxBytes || memory_.bytes() + bytes > room_) return nullptr;
   const auto [found, first] = met_.try_emplace(&primitive);
   if (first || indices.count() == 0) return nullptr;
   memory_.resize(memory_.bytes() + bytes, kPurpose);

@@ -40,7 +40,7 @@ class KeptPrimitives {
 
  private:
   static constexpr const char* kPurpose = "repeated glTF meshes";
-  static constexpr uint64_t kMostBytes = uint64_t(1) << 20;  // of one primitive
+  static constexpr uint64_t kMaxBytes = uint64_t(1) << 20;  // of one primitive
 
   uint64_t room_;
   MemoryBudget::Reservation memory_;

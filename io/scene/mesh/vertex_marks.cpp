@@ -33,7 +33,7 @@ class CertainBox {
 
 bool VertexMarks::make(size_t chunk) {
   constexpr uint64_t bytes = kChunk / 8;
-  full_ = full_ || memory_.bytes() + bytes > most_bytes_;
+  full_ = full_ || memory_.bytes() + bytes > max_bytes_;
   if (full_) return false;
   memory_.resize(memory_.bytes() + bytes, kPurpose);
   if (chunk >= chunks_.size()) chunks_.resize(chunk + 1);

@@ -17,8 +17,8 @@ namespace svdag {
 
 class VertexMarks {
  public:
-  VertexMarks(MemoryBudget* budget, uint64_t most_bytes)
-      : most_bytes_(most_bytes), memory_(budget->reserve(0, kPurpose)) {}
+  VertexMarks(MemoryBudget* budget, uint64_t max_bytes)
+      : max_bytes_(max_bytes), memory_(budget->reserve(0, kPurpose)) {}
 
   void mark(uint64_t i) {
     const size_t chunk = size_t(i / kChunk);
@@ -41,7 +41,7 @@ class VertexMarks {
 
   bool make(size_t chunk);
 
-  uint64_t most_bytes_;
+  uint64_t max_bytes_;
   bool full_ = false;
   MemoryBudget::Reservation memory_;
   std::vector<std::unique_ptr<uint64_t[]>> chunks_;

@@ -43,7 +43,7 @@ VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool
   // References are 32 bits.
   const uint64_t fit = (space.share - 2 * stream_bytes) / position_bytes_;
   shift_ = std::min(int(std::bit_width(fit)) - 1, 32);
-  most_windows_ = space.share / stream_bytes - 1;  // one stream for the positions
+  max_windows_ = space.share / stream_bytes - 1;  // one stream for the positions
 }
 
 void VertexWindows::add(std::span<const std::byte> positions) {
@@ -52,7 +52,7 @@ void VertexWindows::add(std::span<const std::byte> positions) {
     const uint64_t room = window() - (size_ & (window() - 1));
     const uint64_t n = std::min(room, positions.size() / position_bytes_);
     if (!positions_out_) {
-      if (positions_.size() == most_windows_)
+      if (positions_.size() == max_windows_)
         throw Error(ExitCode::kMemory,
                     "a mesh of more than " + std::to_string(size_) +
                         " vertices does not fit the memory budget: raise --memory");

@@ -61,7 +61,7 @@ class VertexWindows {
   // Number of vertices of a window: a power of two.
   uint64_t window() const { return uint64_t(1) << shift_; }
   uint64_t size() const { return size_; }
-  uint64_t most_vertices() const { return most_windows_ << shift_; }
+  uint64_t max_vertices() const { return max_windows_ << shift_; }
 
   // Appends whole positions.
   void add(std::span<const std::byte> positions);
@@ -128,7 +128,7 @@ class VertexWindows {
   bool single_;
   size_t position_bytes_;
   int shift_;
-  uint64_t most_windows_;  // max windows whose references can be written at once
+  uint64_t max_windows_;  // max windows whose references can be written at once
   uint64_t size_ = 0;
   std::optional<SpillWriter> positions_out_;  // of the last window
   std::vector<OwnedStream> positions_, answers_;

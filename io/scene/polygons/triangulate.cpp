@@ -42,8 +42,8 @@ int half(const glm::dvec2& d) {
 void Triangulator::grow() {
   const size_t capacity = std::max<size_t>(64, 2 * corners_.capacity());
   if (capacity > UINT32_MAX / 2) fail_input(path_, "a polygon has too many corners");
-  // The corners, half of them once more while they are moved, their projection, the ring, and what
-  // finds ears.
+  // The corners, half of them twice while they are moved, their projection, the ring, and the
+  // search structures.
   const size_t bytes = sizeof(Point) * 3 / 2 + sizeof(glm::dvec2) + 2 * sizeof(uint32_t) +
                        CornerTree::kBytesPerCorner + EarCandidates::kBytesPerCorner;
   reservation_.resize(capacity * bytes, kPurpose);

@@ -53,7 +53,7 @@ std::from_chars_result parse_decimal(const char* first, const char* last, T& val
 template <>
 inline std::from_chars_result parse_decimal(const char* first, const char* last, double& value) {
   constexpr std::ptrdiff_t kReach = 32;  // more than the code below reads
-  constexpr int kMostDigits = 19;        // of a uint64 without overflow
+  constexpr int kMaxDigits = 19;         // of a uint64 without overflow
   if (last - first < kReach) return std::from_chars(first, last, value);
   const bool negative = *first == '-';
   const char* p = first + negative;
@@ -70,7 +70,7 @@ inline std::from_chars_result parse_decimal(const char* first, const char* last,
       const Digits more = leading_digits(p);
       p += more.count;
       fraction += more.count;
-      plain = plain && more.count < 8 && whole.count + fraction <= kMostDigits;
+      plain = plain && more.count < 8 && whole.count + fraction <= kMaxDigits;
       mantissa = (mantissa * 100000000 + digits.value) * kPowers[more.count & 7] + more.value;
     } else {
       mantissa = mantissa * kPowers[digits.count] + digits.value;

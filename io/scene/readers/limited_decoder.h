@@ -11,10 +11,10 @@ namespace svdag {
 // For `bytes` of compressed data: as much memory as the budget has left, and a second for every
 // 64 KiB (Draco decodes ten times as much in one).
 inline ChildLimits decoder_limits(uint64_t bytes, const MemoryBudget& budget, bool filter) {
-  constexpr uint64_t kMost = uint64_t(1) << 40;  // where the budget has no limit
+  constexpr uint64_t kMaxMemory = uint64_t(1) << 40;  // where the budget has no limit
   constexpr uint64_t kBesideBudget = uint64_t(64) << 20;
   const uint64_t left = budget.limit() - std::min(budget.limit(), budget.used());
-  return {kBesideBudget + std::min(left, kMost), 30 + bytes / 65536, filter};
+  return {kBesideBudget + std::min(left, kMaxMemory), 30 + bytes / 65536, filter};
 }
 
 }  // namespace svdag

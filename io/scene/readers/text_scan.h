@@ -93,7 +93,7 @@ class TextScanner {
     if (p != end_ && (*p == '-' || *p == '+')) ++p;
     const char* first = p;
     int64_t value = 0;
-    while (p != end_ && *p >= '0' && *p <= '9' && p - first < kMostDigits)
+    while (p != end_ && *p >= '0' && *p <= '9' && p - first < kMaxDigits)
       value = 10 * value + (*p++ - '0');
     if (p == first || !(ends_word(p) || (p != end_ && *p == stop && stop != '\0')))
       fail_word("an integer");
@@ -118,7 +118,7 @@ class TextScanner {
 
  private:
   static constexpr size_t kLookAhead = kLongestWord + 2;
-  static constexpr int kMostDigits = 18;  // of an int64, without overflow
+  static constexpr int kMaxDigits = 18;  // of an int64, without overflow
 
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }

@@ -48,7 +48,7 @@ TEST(VertexWindows, AShareHoldsAsManyVerticesAsItPromises) {
     MemoryBudget budget;
     for (const bool single : {true, false}) {
       const VertexWindows windows(*spill.space(), &budget, single);
-      EXPECT_GE(windows.most_vertices() * (single ? 12 : 24), share * share / (8 * 4096));
+      EXPECT_GE(windows.max_vertices() * (single ? 12 : 24), share * share / (8 * 4096));
     }
   }
 }
@@ -56,8 +56,8 @@ TEST(VertexWindows, AShareHoldsAsManyVerticesAsItPromises) {
 TEST(VertexWindows, ThirtyTwoMebibytesJoinABillionVertices) {
   TestSpill spill(uint64_t(32) << 20, 16384);
   MemoryBudget budget;
-  EXPECT_GE(VertexWindows(*spill.space(), &budget, true).most_vertices(), 1000000000U);
-  EXPECT_GE(VertexWindows(*spill.space(), &budget, false).most_vertices(), 1000000000U);
+  EXPECT_GE(VertexWindows(*spill.space(), &budget, true).max_vertices(), 1000000000U);
+  EXPECT_GE(VertexWindows(*spill.space(), &budget, false).max_vertices(), 1000000000U);
 }
 
 TEST(VertexWindows, ACornerThatWasNotRecordedIsRefused) {
