@@ -78,7 +78,7 @@ TEST(Gltf, TrianglesThatASkinOrWeightsDeformAreCounted) {
     gltf.json["meshes"][0].update(mesh);
     const TempFolder folder;
     MemoryBudget budget;
-    const Scene scene({{folder.write("scene.glb", gltf.glb())}}, &budget);
+    const Scene scene({.paths = {folder.write("scene.glb", gltf.glb())}, .names = {}}, &budget);
     return scene.stream([](const TriangleBatch&) {}).undeformed;
   };
   EXPECT_EQ(undeformed(json::object(), json::object()), 0u);
