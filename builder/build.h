@@ -49,7 +49,7 @@ struct BuildConfig {
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   bool hash_files = false;  // --report: read the scene's files a second time to hash them
-  double checkpoint = 30;   // --checkpoint: max seconds of work that a killed bake loses
+  double checkpoint = kCheckpointSeconds;  // max seconds of work that a killed bake loses
   // --cache: opens the store of cached cells; empty: no cache.
   std::function<std::unique_ptr<CellStore>(const Grid&, Rule, MemoryBudget*)> open_store;
 };

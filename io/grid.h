@@ -63,7 +63,7 @@ struct Grid {
   double voxel_size = 1;    // world units; the S of kLattice
   Point origin{0};          // kBox: world position of the grid's corner; kLattice: unused
   LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: unused
-  bool bounded = false;     // --bounds was given: voxels outside `selection` stay empty
+  bool bounded = false;     // voxels outside `selection` stay empty (--bounds, --cube)
   VoxelBox selection;       // the voxels that may be set; the whole grid unless bounded
 
   int64_t resolution() const { return int64_t(1) << levels; }

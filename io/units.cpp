@@ -83,6 +83,12 @@ std::string format_count(uint64_t count) {
   return text;
 }
 
+std::string format_point(const Point& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
+  return text;
+}
+
 std::string format_double(double value) {
   char text[40];
   const auto result = std::to_chars(text, text + sizeof text, value);

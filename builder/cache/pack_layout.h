@@ -16,7 +16,7 @@
 #include "builder/cache/cell_store.h"
 #include "builder/cache/pack_payload.h"
 #include "io/brick.h"
-#include "io/dag/dag_writer.h"
+#include "io/dag/node_key.h"
 
 namespace svdag {
 

@@ -31,19 +31,13 @@ std::string first_and_last(const VoxelBox& box, int axis) {
   return std::to_string(box.min[axis]) + " .. " + std::to_string(box.max[axis] - 1);
 }
 
-std::string point(const Point& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
-  return text;
-}
-
 void print_occupied(const DagFile& file) {
   const VoxelBox voxels = occupied_bounds(file.view());
   if (voxels.empty()) return;
   const Box world = world_box(file.grid(), voxels);
   std::printf("  occupied: voxels %s, %s, %s; %s to %s\n", first_and_last(voxels, 0).c_str(),
               first_and_last(voxels, 1).c_str(), first_and_last(voxels, 2).c_str(),
-              point(world.min).c_str(), point(world.max).c_str());
+              format_point(world.min).c_str(), format_point(world.max).c_str());
 }
 
 // Null if no voxel is set.

@@ -50,15 +50,12 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
 
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const MeshParts& parts) {
-  const auto point = [](const Point& p) {
-    return "(" + format_double(p.x) + ", " + format_double(p.y) + ", " + format_double(p.z) + ")";
-  };
   std::printf("%s", config.paths.front().c_str());
   if (config.paths.size() > 1) std::printf(" and %zu more", config.paths.size() - 1);
   std::printf(": %s triangles, %s positions, %s components\n",
               format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
               format_count(stats.components).c_str());
-  std::printf("  bounds %s .. %s\n", point(box.min).c_str(), point(box.max).c_str());
+  std::printf("  bounds %s .. %s\n", format_point(box.min).c_str(), format_point(box.max).c_str());
   std::printf(
       "  %s triangles of zero area, %s of them with two equal corners; %s repeated triangles\n",
       format_count(stats.zero_area).c_str(), format_count(stats.repeated).c_str(),

@@ -1,8 +1,9 @@
 // `svdag query FILE.svdag < POINTS`: which points are in a set voxel.
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,24 @@
 namespace svdag {
 namespace {
 
+constexpr const char* kInput = "standard input";
+constexpr size_t kMaxLine = 65536;  // bytes
+
+// The next line of standard input, without its end. False at the end of the input.
+bool read_line(uint64_t number, std::string* line) {
+  line->clear();
+  int c;
+  while ((c = getc_unlocked(stdin)) != EOF && c != '\n') {
+    if (line->size() == kMaxLine)
+      fail_input(kInput, "line " + std::to_string(number) + " is longer than " +
+                             std::to_string(kMaxLine) + " bytes");
+    *line += char(c);
+  }
+  if (std::ferror(stdin))
+    fail_input(kInput, std::string("cannot be read: ") + std::strerror(errno));
+  return c != EOF || !line->empty();
+}
+
 // "1 2.5 3" or "1,2.5,3", also with more text after a further separator.
 Point parse_point(const std::string& line, uint64_t number) {
   Point p;
@@ -27,8 +46,7 @@ Point parse_point(const std::string& line, uint64_t number) {
     while (at != end && is_separator(*at)) ++at;
     const auto [stop, error] = std::from_chars(at, end, p[a]);
     if (error != std::errc() || (stop != end && !is_separator(*stop)) || !std::isfinite(p[a]))
-      fail_input("standard input",
-                 "line " + std::to_string(number) + " is not a point: give x y z");
+      fail_input(kInput, "line " + std::to_string(number) + " is not a point: give x y z");
     at = stop;
   }
   return p;
@@ -64,7 +82,7 @@ int run(const QueryCommand& command) {
   const Grid grid = file.grid();
   const Lattice lattice(grid);
   std::string line;
-  for (uint64_t number = 1; std::getline(std::cin, line); ++number) {
+  for (uint64_t number = 1; read_line(number, &line); ++number) {
     check_interrupt();
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     if (const auto voxel = voxel_of(lattice, grid, parse_point(line, number))) {

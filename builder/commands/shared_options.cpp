@@ -11,9 +11,7 @@ namespace svdag {
 namespace {
 
 Rule parse_rule(const std::string& name) {
-  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-    if (name == rule_name(rule)) return rule;
-  }
+  if (const auto rule = rule_named(name)) return *rule;
   fail_usage("--rule: unknown rule \"" + name + "\": choose conservative or thin");
 }
 

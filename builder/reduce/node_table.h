@@ -13,7 +13,7 @@
 
 #include "builder/reduce/unique_set.h"
 #include "io/brick.h"
-#include "io/dag/dag_writer.h"
+#include "io/dag/node_key.h"
 
 namespace svdag {
 

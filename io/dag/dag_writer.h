@@ -4,20 +4,16 @@
 // 64 KiB and the checksum table. The file appears under its name only after finish().
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "io/brick.h"
 #include "io/dag/format.h"
+#include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"
 
 namespace svdag {
-
-// The children of a node: 0 = absent, otherwise 1 + the child's index (word or brick) one level
-// down. Compared lexicographically, child 0 first: the canonical order.
-using NodeKey = std::array<uint32_t, 8>;
 
 class DagWriter {
  public:

@@ -8,6 +8,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
 
 namespace svdag {
 
@@ -20,8 +23,17 @@ constexpr uint64_t kMaxWords = 0xfffffffeU;  // per section: the last two u32 va
 
 enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
 
+constexpr const char* kRuleNames[] = {"conservative", "thin"};
+
 constexpr const char* rule_name(Rule rule) {
-  return rule == Rule::kThin ? "thin" : "conservative";
+  return kRuleNames[size_t(rule)];
+}
+
+constexpr std::optional<Rule> rule_named(std::string_view name) {
+  for (size_t i = 0; i < std::size(kRuleNames); ++i) {
+    if (name == kRuleNames[i]) return Rule(i);
+  }
+  return {};
 }
 
 // One level. Inner levels (0 .. L-3): u32 words; the brick level (L-2): u64 bricks.
@@ -42,7 +54,7 @@ struct Header {
   double corner[3];       // world position of the corner of voxel (0, 0, 0)
   double voxel_size;
   int64_t k0[3];           // kLattice: plane number of the corner; else 0
-  uint32_t bounded;        // 1 if --bounds was given: voxels outside the selection are empty
+  uint32_t bounded;        // 1: voxels outside the selection are empty (--bounds, --cube)
   uint32_t section_count;  // L-1
   uint32_t selection_min[3];
   uint32_t selection_max[3];  // exclusive

@@ -49,7 +49,7 @@ void check_grid(const H& h, const Require& require) {
           "the number of levels is not 3 to 20", offsetof(H, levels));
   require(h.fraction == uint32_t(fraction_bits(int(h.levels))), "wrong lattice fraction",
           offsetof(H, fraction));
-  require(h.rule <= 1, "unknown rule", offsetof(H, rule));
+  require(h.rule < std::size(kRuleNames), "unknown rule", offsetof(H, rule));
   require(h.grid_kind <= 1, "unknown kind of grid", offsetof(H, grid_kind));
   require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size",
           offsetof(H, voxel_size));

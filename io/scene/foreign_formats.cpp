@@ -21,7 +21,7 @@ constexpr Foreign kForeign[] = {
     {" 3ds ", "", "3D Studio", kByBlender},
     {" blend ", "BLENDER", "Blender", kByBlender},
     {" abc ", "Ogawa", "Alembic", kByBlender},
-    {" usd usda usdc ", "#usda", "USD", kByBlender},
+    {" usd usda ", "#usda", "USD", kByBlender},
     {" usdz ", "", "a USD archive", kByBlender},
     {" usdc ", "PXR-USDC", "USD", kByBlender},
     {" 3mf ", "", "3MF", "export it from the slicer as .stl"},

@@ -6,3 +6,8 @@ echo 1 2 | svdag query t.svdag || echo "exit $?"
 echo 1 2 x | svdag query t.svdag || echo "exit $?"
 echo 1 2 nan | svdag query t.svdag || echo "exit $?"
 svdag query missing.svdag < /dev/null || echo "exit $?"
+printf '5 0 0\n\377\000 2 3\n' | svdag query t.svdag || echo "exit $?"
+printf '1 2 3\000\n' | svdag query t.svdag || echo "exit $?"
+head -c 70000 /dev/zero | tr '\000' 1 | svdag query t.svdag || echo "exit $?"
+svdag query t.svdag < . || echo "exit $?"
+printf '5 0 0' | svdag query t.svdag

@@ -27,7 +27,7 @@ def failures_of_end(fixture, folder, done):
 
 
 def failures_without_resume(fixture, folder):
-    """Failures of a bake without --resume: it succeeds if there is no work to resume, else it reports the options."""
+    """Failures of a bake without --resume: without saved work it succeeds, otherwise it names the options."""
     before = fixture.state(folder)
     done = run(fixture, folder)
     if done.returncode == 0:

@@ -105,7 +105,7 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   std::printf("%s\n", verdict(j));
 }
 
-// There is no bound without draws, and none for draws beside triangles.
+// Draws with the bounds they prove; beside_triangles is a search and proves none.
 nlohmann::json draws_json(const SampleComparison& sample) {
   const auto one = [](const DrawnBricks& d, const char* bounded) {
     nlohmann::json json = {{"draws", d.draws}, {"wrong", d.wrong}};

@@ -7,8 +7,8 @@
 //   rule thin:  ours  in  { d <= 1/2 }
 //     A triangle that crosses one of the three centre segments has a point on it, and they extend
 //     1/2 from the centre; the symbolic shift changes nothing, because triangle and segment are
-//     closed and the shift is arbitrarily small. There is no lower bound: a tip may end next to the
-//     centre without setting the voxel.
+//     closed and the shift is arbitrarily small. The distance of an unset voxel has no
+//     lower bound: a tip may end next to the centre without setting the voxel.
 //
 // OpenVDB computes d as a float. A voxel within the error of a bound, and each one that OpenVDB's
 // distance contradicts, is decided again in integers (centre_distance.h): so borderline voxels give

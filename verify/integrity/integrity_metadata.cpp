@@ -19,7 +19,7 @@ json expected_metadata(const Header& h) {
           {"version", h.version},
           {"levels", h.levels},
           {"resolution", 1U << h.levels},
-          {"rule", h.rule == uint32_t(Rule::kThin) ? "thin" : "conservative"},
+          {"rule", rule_name(Rule(h.rule))},
           {"fraction_bits", h.fraction},
           {"grid",
            {{"kind", h.grid_kind == 0 ? "box" : "lattice"},

@@ -154,9 +154,7 @@ PlanStep get_step(const Json& json, const Plan& plan) {
 }
 
 Rule get_rule(const Json& json, const Plan& plan) {
-  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-    if (json == rule_name(rule)) return rule;
-  }
+  if (const auto rule = rule_named(json.get<std::string>())) return *rule;
   fail_plan(plan, "unknown rule " + json.dump());
 }
 
