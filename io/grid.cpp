@@ -56,7 +56,8 @@ Point Grid::corner() const {
 }
 
 bool Grid::is_valid() const {
-  if (levels < kMinLevels || levels > kMaxLevels || !std::isnormal(voxel_size) || voxel_size < 0)
+  if (!is_invertible(transform) || levels < kMinLevels || levels > kMaxLevels ||
+      !std::isnormal(voxel_size) || voxel_size < 0)
     return false;
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(origin[a]) || selection.min[a] < 0 || selection.min[a] > selection.max[a] ||

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 
+#include "io/affine.h"
 #include "io/triangle.h"
 
 namespace svdag {
@@ -65,6 +66,7 @@ struct Grid {
   LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: unused
   bool bounded = false;     // voxels outside `selection` stay empty (--bounds, --cube)
   VoxelBox selection;       // the voxels that may be set; the whole grid unless bounded
+  Affine transform;         // of the scene into the world: --transform, --up, --scale
 
   int64_t resolution() const { return int64_t(1) << levels; }
   int fraction() const { return fraction_bits(levels); }
@@ -92,6 +94,7 @@ void visit_fields(AnyGrid& grid, const Visit& visit) {
   visit("bounded", grid.bounded);
   visit("selection_min", grid.selection.min);
   visit("selection_max", grid.selection.max);
+  visit("transform", grid.transform);
 }
 
 // The kBox grid of 2^levels voxels a side around `box`, whose longest side is 2^levels - 1 voxels.
@@ -111,8 +114,8 @@ struct GridCube {
 // are the parents of those of the finer one. Voxel size and 2^F are powers of two times the side,
 // so each vertex is snapped to q = rint(fl((v - min) / side) * 2^(L + F)), and L + F is 39 for L >=
 // 16: the snapped scene is the same. Below 64K, L + F = L + 23 differs, and voxels may differ where
-// a triangle is within 2^-24 voxels of a voxel plane. Rejected: F = 39 - L for every L, for which
-// the error bounds of all filters would have to be proved again.
+// a triangle is within the snap (2^-24 voxels) of a voxel's boundary. Rejected: F = 39 - L for
+// every L, for which the error bounds of all filters would have to be proved again.
 Grid divide_cube(const GridCube& cube, int levels);
 
 // The smallest kLattice grid of voxel size `size` that holds `box`. An invalid size, or a box of

@@ -28,7 +28,7 @@ bool has_option(const std::vector<std::string>& options, const std::string& opti
 // The commands of each program. `trace` is not listed for svdag-verify, where it needs a scene: the
 // word suggests svdag-trace.
 constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
-    {"svdag", "build plan run submit merge info query export import"},
+    {"svdag", "build plan run submit merge info query edit export import"},
     {"svdag-verify", "check mesh diff vdb render report"},
     {"svdag-trace", ""},
     {"svdag-scene", ""},
@@ -66,6 +66,8 @@ std::string plain_usage_error(const std::string& message) {
   const std::string choices = alternatives(between(message, "Exactly 1 option from [", "]"));
   if (!choices.empty())
     return (message.ends_with("were given") ? "give only one of " : "give one of ") + choices;
+  const std::string few = alternatives(between(message, "at most 1 options be given from [", "]"));
+  if (!few.empty()) return "give only one of " + few;
   const std::string option = between(message + "\n", "Could not convert: ", " = ");
   if (!option.empty())
     return option + ": \"" + between(message + "\n", " = ", "\n") + "\" is not a number";

@@ -1,13 +1,25 @@
 #include "io/units.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "streaming/error.h"
 
 namespace svdag {
+namespace {
+
+struct Length {
+  const char* name;
+  double metres;
+};
+constexpr Length kLengths[] = {{"mm", 0.001}, {"cm", 0.01},   {"m", 1},
+                               {"km", 1000},  {"in", 0.0254}, {"ft", 0.3048}};
+
+}  // namespace
 
 uint64_t parse_count(std::string_view text, const char* option) {
   uint64_t value = 0;
@@ -47,6 +59,31 @@ Box parse_bounds(const std::string& text) {
   if (!good)
     fail_usage("--bounds: \"" + text + "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+double parse_unit(const std::string& text) {
+  for (const auto& [name, metres] : kLengths) {
+    if (text == name) return metres;
+  }
+  fail_usage("--units: unknown unit \"" + text + "\": choose mm, cm, m, km, in or ft");
+}
+
+double parse_voxel_size(const std::string& text, double unit) {
+  double size = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, size);
+  const auto* length =
+      std::find_if(std::begin(kLengths), std::end(kLengths),
+                   [&, rest = std::string(stop, end)](const Length& l) { return rest == l.name; });
+  if (error != std::errc() || (stop != end && length == std::end(kLengths)))
+    fail_usage("--voxel-size: \"" + text + "\" is not a size like 0.5 or 5cm");
+  if (size == 0) fail_usage("--voxel-size: 0 is not a size");
+  if (stop == end) return size;
+  if (unit == 0)
+    fail_usage("--voxel-size: " + text +
+               " needs --units, what one unit of the scene is; without it give the size in units "
+               "of the scene");
+  return size * length->metres / unit;
 }
 
 GridCube parse_cube(const std::string& text) {

@@ -16,6 +16,11 @@ uint64_t parse_count(std::string_view text, const char* option);
 int parse_resolution(std::string_view text);
 // --bounds: "x0,y0,z0,x1,y1,z1", the minimum first. Throws Error (kUsage).
 Box parse_bounds(const std::string& text);
+// --units: mm, cm, m, km, in or ft -> its length in metres. Throws Error (kUsage).
+double parse_unit(const std::string& text);
+// --voxel-size: "0.5", or "5cm" if the scene's `unit` (in metres) is known, not 0 -> the size in
+// units of the scene. Throws Error (kUsage).
+double parse_voxel_size(const std::string& text, double unit);
 // --cube: "x,y,z,side". Throws Error (kUsage).
 GridCube parse_cube(const std::string& text);
 // 65536 -> "64K", 1000 -> "1000".

@@ -6,7 +6,9 @@
 
 namespace svdag {
 
-Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
+namespace {
+
+Grid place_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
   if (config.cube && config.voxel_size != 0)
     fail_usage("--cube: the cube is divided by --resolution: give -r instead of -s");
   if (config.cube) {
@@ -17,6 +19,14 @@ Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* cou
   const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size)
                                            : divide_box(target, config.levels);
   return config.bounds ? select_bounds(grid, *config.bounds) : grid;
+}
+
+}  // namespace
+
+Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
+  Grid grid = place_grid(config, scene, counts);
+  grid.transform = config.scene.to_world();
+  return grid;
 }
 
 // 64 cells along the grid, of at least 64 voxels: enough cells to share out, few enough to be

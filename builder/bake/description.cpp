@@ -88,6 +88,8 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   }
   out << "included parts: " << list(config.scene.names.include) << '\n';
   out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
+  if (const Affine to_world = config.scene.to_world(); to_world != Affine())
+    out << "transform: " << format_transform(to_world) << '\n';
   out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
   for (const SceneFile& file : files)
     out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';

@@ -11,7 +11,7 @@ namespace {
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, which is that of a text of several
 // lines.
-constexpr uint32_t kLayout = 3;
+constexpr uint32_t kLayout = 4;
 
 // Writes a field in a form without padding or bool.
 struct PutField {
@@ -23,6 +23,11 @@ struct PutField {
   }
   void operator()(const char*, Grid::Kind kind) const { out->put(uint32_t(kind)); }
   void operator()(const char*, bool value) const { out->put(uint32_t(value)); }
+  void operator()(const char*, const Affine& a) const {
+    for (const auto& row : a.m) {
+      for (const double v : row) out->put(v);
+    }
+  }
   void operator()(const char*, const Point& point) const {
     for (int a = 0; a < 3; ++a) out->put(point[a]);
   }
@@ -40,6 +45,11 @@ struct GetField {
     kind = flag() ? Grid::Kind::kLattice : Grid::Kind::kBox;
   }
   void operator()(const char*, bool& value) const { value = flag(); }
+  void operator()(const char*, Affine& a) const {
+    for (auto& row : a.m) {
+      for (double& v : row) in->get(&v);
+    }
+  }
   void operator()(const char*, Point& point) const {
     for (int a = 0; a < 3; ++a) in->get(&point[a]);
   }

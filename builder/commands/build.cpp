@@ -28,7 +28,8 @@ Json grid_json(const Grid& g) {
           {"voxel_size", g.voxel_size},
           {"corner", {corner.x, corner.y, corner.z}},
           {"k0", {g.k0.x, g.k0.y, g.k0.z}},
-          {"bounded", g.bounded}};
+          {"bounded", g.bounded},
+          {"transform", g.transform.m}};
 }
 
 Json files_json(const std::vector<SceneFile>& files) {

@@ -11,6 +11,7 @@
 
 #include "builder/build.h"
 #include "builder/cache/cell_cache.h"
+#include "builder/edit/edit.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
@@ -107,19 +108,23 @@ struct SubmitCommand {
 
 // svdag info FILE.
 struct InfoCommand {
-  std::vector<std::string> paths;  // one .svdag, .run or plan, or the files of one scene
+  SceneConfig scene;  // its paths: one .svdag, .run or plan, or the files of a scene
   bool json = false;
   bool levels = false;  // print a table of levels, or of the steps of a plan
-  bool parts = false;   // print the names of a scene's mesh parts
-  NameFilter names;     // for scenes
-  bool skip_invalid = false;
-  bool sandbox = false;
+  bool parts = false;   // print the parts of a scene: objects, materials and files
   uint64_t memory = 0;  // bytes; 0: half of the machine
 };
 
 // svdag query FILE < POINTS.
 struct QueryCommand {
   std::string file;
+};
+
+// svdag edit A [B].
+struct EditCommand {
+  EditConfig edit;
+  size_t threads = 0;  // 0: all processors
+  OutputConfig output;
 };
 
 // svdag help [SUBJECT]: the help of a command or topic.
@@ -130,7 +135,7 @@ struct HelpCommand {
 
 using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand,
                              MergeCommand, MergeStepCommand, PlanCommand, RunCommand, SubmitCommand,
-                             InfoCommand, QueryCommand>;
+                             InfoCommand, QueryCommand, EditCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
@@ -145,6 +150,7 @@ int run(const RunCommand& command);
 int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
 int run(const QueryCommand& command);
+int run(const EditCommand& command);
 
 // Message of an interrupted bake that was started with --restart.
 constexpr const char* kResumeForRestart =

@@ -81,7 +81,7 @@ void print_levels(const DagStats& stats) {
 }
 
 void info_dag(const InfoCommand& config) {
-  const DagFile file = DagFile::open(config.paths.front());
+  const DagFile file = DagFile::open(config.scene.paths.front());
   const DagStats stats = compute_stats(file);
   if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
   const Header& h = file.header();
@@ -92,6 +92,8 @@ void info_dag(const InfoCommand& config) {
               format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
               format_double(h.corner[2]).c_str(),
               h.bounded ? ", restricted by --bounds or --cube" : "");
+  if (grid.transform != Affine())
+    std::printf("  scene transformed by %s\n", format_transform(grid.transform).c_str());
   print_occupied(file);
   std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
               format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
@@ -107,17 +109,22 @@ void info_dag(const InfoCommand& config) {
 }  // namespace
 
 int run(const InfoCommand& config) {
-  const bool one = config.paths.size() == 1;
-  const std::string& first = config.paths.front();
+  const bool one = config.scene.paths.size() == 1;
+  const std::string& first = config.scene.paths.front();
   const auto reject = [&](bool given, const char* option, const char* what) {
     if (given) fail_usage(std::string(option) + ": " + first + " is a " + what);
   };
   const auto reject_scene_options = [&](const char* what) {
     reject(config.parts, "--parts", what);
-    reject(!config.names.include.empty(), "--include", what);
-    reject(!config.names.exclude.empty(), "--exclude", what);
-    reject(config.skip_invalid, "--skip-invalid", what);
-    reject(config.sandbox, "--sandbox", what);
+    const SceneConfig& scene = config.scene;
+    reject(!scene.names.include.empty(), "--include", what);
+    reject(!scene.names.exclude.empty(), "--exclude", what);
+    reject(scene.allow_unmatched, "--allow-empty", what);
+    reject(scene.skip_invalid, "--skip-invalid", what);
+    reject(scene.sandbox, "--sandbox", what);
+    reject(scene.transform != Affine(), "--transform", what);
+    reject(scene.up != Affine(), "--up", what);
+    reject(scene.scale != 1, "--scale", what);
   };
   if (one && is_plan(first)) {
     reject_scene_options("plan");

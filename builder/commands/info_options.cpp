@@ -13,7 +13,7 @@ void add_info(CLI::App* program, Command* command) {
   auto config = std::make_shared<InfoCommand>();
   std::vector<std::string> endings = kSceneEndings;
   endings.insert(endings.begin(), {".svdag", ".run"});
-  takes_files(app->add_option("FILE", config->paths,
+  takes_files(app->add_option("FILE", config->scene.paths,
                               "A .svdag or .run file, a plan, or the files of a scene"),
               endings)
       ->required();
@@ -22,7 +22,7 @@ void add_info(CLI::App* program, Command* command) {
                 "Print a table of the levels of a .svdag, or of the steps of a plan");
   app->add_flag("--parts", config->parts,
                 "Print the names of a scene's parts, for use with --include");
-  add_scene_options(app, &config->names, &config->skip_invalid, &config->sandbox);
+  add_scene_options(app, &config->scene);
   add_memory_budget(app, &config->memory);
   add_examples(app, {"svdag info city.svdag --levels", "svdag info city.glb"});
   app->preparse_callback([=](size_t) { *config = {}; });

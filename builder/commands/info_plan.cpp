@@ -10,7 +10,7 @@
 namespace svdag {
 
 void info_plan(const InfoCommand& config) {
-  const Plan plan = load_plan(config.paths.front(), true);
+  const Plan plan = load_plan(config.scene.paths.front(), true);
   if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
   print_plan(plan, config.levels);
   size_t done = 0;

@@ -65,7 +65,7 @@ void print_text(const RunFile& run) {
 
 void info_run(const InfoCommand& config) {
   MemoryBudget budget(memory_or_default(config.memory));
-  const RunFile run = RunFile::open(config.paths.front(), &budget);
+  const RunFile run = RunFile::open(config.scene.paths.front(), &budget);
   check_run(run, MemoryShares(budget.limit()).check_bitmap, &budget);
   config.json ? print_json(run) : print_text(run);
 }

@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 #include <utility>
 
 #include "builder/commands/commands.h"
@@ -15,27 +16,46 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Name and triangle count of each mesh part, in order of appearance.
-using MeshParts = std::vector<std::pair<std::string, uint64_t>>;
+struct MeshPart {
+  PartKind kind;
+  std::string name;
+  uint64_t triangles = 0;
+  Box bounds;
+};
 
-MeshParts list_parts(const Scene& scene) {
-  MeshParts parts;
-  std::unordered_map<std::string, size_t> index_of;
+// The objects in order of appearance, then the materials, then the files.
+std::vector<MeshPart> list_parts(const Scene& scene) {
+  std::vector<MeshPart> parts;
+  std::map<std::pair<PartKind, std::string>, size_t> index_of;
   scene.stream([&](const TriangleBatch& batch) {
-    const auto [at, added] = index_of.emplace(batch.mesh, parts.size());
-    if (added) parts.emplace_back(batch.mesh, 0);
-    parts[at->second].second += batch.triangles.size();
+    Box bounds;
+    for (const Triangle& t : batch.triangles) bounds.add(t);
+    const auto add = [&](PartKind kind, std::string_view name) {
+      const auto [at, added] = index_of.emplace(std::pair(kind, name), parts.size());
+      if (added) parts.push_back({kind, std::string(name), 0, {}});
+      parts[at->second].triangles += batch.triangles.size();
+      parts[at->second].bounds.add(bounds);
+    };
+    add(PartKind::kObject, batch.mesh);
+    if (!batch.material.empty()) add(PartKind::kMaterial, batch.material);
+    add(PartKind::kFile, batch.file);
   });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const MeshPart& a, const MeshPart& b) { return a.kind < b.kind; });
   return parts;
 }
 
+Json bounds_json(const Box& box) {
+  return {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
+}
+
 void print_json(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const MeshParts& parts) {
-  Json json = {{"scene", config.paths},
+                const MeshStats& stats, const std::vector<MeshPart>& parts) {
+  Json json = {{"scene", config.scene.paths},
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
                {"undeformed", counts.undeformed},
-               {"bounds", {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}},
+               {"bounds", bounds_json(box)},
                {"positions", stats.positions},
                {"repeated_corners", stats.repeated},
                {"zero_area", stats.zero_area},
@@ -43,15 +63,18 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
                {"open_edges", stats.open_edges},
                {"non_manifold_edges", stats.non_manifold_edges},
                {"components", stats.components}};
-  for (const auto& [name, triangles] : parts)
-    json["parts"].push_back({{"name", name}, {"triangles", triangles}});
+  for (const MeshPart& part : parts)
+    json["parts"].push_back({{"kind", name_of(part.kind)},
+                             {"name", part.name},
+                             {"triangles", part.triangles},
+                             {"bounds", bounds_json(part.bounds)}});
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const MeshParts& parts) {
-  std::printf("%s", config.paths.front().c_str());
-  if (config.paths.size() > 1) std::printf(" and %zu more", config.paths.size() - 1);
+                const MeshStats& stats, const std::vector<MeshPart>& parts) {
+  std::printf("%s", config.scene.paths.front().c_str());
+  if (config.scene.paths.size() > 1) std::printf(" and %zu more", config.scene.paths.size() - 1);
   std::printf(": %s triangles, %s positions, %s components\n",
               format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
               format_count(stats.components).c_str());
@@ -67,20 +90,22 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
                 format_count(counts.invalid).c_str());
   print_scene_notes(counts);
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
-  for (const auto& [name, triangles] : parts)
-    std::printf("  %14s  %s\n", format_count(triangles).c_str(),
-                name.empty() ? "(no name)" : printable(name).c_str());
+  for (const auto& [kind, name, triangles, bounds] : parts)
+    std::printf("  %14s  %s%s  %s .. %s\n", format_count(triangles).c_str(),
+                (std::string(name_of(kind)) + ":").c_str(),
+                name.empty() ? "(no name)" : printable(name).c_str(),
+                format_point(bounds.min).c_str(), format_point(bounds.max).c_str());
 }
 
 }  // namespace
 
 void info_scene(const InfoCommand& config) {
   MemoryBudget budget(memory_or_default(config.memory));
-  const Scene scene({config.paths, config.names, config.skip_invalid, config.sandbox}, &budget);
+  const Scene scene(config.scene, &budget);
   SceneCounts counts;
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);
-  const MeshParts parts = config.parts ? list_parts(scene) : MeshParts();
+  const auto parts = config.parts ? list_parts(scene) : std::vector<MeshPart>();
   config.json ? print_json(config, box, counts, stats, parts)
               : print_text(config, box, counts, stats, parts);
 }

@@ -20,6 +20,7 @@ void add_run(CLI::App* program, Command* command);
 void add_submit(CLI::App* program, Command* command);
 void add_info(CLI::App* program, Command* command);
 void add_query(CLI::App* program, Command* command);
+void add_edit(CLI::App* program, Command* command);
 
 // Parses one bake of a batch like a command line of `svdag build`; options that are not given keep
 // their value in `defaults`. Errors: kUsage.
@@ -29,7 +30,8 @@ BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeComm
 void add_quiet(CLI::App* app, OutputConfig* output);
 void add_verbose(CLI::App* app, OutputConfig* output, const std::string& text);
 void add_progress(CLI::App* app, OutputConfig* output);
-void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox);
+// How a scene is read, besides its paths.
+void add_scene_options(CLI::App* app, SceneConfig* scene);
 // Adds the options of memory, threads and scratch, which do not affect the result. `own_scratch`:
 // the default scratch folder, for the help text.
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,

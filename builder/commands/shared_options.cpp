@@ -1,5 +1,7 @@
 // Options shared by several commands.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
@@ -15,9 +17,9 @@ Rule parse_rule(const std::string& name) {
   fail_usage("--rule: unknown rule \"" + name + "\": choose conservative or thin");
 }
 
-double checked_voxel_size(double size) {
-  if (size == 0) fail_usage("--voxel-size: 0 is not a size");
-  return size;
+double checked_scale(double scale) {
+  if (!std::isnormal(scale)) fail_usage("--scale: give a factor other than 0");
+  return scale;
 }
 
 }  // namespace
@@ -39,18 +41,36 @@ void add_progress(CLI::App* app, OutputConfig* output) {
       "Never show progress");
 }
 
-void add_scene_options(CLI::App* app, NameFilter* names, bool* skip_invalid, bool* sandbox) {
-  app->add_option("--include", names->include,
-                  "Only parts whose name matches a pattern (*, ?, [..]); may be repeated")
+void add_scene_options(CLI::App* app, SceneConfig* scene) {
+  app->add_option("--include", scene->names.include,
+                  "Only parts whose object, material or file name matches a pattern (*, ?, [..]; "
+                  "material:PATTERN for one kind); may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
-  app->add_option("--exclude", names->exclude,
+  app->add_option("--exclude", scene->names.exclude,
                   "Skip parts whose name matches a pattern; may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
-  app->add_flag("--skip-invalid", *skip_invalid, "Drop triangles with NaN or infinite coordinates");
-  app->add_flag("--sandbox", *sandbox,
+  app->add_flag("--allow-empty", scene->allow_unmatched, "Accept a pattern that matches no name");
+  app->add_flag("--skip-invalid", scene->skip_invalid,
+                "Drop triangles with NaN or infinite coordinates");
+  app->add_flag("--sandbox", scene->sandbox,
                 "Decode Draco and OpenMesh data in a limited process: for untrusted scenes");
+  app->add_option_function<std::string>(
+         "--transform", [scene](const std::string& s) { scene->transform = parse_transform(s); },
+         "Transform the scene by a 4x4 matrix, row by row; bounds and sizes are those after it")
+      ->type_name("m00,m01,...,m33");
+  suggests(
+      app->add_option_function<std::string>(
+          "--up", [scene](const std::string& s) { scene->up = parse_up(s); },
+          "The axis that points up in the scene: x, y or z (or --up=-z); it is rotated to y, after "
+          "--transform"),
+      {"x", "y", "z"})
+      ->type_name("AXIS");
+  app->add_option_function<double>(
+         "--scale", [scene](double s) { scene->scale = checked_scale(s); },
+         "Multiply coordinates by a factor, after --transform and --up")
+      ->type_name("FACTOR");
 }
 
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
@@ -64,6 +84,14 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
 }
 
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
+  // Before -s: callbacks run in the order of definition.
+  const auto unit = std::make_shared<double>(0);  // in metres
+  suggests(app->add_option_function<std::string>(
+               "--units", [unit](const std::string& s) { *unit = parse_unit(s); },
+               "What one unit of the scene is (mm, cm, m, km, in or ft), so that -s may be given "
+               "as 5cm"),
+           {"mm", "cm", "m", "km", "in", "ft"})
+      ->type_name("UNIT");
   CLI::Option_group* grid = app->add_option_group("Grid");
   grid->add_option_function<std::string>(
           "-r,--resolution",
@@ -73,10 +101,10 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
           },
           "Voxels along the longest side: a power of two, 8 to 1M, for example 64K")
       ->type_name("N");
-  grid->add_option_function<double>(
+  grid->add_option_function<std::string>(
           "-s,--voxel-size",
-          [build](double s) {
-            build->voxel_size = checked_voxel_size(s);
+          [build, unit](const std::string& s) {
+            build->voxel_size = parse_voxel_size(s, *unit);
             build->levels = 0;
           },
           "Side of a voxel in scene units; voxel planes at (k + 1/2) times it")
@@ -96,7 +124,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
                "often 1.05 (walls) to 1.9 (curved surfaces) times fewer voxels"),
            {"conservative", "thin"})
       ->type_name("RULE");
-  add_scene_options(app, &build->scene.names, &build->scene.skip_invalid, &build->scene.sandbox);
+  add_scene_options(app, &build->scene);
   return grid;
 }
 

@@ -24,6 +24,8 @@ struct ImportConfig {
   int levels = 0;       // -r: L of the grid, if the file does not define it; 0: minimal
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
+  Rule rule = Rule::kConservative;  // of the voxels; most formats do not record it
+  double largest_snap = 0;          // of the header
 };
 
 struct ImportReport {

@@ -50,7 +50,8 @@ struct RunHeader {
   uint64_t file_bytes;
   uint64_t content_hash[2];     // XXH3-128 over the blocks' checksums and the header (hash and
                                 // checksum as 0)
-  unsigned char reserved[680];  // zero
+  double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
+  unsigned char reserved[584];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 

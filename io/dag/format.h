@@ -65,7 +65,8 @@ struct Header {
   uint64_t file_bytes;
   Section sections[kMaxSections];  // [k] is level k; unused sections are zero
   uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table
-  unsigned char reserved[368];  // zero
+  double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
+  unsigned char reserved[272];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 
@@ -74,6 +75,7 @@ static_assert(offsetof(Header, corner) == 32);
 static_assert(offsetof(Header, voxels) == 120);
 static_assert(offsetof(Header, sections) == 176);
 static_assert(offsetof(Header, content_hash) == 632);
+static_assert(offsetof(Header, transform) == 648);
 static_assert(offsetof(Header, header_checksum) == 1016);
 static_assert(sizeof(Header) == 1024);
 

@@ -3,7 +3,9 @@
 // docs/run-format.md).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "io/dag/format.h"
 #include "io/grid.h"
@@ -23,6 +25,15 @@ void put_grid(const Grid& grid, Rule rule, H* header) {
     header->selection_min[a] = uint32_t(grid.selection.min[a]);
     header->selection_max[a] = uint32_t(grid.selection.max[a]);
   }
+  for (size_t i = 0; i < 12; ++i)
+    header->transform[i] = grid.transform == Affine() ? 0 : grid.transform.m[i / 4][i % 4];
+}
+
+// Whether the scene was transformed: files without a transform store zeros.
+template <class H>
+bool has_transform(const H& header) {
+  return std::any_of(std::begin(header.transform), std::end(header.transform),
+                     [](double v) { return v != 0; });
 }
 
 // `corner`: the corner field of the header.
@@ -39,6 +50,9 @@ Grid get_grid(const H& header, const double (&corner)[3]) {
     grid.selection.min[a] = header.selection_min[a];
     grid.selection.max[a] = header.selection_max[a];
   }
+  if (has_transform(header)) {
+    for (size_t i = 0; i < 12; ++i) grid.transform.m[i / 4][i % 4] = header.transform[i];
+  }
   return grid;
 }
 
@@ -54,6 +68,8 @@ void check_grid(const H& h, const Require& require) {
   require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size",
           offsetof(H, voxel_size));
   require(h.bounded <= 1, "impossible flag", offsetof(H, bounded));
+  require(!has_transform(h) || is_invertible(get_grid(h, {0, 0, 0}).transform),
+          "impossible transform", offsetof(H, transform));
   const uint32_t n = 1U << h.levels;
   for (int a = 0; a < 3; ++a) {
     require(h.selection_min[a] <= h.selection_max[a] && h.selection_max[a] <= n,

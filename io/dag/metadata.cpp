@@ -1,5 +1,6 @@
 #include "io/dag/metadata.h"
 
+#include "io/dag/grid_fields.h"
 #include "io/grid.h"
 #include "io/units.h"
 
@@ -20,6 +21,10 @@ std::string metadata_of(const Header& h) {
   std::string nodes;
   for (uint32_t k = 0; k < h.section_count; ++k)
     nodes += (k ? "," : "[") + number(h.sections[k].nodes);
+  const std::string transform =
+      has_transform(h)
+          ? ",\"transform\":[" + format_transform(get_grid(h, h.corner).transform) + "]"
+          : "";
   return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
          ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
          "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
@@ -31,7 +36,7 @@ std::string metadata_of(const Header& h) {
          json_list({number(h.selection_min[0]), number(h.selection_min[1]),
                     number(h.selection_min[2]), number(h.selection_max[0]),
                     number(h.selection_max[1]), number(h.selection_max[2])}) +
-         "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
+         transform + "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
          "],\"largest_snap\":" + real(h.largest_snap) + "}\n";
 }
 

@@ -32,11 +32,15 @@ bool surely_finite(std::span<const Triangle> triangles) {
   return std::isfinite((sum.x + sum.y) + sum.z);
 }
 
+std::string base_name(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1);
+}
+
 // A filter between a reader and the user's sink that rejects triangles with NaN or infinity.
 class FiniteFilter {
  public:
   FiniteFilter(const std::string& path, bool skip, const TriangleSink& sink, SceneCounts* counts)
-      : path_(path), skip_(skip), sink_(sink), counts_(counts) {}
+      : path_(path), name_(base_name(path)), skip_(skip), sink_(sink), counts_(counts) {}
 
   void operator()(const TriangleBatch& batch) {
     check_interrupt();
@@ -47,7 +51,9 @@ class FiniteFilter {
     kept_.clear();
     std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
     counts_->invalid += batch.triangles.size() - kept_.size();
-    pass({batch.mesh, batch.first, kept_, batch.quantisation, batch.undeformed});
+    TriangleBatch kept = batch;
+    kept.triangles = kept_;
+    pass(kept);
   }
 
  private:
@@ -55,7 +61,10 @@ class FiniteFilter {
     counts_->triangles += batch.triangles.size();
     if (batch.undeformed) counts_->undeformed += batch.triangles.size();
     counts_->quantisation = std::max(counts_->quantisation, batch.quantisation);
-    if (!batch.triangles.empty()) sink_(batch);
+    if (batch.triangles.empty()) return;
+    TriangleBatch named = batch;
+    named.file = name_;
+    sink_(named);
   }
   [[noreturn]] void refuse(const TriangleBatch& batch, uint64_t index) const {
     const std::string mesh = batch.mesh.empty() ? "" : " of \"" + std::string(batch.mesh) + "\"";
@@ -65,10 +74,40 @@ class FiniteFilter {
   }
 
   const std::string& path_;
+  std::string name_;
   bool skip_;
   const TriangleSink& sink_;
   SceneCounts* counts_;
   std::vector<Triangle> kept_;
+};
+
+// A sink that passes triangles on in the world, the outside of a mesh still outside.
+class ToWorld {
+ public:
+  ToWorld(const Affine& to_world, const TriangleSink& sink)
+      : to_world_(to_world),
+        mirror_(is_mirror(to_world)),
+        stretch_(axis_stretch(to_world)),
+        sink_(sink) {}
+
+  void operator()(const TriangleBatch& batch) {
+    placed_.clear();
+    for (const Triangle& t : batch.triangles) {
+      const Point a = to_world_(t.v[0]), b = to_world_(t.v[1]), c = to_world_(t.v[2]);
+      placed_.push_back(mirror_ ? Triangle{{a, c, b}} : Triangle{{a, b, c}});
+    }
+    TriangleBatch placed = batch;
+    placed.triangles = placed_;
+    placed.quantisation *= stretch_;
+    sink_(placed);
+  }
+
+ private:
+  Affine to_world_;
+  bool mirror_;
+  double stretch_;
+  const TriangleSink& sink_;
+  std::vector<Triangle> placed_;
 };
 
 void read_file(const File& file, const ReadOptions& options, const TriangleSink& sink) {
@@ -90,14 +129,18 @@ void read_file(const File& file, const ReadOptions& options, const TriangleSink&
   }
 }
 
-std::string base_name(const std::string& path) {
-  return path.substr(path.find_last_of('/') + 1);
-}
-
+// Appends "--include 'sky*'" for patterns that matched nothing; if not `allowed`, an Error.
 void append_unmatched(const char* option, const std::vector<std::string>& patterns,
-                      const std::vector<bool>& use, std::vector<std::string>* out) {
+                      const std::vector<bool>& used, const NameFilter::Use& use, bool allowed,
+                      std::vector<std::string>* out) {
   for (size_t i = 0; i < patterns.size(); ++i) {
-    if (!use[i]) out->push_back(std::string(option) + " '" + patterns[i] + "'");
+    if (used[i]) continue;
+    out->push_back(std::string(option) + " '" + patterns[i] + "'");
+    if (allowed) continue;
+    const std::string near = nearest_names(patterns[i], use);
+    fail_usage(out->back() + " matches nothing: " +
+               (near.empty() ? "the scene has no names" : "the nearest names are " + near) +
+               " (--allow-empty goes on)");
   }
 }
 
@@ -121,20 +164,28 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
 SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   SceneCounts counts;
   NameFilter names = config_.names;
-  NameFilter::Use use{std::vector<bool>(names.include.size()),
-                      std::vector<bool>(names.exclude.size())};
+  NameFilter::Use use{
+      std::vector<bool>(names.include.size()), std::vector<bool>(names.exclude.size()), {}};
   names.use = &use;
+  const Affine to_world = config_.to_world();
   for (const std::string& path : config_.paths) {
     const std::string name = base_name(path);
-    const bool by_name = !names.include.empty() && names.includes(name);
-    if (names.excludes(name)) continue;
+    const bool by_name = !names.include.empty() && names.includes(PartKind::kFile, name);
+    if (names.excludes(PartKind::kFile, name)) continue;
     const File file = File::open_read(path);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
-    read_file(file, {&names, by_name, budget_, spill_, box_alone, config_.sandbox},
-              std::ref(filter));
+    const TriangleSink filtered = std::ref(filter);
+    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
+    if (to_world == Affine()) {
+      read_file(file, options, filtered);
+    } else {
+      options.box_alone = nullptr;  // that box would be the one of the file's coordinates
+      read_file(file, options, ToWorld(to_world, filtered));
+    }
   }
-  append_unmatched("--include", names.include, use.include, &counts.unmatched);
-  append_unmatched("--exclude", names.exclude, use.exclude, &counts.unmatched);
+  const bool allowed = config_.allow_unmatched;
+  append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
+  append_unmatched("--exclude", names.exclude, use.exclude, use, allowed, &counts.unmatched);
   return counts;
 }
 
@@ -166,7 +217,7 @@ InputWatch Scene::watch() const {
 
 void Scene::visit_files(const std::function<void(const File&)>& visit) const {
   for (const std::string& path : config_.paths) {
-    if (config_.names.excludes(base_name(path))) continue;
+    if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
     if (detect_format(file) != SceneFormat::kGltf) continue;

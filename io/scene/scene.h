@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/affine.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/input_watch.h"
 
@@ -17,6 +18,13 @@ struct SceneConfig {
   NameFilter names;                // --include, --exclude
   bool skip_invalid = false;       // drop triangles with NaN or infinity instead of failing
   bool sandbox = false;            // --sandbox: third-party decoders run in a limited child process
+  bool allow_unmatched = false;    // --allow-empty: a pattern may match no name
+  Affine transform = {};           // --transform
+  Affine up = {};                  // --up: after `transform`
+  double scale = 1;                // --scale: after `up`
+
+  // From the coordinates of the files, transforms of glTF nodes included, to the world.
+  Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }
 };
 
 struct SceneCounts {
@@ -24,7 +32,7 @@ struct SceneCounts {
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
-  std::vector<std::string> unmatched;  // "--include 'sky*'": patterns that no name matches
+  std::vector<std::string> unmatched;  // "--include 'sky*'": with allow_unmatched
 };
 
 class Scene {
@@ -33,7 +41,8 @@ class Scene {
   Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill = nullptr);
 
   // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless
-  // skip_invalid. An unknown or broken file is an Error (kBadInput).
+  // skip_invalid. A pattern that matches no name is an Error (kUsage) with the nearest names,
+  // unless allow_unmatched. An unknown or broken file is an Error (kBadInput).
   SceneCounts stream(const TriangleSink& sink) const;
   // The box of the vertices that triangles use (one pass over the files). A scene without
   // triangles is an Error (kBadInput).

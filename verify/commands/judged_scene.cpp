@@ -9,9 +9,19 @@
 
 namespace svdag {
 
+namespace {
+
+// The scene as the file says that it was placed.
+SceneConfig placed(SceneConfig config, const Grid& grid) {
+  config.transform = grid.transform;
+  return config;
+}
+
+}  // namespace
+
 JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode,
                          const Grid& grid)
-    : budget(memory_or_default(memory)), scene(config, &budget), progress(mode) {
+    : budget(memory_or_default(memory)), scene(placed(config, grid), &budget), progress(mode) {
   progress.phase("reading the scene's bounds", 0);
   const Box bounds = scene.bounds(&facts.counts);
   facts.grid = judge_grid(grid, bounds);

@@ -47,14 +47,17 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
       ->required();
   command
       ->add_option("--include", scene->names.include,
-                   "Only parts whose name matches a pattern (*, ?, [..]); may be given again")
+                   "Only parts whose object, material or file name matches a pattern (*, ?, "
+                   "[..]; material:PATTERN for one kind); may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
   command
       ->add_option("--exclude", scene->names.exclude,
-                   "No part whose name matches a pattern; may be given again")
+                   "Skip parts whose name matches a pattern; may be repeated")
       ->allow_extra_args(false)
       ->type_name("PATTERN");
+  command->add_flag("--allow-empty", scene->allow_unmatched,
+                    "Accept a pattern that matches no name");
   command->add_flag("--skip-invalid", scene->skip_invalid,
                     "Drop triangles with NaN or infinity, as in the bake");
 }

@@ -15,27 +15,30 @@ using nlohmann::json;
 json expected_metadata(const Header& h) {
   json nodes = json::array();
   for (uint32_t k = 0; k < h.section_count; ++k) nodes.push_back(h.sections[k].nodes);
-  return {{"format", "svdag"},
-          {"version", h.version},
-          {"levels", h.levels},
-          {"resolution", 1U << h.levels},
-          {"rule", rule_name(Rule(h.rule))},
-          {"fraction_bits", h.fraction},
-          {"grid",
-           {{"kind", h.grid_kind == 0 ? "box" : "lattice"},
-            {"corner", h.corner},
-            {"voxel_size", h.voxel_size},
-            {"k0", h.k0},
-            {"bounded", h.bounded != 0},
-            {"selection",
-             {h.selection_min[0], h.selection_min[1], h.selection_min[2], h.selection_max[0],
-              h.selection_max[1], h.selection_max[2]}}}},
-          {"voxels", h.voxels},
-          {"nodes", nodes},
-          {"largest_snap", h.largest_snap}};
+  json expected = {{"format", "svdag"},
+                   {"version", h.version},
+                   {"levels", h.levels},
+                   {"resolution", 1U << h.levels},
+                   {"rule", rule_name(Rule(h.rule))},
+                   {"fraction_bits", h.fraction},
+                   {"grid",
+                    {{"kind", h.grid_kind == 0 ? "box" : "lattice"},
+                     {"corner", h.corner},
+                     {"voxel_size", h.voxel_size},
+                     {"k0", h.k0},
+                     {"bounded", h.bounded != 0},
+                     {"selection",
+                      {h.selection_min[0], h.selection_min[1], h.selection_min[2],
+                       h.selection_max[0], h.selection_max[1], h.selection_max[2]}}}},
+                   {"voxels", h.voxels},
+                   {"nodes", nodes},
+                   {"largest_snap", h.largest_snap}};
+  if (std::any_of(std::begin(h.transform), std::end(h.transform), [](double v) { return v != 0; }))
+    expected["grid"]["transform"] = h.transform;
+  return expected;
 }
 
-constexpr int kMaxDepth = 2;  // the selection inside the grid inside the object
+constexpr int kMaxDepth = 2;  // a list inside the grid inside the object
 
 // The beginning of an untrusted text.
 std::string beginning(const std::string& text) {

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 5;  // changes with the keys of plan.json and the contents of the index
+constexpr int kFormat = 6;  // changes with the keys of plan.json and the contents of the index
 
 constexpr size_t kHashDigits = 32;
 
@@ -46,6 +46,7 @@ struct PutJson {
   void operator()(const char* name, Grid::Kind kind) const {
     (*out)[name] = kind == Grid::Kind::kBox ? "box" : "lattice";
   }
+  void operator()(const char* name, const Affine& a) const { (*out)[name] = a.m; }
   void operator()(const char* name, const Point& v) const { (*out)[name] = {v.x, v.y, v.z}; }
   void operator()(const char* name, const LatticePoint& v) const { (*out)[name] = {v.x, v.y, v.z}; }
 };
@@ -63,6 +64,7 @@ struct GetJson {
     if (text != "box" && text != "lattice") fail_plan(plan, "unknown kind of grid (" + text + ")");
     kind = text == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
   }
+  void operator()(const char* name, Affine& a) const { in.at(name).get_to(a.m); }
   void operator()(const char* name, Point& v) const {
     for (int a = 0; a < 3; ++a) v[a] = in.at(name).at(size_t(a));
   }

@@ -36,23 +36,25 @@ class GltfReader {
 
   void read() {
     visit_nodes(document_, options_,
-                [this](const JsonObject& node, const std::string& name, const Affine& world) {
-                  read_node(node, name, world);
-                });
+                [this](const JsonObject& node, const std::string& name, const Affine& world,
+                       bool included) { read_node(node, name, world, included); });
     out_.flush();
   }
 
  private:
-  void read_node(const JsonObject& node, const std::string& name, const Affine& world) {
+  void read_node(const JsonObject& node, const std::string& name, const Affine& world,
+                 bool included) {
     const JsonObject mesh = document_.element("meshes", node.count("mesh"));
-    out_.mesh(name.empty() ? mesh.text("name") : name,
-              node.has("skin") || has_weights(node.has("weights") ? node : mesh));
+    out_.mesh(name, node.has("skin") || has_weights(node.has("weights") ? node : mesh));
     for (const auto& value : mesh.array("primitives")) {
       const JsonObject primitive(value, document_.file->path());
       const uint64_t mode = primitive.count("mode", kTriangles);
       if (mode > kTriangleFan) fail_input(primitive.path(), "has a primitive of unknown mode");
       const JsonObject attributes = primitive.object("attributes");
       if (mode < kTriangles || !attributes.has("POSITION")) continue;
+      const std::string material = material_of(primitive);
+      if (!wants_material(material, included)) continue;
+      out_.material(material);
       InstanceStream instances(node, world, &buffers_);
       if (const KeptPrimitive* kept = kept_.find(value)) {
         draw(*kept, mode, std::move(instances));
@@ -60,6 +62,29 @@ class GltfReader {
         read_primitive(value, primitive, mode, std::move(instances));
       }
     }
+  }
+
+  // "" without a material, or if it has no name.
+  std::string material_of(const JsonObject& primitive) const {
+    if (!primitive.has("material")) return "";
+    const uint64_t index = primitive.count("material");
+    // Materials are not needed: a scene may lack them.
+    if (index >= document_.root().array("materials").size()) return "";
+    return document_.element("materials", index).text("name");
+  }
+
+  // `included`: whether the node is.
+  bool wants_material(const std::string& material, bool included) const {
+    if (material.empty()) return included;
+    const bool matched = options_.names->includes(PartKind::kMaterial, material);
+    return !options_.names->excludes(PartKind::kMaterial, material) && (included || matched);
+  }
+
+  // The next instance's transform; triangles from here on are seen through it.
+  Affine place_next(InstanceStream* instances) {
+    const Affine to_world = instances->next();
+    out_.mirrored(is_mirror(to_world));
+    return to_world;
   }
 
   // Whether morph targets affect the mesh: a node's weights override those of its mesh.
@@ -98,7 +123,7 @@ class GltfReader {
     if (!primitive.has("indices")) {
       check_count(mode, positions.count());
       for (uint64_t i = 0; i < instances.count(); ++i) {
-        SoupCorners corners(positions, instances.next());
+        SoupCorners corners(positions, place_next(&instances));
         assemble(mode, positions.count(), corners, out_);
       }
       return;
@@ -151,7 +176,7 @@ class GltfReader {
       record_corners(&positions, positions.size(),
                      [&](auto& recorder, auto& out) { draw_at(recorder, {}, out); });
     for (uint64_t i = 0; i < instances.count(); ++i) {
-      const Affine to_world = instances.next();
+      const Affine to_world = place_next(&instances);
       if (positions.spilled()) {
         CornerReplayer replayer(&positions, positions.size());
         draw_at(replayer, to_world, out_);
@@ -190,7 +215,7 @@ class GltfReader {
   void for_each_placed(std::span<const Point> points, std::span<Point> placed,
                        InstanceStream instances, const Use& use) {
     for (uint64_t i = 0; i < instances.count(); ++i) {
-      const Affine to_world = instances.next();
+      const Affine to_world = place_next(&instances);
       for (size_t v = 0; v < points.size(); ++v) placed[v] = to_world(points[v]);
       use(axis_stretch(to_world));
     }

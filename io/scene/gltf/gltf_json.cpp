@@ -42,11 +42,12 @@ class WindowBuffer : public std::streambuf {
   size_t shown_ = 0;
 };
 
-bool concerns_geometry(std::string_view key) {
-  constexpr std::array<std::string_view, 9> kKeys = {
+bool is_read(std::string_view key) {
+  constexpr std::array<std::string_view, 10> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",
-      "bufferViews", "buffers", "extensionsRequired"};
+      "bufferViews", "buffers", "extensionsRequired",
+      "materials"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
@@ -72,7 +73,7 @@ class TreeBuilder {
   bool end_array() { return end(); }
   // The member of that name, for the value that follows; the later of two.
   bool key(const std::string& name) {
-    if (depth_ == 1) skipping_ = !concerns_geometry(name);
+    if (depth_ == 1) skipping_ = !is_read(name);
     note(name.size());
     if (!skipping_) member_ = &open_.back()->get_ref<json::object_t&>()[name];
     return true;

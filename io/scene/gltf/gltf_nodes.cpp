@@ -80,18 +80,24 @@ class Walk {
     if (reached_[size_t(index)]) fail(index, "is reached twice: the hierarchy must be a tree");
     if (depth > kMaxDepth) fail(index, "is too deep in the hierarchy");
     reached_[size_t(index)] = true;
-    const std::string& name = object.text("name");
-    const bool included = options_.names->includes(name);  // called in any case (mesh_reader.h)
-    if (options_.names->excludes(name)) {
+    const std::string name = name_of_node(object);
+    const bool included = options_.names->includes(PartKind::kObject, name);  // records a match
+    if (options_.names->excludes(PartKind::kObject, name)) {
       ++excluded_;
       return;
     }
     chosen = chosen || included;
     const Affine world = compose(parent, local_transform(object));
-    if (chosen && object.has("mesh")) visit_(object, name, world);
+    if (object.has("mesh")) visit_(object, name, world, chosen);
     for (const auto& child : object.array("children")) {
       node(object.index(child, "children"), world, chosen, depth + 1);
     }
+  }
+
+  std::string name_of_node(const JsonObject& node) const {
+    const std::string& name = node.text("name");
+    if (!name.empty() || !node.has("mesh")) return name;
+    return document_.element("meshes", node.count("mesh")).text("name");
   }
 
   [[noreturn]] void fail(uint64_t index, const char* what) const {

@@ -12,12 +12,14 @@
 
 namespace svdag {
 
-using NodeVisitor =
-    std::function<void(const JsonObject& node, const std::string& name, const Affine& world)>;
+using NodeVisitor = std::function<void(const JsonObject& node, const std::string& name,
+                                       const Affine& world, bool included)>;
 
-// Calls `visit` for every selected node that has a mesh, depth first, a node before its children.
-// The roots are those of the default scene (`scene`, else the first; all roots without a scene). A
-// node that is reached twice (cycles too) or is deeper than 1000 levels is an Error.
+// Calls `visit` for every node that has a mesh and is not excluded, depth first, a node before its
+// children. `name`: the node's, or its mesh's if the node has none; `included`: whether the node,
+// an ancestor or the file is included, by name or because everything is. The roots are those of the
+// default scene (`scene`, else the first; all roots without a scene). A node that is reached twice
+// (cycles too) or is deeper than 1000 levels is an Error.
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 

@@ -1,39 +1,28 @@
 #include "io/scene/mesh/mesh_reader.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
+#include <utility>
 
 namespace svdag {
-namespace {
-
-// *use: the patterns that match this or an earlier name; null: not recorded.
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name,
-                 std::vector<bool>* use) {
-  bool any = false;
-  for (size_t i = 0; i < patterns.size() && !(any && use == nullptr); ++i) {
-    if (fnmatch(patterns[i].c_str(), name.c_str(), 0) != 0) continue;
-    any = true;
-    if (use != nullptr) (*use)[i] = true;
-  }
-  return any;
-}
-
-}  // namespace
-
-bool NameFilter::excludes(const std::string& name) const {
-  return matches_any(exclude, name, use == nullptr ? nullptr : &use->exclude);
-}
-
-bool NameFilter::includes(const std::string& name) const {
-  return include.empty() || matches_any(include, name, use == nullptr ? nullptr : &use->include);
-}
 
 void BatchWriter::mesh(std::string_view name, bool undeformed) {
   flush();
   mesh_ = name;
+  material_.clear();
   undeformed_ = undeformed;
   first_ = 0;
+}
+
+void BatchWriter::material(std::string_view name) {
+  if (name == material_) return;
+  flush();
+  material_ = name;
+}
+
+void BatchWriter::mirrored(bool mirrored) {
+  if (mirrored == mirrored_) return;
+  flush();
+  mirrored_ = mirrored;
 }
 
 void BatchWriter::quantisation(double step) {
@@ -53,7 +42,10 @@ void BatchWriter::make_room() {
 
 void BatchWriter::flush() {
   if (size_ == 0) return;
-  sink_({mesh_, first_, {batch_.get(), size_}, quantisation_, undeformed_});
+  if (mirrored_) {
+    for (size_t i = 0; i < size_; ++i) std::swap(batch_[i].v[1], batch_[i].v[2]);
+  }
+  sink_({mesh_, material_, {}, first_, {batch_.get(), size_}, quantisation_, undeformed_});
   first_ += size_;
   size_ = 0;
 }

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/scene/mesh/name_filter.h"
 #include "io/triangle.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
@@ -24,32 +25,16 @@ namespace svdag {
 
 // Consecutive triangles of one mesh; valid during the call only.
 struct TriangleBatch {
-  std::string_view mesh;  // glTF node or OBJ group, "" where the format has no names
-  uint64_t first = 0;     // number, within the mesh, of the first triangle of this batch
+  std::string_view mesh;      // glTF node or OBJ group, "" where the format has no names
+  std::string_view material;  // "": none, or without a name
+  std::string_view file;      // the name of the file, without its folder; set by Scene
+  uint64_t first = 0;         // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
   double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
   bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)
 };
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
-
-// Selects named parts of a scene by shell patterns (*, ?, [..]) against glTF node names (a
-// node is selected if it or an ancestor matches), OBJ group and object names, names of solids in
-// text STL, and file names. Parts without a name have the name "".
-struct NameFilter {
-  // For each pattern, whether it has matched a name.
-  struct Use {
-    std::vector<bool> include, exclude;
-  };
-
-  std::vector<std::string> include;  // if not empty, only what matches one of these
-  std::vector<std::string> exclude;  // nothing that matches one of these
-  Use* use = nullptr;                // if not null, records matches
-
-  bool excludes(const std::string& name) const;
-  bool includes(const std::string& name) const;  // true if `include` is empty
-  bool empty() const { return include.empty() && exclude.empty(); }
-};
 
 class SpillFile;
 
@@ -81,10 +66,11 @@ struct ReadOptions {
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
 
-  // Whether the part `name` inside the file is selected.
+  // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
-    const bool included = names->includes(name);  // called in any case: a pattern that matches
-    return !names->excludes(name) && (file_included || included);
+    // Both are called in any case: they record which patterns match.
+    const bool included = names->includes(PartKind::kObject, name);
+    return !names->excludes(PartKind::kObject, name) && (file_included || included);
   }
 };
 
@@ -105,8 +91,12 @@ class BatchWriter {
       : sink_(sink), batch_(std::make_unique_for_overwrite<Triangle[]>(kFirst)) {}
   // Starts the next mesh: flushes, and counts triangles from 0 again.
   void mesh(std::string_view name, bool undeformed = false);
-  // The quantisation step of the triangles from here on.
+  // Of the triangles from here on: the name of their material, the quantisation step, and whether
+  // they are given by the mirror image of a mesh, so that two corners must change places for the
+  // outside to be outside.
+  void material(std::string_view name);
   void quantisation(double step);
+  void mirrored(bool mirrored);
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
   // pieces of another size than it was written in, which stalls on the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
@@ -124,10 +114,11 @@ class BatchWriter {
   void make_room();
 
   const TriangleSink& sink_;
-  std::string mesh_;
+  std::string mesh_, material_;
   uint64_t first_ = 0;
   double quantisation_ = 0;
   bool undeformed_ = false;
+  bool mirrored_ = false;
   std::unique_ptr<Triangle[]> batch_;
   size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and its capacity
 };

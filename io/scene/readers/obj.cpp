@@ -1,9 +1,10 @@
 // Wavefront OBJ: polygons and groups, in one pass if the positions fit in memory.
 //
 // A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
-// coordinates, normals and materials are skipped; free-form surfaces are rejected, because they
-// would be missing from the scene. A face belongs to the last `o` and to all names of the last `g`:
-// it is selected if none of these names is excluded and one of them is included.
+// coordinates and normals are skipped; free-form surfaces are rejected, because they
+// would be missing from the scene. A face belongs to the last `o`, to all names of the last `g`
+// and to the last `usemtl`: it is selected if none of these is excluded and one of them is
+// included.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -19,18 +20,17 @@ namespace svdag {
 namespace {
 
 // Statements that define no surface, or only its appearance.
-constexpr std::array<std::string_view, 28> kSkipped = {
-    "vt",       "vn",  "usemtl",     "s",         "l",      "p",     "mtllib",
-    "vp",       "mg",  "lod",        "usemap",    "maplib", "bevel", "c_interp",
-    "d_interp", "deg", "bmat",       "step",      "cstype", "curv",  "curv2",
-    "parm",     "end", "shadow_obj", "trace_obj", "ctech",  "stech", "sp"};
+constexpr std::array<std::string_view, 27> kSkipped = {
+    "vt",     "vn",     "s",     "l",        "p",          "mtllib",    "vp",    "mg",    "lod",
+    "usemap", "maplib", "bevel", "c_interp", "d_interp",   "deg",       "bmat",  "step",  "cstype",
+    "curv",   "curv2",  "parm",  "end",      "shadow_obj", "trace_obj", "ctech", "stech", "sp"};
 
 // State of a pass over the lines: its position, and what earlier lines define for later ones.
 struct ObjPlace {
   uint64_t offset = 0, line = 1;
   std::string object;
   std::vector<std::string> groups;
-  std::string mesh;
+  std::string mesh, material;
   bool wanted = true;
 };
 
@@ -104,6 +104,9 @@ class ObjLines {
     } else if (statement == "o") {
       at_.object = scanner_.rest_of_line();
       choose();
+    } else if (statement == "usemtl") {
+      at_.material = scanner_.rest_of_line();
+      choose();
     } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
       refuse(statement);
     }
@@ -165,13 +168,20 @@ class ObjLines {
   void choose() {
     std::vector<std::string> names = at_.groups;
     if (!at_.object.empty() || names.empty()) names.push_back(at_.object);
-    const auto wants = [&](const std::string& name) { return options_.wants(name); };
-    const auto excluded = [&](const std::string& name) { return options_.names->excludes(name); };
-    at_.wanted = std::any_of(names.begin(), names.end(), wants) &&
-                 std::none_of(names.begin(), names.end(), excluded);
+    // Every name is tried, so that every pattern that matches is recorded.
+    const NameFilter& filter = *options_.names;
+    bool included = options_.file_included, excluded = false;
+    const auto try_name = [&](PartKind kind, const std::string& name) {
+      included |= filter.includes(kind, name);
+      excluded |= filter.excludes(kind, name);
+    };
+    for (const std::string& name : names) try_name(PartKind::kObject, name);
+    if (!at_.material.empty()) try_name(PartKind::kMaterial, at_.material);
+    at_.wanted = included && !excluded;
     const std::string& mesh = names.front();
     if (mesh != at_.mesh) writer_.mesh(mesh);
     at_.mesh = mesh;
+    writer_.material(at_.material);
   }
 
   const ReadOptions& options_;

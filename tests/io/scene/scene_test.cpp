@@ -23,11 +23,11 @@ class SceneFiles : public ::testing::Test {
   SceneCounts stream(const SceneConfig& config) {
     return Scene(config, &budget_).stream([](const TriangleBatch&) {});
   }
-  std::string refusal(const SceneConfig& config) {
+  std::string refusal(const SceneConfig& config, ExitCode code = ExitCode::kBadInput) {
     try {
       stream(config);
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_EQ(error.code(), code);
       return error.what();
     }
     ADD_FAILURE() << "was read";
@@ -51,7 +51,11 @@ TEST_F(SceneFiles, FilesAreChosenByName) {
   const std::vector<std::string> paths = {triangle_obj("a.obj", "1"), triangle_obj("b.obj", "2")};
   EXPECT_EQ(stream({paths, {{"a.obj"}, {}}, false}).triangles, 1U);
   EXPECT_EQ(stream({paths, {{}, {"*.obj"}}, false}).triangles, 0U);
-  EXPECT_EQ(stream({paths, {{"c.obj"}, {}}, false}).triangles, 0U);
+  EXPECT_NE(refusal({paths, {{"c.obj"}, {}}, false}, ExitCode::kUsage).find("file:a.obj"),
+            std::string::npos);
+  SceneConfig none{paths, {{"c.obj"}, {}}, false};
+  none.allow_unmatched = true;
+  EXPECT_EQ(stream(none).triangles, 0U);
 }
 
 TEST_F(SceneFiles, CoordinatesThatAreNotFiniteAreRefusedOrSkippedAndCounted) {

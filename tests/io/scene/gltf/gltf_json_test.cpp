@@ -18,7 +18,7 @@ using Random = std::mt19937_64;
 std::string random_text(Random& random, int depth);
 
 std::string random_key(Random& random) {
-  static constexpr std::array<const char*, 8> kKeys = {"nodes",  "meshes",     "asset", "materials",
+  static constexpr std::array<const char*, 8> kKeys = {"nodes",  "meshes",     "asset", "images",
                                                        "extras", "animations", "a",     ""};
   return kKeys[random() % kKeys.size()];
 }

@@ -44,10 +44,11 @@ TEST(GltfNodes, QuaternionsOfAnyLengthAreRotations) {
   EXPECT_THAT(failure(gltf), HasSubstr("rotation"));
 }
 
+// A mirror, so two corners change places.
 TEST(GltfNodes, ScaleThenRotationThenTranslation) {
   EXPECT_EQ(
       placed({{"scale", {2, -3, 1}}, {"rotation", {0, 0, 1, 1}}, {"translation", {10, 0, 5}}}),
-      (Corners{{10, 0, 5}, {10, 2, 5}, {13, 0, 5}}));
+      (Corners{{10, 0, 5}, {13, 0, 5}, {10, 2, 5}}));
 }
 
 TEST(GltfNodes, MatricesAreColumnMajor) {
@@ -194,6 +195,35 @@ TEST_F(GltfNames, WithoutPatternsEverythingIsDrawnDepthFirst) {
 TEST_F(GltfNames, AChosenNodeBringsItsDescendants) {
   EXPECT_THAT(names({{"ro*"}, {}}), ElementsAre("roof", "tile"));
   EXPECT_THAT(names({{"house"}, {}}), ElementsAre("house", "door", "roof", "tile"));
+}
+
+TEST(GltfMaterials, SelectThePrimitivesOfAMesh) {
+  GltfBuilder gltf = one_triangle();
+  gltf.append("materials", {{"name", "brick"}});
+  gltf.append("materials", {{"name", "glass"}});
+  json& primitives = gltf.json["meshes"][0]["primitives"];
+  const json primitive = primitives[0];
+  primitives.push_back(primitive);
+  primitives.push_back(primitive);  // without a material
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  EXPECT_EQ(read_corners(gltf).size(), 9u);
+  EXPECT_EQ(read_corners(gltf, {{"material:gl*"}, {}}).size(), 3u);
+  EXPECT_EQ(read_corners(gltf, {{}, {"glass"}}).size(), 6u);
+  EXPECT_EQ(read_corners(gltf, {{}, {"object:glass"}}).size(), 9u);
+}
+
+// "If the determinant of the transform is negative, the winding order is reversed" (section 3.7.4).
+TEST(GltfNodes, AMirrorKeepsTheOutsideOutside) {
+  GltfBuilder gltf = one_triangle();
+  const Corners plain = read_corners(gltf);
+  gltf.json["nodes"][0]["scale"] = {-1, 1, 1};
+  const Corners mirrored = read_corners(gltf);
+  ASSERT_EQ(mirrored.size(), 3u);
+  for (const auto& [from, to] : {std::pair(0, 0), {1, 2}, {2, 1}})
+    EXPECT_EQ(mirrored[size_t(to)][0], -plain[size_t(from)][0]);
+  gltf.json["nodes"][0]["scale"] = {-1, -1, 1};
+  EXPECT_EQ(read_corners(gltf)[1][0], -plain[1][0]);
 }
 
 TEST_F(GltfNames, AnExcludedNodeTakesItsDescendants) {

@@ -1,0 +1,50 @@
+// `svdag edit A.svdag [B.svdag] -o OUT.svdag`.
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/run/bake_output.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/file_names.h"
+
+namespace svdag {
+namespace {
+
+void check_output(const EditConfig& edit, bool no_clobber) {
+  if (same_file(edit.first, edit.output) || (edit.second && same_file(*edit.second, edit.output)))
+    fail_usage(edit.output +
+               " is also an input, which is never overwritten: choose another output");
+  reject_foreign_format(edit.output);
+  if (names_run(edit.output))
+    fail_usage(edit.output + ": an edit writes a .svdag, not a run: choose another name");
+  AtomicFile::check(edit.output, no_clobber);
+}
+
+void check_operations(const EditConfig& edit) {
+  if (edit.second && !edit.operation)
+    fail_usage(*edit.second + ": choose --union, --intersection or --difference");
+  if (!edit.second && edit.operation)
+    fail_usage("a union, intersection or difference needs a second .svdag");
+  if (edit.level && (edit.second || edit.bounds))
+    fail_usage("--level: coarsen the result in a second edit");
+  if (!edit.second && !edit.bounds && !edit.level)
+    fail_usage("nothing to do: give --level, --bounds, or a second .svdag and an operation");
+}
+
+}  // namespace
+
+int run(const EditCommand& config) {
+  check_operations(config.edit);
+  check_output(config.edit, config.output.no_clobber);
+  ParallelExecutor executor(threads_or_all(config.threads));
+  const ImportReport r = edit(config.edit, &executor);
+  if (!config.output.quiet)
+    std::printf(
+        "%s: %s^3, %s voxels, %s nodes, %s\n  content hash %s\n", config.edit.output.c_str(),
+        format_resolution(uint64_t(r.grid.resolution())).c_str(), format_count(r.voxels).c_str(),
+        format_count(r.nodes).c_str(), format_bytes(r.file_bytes).c_str(), r.content_hash.c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

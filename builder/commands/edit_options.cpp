@@ -1,0 +1,49 @@
+// The options of svdag edit.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "builder/commands/options.h"
+#include "io/help/command_line.h"
+#include "io/units.h"
+
+namespace svdag {
+
+void add_edit(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("edit", "Combine, crop or coarsen .svdag files");
+  auto config = std::make_shared<EditCommand>();
+  EditConfig* const edit = &config->edit;
+  takes_files(app->add_option("A", edit->first, "The .svdag to edit"), {".svdag"})->required();
+  takes_files(app->add_option("B", edit->second,
+                              "A second one in the same place: equal resolution, corner, voxel "
+                              "size and rule"),
+              {".svdag"});
+  takes_files(app->add_option("-o,--output", edit->output, "The .svdag to write"), {".svdag"})
+      ->required()
+      ->type_name("OUT");
+  CLI::Option_group* operations = app->add_option_group("Operation");
+  const auto add_operation = [&](const char* name, SetOperation operation, const char* text) {
+    operations->add_flag_callback(
+        name, [=] { edit->operation = operation; }, text);
+  };
+  add_operation("--union", SetOperation::kUnion, "Voxels of A or B");
+  add_operation("--intersection", SetOperation::kIntersection, "Voxels of A and B");
+  add_operation("--difference", SetOperation::kDifference, "Voxels of A that are not of B");
+  operations->require_option(0, 1);
+  app->add_option_function<std::string>(
+         "--bounds", [edit](const std::string& s) { edit->bounds = parse_bounds(s); },
+         "Keep only the voxels in this box, in world units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  app->add_option("--level", edit->level,
+                  "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
+      ->type_name("K");
+  app->add_flag("-n,--no-clobber", config->output.no_clobber, "Never overwrite an existing output");
+  add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
+  add_quiet(app, &config->output);
+  add_examples(app, {"svdag edit city.svdag -o coarse.svdag --level 10",
+                     "svdag edit city.svdag -o block.svdag --bounds=0,0,0,50,50,50",
+                     "svdag edit new.svdag old.svdag -o added.svdag --difference"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+}  // namespace svdag

@@ -1,0 +1,125 @@
+#include "builder/edit/edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "builder/edit/box_graph.h"
+#include "builder/edit/combined_graph.h"
+#include "builder/edit/dag_graph.h"
+#include "io/units.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+void require_same(const DagFile& a, const DagFile& b) {
+  const Grid g = a.grid(), h = b.grid();
+  const auto differ = [&](const char* what, const std::string& first, const std::string& second) {
+    fail_usage(a.path() + " and " + b.path() + " differ in their " + what + ": " + first + " and " +
+               second);
+  };
+  if (g.levels != h.levels)
+    differ("resolution", format_resolution(uint64_t(g.resolution())),
+           format_resolution(uint64_t(h.resolution())));
+  if (g.voxel_size != h.voxel_size)
+    differ("voxel size", format_double(g.voxel_size), format_double(h.voxel_size));
+  if (g.corner() != h.corner())
+    differ("place", "corner " + format_point(g.corner()), format_point(h.corner()));
+  if (a.rule() != b.rule()) differ("rule", rule_name(a.rule()), rule_name(b.rule()));
+}
+
+VoxelBox common_part(const VoxelBox& a, const VoxelBox& b) {
+  VoxelBox box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
+  if (box.empty()) box = {};
+  return box;
+}
+
+// Where the result may have voxels.
+Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
+  switch (operation) {
+    case SetOperation::kUnion:
+      grid.bounded = grid.bounded && other.bounded;
+      grid.selection = grid.bounded ? VoxelBox{glm::min(grid.selection.min, other.selection.min),
+                                               glm::max(grid.selection.max, other.selection.max)}
+                                    : grid.whole();
+      break;
+    case SetOperation::kIntersection:
+      grid.bounded = grid.bounded || other.bounded;
+      grid.selection = common_part(grid.selection, other.selection);
+      break;
+    case SetOperation::kDifference:
+      break;
+  }
+  return grid;
+}
+
+// The nodes of another graph in a grid of the same place.
+class PlacedGraph final : public NodeGraph {
+ public:
+  PlacedGraph(NodeGraph* graph, const Grid& grid) : graph_(graph), grid_(grid) {}
+  Grid grid() const override { return grid_; }
+  uint32_t root() const override { return graph_->root(); }
+  std::array<uint32_t, 8> children(int level, uint32_t id) override {
+    return graph_->children(level, id);
+  }
+  Brick brick(uint32_t id) override { return graph_->brick(id); }
+
+ private:
+  NodeGraph* graph_;
+  Grid grid_;
+};
+
+}  // namespace
+
+ImportReport edit(const EditConfig& config, Executor* executor) {
+  const DagFile first = DagFile::open(config.first);
+  Grid grid = first.grid();
+  if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
+    fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
+               " to " + std::to_string(grid.levels));
+  const uint64_t memory = memory_or_default(config.memory);
+  MemoryBudget budget(memory / 2);
+  ImportConfig import;
+  import.source = config.first;
+  import.output = config.output;
+  import.memory = memory - memory / 2;
+  import.scratch = config.scratch;
+  import.rule = first.rule();
+  import.largest_snap = first.header().largest_snap;
+
+  DagGraph a(first, config.level.value_or(grid.levels));
+  if (config.level) {
+    // Snaps are in voxels, which are larger now.
+    import.largest_snap = std::ldexp(import.largest_snap, *config.level - grid.levels);
+    return import_graph(&a, import, executor);
+  }
+  NodeGraph* result = &a;
+  std::optional<DagFile> second;
+  std::unique_ptr<NodeGraph> b, both, box, cropped;
+  if (config.second) {
+    second.emplace(DagFile::open(*config.second));
+    require_same(first, *second);
+    b = std::make_unique<DagGraph>(*second, grid.levels);
+    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), &budget);
+    result = both.get();
+    grid = combined_grid(*config.operation, grid, second->grid());
+    import.largest_snap = std::max(import.largest_snap, second->header().largest_snap);
+  }
+  if (config.bounds) {
+    const VoxelBox before = grid.selection;
+    grid = select_bounds(grid, *config.bounds);
+    grid.selection = common_part(grid.selection, before);
+    if (grid.selection.empty())
+      fail_usage("--bounds: the box meets no voxel of the grid that may be set");
+    box = std::make_unique<BoxGraph>(grid, grid.selection);
+    cropped =
+        std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), &budget);
+    result = cropped.get();
+  }
+  PlacedGraph placed(result, grid);
+  return import_graph(&placed, import, executor);
+}
+
+}  // namespace svdag

@@ -1,0 +1,32 @@
+// Edits `.svdag` files: set operations on two grids in the same place, a crop, a coarser level.
+//
+// An edit is a graph (io/dag/node_graph.h) that is reduced like an import
+// (builder/import/graph_reduction.h), so that its result has the same bytes as a bake of these
+// voxels: canonical, minimal, and never expanded. A crop is the intersection with a box, which is a
+// graph of at most 64 nodes a level. A coarser level is a DAG whose bricks are made of its nodes.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "builder/import/import.h"
+
+namespace svdag {
+
+enum class SetOperation { kUnion, kIntersection, kDifference };
+
+struct EditConfig {
+  std::string first;                      // path of a .svdag
+  std::optional<std::string> second;      // of another one in the same place
+  std::optional<SetOperation> operation;  // of the two; set if and only if `second` is
+  std::optional<Box> bounds;              // --bounds: keeps the voxels in it, in world units
+  std::optional<int> level;               // --level: K, whose voxels are cubes of 2^(L-K); alone
+  std::string output;
+  uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
+  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
+};
+
+// Errors: kUsage if the grids differ in place or rule, or --level is not 3 .. L; kBadInput.
+ImportReport edit(const EditConfig& config, Executor* executor);
+
+}  // namespace svdag
