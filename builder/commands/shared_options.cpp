@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "builder/commands/options.h"
+#include "io/dag/grid_fields.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/counts.h"

@@ -8,9 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <optional>
-#include <string_view>
 
 namespace svdag {
 
@@ -27,13 +24,6 @@ constexpr const char* kRuleNames[] = {"conservative", "thin"};
 
 constexpr const char* rule_name(Rule rule) {
   return kRuleNames[size_t(rule)];
-}
-
-constexpr std::optional<Rule> rule_named(std::string_view name) {
-  for (size_t i = 0; i < std::size(kRuleNames); ++i) {
-    if (name == kRuleNames[i]) return Rule(i);
-  }
-  return {};
 }
 
 // One level. Inner levels (0 .. L-3): u32 words; the brick level (L-2): u64 bricks.

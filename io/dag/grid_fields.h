@@ -6,11 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <string_view>
 
 #include "io/dag/format.h"
 #include "io/grid.h"
 
 namespace svdag {
+
+// The rule of this name; nothing if there is none.
+constexpr std::optional<Rule> rule_named(std::string_view name) {
+  for (size_t i = 0; i < std::size(kRuleNames); ++i) {
+    if (name == kRuleNames[i]) return Rule(i);
+  }
+  return {};
+}
 
 template <class H>
 void put_grid(const Grid& grid, Rule rule, H* header) {

@@ -7,6 +7,7 @@
 #include "builder/bake/description.h"
 #include "builder/farm/plan/plan_index.h"
 #include "builder/farm/plan/step_name.h"
+#include "io/dag/grid_fields.h"
 #include "io/json_number.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
