@@ -15,6 +15,7 @@ by bit, so this is the order of every floating-point operation (all in double, n
   local matrix   column c of the rotation times scale[c]; or `matrix` unchanged
   composition    parent * local, each entry (p0*l0 + p1*l1) + p2*l2, the last column then + p3
   point          ((m0*x + m1*y) + m2*z) + m3
+  mirrored       by a negative determinant: the last two corners of each triangle change places
   normalised     integers divided by their largest value, at least -1 (KHR_mesh_quantization)
 """
 import hashlib
@@ -124,7 +125,10 @@ def triangles(glb):
             points = transform(world, glb.positions(primitive["attributes"]["POSITION"]))
             if "indices" in primitive:
                 points = points[glb.accessor(primitive["indices"])[:, 0]]
-            yield points[corners(len(points), primitive.get("mode", 4))]
+            points = points[corners(len(points), primitive.get("mode", 4))]
+            if np.linalg.det(world[:, :3]) < 0:
+                points = points.reshape(-1, 3, 3)[:, [0, 2, 1]].reshape(-1, 3)
+            yield points
 
 
 def summary(path):
