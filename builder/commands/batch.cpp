@@ -145,12 +145,11 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
       outcome.report = bake_scene(job, true);
     }
   } catch (Interrupted& interrupted) {
-    if (job.build.unfinished == Unfinished::kRestart)
+    if (job.build.unfinished == Unfinished::kRestart &&
+        batch.defaults.build.unfinished != Unfinished::kRestart)
       interrupted.resume_message =
-          batch.defaults.build.unfinished == Unfinished::kRestart
-              ? kResumeForRestart
-              : "stopped; to continue, remove \"restart\" from the list and repeat "
-                "the command with --resume";
+          "stopped; to continue, remove \"restart\" from the list and repeat the command with "
+          "--resume";
     throw;
   } catch (const Error& error) {
     outcome.code = error.code();

@@ -223,13 +223,7 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
 int run(const BakeCommand& command) {
   reject_plans(command.build.scene.paths, "--shard");
   reject_overwriting(command);
-  try {
-    bake_scene(command, false);
-  } catch (Interrupted& interrupted) {
-    if (command.build.unfinished == Unfinished::kRestart)
-      interrupted.resume_message = kResumeForRestart;
-    throw;
-  }
+  bake_scene(command, false);
   return int(ExitCode::kOk);
 }
 

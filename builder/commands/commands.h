@@ -152,10 +152,6 @@ int run(const InfoCommand& command);
 int run(const QueryCommand& command);
 int run(const EditCommand& command);
 
-// Message of an interrupted bake that was started with --restart.
-constexpr const char* kResumeForRestart =
-    "stopped; to continue, repeat the command with --resume instead of --restart";
-
 // Bakes one scene. Returns its JSON report if in a batch or if --report is given, else "".
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);
 // Prints a prediction of one bake.

@@ -1,5 +1,7 @@
 // The program `svdag`: the command line.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <vector>
 
 #include "builder/commands/help.h"
 #include "builder/commands/options.h"
@@ -7,6 +9,7 @@
 #include "io/help/command_line.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/program.h"
+#include "streaming/process/shell.h"
 
 namespace svdag {
 namespace {
@@ -19,6 +22,16 @@ void add_help(CLI::App* program, Command* command) {
            help_subjects(manual_of(*program)));
   app->footer(list_of_topics());
   app->callback([=] { *command = HelpCommand{manual_of(*program), *subject}; });
+}
+
+// The line that continues an interrupted `svdag build`, for sh.
+std::string resuming_line(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  std::erase(words, "--restart");
+  // After "svdag build": an option behind "--" would be a file.
+  if (std::find(words.begin(), words.end(), "--resume") == words.end())
+    words.insert(words.begin() + 2, "--resume");
+  return shell_words(words);
 }
 
 int run_command(int argc, char** argv) {
@@ -45,7 +58,16 @@ int run_command(int argc, char** argv) {
                    "\n\nsvdag-verify checks and renders .svdag files; "
                    "svdag-trace traces rays through them.");
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
-  return std::visit([](const auto& parsed) { return run(parsed); }, command);
+  try {
+    return std::visit([](const auto& parsed) { return run(parsed); }, command);
+  } catch (Interrupted& interrupted) {
+    static std::string message;  // lives until it is printed
+    if (interrupted.resumable && interrupted.resume_message == nullptr) {
+      message = "stopped; to continue: " + resuming_line(argc, argv);
+      interrupted.resume_message = message.c_str();
+    }
+    throw;
+  }
 }
 
 }  // namespace
@@ -55,8 +77,6 @@ int main(int argc, char** argv) {
   svdag::catch_interrupts();
   // The closure holds only two words, so std::function does not allocate before bad_alloc is
   // caught.
-  return svdag::run_program({.name = "svdag",
-                             .stopped = "stopped; no work was saved",
-                             .resumable = "stopped; to continue, repeat the command with --resume"},
+  return svdag::run_program({.name = "svdag", .stopped = "stopped; no work was saved"},
                             [argc, argv] { return svdag::run_command(argc, argv); });
 }

@@ -11,7 +11,7 @@ namespace svdag {
 struct Interrupted {
   int signal;
   bool resumable = false;                // set by a catch block that has saved work
-  const char* resume_message = nullptr;  // if set: replaces ProgramMessages::resumable
+  const char* resume_message = nullptr;  // then: how to continue; replaces ProgramMessages::stopped
 };
 
 // Installs the handlers, except for signals that are ignored. Called once, by main().

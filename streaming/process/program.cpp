@@ -63,9 +63,8 @@ int run_program(const ProgramMessages& messages, const std::function<int()>& wor
       throw Error(ExitCode::kOutput, "the result could not be written to standard output");
     return result;
   } catch (const Interrupted& interrupted) {
-    const char* resumable =
-        interrupted.resume_message != nullptr ? interrupted.resume_message : messages.resumable;
-    return print_message(messages, interrupted.resumable ? resumable : messages.stopped,
+    const bool resumable = interrupted.resumable && interrupted.resume_message != nullptr;
+    return print_message(messages, resumable ? interrupted.resume_message : messages.stopped,
                          128 + interrupted.signal);
   } catch (const std::exception& exception) {
     return print_error(messages, exception);

@@ -14,8 +14,7 @@ namespace svdag {
 struct ProgramMessages {
   const char* name;
   const char* no_memory = kNoMemory;
-  const char* stopped = "stopped; nothing was written";  // by a signal, without saved work
-  const char* resumable = stopped;                       // by a signal, with saved work
+  const char* stopped = "stopped; nothing was written";  // by a signal
 };
 
 // Runs work() and returns the exit code of the process: the result of work(), an Error's code,
