@@ -22,10 +22,18 @@ struct DifferingVoxel {
   bool in_a;
 };
 
+// "corner (0, 0, 0), side 64": the cube of a grid in the world.
+std::string place_of(const Grid& grid) {
+  char side[32];
+  std::snprintf(side, sizeof side, "%.9g", double(grid.resolution()) * grid.voxel_size);
+  return "corner " + format_point(grid.corner()) + ", side " + side;
+}
+
 void require_same_place(const DagFile& a, const DagFile& b) {
   if (!same_place(a.grid(), b.grid()))
-    fail_usage(a.path() + " and " + b.path() +
-               " have grids in different places: to compare them by voxel index add --by-index");
+    fail_usage(a.path() + " and " + b.path() + " have grids in different places, " +
+               place_of(a.grid()) + " and " + place_of(b.grid()) +
+               ": to compare them by voxel index add --by-index");
 }
 
 std::vector<DifferingVoxel> first_differing(DagDiff* diff, uint64_t max) {
@@ -80,6 +88,8 @@ int run(const DiffConfig& config) {
       fail_usage(config.write_diff + ": is an input; choose another name for the difference");
   }
   if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
+  if (!config.write_diff.empty() && !config.write_diff.ends_with(".ply"))
+    fail_usage(config.write_diff + ": the difference is written as a .ply");
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);
