@@ -62,7 +62,8 @@ int run_command(int argc, char** argv) {
     return std::visit([](const auto& parsed) { return run(parsed); }, command);
   } catch (Interrupted& interrupted) {
     static std::string message;  // lives until it is printed
-    if (interrupted.resumable && interrupted.resume_message == nullptr) {
+    const bool builds = argc > 1 && std::string_view(argv[1]) == "build";
+    if (builds && interrupted.resumable && interrupted.resume_message == nullptr) {
       message = "stopped; to continue: " + resuming_line(argc, argv);
       interrupted.resume_message = message.c_str();
     }

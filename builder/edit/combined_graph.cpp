@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kPurpose = "pairs of nodes of the edit";
 constexpr size_t kFirstSlots = 64;
-constexpr uint32_t kMaxPairs = 0x7fffffff;
+constexpr size_t kMaxPairs = size_t(1) << 30;  // of a level
 
 uint64_t hash(uint64_t pair) {
   const unsigned __int128 product =
@@ -46,8 +46,8 @@ uint32_t CombinedGraph::Level::number(Pair pair) {
 }
 
 void CombinedGraph::Level::grow() {
-  if (pairs_.size() > kMaxPairs / 2)
-    throw Error(ExitCode::kOutput, "the edit has more than 2^31 nodes on one level");
+  if (pairs_.size() >= kMaxPairs)
+    throw Error(ExitCode::kOutput, "the edit has more than 2^30 nodes on one level");
   const size_t slots = 2 * slots_.size();
   // The old and the new arrays are both in memory while they are copied.
   memory_.resize(slots / 2 * sizeof(Pair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2, kPurpose);
@@ -58,10 +58,10 @@ void CombinedGraph::Level::grow() {
   for (size_t i = 0; i < pairs_.size(); ++i) slots_[slot_of(pairs_[i])] = uint32_t(i + 1);
 }
 
-CombinedGraph::CombinedGraph(SetOperation operation, NodeGraph* a, NodeGraph* b,
+CombinedGraph::CombinedGraph(SetOperation operation, NodeGraph* a, NodeGraph* b, const Grid& grid,
                              MemoryBudget* budget)
-    : operation_(operation), a_(a), b_(b) {
-  for (int k = 0; k <= grid().levels - 2; ++k) levels_.emplace_back(budget);
+    : operation_(operation), a_(a), b_(b), grid_(grid) {
+  for (int k = 0; k <= grid.levels - 2; ++k) levels_.emplace_back(budget);
   levels_[0].number({a->root(), b->root()});  // number 0, the root
 }
 

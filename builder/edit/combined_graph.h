@@ -20,10 +20,11 @@ namespace svdag {
 
 class CombinedGraph final : public NodeGraph {
  public:
-  // The graphs and the budget must outlive this.
-  CombinedGraph(SetOperation operation, NodeGraph* a, NodeGraph* b, MemoryBudget* budget);
+  // `grid`: of the result, in the place of the graphs. The graphs and the budget must outlive this.
+  CombinedGraph(SetOperation operation, NodeGraph* a, NodeGraph* b, const Grid& grid,
+                MemoryBudget* budget);
 
-  Grid grid() const override { return a_->grid(); }
+  Grid grid() const override { return grid_; }
   std::array<uint32_t, 8> children(int level, uint32_t id) override;
   Brick brick(uint32_t id) override;
 
@@ -54,6 +55,7 @@ class CombinedGraph final : public NodeGraph {
   SetOperation operation_;
   NodeGraph* a_;
   NodeGraph* b_;
+  Grid grid_;
   std::vector<Level> levels_;
 };
 

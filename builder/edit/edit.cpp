@@ -55,22 +55,6 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
   return grid;
 }
 
-// The nodes of another graph in a grid of the same place.
-class PlacedGraph final : public NodeGraph {
- public:
-  PlacedGraph(NodeGraph* graph, const Grid& grid) : graph_(graph), grid_(grid) {}
-  Grid grid() const override { return grid_; }
-  uint32_t root() const override { return graph_->root(); }
-  std::array<uint32_t, 8> children(int level, uint32_t id) override {
-    return graph_->children(level, id);
-  }
-  Brick brick(uint32_t id) override { return graph_->brick(id); }
-
- private:
-  NodeGraph* graph_;
-  Grid grid_;
-};
-
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
@@ -102,9 +86,9 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
     second.emplace(DagFile::open(*config.second));
     require_same(first, *second);
     b = std::make_unique<DagGraph>(*second, grid.levels);
-    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), &budget);
-    result = both.get();
     grid = combined_grid(*config.operation, grid, second->grid());
+    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget);
+    result = both.get();
     import.largest_snap = std::max(import.largest_snap, second->header().largest_snap);
   }
   if (config.bounds) {
@@ -114,12 +98,11 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
     if (grid.selection.empty())
       fail_usage("--bounds: the box meets no voxel of the grid that may be set");
     box = std::make_unique<BoxGraph>(grid, grid.selection);
-    cropped =
-        std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), &budget);
+    cropped = std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), grid,
+                                              &budget);
     result = cropped.get();
   }
-  PlacedGraph placed(result, grid);
-  return import_graph(&placed, import, executor);
+  return import_graph(result, import, executor);
 }
 
 }  // namespace svdag

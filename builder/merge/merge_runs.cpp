@@ -24,6 +24,7 @@ const char* difference(const RunFile& a, const RunFile& b) {
   if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
     return "the grids cover different boxes";
   if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
+  if (g.transform != h.transform) return "the transform of the scene differs";
   return nullptr;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -22,6 +23,13 @@ constexpr std::optional<Rule> rule_named(std::string_view name) {
   return {};
 }
 
+// Stores zeros for the identity: files of a scene that was not transformed.
+template <class H>
+void put_transform(const Affine& transform, H* header) {
+  for (size_t i = 0; i < 12; ++i)
+    header->transform[i] = transform == Affine() ? 0 : transform.m[i / 4][i % 4];
+}
+
 template <class H>
 void put_grid(const Grid& grid, Rule rule, H* header) {
   header->levels = uint32_t(grid.levels);
@@ -35,8 +43,7 @@ void put_grid(const Grid& grid, Rule rule, H* header) {
     header->selection_min[a] = uint32_t(grid.selection.min[a]);
     header->selection_max[a] = uint32_t(grid.selection.max[a]);
   }
-  for (size_t i = 0; i < 12; ++i)
-    header->transform[i] = grid.transform == Affine() ? 0 : grid.transform.m[i / 4][i % 4];
+  put_transform(grid.transform, header);
 }
 
 // Whether the scene was transformed: files without a transform store zeros.
@@ -78,7 +85,11 @@ void check_grid(const H& h, const Require& require) {
   require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size",
           offsetof(H, voxel_size));
   require(h.bounded <= 1, "impossible flag", offsetof(H, bounded));
-  require(!has_transform(h) || is_invertible(get_grid(h, {0, 0, 0}).transform),
+  const Affine transform = get_grid(h, {0, 0, 0}).transform;
+  H written = h;
+  put_transform(transform, &written);  // neither -0 nor ones on the diagonal for the identity
+  require(is_invertible(transform) &&
+              std::memcmp(written.transform, h.transform, sizeof h.transform) == 0,
           "impossible transform", offsetof(H, transform));
   const uint32_t n = 1U << h.levels;
   for (int a = 0; a < 3; ++a) {

@@ -20,3 +20,6 @@ svdag build z.off -r 8 --transform=1,0,0,0,0,1,0,0,0,0,0,0 -o x.svdag || echo "e
 svdag build z.off -r 8 --scale 0 -o x.svdag || echo "exit $?"
 svdag build z.off -r 8 --up w -o x.svdag || echo "exit $?"
 svdag info z.svdag --up z || echo "exit $?"
+# Runs of differently placed scenes are not of one bake.
+for part in 1/2 2/2; do svdag build z.off -s 0.5 --bounds=0,0,0,4,4,4 --part $part --scale ${part%/2} -q -o ${part%/2}.run; done
+svdag merge 1.run 2.run -o x.svdag || echo "exit $?"

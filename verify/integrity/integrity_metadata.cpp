@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/dag/grid_fields.h"
 #include "io/dag/metadata.h"
 #include "verify/integrity/integrity.h"
 
@@ -33,8 +34,7 @@ json expected_metadata(const Header& h) {
                    {"voxels", h.voxels},
                    {"nodes", nodes},
                    {"largest_snap", h.largest_snap}};
-  if (std::any_of(std::begin(h.transform), std::end(h.transform), [](double v) { return v != 0; }))
-    expected["grid"]["transform"] = h.transform;
+  if (has_transform(h)) expected["grid"]["transform"] = h.transform;
   return expected;
 }
 

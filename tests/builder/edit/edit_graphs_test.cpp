@@ -60,7 +60,7 @@ TEST(CombinedGraph, DecidesEveryVoxelByBothGraphs) {
     BoxGraph a(grid, p), b(grid, q);
     MemoryBudget budget;
     const SetOperation operation = SetOperation(i % 3);
-    CombinedGraph graph(operation, &a, &b, &budget);
+    CombinedGraph graph(operation, &a, &b, grid, &budget);
     expect_voxels(&graph, [&](const LatticePoint& v) {
       const bool in_a = p.holds({v, v + int64_t(1)}), in_b = q.holds({v, v + int64_t(1)});
       return operation == SetOperation::kUnion          ? in_a || in_b
@@ -85,7 +85,7 @@ class ScatteredGraph final : public NodeGraph {
 TEST(CombinedGraph, ItsPairsAreInTheBudget) {
   ScatteredGraph a, b;
   MemoryBudget budget(uint64_t(64) << 10);
-  CombinedGraph graph(SetOperation::kUnion, &a, &b, &budget);
+  CombinedGraph graph(SetOperation::kUnion, &a, &b, a.grid(), &budget);
   const auto expand = [&] {
     std::vector<uint32_t> ids{graph.root()};
     for (int level = 0; level < 6; ++level) {

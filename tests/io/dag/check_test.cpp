@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <random>
 #include <span>
 
@@ -128,6 +131,27 @@ TEST(CheckDag, NeverFollowsAForgedFieldOutOfTheFile) {
 }
 
 // The child masks above an empty brick contradict it, and coarser levels are read from those masks.
+TEST(CheckDag, RejectsTransformsThatNoBakeStores) {
+  const TempFolder folder;
+  const std::string path = folder.file("a.svdag");
+  const std::string bytes = make_file(path, 5, 30);
+  using Rows = std::array<double, 12>;
+  const auto is_accepted = [&](const Rows& rows) {
+    std::string changed = bytes;
+    std::memcpy(changed.data() + offsetof(Header, transform), rows.data(), sizeof rows);
+    repair_checksums(&changed);
+    write_bytes(path, changed);
+    return is_sound(path);
+  };
+  EXPECT_TRUE(is_accepted({}));
+  EXPECT_TRUE(is_accepted({2, 0, 0, 5, 0, 2, 0, 0, 0, 0, 2, 0}));
+  EXPECT_FALSE(is_accepted({-0.0}));
+  EXPECT_FALSE(is_accepted({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+  EXPECT_FALSE(is_accepted({1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0}));
+  EXPECT_FALSE(is_accepted({1, 0, 0, NAN, 0, 1, 0, 0, 0, 0, 1, 0}));
+  EXPECT_FALSE(is_accepted({INFINITY, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+}
+
 TEST(CheckDag, RejectsAnEmptyBrick) {
   const TempFolder folder;
   const std::string path = folder.file("a.svdag");
