@@ -26,7 +26,7 @@ ALLOWED = {
     "streaming": [],
     "streaming/file": ["streaming"],
     "streaming/memory": ["streaming"],
-    "streaming/process": ["streaming", "streaming/file"],
+    "streaming/process": ["streaming", "streaming/file", "streaming/memory"],
     "streaming/spill": ["streaming", "streaming/file", "streaming/memory"],
     "streaming/sort": ["streaming", "streaming/memory", "streaming/process", "streaming/spill"],
     "io": ["streaming"],

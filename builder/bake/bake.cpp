@@ -3,6 +3,7 @@
 
 #include "builder/bake/bake_bins.h"
 #include "builder/bake/choose_grid.h"
+#include "builder/bake/phase_shares.h"
 #include "builder/bake/run_collector.h"
 #include "builder/bake/unfinished.h"
 #include "builder/build.h"
@@ -22,6 +23,20 @@ struct Tools {
   Progress* progress;
   Workspace* workspace;
   DiskNeed* disk_need;
+};
+
+// The progress of the bake's phases in one line.
+class PhaseProgress {
+ public:
+  explicit PhaseProgress(Progress* progress) : progress_(progress), interval_(progress, 0, 1) {}
+  void begin(const char* name, PhaseShare share) {
+    interval_.move_to(share.begin, share.end);
+    progress_->phase(name, 0);
+  }
+
+ private:
+  Progress* progress_;
+  Progress::Interval interval_;
 };
 
 // Measures the phases, one after the other.
@@ -61,6 +76,9 @@ SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const Gri
   split.triangle_bytes = tools.workspace->shares().triangles;
   split.scratch = tools.workspace->scratch();
   split.part = tools.config.part ? &part : nullptr;
+  split.on_batch = [progress = tools.progress](uint64_t triangles) {
+    progress->advance(triangles, triangles);
+  };
   split.on_spill = [triangles = chosen.triangles, need = tools.disk_need](uint64_t read,
                                                                           uint64_t bytes) {
     need->expect_spilled(triangles, read, bytes);
@@ -69,15 +87,16 @@ SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const Gri
 }
 
 // Saves the split if its triangles were spilled.
-SplitScene split_scene(const Tools& tools, const Scene& scene, const Grid& grid,
+SplitScene split_scene(const Tools& tools, const Scene& scene, const ChosenGrid& chosen,
                        const SplitConfig& config, Description* description,
                        Checkpoint* checkpoint) {
-  SplitScene split = svdag::split(scene, grid, config, tools.workspace->budget());
+  tools.progress->phase("split", chosen.triangles, "triangles");
+  SplitScene split = svdag::split(scene, chosen.grid, config, tools.workspace->budget());
   description->check_files();  // the triangles are not read again
   if (split.counts.scene.triangles == 0)
     fail_input(tools.config.scene.paths.front(), "the scene has no triangles to bake");
   if (!split.tree) {
-    checkpoint->begin(description->text(), grid);
+    checkpoint->begin(description->text(), chosen.grid);
     checkpoint->save_split(split);
   }
   return split;
@@ -123,9 +142,9 @@ void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildRepo
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
                                    BakeOutput* output) {
   Workspace* const workspace = tools.workspace;
-  const MergeConfig config =
-      share_for_merge(workspace->budget(), set->spilled ? workspace->scratch() : nullptr,
-                      tools.executor->workers(), 4 * workspace->scratch()->block_bytes());
+  const MergeConfig config = share_for_merge(
+      workspace->budget(), set->spilled ? workspace->scratch() : nullptr, tools.executor->workers(),
+      4 * workspace->scratch()->block_bytes(), tools.progress);
   return merge(set->runs, std::move(set->roots), part, config, output, tools.executor);
 }
 
@@ -152,7 +171,9 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report.resumed = saved.has_value();
   if (config.ready == nullptr) description->watch_files();
 
-  progress->phase("read bounds", 0);
+  progress->show_memory(workspace->budget());
+  PhaseProgress phases(progress);
+  phases.begin("read bounds", kBoundsShare);
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
   disk_need->expect_triangles(chosen.triangles, workspace->shares().triangles);
@@ -164,7 +185,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   std::unique_ptr<CellStore> store;
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 
-  progress->phase("split", 0);
+  phases.begin("split", kSplitShare);
   const SplitConfig splitting = split_config(tools, chosen, part);
   SplitScene split;
   if (saved && saved->split) {
@@ -172,7 +193,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   } else if (config.ready != nullptr) {
     split = {config.ready->counts, nullptr, config.ready->bins};
   } else {
-    split = split_scene(tools, scene, grid, splitting, description, checkpoint);
+    split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }
   report.split = split.counts;
   report.cell_level = splitting.cell_level;
@@ -181,6 +202,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (config.hash_files) report.files = description->files();
 
   meter.skip();
+  phases.begin("voxelize", kVoxelizeShare);
   const MortonSet done = finished_ranges(part, saved);
   RunCollector runs(grid, workspace, checkpoint, description, disk_need, store.get(), progress);
   if (saved) {
@@ -195,7 +217,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
   meter.end_phase(&report.seconds.voxelize, &report.phase_peaks.voxelize);
 
-  progress->phase("sort", 0);
+  phases.begin("sort", kSortShare);
   for (BakedRun& baked : voxelizer.finish(runs.set().spilled)) runs.add_last(std::move(baked));
   runs.take_from_store();
   report_work(voxelizer.counts(), store.get(), &report);
@@ -205,11 +227,11 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report.runs = set.runs.size();
   meter.end_phase(&report.seconds.sort, &report.phase_peaks.sort);
 
-  progress->phase("merge", 0);
+  phases.begin("merge", kMergeShare);
   const std::vector<SubDagRoot> tops = merge_runs(tools, &set, part, output.get());
   meter.end_phase(&report.seconds.merge, &report.phase_peaks.merge);
 
-  progress->phase("write", 0);
+  phases.begin("write", kWriteShare);
   output->finish(tops, report.voxels, report.split.largest_snap);
   checkpoint->discard();
   meter.end_phase(&report.seconds.write, &report.phase_peaks.write);

@@ -1,6 +1,9 @@
 #include "builder/bake/run_collector.h"
 
+#include <algorithm>
 #include <optional>
+
+#include "builder/bake/phase_shares.h"
 
 namespace svdag {
 
@@ -12,7 +15,9 @@ void RunCollector::save(BakedRun baked) {
   }
   if (checkpoint_->begun()) checkpoint_->save_run(baked);
   set_.add(std::move(baked));
-  disk_need_->expect_runs(set_.spilled_bytes, progress_->share());
+  const auto [begin, end] = kVoxelizeShare;
+  const double share = std::clamp((progress_->share() - begin) / (end - begin), 0.0, 1.0);
+  disk_need_->expect_runs(set_.spilled_bytes, share);
 }
 
 void RunCollector::add_last(BakedRun baked) {

@@ -31,6 +31,11 @@ class Voxelizer::Worker {
   void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(builder_.table())); }
   void note_empty(uint64_t begin, uint64_t end) { builder_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
+  // Voxels set since the previous call; those of a run that was taken in between may be missing.
+  uint64_t new_voxels() {
+    const uint64_t before = std::exchange(seen_voxels_, builder_.voxels());
+    return seen_voxels_ >= before ? seen_voxels_ - before : seen_voxels_;
+  }
 
   BakedRun finish(bool spill) {
     builder_.settle();
@@ -79,6 +84,7 @@ class Voxelizer::Worker {
   std::optional<CellCursor> cursor_;
   std::vector<BakedCell> cells_;  // in the table
   size_t runs_ = 0;               // taken from the table
+  uint64_t seen_voxels_ = 0;      // at the last new_voxels()
 };
 
 Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget,
@@ -100,7 +106,7 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
   // Counted, but not refused: the tree exists because its share of the budget holds it.
   MemoryBudget::Reservation lists(budget_, 0);
   lists.try_resize(tree.prepared_bytes(workers_.size()));
-  progress->phase("voxelize", cells.size());
+  progress->phase("voxelize", cells.size(), "voxels");
   cells_ += cells.size();
   for (const auto& worker : workers_) worker->begin(tree);
   if (cells.empty()) workers_[0]->note_empty(range.begin, range.end);
@@ -110,7 +116,7 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
     if (config_.done == nullptr || config_.done->coverage(ranges[i]) != MortonSet::Coverage::kAll)
       worker.bake(cells[i]);
     worker.note_empty(ranges[i].end, i + 1 < cells.size() ? ranges[i + 1].begin : range.end);
-    progress->advance();
+    progress->advance(1, worker.new_voxels());
   });
   for (const auto& worker : workers_) worker->end();
 }

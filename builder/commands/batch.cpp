@@ -122,7 +122,7 @@ void reject_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
   for (size_t i = 0; i < jobs.size(); ++i) {
     try {
       for (const std::string& output : outputs_of(jobs[i])) files.write(output);
-      reject_foreign_format(jobs[i].build.output);
+      require_dag_name(jobs[i].build.output);
     } catch (const Error& error) {
       fail_usage(bake_prefix(batch, i) + error.what());
     }

@@ -175,7 +175,7 @@ void reject_overwriting(const BakeCommand& command) {
   if (std::any_of(outputs.begin(), outputs.end(), name_exists))
     files.read_buffers(command.build.scene, command.build.memory);
   for (const std::string& output : outputs) files.write(output);
-  reject_foreign_format(command.build.output);
+  require_dag_name(command.build.output);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ void check_output(const EditConfig& edit, bool no_clobber) {
   if (same_file(edit.first, edit.output) || (edit.second && same_file(*edit.second, edit.output)))
     fail_usage(edit.output +
                " is also an input, which is never overwritten: choose another output");
-  reject_foreign_format(edit.output);
+  require_dag_name(edit.output, false);
   if (names_run(edit.output))
     fail_usage(edit.output + ": an edit writes a .svdag, not a run: choose another name");
   AtomicFile::check(edit.output, no_clobber);

@@ -18,7 +18,7 @@ void reject_overwriting_inputs(const MergeRunsConfig& config) {
       if (same_file(config.runs[i], config.runs[j])) fail_usage(config.runs[i] + " is given twice");
     }
   }
-  reject_foreign_format(config.output);
+  require_dag_name(config.output);
 }
 
 void print_summary(const MergeCommand& config, const MergeRunsReport& r) {

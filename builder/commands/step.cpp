@@ -32,7 +32,7 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
 
 // Rejects an output that is not of the kind (run or .svdag) that the plan and the receipt expect.
 void require_same_kind(const PlanStep& step, const std::string& output) {
-  reject_foreign_format(output);
+  require_dag_name(output);
   if (names_run(output) == names_run(step.output)) return;
   fail_usage(output + ": " + step.name +
              (names_run(step.output)

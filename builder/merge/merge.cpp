@@ -11,6 +11,8 @@
 namespace svdag {
 namespace {
 
+constexpr uint64_t kNodesPerProgress = 4096;
+
 class Merger {
  public:
   Merger(std::span<Run> runs, std::vector<SubDagRoot> roots, const GridPart& part,
@@ -22,6 +24,7 @@ class Merger {
         executor_(executor) {}
 
   std::vector<SubDagRoot> run(int brick_level) {
+    begin_progress(brick_level);
     output_->begin_level(brick_level);
     std::vector<LevelInput<Brick>> bricks;
     for (const Run& run : runs_) bricks.push_back(input_from(run.bricks, brick_level));
@@ -33,6 +36,20 @@ class Merger {
   }
 
  private:
+  void begin_progress(int brick_level) {
+    if (config_.progress == nullptr) return;
+    uint64_t keys = 0;
+    for (const Run& run : runs_) {
+      keys += input_from(run.bricks, brick_level).count();
+      for (int level = 0; level < brick_level; ++level)
+        keys += input_from(run.nodes[size_t(level)], level).count();
+    }
+    config_.progress->phase("merge", keys, "nodes");
+  }
+  void advance(uint64_t keys, uint64_t nodes) {
+    if (config_.progress != nullptr) config_.progress->advance(keys, nodes);
+  }
+
   // Replaces the children of the nodes of `level` by their indices in the merged level below, then
   // merges `level`.
   void run_level(int level) {
@@ -143,9 +160,22 @@ class Merger {
 
   // `held`: bytes of the resident maps that the inputs use.
   template <class Key, class Add>
-  RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held, const Add& add) {
-    uint64_t keys = 0;
+  RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held, const Add& write) {
+    uint64_t keys = 0, added = 0;
     for (const auto& input : inputs) keys += input.count();
+    const auto add = [&](const Key& key) {
+      if (++added % kNodesPerProgress == 0) advance(kNodesPerProgress, kNodesPerProgress);
+      return write(key);
+    };
+    RankMaps maps = merge_inputs<Key>(inputs, held, keys, add);
+    // Nodes that are in several runs are steps, too.
+    advance(keys - added / kNodesPerProgress * kNodesPerProgress, added % kNodesPerProgress);
+    return maps;
+  }
+
+  template <class Key, class Add>
+  RankMaps merge_inputs(std::span<const LevelInput<Key>> inputs, uint64_t held, uint64_t keys,
+                        const Add& add) {
     const bool many = inputs.size() > config_.max_sources;
     const bool spill = many || held + keys * sizeof(uint32_t) > config_.map_bytes;
     if (config_.scratch == nullptr || !spill)
@@ -165,10 +195,14 @@ class Merger {
 }  // namespace
 
 MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t workers,
-                            uint64_t source_bytes) {
+                            uint64_t source_bytes, Progress* progress) {
   const MemoryShares shares(budget->limit(), workers);
-  return {budget, scratch, shares.maps, shares.map_window,
-          std::max<size_t>(2, shares.sources / source_bytes)};
+  return {budget,
+          scratch,
+          shares.maps,
+          shares.map_window,
+          std::max<size_t>(2, shares.sources / source_bytes),
+          progress};
 }
 
 std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,

@@ -28,6 +28,7 @@
 #include "builder/run/bake_output.h"
 #include "builder/workspace/scratch.h"
 #include "streaming/process/executor.h"
+#include "streaming/process/progress.h"
 
 namespace svdag {
 
@@ -37,12 +38,13 @@ struct MergeConfig {
   uint64_t map_bytes = 0;              // maps of two levels that need more are spilled
   uint64_t window_bytes = UINT64_MAX;  // of a spilled map that each worker loads at a time
   size_t max_sources = 2;              // spilled sources that may be open at once; at least 2
+  Progress* progress = nullptr;        // null: not shown
 };
 
 // Shares of the budget for a merge by `workers` workers, where an open source takes `source_bytes`.
-// `scratch`: as in MergeConfig.
+// `scratch`, `progress`: as in MergeConfig.
 MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t workers,
-                            uint64_t source_bytes);
+                            uint64_t source_bytes, Progress* progress = nullptr);
 
 // Writes all levels to `output` and returns the roots of the tops of `part`, with which the caller
 // finishes the output. Empties `runs`. The cells must be disjoint and inside the part.

@@ -102,6 +102,8 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
     workspace.clear(config.output, "finish it, or choose another output");
   }
   const auto output = open_output(config.output, report.grid, files.front().rule(), part);
+  progress->show_memory(budget);
+  Progress::Interval interval(progress, 0, 0.3);
   progress->phase("check", files.size());
   executor->for_each(files.size(), [&](size_t, size_t i) {
     check_run(files[i], workspace.shares().check_bitmap, budget);
@@ -109,7 +111,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   });
   report.seconds.check = seconds.lap();
 
-  progress->phase("merge", 0);
+  interval.move_to(0.3, 0.98);
   std::vector<Run> runs;
   std::vector<SubDagRoot> roots;
   double largest_snap = 0;
@@ -127,10 +129,11 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   const uint64_t source_bytes = kRunBlockBytes + 4 * scratch->block_bytes();
   const auto tops = inputs.guard([&] {
     return merge(runs, std::move(roots), part,
-                 share_for_merge(budget, scratch, executor->workers(), source_bytes), output.get(),
-                 executor);
+                 share_for_merge(budget, scratch, executor->workers(), source_bytes, progress),
+                 output.get(), executor);
   });
   report.seconds.merge = seconds.lap();
+  interval.move_to(0.98, 1);
   progress->phase("write", 0);
   output->finish(tops, report.voxels, largest_snap);
   progress->finish();

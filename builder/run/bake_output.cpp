@@ -18,13 +18,10 @@ std::string DagOutput::content_hash() const {
   return to_hex(header.content_hash);
 }
 
-void reject_foreign_format(const std::string& path) {
-  for (const char* ending : {".vdb", ".nvdb", ".npz", ".npy", ".vox", ".binvox", ".svo", ".octree",
-                             ".ply", ".stl", ".obj", ".off", ".gltf", ".glb"}) {
-    if (path.ends_with(ending))
-      fail_usage(path +
-                 ": the output must be a .svdag or a .run: use svdag export for other formats");
-  }
+void require_dag_name(const std::string& path, bool may_be_run) {
+  if (path.ends_with(".svdag") || (may_be_run && names_run(path))) return;
+  fail_usage(path + ": the output must end in .svdag" + (may_be_run ? " or .run" : "") +
+             ": use svdag export for other formats");
 }
 
 bool names_run(const std::string& path) {

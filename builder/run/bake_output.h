@@ -48,8 +48,8 @@ class DagOutput final : public BakeOutput {
   DagWriter writer_;
 };
 
-// Error (kUsage) if `path` has the extension of another format (".vdb", ".ply").
-void reject_foreign_format(const std::string& path);
+// Error (kUsage) unless `path` ends in ".svdag", or in ".run" if that is allowed.
+void require_dag_name(const std::string& path, bool may_be_run = true);
 
 // Whether `path` names a run, that is, ends in ".run".
 bool names_run(const std::string& path);

@@ -99,6 +99,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       largest_move = std::max(largest_move, move);
       store.add(snapped);
     }
+    if (config.on_batch) config.on_batch(batch.triangles.size());
   });
   store.finish(&result);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());

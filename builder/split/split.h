@@ -25,6 +25,7 @@ struct SplitConfig {
   // Called once, when spilling begins: `read` triangles (dropped ones included) took `bytes` in
   // bins, and more will follow.
   std::function<void(uint64_t read, uint64_t bytes)> on_spill = {};
+  std::function<void(uint64_t triangles)> on_batch = {};  // called for each batch that was read
 };
 
 struct SplitCounts {

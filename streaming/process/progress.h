@@ -1,4 +1,9 @@
-// A progress line on stderr that shows the current phase and its share or number of steps.
+// A progress line on stderr: the current phase, percent, elapsed and remaining time, rate, memory.
+//
+//     voxelize  42 %  0:31  about 0:43 left  18.2M voxels/s  312 MiB of 1 GiB
+//
+// Percent and remaining time are those of the whole work if the phases are in Intervals. What does
+// not fit the terminal is left out, from the right.
 //
 // It appears only on a terminal, is redrawn at most ten times a second, and is erased at the end.
 //
@@ -11,6 +16,8 @@
 #include <cstdint>
 #include <string>
 
+#include "streaming/memory/memory_budget.h"
+
 namespace svdag {
 
 class Progress {
@@ -20,10 +27,13 @@ class Progress {
   explicit Progress(Mode mode = Mode::kOff);
   ~Progress() { finish(); }
 
-  // Starts a phase of `total` steps; 0: unknown, the steps are counted.
-  void phase(const std::string& name, uint64_t total);
-  // Adds steps that are done. Thread-safe.
-  void advance(uint64_t steps = 1);
+  // Starts a phase of `total` steps; 0: unknown, the steps are counted. `unit`: of the items whose
+  // rate is shown, for example "voxels"; empty: no rate.
+  void phase(const std::string& name, uint64_t total, const std::string& unit = "");
+  // Adds steps, and items of the phase's unit, that are done. Thread-safe.
+  void advance(uint64_t steps = 1, uint64_t items = 0);
+  // Shows the memory used, and the limit. `budget` must exist until the last advance().
+  void show_memory(const MemoryBudget* budget) { budget_ = budget; }
   // Erases the line.
   void finish();
   // Share of the work that is done, 0 to 1: of the phase, or of the whole if the phase is in an
@@ -36,12 +46,16 @@ class Progress {
    public:
     Interval(Progress* progress, double begin, double end)
         : progress_(progress), begin_(progress->begin_), size_(progress->size_) {
-      progress->begin_ = begin_ + size_ * begin;
-      progress->size_ = size_ * (end - begin);
+      move_to(begin, end);
     }
     ~Interval() {
       progress_->begin_ = begin_;
       progress_->size_ = size_;
+    }
+    // Moves to another range of the enclosing Interval.
+    void move_to(double begin, double end) {
+      progress_->begin_ = begin_ + size_ * begin;
+      progress_->size_ = size_ * (end - begin);
     }
     Interval(const Interval&) = delete;
     Interval& operator=(const Interval&) = delete;
@@ -60,13 +74,14 @@ class Progress {
 
   bool enabled_;
   size_t drawn_ = 0;  // columns of the line on the terminal
-  std::string name_;
+  std::string name_, unit_;
   uint64_t total_ = 0;
+  const MemoryBudget* budget_ = nullptr;
   double begin_ = 0, size_ = 1;  // of the current Interval
-  std::atomic<uint64_t> done_{0};
-  std::atomic<int64_t> next_draw_{0};  // milliseconds since start_
+  std::atomic<uint64_t> done_{0}, items_{0};
+  std::atomic<int64_t> next_draw_{0};  // milliseconds since phase_start_
   std::atomic_flag drawing_;
-  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point start_, phase_start_;
 };
 
 }  // namespace svdag

@@ -21,7 +21,7 @@ refused svdag-verify render r.svdag -o x.png --fly ''
 refused svdag-scene city --seed 99999999999999999999 -o c.ply
 refused svdag-scene city -n '' -o c.ply
 # Negative numbers are values, and unusual names are accepted.
-svdag build r.ply -r 64 -o ./--quiet -q --bounds -1,-1,-1,1,1,1
-svdag build r.ply -r 64 -q --output==x
+svdag build r.ply -r 64 -o ./--quiet.svdag -q --bounds -1,-1,-1,1,1,1
+svdag build r.ply -r 64 -q --output==x.svdag
 svdag build -r 64 -q -o y.svdag -- r.ply
 ls

@@ -132,7 +132,7 @@ std::vector<std::string> import_formats() {
 int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
-  reject_foreign_format(config.import.output);
+  require_dag_name(config.import.output, false);
   if (names_run(config.import.output))
     fail_usage(config.import.output +
                ": an import writes a .svdag, not a run: choose another name");

@@ -114,6 +114,23 @@ class Shown(unittest.TestCase):
             self.assertGreater(len(drawn(text)), 3, text)
             self.assertLess(max(map(len, drawn(text))), 40, text)
 
+    def test_progress_shows_time_rate_and_memory_where_they_fit(self):
+        # Enough work that a phase lasts more than a second, which a rate needs.
+        command = [PROGRAMS / "svdag", "build", "city.ply", "-o", "long.svdag", "-r", "64K", "-j", "1", "-m", "1G", "-q"]
+        for columns in (40, 60, 80, 120, 200):
+            code, text = screen.shown(command, columns, {}, self.at)
+            self.assertEqual(code, 0, text)
+            lines = [line.rstrip() for line in drawn(text)]
+            self.assertLess(max(map(len, lines)), columns, text)
+            percents = [int(line.split("%")[0].split()[-1]) for line in lines]
+            self.assertEqual(percents, sorted(percents), "one percentage for all phases")
+            self.assertGreater(len(set(percents)), 10, text)
+            times = r"  \d+:\d\d  about \d+:\d\d left"
+            self.assertTrue(any(re.fullmatch(r"voxelize +\d+ %" + times + ".*", line) for line in lines), text)
+            if columns >= 80:
+                whole = r"voxelize +\d+ %" + times + r"  [\d.]+[kMG]? voxels/s  [\d.]+ [KMG]iB of 1 GiB"
+                self.assertTrue(any(re.fullmatch(whole, line) for line in lines), text)
+
     def test_progress_is_truncated_to_the_width_of_the_terminal(self):
         code, text = self.judge(NARROW, "-q")
         self.assertEqual((code, max(map(len, drawn(text)))), (0, NARROW - 1), text)
