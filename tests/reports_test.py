@@ -23,7 +23,10 @@ svdag export thin.svdag -o thin.vdb
 svdag build --batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
-QUERIES = """svdag build city.ply -o dry.svdag -r 64 --dry-run
+QUERIES = """svdag edit city.svdag -o coarse.svdag --level 5
+svdag export city.svdag -o city.npz
+svdag import city.npz -o back.svdag
+svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
 svdag info half.run
 svdag info city.ply --parts

@@ -1,11 +1,12 @@
-// `svdag build --batch LIST.json`: runs a list of bakes, one at a time, with one report.
+// `svdag build --batch LIST.json`: runs a list of bakes, with one report. With --parallel N, N
+// bakes run at once, each with a share of 1/N of memory and threads.
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene", one or more paths. Each object becomes a command line; all are parsed before the first
 // bake. Options given with --batch are defaults for every bake in the list; options that
 // cannot apply to several bakes are rejected.
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -164,49 +165,128 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
   return outcome;
 }
 
-void write_report(AtomicFile* report, size_t bakes, const Json& done) {
-  report->append(json_text(Json{{"svdag", SVDAG_VERSION}, {"bakes", bakes}, {"done", done}}, 2) +
-                 "\n");
-  report->commit();
+// Fails before the first bake if a scene cannot be opened or an output cannot be written. With
+// --keep-going such a bake fails when its turn comes.
+void check_files(const BatchCommand& batch, const std::vector<BakeCommand>& jobs) {
+  for (size_t i = 0; i < jobs.size() && !batch.keep_going; ++i) {
+    const BakeCommand& job = jobs[i];
+    if (job.output.no_clobber && name_exists(job.build.output)) continue;
+    try {
+      for (const std::string& scene : job.build.scene.paths) File::open_read(scene);
+      if (batch.dry_run) continue;
+      for (const std::string& output : outputs_of(job)) AtomicFile::check(output, false);
+    } catch (const Error& error) {
+      throw Error(error.code(), bake_prefix(batch, i) + error.what());
+    }
+  }
 }
+
+// The jobs with a share of memory and threads each, so that `parallel` of them fit at once.
+std::vector<BakeCommand> shared_jobs(const BatchCommand& batch, std::vector<BakeCommand> jobs) {
+  if (batch.parallel == 1) return jobs;
+  const uint64_t memory = memory_or_default(batch.defaults.build.memory) / batch.parallel;
+  const size_t threads =
+      std::max<size_t>(1, threads_or_all(batch.defaults.threads) / batch.parallel);
+  for (BakeCommand& job : jobs) {
+    job.build.memory = job.build.memory == 0 ? memory : std::min(job.build.memory, memory);
+    job.threads = job.threads == 0 ? threads : std::min(job.threads, threads);
+    job.output.progress = Progress::Mode::kOff;  // several lines would overwrite each other
+  }
+  return jobs;
+}
+
+// The bakes of a batch that were tried, in the order of the list.
+class BatchRun {
+ public:
+  BatchRun(const BatchCommand& batch, const std::vector<BakeCommand>& jobs)
+      : batch_(batch), jobs_(jobs), outcomes_(jobs.size()) {}
+
+  // Bakes all jobs. Throws Interrupted; report_text() then has the finished ones.
+  void run() {
+    ParallelExecutor workers(std::min(batch_.parallel, std::max<size_t>(1, jobs_.size())));
+    workers.for_each(jobs_.size(), [this](size_t, size_t i) { run_job(i); });
+  }
+
+  ExitCode first_failure() const {
+    for (const auto& outcome : outcomes_) {
+      if (outcome && outcome->code != ExitCode::kOk) return outcome->code;
+    }
+    return ExitCode::kOk;
+  }
+
+  std::string report_text() const {
+    Json done = Json::array();
+    for (size_t i = 0; i < jobs_.size(); ++i) {
+      if (!outcomes_[i]) continue;
+      Json entry = {{"output", jobs_[i].build.output}, {"exit", int(outcomes_[i]->code)}};
+      if (!outcomes_[i]->error.empty()) entry["error"] = outcomes_[i]->error;
+      if (!outcomes_[i]->report.empty()) entry["report"] = Json::parse(outcomes_[i]->report);
+      done.push_back(std::move(entry));
+    }
+    const Json report = {{"svdag", SVDAG_VERSION}, {"bakes", jobs_.size()}, {"done", done}};
+    return json_text(report, 2) + "\n";
+  }
+
+  void print_summary() const {
+    size_t good = 0, failed = 0;
+    for (const auto& outcome : outcomes_) {
+      if (outcome) ++(outcome->code == ExitCode::kOk ? good : failed);
+    }
+    std::printf("%zu of %zu %s, %zu failed%s\n", good, jobs_.size(),
+                batch_.dry_run ? "predicted" : "baked", failed,
+                skipped_ > 0 ? (", " + std::to_string(skipped_) + " skipped").c_str() : "");
+  }
+
+ private:
+  void run_job(size_t i) {
+    if (failed_ && !batch_.keep_going) return;
+    const BakeCommand& job = jobs_[i];
+    if (job.output.no_clobber && name_exists(job.build.output)) {
+      ++skipped_;
+      if (!job.output.quiet) std::printf("%s: already exists, skipped\n", job.build.output.c_str());
+      return;
+    }
+    Outcome outcome = bake(job, batch_);
+    if (outcome.code != ExitCode::kOk) failed_ = true;
+    outcomes_[i] = std::move(outcome);
+  }
+
+  const BatchCommand& batch_;
+  const std::vector<BakeCommand>& jobs_;
+  std::vector<std::optional<Outcome>> outcomes_;  // of each job that was tried
+  std::atomic<bool> failed_ = false;
+  std::atomic<size_t> skipped_ = 0;
+};
 
 }  // namespace
 
 int run(const BatchCommand& config) {
-  const std::vector<BakeCommand> jobs = bakes_of(config);
+  std::vector<BakeCommand> jobs = shared_jobs(config, bakes_of(config));
+  if (config.json) {
+    for (BakeCommand& job : jobs) job.output.quiet = true;
+  }
   reject_overwriting(config, jobs);
+  check_files(config, jobs);
   std::optional<AtomicFile> report;  // created first: a bad path fails before any work
   if (!config.report.empty()) report.emplace(config.report);
-  Json done = Json::array();
-  ExitCode first = ExitCode::kOk;
-  size_t failed = 0, skipped = 0;
-  for (const BakeCommand& job : jobs) {
-    if (first != ExitCode::kOk && !config.keep_going) break;
-    if (job.output.no_clobber && name_exists(job.build.output)) {
-      ++skipped;
-      if (!job.output.quiet) std::printf("%s: already exists, skipped\n", job.build.output.c_str());
-      continue;
-    }
-    Outcome outcome;
-    try {
-      outcome = bake(job, config);
-    } catch (const Interrupted&) {
-      if (report) write_report(&*report, jobs.size(), done);
-      throw;
-    }
-    Json entry = {{"output", job.build.output}, {"exit", int(outcome.code)}};
-    if (!outcome.error.empty()) entry["error"] = outcome.error;
-    if (!outcome.report.empty()) entry["report"] = Json::parse(outcome.report);
-    done.push_back(std::move(entry));
-    failed += outcome.code != ExitCode::kOk;
-    if (first == ExitCode::kOk) first = outcome.code;
+  const auto write_report = [&](const BatchRun& batch) {
+    if (!report) return;
+    report->append(batch.report_text());
+    report->commit();
+  };
+  BatchRun batch(config, jobs);
+  try {
+    batch.run();
+  } catch (const Interrupted&) {
+    write_report(batch);
+    throw;
   }
-  if (report) write_report(&*report, jobs.size(), done);
-  if (!config.defaults.output.quiet)
-    std::printf("%zu of %zu %s, %zu failed%s\n", done.size() - failed, jobs.size(),
-                config.dry_run ? "predicted" : "baked", failed,
-                skipped > 0 ? (", " + std::to_string(skipped) + " skipped").c_str() : "");
-  return int(first);
+  write_report(batch);
+  if (config.json)
+    std::fputs(batch.report_text().c_str(), stdout);
+  else if (!config.defaults.output.quiet)
+    batch.print_summary();
+  return int(batch.first_failure());
 }
 
 }  // namespace svdag

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -212,6 +213,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   }
   if (command.output.json) std::fputs(json.c_str(), stdout);
   if (command.output.json || command.output.quiet) return json;
+  static std::mutex printing;  // bakes of a batch may run at once
+  const std::lock_guard lock(printing);
   print_summary(command, report);
   // Not in a batch: most of its bakes were not the interrupted one.
   if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)

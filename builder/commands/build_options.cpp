@@ -51,6 +51,7 @@ struct BuildOptions {
   std::optional<size_t> shard;
   std::string batch;
   bool keep_going = false;
+  size_t parallel = 1;
   bool dry_run = false;
   std::set<std::string> given;  // "--rule"
 };
@@ -127,6 +128,10 @@ void add_options(CLI::App* app, BuildOptions* options) {
       {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", options->keep_going, "Continue a batch after a bake fails");
+  app->add_option("-P,--parallel", options->parallel,
+                  "Run up to N bakes of a batch at once; they share --memory and --threads")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid and an output
@@ -147,7 +152,8 @@ void add_options(CLI::App* app, BuildOptions* options) {
   add_resume_options(app, options);
   add_cache_options(app, &options->bake.cache);
   takes_files(
-      app->add_option("--report", options->bake.report, "Write a report of the bake as JSON"),
+      app->add_option("--report", options->bake.report,
+                      "Write a report of the bake as JSON; -: to stdout, instead of the summary"),
       {".json"})
       ->type_name("FILE");
   app->add_flag("--json", options->bake.output.json,
@@ -202,17 +208,25 @@ BatchCommand batch_of(const BuildOptions& options) {
   if (!build.output.empty()) fail_usage("--batch: outputs are in the list: leave --output out");
   if (options.shard) fail_usage("--batch: a list has no shards: leave --shard out");
   if (build.part) fail_usage("--batch: parts are in the list: leave --part out");
-  if (options.bake.output.json)
-    fail_usage("--json: a batch writes its reports to the file of --report: leave --json out");
-  BatchCommand command{options.batch,      options.bake,    options.given,
-                       options.keep_going, options.dry_run, options.bake.report};
+  BatchCommand command{options.batch,   options.bake,        options.given,   options.keep_going,
+                       options.dry_run, options.bake.report, options.parallel};
   command.defaults.report.clear();
+  if (command.dry_run && options.bake.output.json)
+    fail_usage("--json: a batch predicts as text: leave --json out");
+  command.json = command.defaults.output.json;
+  command.defaults.output.json = false;
   return command;
 }
 
 Command command_of(const BuildOptions& parsed) {
   BuildOptions options = parsed;
   if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
+  if (options.bake.report == "-") {
+    options.bake.report.clear();
+    options.bake.output.json = true;
+  }
+  if (options.parallel > 1 && options.batch.empty())
+    fail_usage("--parallel: applies only to --batch");
   if (options.shard && !options.bake.build.scene.paths.empty()) return shard_of(options);
   if (options.dry_run && !options.bake.report.empty())
     fail_usage("--report: --dry-run writes no report: leave --report out");
@@ -240,8 +254,9 @@ BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeComm
   if (!options.batch.empty()) fail_usage("a list of bakes cannot hold another list");
   if (options.shard) fail_usage("a list of bakes cannot hold a shard: svdag run bakes a plan");
   if (options.dry_run) fail_usage("dry-run applies to the whole list: pass it with --batch");
+  if (options.parallel > 1) fail_usage("parallel applies to the whole list: pass it with --batch");
   if (options.keep_going) fail_usage("keep-going applies to the whole list: pass it with --batch");
-  if (options.bake.output.json)
+  if (options.bake.output.json || options.bake.report == "-")
     fail_usage("json: reports go to the file of --report: leave it out");
   if (options.checkpoint) options.bake.build.checkpoint = *options.checkpoint;
   return options.bake;

@@ -52,7 +52,9 @@ struct BatchCommand {
   std::set<std::string> given;  // options on the command line, such as "--rule"
   bool keep_going = false;      // continue after a bake that fails
   bool dry_run = false;
-  std::string report;  // path of the JSON report of all bakes; empty: none
+  std::string report;   // path of the JSON report of all bakes; empty: none
+  size_t parallel = 1;  // max number of bakes at once
+  bool json = false;    // print the report of all bakes instead of the summaries
 };
 
 // svdag build PLAN --shard I: one shard of a plan.

@@ -16,8 +16,6 @@ void check_output(const EditConfig& edit, bool no_clobber) {
     fail_usage(edit.output +
                " is also an input, which is never overwritten: choose another output");
   require_dag_name(edit.output, false);
-  if (names_run(edit.output))
-    fail_usage(edit.output + ": an edit writes a .svdag, not a run: choose another name");
   AtomicFile::check(edit.output, no_clobber);
 }
 
@@ -39,7 +37,9 @@ int run(const EditCommand& config) {
   check_output(config.edit, config.output.no_clobber);
   ParallelExecutor executor(threads_or_all(config.threads));
   const ImportReport r = edit(config.edit, &executor);
-  if (!config.output.quiet)
+  if (config.output.json)
+    std::fputs(report_json(r, config.edit.output).c_str(), stdout);
+  else if (!config.output.quiet)
     std::printf(
         "%s: %s^3, %s voxels, %s nodes, %s\n  content hash %s\n", config.edit.output.c_str(),
         format_resolution(uint64_t(r.grid.resolution())).c_str(), format_count(r.voxels).c_str(),

@@ -38,6 +38,7 @@ void add_edit(CLI::App* program, Command* command) {
       ->type_name("K");
   app->add_flag("-n,--no-clobber", config->output.no_clobber, "Never overwrite an existing output");
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
+  app->add_flag("--json", config->output.json, "Print counts and content hash as JSON");
   add_quiet(app, &config->output);
   add_examples(app, {"svdag edit city.svdag -o coarse.svdag --level 10",
                      "svdag edit city.svdag -o block.svdag --bounds=0,0,0,50,50,50",

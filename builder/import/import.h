@@ -37,6 +37,9 @@ struct ImportReport {
   int spilled = 0;           // number of scratch files of the sort
 };
 
+// The report as one JSON object; `output`: path of the file. Keys: docs/reports.md.
+std::string report_json(const ImportReport& report, const std::string& output);
+
 // Passes all voxels to the sinks and returns their placement.
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 

@@ -7,7 +7,7 @@
 // or the index of the brick. Pointers lead to the next level only.
 #pragma once
 
-#include "io/dag/format.h"
+#include "format.h"  // beside this file: the two are used alone
 
 #if defined(__CUDACC__)
 #define SVDAG_HD __host__ __device__
@@ -25,6 +25,8 @@ struct DagView {
   uint64_t word_count[kMaxSections] = {};
   const uint64_t* bricks = nullptr;  // section of level L-2
   uint64_t brick_count = 0;
+  double corner[3] = {0, 0, 0};  // world position of the corner of voxel (0, 0, 0)
+  double voxel_size = 1;         // in world units
 
   SVDAG_HD bool empty() const { return brick_count == 0; }
   SVDAG_HD uint32_t resolution() const { return 1U << levels; }
@@ -37,6 +39,15 @@ SVDAG_HD inline int popcount8(uint32_t v) {
 #else
   return __builtin_popcount(v);
 #endif
+}
+
+// The coordinate `world` of `axis` in voxels: voxel k is [k, k+1). World coordinates are those of the
+// scene after --transform, --up and --scale.
+SVDAG_HD inline double voxel_from_world(const DagView& dag, int axis, double world) {
+  return (world - dag.corner[axis]) / dag.voxel_size;
+}
+SVDAG_HD inline double world_from_voxel(const DagView& dag, int axis, double voxel) {
+  return dag.corner[axis] + voxel * dag.voxel_size;
 }
 
 // The child c (0 .. 7) of the node at word `node` of level `level`, or kNoChild.
@@ -74,6 +85,8 @@ inline DagView dag_view(const void* data) {
   const char* base = static_cast<const char*>(data);
   DagView view;
   view.levels = header.levels;
+  view.voxel_size = header.voxel_size;
+  for (int a = 0; a < 3; ++a) view.corner[a] = header.corner[a];
   for (uint32_t level = 0; level + 2 < header.levels; ++level) {
     view.words[level] = reinterpret_cast<const uint32_t*>(base + header.sections[level].offset);
     view.word_count[level] = header.sections[level].bytes / 4;

@@ -49,19 +49,43 @@ class Package(unittest.TestCase):
         run("cmake", "-G", "Ninja", "-S", READER, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
         run("cmake", "--build", build)
         self.assertEqual(run(build / "count_voxels", self.file).split(), self.counts)
+        info = json.loads(run(BUILD / "svdag", "info", "--json", self.file))
+        x, y, z = info["grid"]["corner"]
+        size, n = info["grid"]["voxel_size"], info["resolution"]
+        above = [str(x + (n / 2 + 0.5) * size), str(y + 2 * n * size), str(z + (n / 2 + 0.5) * size)]
+        ray = run(build / "cast_ray", self.file, *above, "0", "-1", "0")
+        found = re.fullmatch(r"voxel (\d+) (\d+) (\d+) at t = (\S+), point (\S+) (\S+) (\S+)\n", ray)
+        self.assertTrue(found, ray)
+        voxel = [int(v) for v in found.groups()[:3]]
+        self.assertEqual((voxel[0], voxel[2]), (n // 2, n // 2))
+        self.assertAlmostEqual(float(found.group(4)), (2 * n - voxel[1] - 1) * size, delta=1e-4 * n * size)
+        centre = " ".join(str(c + (v + 0.5) * size) for c, v in zip((x, y, z), voxel))
+        asked = subprocess.run([BUILD / "svdag", "query", self.file], input=centre, capture_output=True, text=True)
+        self.assertIn("set", asked.stdout)
+        self.assertNotIn("empty", asked.stdout)
 
     def test_the_view_needs_a_compiler_and_nothing_else(self):
         program, prefix = self.root / "mapped", self.install()
-        run("g++", "-std=c++17", "-O1", f"-I{prefix}/include/svdag", READER / "mapped.cpp", "-o", program)
+        run("g++", "-std=c++17", "-O1", f"-I{prefix}/include", READER / "mapped.cpp", "-o", program)
         self.assertEqual(run(program, self.file).split(), self.counts)
+
+    def test_view_and_format_side_by_side_need_no_include_path(self):
+        prefix, alone = self.install(), self.root / "side_by_side"
+        alone.mkdir()
+        for header in ("dag_view.h", "format.h"):
+            (alone / header).write_text((prefix / "include" / "svdag" / "io" / "dag" / header).read_text())
+        source = (READER / "mapped.cpp").read_text().replace("<svdag/io/dag/dag_view.h>", '"dag_view.h"')
+        (alone / "mapped.cpp").write_text(source)
+        run("g++", "-std=c++17", "-O1", alone / "mapped.cpp", "-o", alone / "mapped")
+        self.assertEqual(run(alone / "mapped", self.file).split(), self.counts)
 
     def test_every_header_compiles_alone(self):
         include, source = self.install() / "include" / "svdag", self.root / "alone.cpp"
-        headers = sorted(path.relative_to(include) for path in include.rglob("*.h"))
+        headers = sorted(path.relative_to(include.parent) for path in include.rglob("*.h"))
         self.assertGreater(len(headers), 30)
         for header in headers:
             source.write_text(f'#include "{header}"\n')
-            run("g++", "-std=c++20", "-fsyntax-only", f"-I{include}", source)
+            run("g++", "-std=c++20", "-fsyntax-only", f"-I{include.parent}", source)
 
     def test_find_package_without_REQUIRED_does_not_fail(self):
         source, prefix = self.root / "optional", self.install()

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "builder/commands/export/selection.h"
 #include "io/dag/dag_level.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
+#include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -82,6 +84,16 @@ void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
   }
 }
 
+std::string report_json(const ExportConfig& config, const char* format, const Grid& grid,
+                        uint64_t voxels) {
+  const nlohmann::ordered_json json = {{"output", config.output},
+                                       {"format", format},
+                                       {"level", grid.levels},
+                                       {"resolution", grid.resolution()},
+                                       {"voxels", voxels}};
+  return json_text(json, 2) + "\n";
+}
+
 }  // namespace
 
 Selection::Selection(const DagFile& dag_file, const ExportConfig& config)
@@ -108,7 +120,9 @@ int run(const ExportConfig& options) {
   AtomicFile::check(config.output, config.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
-  if (!config.quiet)
+  if (config.json)
+    std::fputs(report_json(config, row.format.name, selection.grid, voxels).c_str(), stdout);
+  else if (!config.quiet)
     std::printf("%s: %s, %s voxels of level %d (%s^3)\n", config.output.c_str(), row.format.name,
                 format_count(voxels).c_str(), selection.grid.levels,
                 format_resolution(uint64_t(selection.grid.resolution())).c_str());

@@ -25,6 +25,7 @@ struct ExportConfig {
   uint64_t memory = 0;                 // 0: half of the machine's memory
   bool no_clobber = false;             // -n: an existing output is an error
   bool quiet = false;
+  bool json = false;  // print what was written as JSON
 };
 
 // One foreign format: its name, file extension and a description for the help text.

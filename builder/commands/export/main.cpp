@@ -52,6 +52,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
       ->type_name("TYPE");
   add_memory_budget(app, &config->memory);
   add_no_clobber(app, &config->no_clobber);
+  app->add_flag("--json", config->json, "Print what was written as JSON");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,
                {"svdag export city.svdag -o city.vdb --level 10",

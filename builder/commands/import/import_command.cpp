@@ -133,9 +133,6 @@ int run(const ImportCommandConfig& config) {
   if (same_file(config.file, config.import.output))
     fail_usage(config.import.output + ": is the input; choose another name for the output");
   require_dag_name(config.import.output, false);
-  if (names_run(config.import.output))
-    fail_usage(config.import.output +
-               ": an import writes a .svdag, not a run: choose another name");
   AtomicFile::check(config.import.output, config.no_clobber);
   const File file = File::open_read(config.file);
   InputWatch inputs;
@@ -146,7 +143,9 @@ int run(const ImportCommandConfig& config) {
   const FormatRow& row = choose(config, file);
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
   const ImportReport report = inputs.guard([&] { return import_as(row, file, config, import); });
-  if (!config.quiet)
+  if (config.json)
+    std::fputs(report_json(report, config.import.output).c_str(), stdout);
+  else if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
                 config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),

@@ -24,6 +24,7 @@ struct ImportCommandConfig {
   size_t threads = 0;       // 0: all processors
   bool no_clobber = false;  // -n: an existing output is an error
   bool quiet = false;
+  bool json = false;  // print counts and content hash as JSON
 };
 
 // The names of the supported formats.

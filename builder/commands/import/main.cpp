@@ -48,6 +48,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
                       "Folder for data that does not fit in memory (default: OUT.scratch)"))
       ->type_name("DIR");
   add_no_clobber(app, &config->no_clobber);
+  app->add_flag("--json", config->json, "Print counts and content hash as JSON");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app,
                {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",

@@ -116,9 +116,9 @@ class Shown(unittest.TestCase):
 
     def test_progress_shows_time_rate_and_memory_where_they_fit(self):
         # Enough work that a phase lasts more than a second, which a rate needs.
-        command = [PROGRAMS / "svdag", "build", "city.ply", "-o", "long.svdag", "-r", "64K", "-j", "1", "-m", "1G", "-q"]
+        command = [PROGRAMS / "svdag", "build", "city.ply", "-o", "long.svdag", "-r", "32K", "-j", "1", "-m", "1G"]
         for columns in (40, 60, 80, 120, 200):
-            code, text = screen.shown(command, columns, {}, self.at)
+            code, text = screen.shown(command, columns, {}, self.at, subprocess.DEVNULL)
             self.assertEqual(code, 0, text)
             lines = [line.rstrip() for line in drawn(text)]
             self.assertLess(max(map(len, lines)), columns, text)

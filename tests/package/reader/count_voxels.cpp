@@ -1,8 +1,8 @@
 // Prints the resolution and the number of set voxels of a .svdag, counted by walking all bricks.
+#include <svdag/io/dag/dag_file.h>
+
 #include <cstdio>
 #include <exception>
-
-#include "io/dag/dag_file.h"
 
 namespace {
 

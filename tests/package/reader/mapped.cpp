@@ -1,8 +1,8 @@
 // The view alone, without any library: counts the voxels of a file, asking for every brick.
+#include <svdag/io/dag/dag_view.h>
+
 #include <cstdio>
 #include <vector>
-
-#include "io/dag/dag_view.h"
 
 int main(int argc, char** argv) {
   std::FILE* file = argc == 2 ? std::fopen(argv[1], "rb") : nullptr;

@@ -54,6 +54,16 @@ struct Ray {
   Vec3 direction;  // length 1e-100 to 1e100, the unit of t
 };
 
+// The ray of world coordinates; t is in units of the length of `direction`.
+SVDAG_HD inline Ray ray_from_world(const DagView& dag, const Vec3& origin, const Vec3& direction) {
+  Ray ray;
+  for (int a = 0; a < 3; ++a) {
+    ray.origin[a] = voxel_from_world(dag, a, origin[a]);
+    ray.direction[a] = direction[a] / dag.voxel_size;
+  }
+  return ray;
+}
+
 // The part of a ray that is traced: begin <= t < end.
 struct Span {
   double begin = 0;  // not negative
