@@ -22,3 +22,17 @@ svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 tr -d ' \n' < a.json | sed 's/"cubes_divided":\[[0-9]*/"cubes_divided":[1e24/' >c.json
 svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 svdag-verify report a.svdag a.json -o a.json 2>&1 || echo "exit $?"
+# Verdicts are shown beside the report, which may be left out; each must be about this file.
+svdag-verify mesh a.svdag a.ply --json > mesh.json
+svdag-verify trace a.svdag a.ply --rays 100 --json > trace.json
+svdag-verify check a.svdag --json > check.json
+svdag-verify report a.svdag mesh.json a.json trace.json check.json -o all.html --size 64x36
+grep -o "<p class=\"verdict good\"><b>svdag-verify [a-z]*</b>: ok; [a-z ]*" all.html
+svdag-verify report a.svdag -o bare.html --size 64x36
+grep -c "Seconds per phase" all.html bare.html
+svdag-scene city -n 6K -q -o city.ply
+svdag-verify mesh a.svdag city.ply --sample 100 --json > wrong.json || echo "exit $?"
+svdag-verify report a.svdag wrong.json -o wrong.html --size 64x36 || echo "exit $?"
+svdag-verify mesh b.svdag a.ply --json > other.json
+svdag-verify report a.svdag other.json -o x.html 2>&1 || echo "exit $?"
+svdag-verify report a.svdag a.json a.json -o x.html 2>&1 || echo "exit $?"

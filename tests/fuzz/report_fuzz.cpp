@@ -25,7 +25,7 @@ void try_report(std::string text) {
   const size_t place = text.find("HASH");
   if (place != std::string::npos) text.replace(place, 4, baked.hash);
   const std::string page =
-      report_html(text, "r.json", baked.file, baked.stats, baked.integrity, {});
+      report_html({{"r.json", text}}, baked.file, baked.stats, baked.integrity, {}).html;
   if (page.find("<q") != std::string::npos || page.find('\0') != std::string::npos) std::abort();
 }
 

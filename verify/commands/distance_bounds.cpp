@@ -10,6 +10,7 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "verify/commands/judged_scene.h"
 #include "verify/commands/mesh.h"
 #include "verify/sample/sample.h"
@@ -111,6 +112,7 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
     wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
   const nlohmann::json json = {{"command", "mesh"},
                                {"file", file.path()},
+                               {"content_hash", to_hex(file.header().content_hash)},
                                {"ok", j.ok()},
                                {"rule", rule_name(file.rule())},
                                {"judge", "openvdb"},

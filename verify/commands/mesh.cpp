@@ -7,6 +7,7 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "verify/commands/judged_scene.h"
 #include "verify/report/statistics.h"
 #include "verify/sample/sample.h"
@@ -126,6 +127,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
     wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
   nlohmann::json json = {{"command", "mesh"},
                          {"file", file.path()},
+                         {"content_hash", to_hex(file.header().content_hash)},
                          {"ok", j.ok()},
                          {"rule", rule_name(choice.rule)},
                          {"judge", name_of(choice.kind)},

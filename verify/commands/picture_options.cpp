@@ -91,11 +91,12 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
 void add_report(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<ReportConfig>();
   CLI::App* command = app->add_subcommand(
-      "report", "Make an HTML page about a bake: pictures, verdicts, levels, times");
+      "report", "Make an HTML page about a .svdag: pictures, verdicts, levels, times");
   add_file(command, &config->file);
-  takes_files(command->add_option("REPORT", config->bake, "The file of svdag build --report"),
-              {".json"})
-      ->required();
+  takes_files(command->add_option("JSON", config->inputs,
+                                  "The file of svdag build --report, and outputs of svdag-verify "
+                                  "check, mesh, trace or vdb with --json"),
+              {".json"});
   takes_files(command->add_option("-o,--output", config->output, "The page to write"), {".html"})
       ->required()
       ->type_name("R.html");
@@ -109,7 +110,8 @@ void add_report(CLI::App* app, VerifyCommand* parsed) {
       ->type_name("WxH");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
-  add_examples(command, {"svdag-verify report a.svdag a.json -o a.html"});
+  add_examples(command, {"svdag-verify report a.svdag a.json -o a.html",
+                         "svdag-verify report a.svdag a.json mesh.json trace.json -o a.html"});
   command->callback([=] { *parsed = *config; });
 }
 

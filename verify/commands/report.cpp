@@ -15,7 +15,7 @@ namespace {
 std::string read_text(const std::string& path) {
   constexpr uint64_t kMaxBytes = uint64_t(16) << 20;
   const File file = File::open_read(path);
-  if (file.size() > kMaxBytes) fail_input(path, "is too large for a report of svdag build");
+  if (file.size() > kMaxBytes) fail_input(path, "is too large for a report or a verdict");
   std::string text(file.size(), ' ');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   return text;
@@ -58,25 +58,29 @@ int run(const ReportConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.up.size() != 1 || std::string("xyz").find(config.up) == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
-  for (const std::string& input : {config.file, config.bake}) {
+  std::vector<std::string> inputs = config.inputs;
+  inputs.push_back(config.file);
+  for (const std::string& input : inputs) {
     if (same_file(input, config.output))
       fail_usage(config.output + ": is an input; choose another name for the page");
   }
   AtomicFile output(
       config.output);  // opened first, so that no work is lost if it cannot be written
   const DagFile file = DagFile::open(config.file);
-  const std::string bake = read_text(config.bake);
+  std::vector<ReportInput> json;
+  for (const std::string& path : config.inputs) json.push_back({path, read_text(path)});
   const IntegrityReport integrity = inspect(file.header(), file.view(), file.metadata());
   const DagStats stats = compute_stats(file);
-  report_html(bake, config.bake, file, stats, integrity,
-              {});  // rejects a wrong report before rendering
-  const std::string page =
-      report_html(bake, config.bake, file, stats, integrity, make_pictures(config, file));
-  output.append(page);
+  report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
+  const ReportPage page = report_html(json, file, stats, integrity, make_pictures(config, file));
+  output.append(page.html);
   output.commit();
   if (!config.common.quiet)
-    std::printf("%s: %s\n", config.output.c_str(), integrity.sound() ? "sound" : "not sound");
-  return int(integrity.sound() ? ExitCode::kOk : ExitCode::kDiffers);
+    std::printf("%s: %s\n", config.output.c_str(),
+                !integrity.sound() ? "not sound"
+                : page.ok          ? "sound"
+                                   : "sound, but a verdict is not ok");
+  return int(page.ok ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
 }  // namespace svdag

@@ -9,6 +9,7 @@
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "verify/commands/judged_scene.h"
 #include "verify/sample/sample.h"
 #include "verify/trace/judge/ray_judge.h"
@@ -216,6 +217,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const TraceJudge
                                      {"hits", r.one_side[kind]}};
   const nlohmann::json json = {{"command", "trace"},
                                {"file", file.path()},
+                               {"content_hash", to_hex(file.header().content_hash)},
                                {"ok", t.ok()},
                                {"rule", rule_name(file.rule())},
                                {"resolution", file.grid().resolution()},

@@ -9,6 +9,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
 #include "verify/compare/compare_vdb.h"
 
 namespace svdag {
@@ -20,10 +21,11 @@ nlohmann::json list(const std::vector<LatticePoint>& voxels) {
   return json;
 }
 
-void print_json(const VdbConfig& config, const VdbGrid& theirs, const Grid& grid,
-                const VdbComparison& c) {
+void print_json(const VdbConfig& config, const DagFile& file, const VdbGrid& theirs,
+                const Grid& grid, const VdbComparison& c) {
   const nlohmann::json json = {{"command", "vdb"},
                                {"file", config.file},
+                               {"content_hash", to_hex(file.header().content_hash)},
                                {"vdb", config.vdb},
                                {"grid", theirs.name()},
                                {"type", theirs.type()},
@@ -98,7 +100,7 @@ int run(const VdbConfig& config) {
   if (!config.write_diff.empty()) write_difference(config, comparison, &comparer);
   progress.finish();
   if (config.common.json) {
-    print_json(config, *theirs, grid, comparison);
+    print_json(config, file, *theirs, grid, comparison);
   } else if (!config.common.quiet) {
     print_text(*theirs, grid, fit.map, comparison);
   }

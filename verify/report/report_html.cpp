@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/dag/occupied_bounds.h"
 #include "io/json_number.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -24,15 +25,25 @@ std::string percent(double share) {
   return formatted("%.3g", 100 * share) + " %";
 }
 
+bool is_ok(const Json& verdict) {
+  return verdict.at(verdict.contains("same") ? "same" : "ok").get<bool>();
+}
+
+std::string hash_of(const DagFile& file) {
+  const Header& h = file.header();
+  return to_hex(h.content_hash);
+}
+
 // Writes the page from top to bottom: one function per section, in the order of make().
 class Page {
  public:
-  Page(const Json& bake, const DagFile& file, const DagStats& stats,
-       const IntegrityReport& integrity)
-      : bake_(bake), file_(file), stats_(stats), integrity_(integrity) {}
+  // `bake`: the report of the bake, or null.
+  Page(const Json& bake, const std::vector<Json>& verdicts, const DagFile& file,
+       const DagStats& stats, const IntegrityReport& integrity)
+      : bake_(bake), verdicts_(verdicts), file_(file), stats_(stats), integrity_(integrity) {}
 
   std::string make(const std::vector<ReportPicture>& pictures) {
-    const std::string output = bake_.at("output").get<std::string>();
+    const std::string& output = file_.path();
     const std::string name = escaped(output.substr(output.find_last_of('/') + 1));
     // The policy prevents the browser from loading anything from elsewhere.
     out_ =
@@ -42,24 +53,25 @@ class Page {
         "style-src 'unsafe-inline'\"><title>" +
         name + "</title><style>" + kReportStyle + "</style>\n<h1>" + name + "</h1>\n";
     tiles();
-    verdict();
-    warnings();
+    soundness();
+    for (const Json& verdict : verdicts_) show(verdict);
+    if (baked()) warnings();
+    if (stats_.voxels == 0) box("note", "No voxel is set.");
     show(pictures);
-    source();
-    accuracy();
+    contents();
+    if (baked()) accuracy();
     levels();
-    work();
-    skipped();
-    out_ += "<footer>Made by svdag-verify report of what svdag " +
-            escaped(bake_.at("svdag").get<std::string>()) + " baked.</footer></html>\n";
+    if (baked()) work();
+    if (baked()) skipped();
+    out_ += "<footer>Made by svdag-verify report";
+    if (baked())
+      out_ += " of what svdag " + escaped(bake_.at("svdag").get<std::string>()) + " baked";
+    out_ += ".</footer></html>\n";
     return std::move(out_);
-  }
-  std::string hash() const {
-    const Header& h = file_.header();
-    return to_hex(h.content_hash);
   }
 
  private:
+  bool baked() const { return !bake_.is_null(); }
   uint64_t count(const char* key) const { return whole_number<uint64_t>(bake_.at(key)); }
   double number(const char* key) const { return bake_.at(key).get<double>(); }
   // From the file, not from the bake's report, like all that the file contains.
@@ -68,6 +80,7 @@ class Page {
   }
   std::vector<uint64_t> divided_per_level() const {
     std::vector<uint64_t> counts;
+    if (!baked()) return counts;
     for (const Json& one : bake_.at("cubes_divided")) counts.push_back(whole_number<uint64_t>(one));
     return counts;
   }
@@ -94,16 +107,45 @@ class Page {
   void tiles() {
     out_ += "<div class=\"tiles\">\n";
     tile(format_resolution(file_.view().resolution()) + "<sup>3</sup>", "grid");
-    tile(short_count(count("triangles")), "triangles");
+    if (baked()) tile(short_count(count("triangles")), "triangles");
     tile(short_count(stats_.voxels), "voxels");
     tile(short_count(stats_.dag_nodes()), "DAG nodes");
     tile(format_bytes(file_.header().file_bytes), "file");
     tile(formatted("%.3g", bits_per_voxel()), "bits per voxel");
-    tile(formatted("%.1f s", bake_.at("seconds").at("total").get<double>()), "to bake");
+    if (baked())
+      tile(formatted("%.1f s", bake_.at("seconds").at("total").get<double>()), "to bake");
     out_ += "</div>\n";
   }
 
-  void verdict() {
+  // A verdict of svdag-verify: what was judged, and what was wrong.
+  void show(const Json& verdict) {
+    const auto command = verdict.at("command").get<std::string>();
+    const auto counted = [&](const char* key) {
+      return format_count(whole_number<uint64_t>(verdict.at(key)));
+    };
+    std::string text;
+    if (command == "mesh" && verdict.at("judge") == "openvdb")
+      text = "OpenVDB's distances at " + counted("tested") + " voxels";
+    else if (command == "mesh")
+      text = "the " + escaped(verdict.at("judge").get<std::string>()) + " judge, " +
+             counted("bricks") + " bricks of 4<sup>3</sup> voxels" +
+             (verdict.at("sampled").get<bool>() ? ", sampled" : ", all of them");
+    else if (command == "trace")
+      text = counted("rays") + " rays, " + counted("voxels") + " voxels and " + counted("points") +
+             " points of the surface: " + counted("late") + " late, " + counted("far") + " far, " +
+             counted("uncovered") + " uncovered";
+    else if (command == "vdb")
+      text = "OpenVDB grid " + escaped(verdict.at("vdb").get<std::string>()) + ", " +
+             counted("both") + " voxels of both";
+    if (command == "mesh" || command == "vdb")
+      text += ": " + counted("missing") + " missing, " + counted("extra") + " extra";
+    const bool good = is_ok(verdict);
+    box(good ? "good" : "bad", "<b>svdag-verify " + escaped(command) +
+                                   "</b>: " + (good ? "ok" : "not ok") +
+                                   (text.empty() ? "" : "; " + text) + ".");
+  }
+
+  void soundness() {
     if (integrity_.sound()) {
       box("good", "Sound: every checksum is right; the DAG is in canonical order and minimal.");
     } else {
@@ -129,7 +171,6 @@ class Page {
     if (number("quantisation_voxels") > 0.5)
       box("note", "The scene's positions are quantised in steps of " +
                       formatted("%.3g", number("quantisation_voxels")) + " voxels.");
-    if (stats_.voxels == 0) box("note", "No voxel is set.");
     if (bake_.at("resumed").get<bool>())
       box("note",
           "The bake was resumed: times, memory and skipped work are those of its last process.");
@@ -145,16 +186,20 @@ class Page {
     out_ += "</div>\n";
   }
 
-  void source() {
-    const Grid grid = file_.grid();
-    const Point corner = grid.corner();
-    begin_facts("What was baked");
+  void scene_files() {
     for (const Json& source : bake_.at("files"))
       row("scene file", escaped(source.at("name").get<std::string>()) + ", " +
                             format_bytes(whole_number<uint64_t>(source.at("bytes"))) +
                             "<br><code>" + escaped(source.at("hash").get<std::string>()) +
                             "</code>");
     row("triangles", format_count(count("triangles")));
+  }
+
+  void contents() {
+    const Grid grid = file_.grid();
+    const Point corner = grid.corner();
+    begin_facts("What was baked");
+    if (baked()) scene_files();
     row("grid",
         format_resolution(grid.resolution()) + "<sup>3</sup> voxels of " +
             format_double(grid.voxel_size) +
@@ -162,8 +207,16 @@ class Page {
     row("corner of the grid",
         format_double(corner.x) + ", " + format_double(corner.y) + ", " + format_double(corner.z));
     row("rule", rule_name(file_.rule()));
+    if (!file_.view().empty()) {
+      const Box box = world_box(grid, occupied_bounds(file_.view()));
+      const auto point = [](const Point& p) {
+        return formatted("%.6g", p.x) + ", " + formatted("%.6g", p.y) + ", " +
+               formatted("%.6g", p.z);
+      };
+      row("bounds of the voxels", point(box.min) + " to " + point(box.max));
+    }
     row("voxels", format_count(stats_.voxels));
-    row("content hash of the result", "<code>" + hash() + "</code>");
+    row("content hash of the result", "<code>" + hash_of(file_) + "</code>");
     end_table();
   }
 
@@ -195,8 +248,9 @@ class Page {
       divided.values.push_back(k < work.size() ? work[k] : 0);
       bytes.push_back({double(level.bytes), short_count(level.bytes)});
     }
-    out_ += "<h2>Levels</h2>\n<div class=\"plots\">\n" +
-            plot_lines("Nodes per level", {svo, dag, divided}) +
+    std::vector<PlotLine> lines = {svo, dag};
+    if (baked()) lines.push_back(divided);
+    out_ += "<h2>Levels</h2>\n<div class=\"plots\">\n" + plot_lines("Nodes per level", lines) +
             plot_columns("Bytes per level", bytes) + "</div>\n";
     level_table();
   }
@@ -274,31 +328,57 @@ class Page {
   }
 
   const Json& bake_;
+  const std::vector<Json>& verdicts_;
   const DagFile& file_;
   const DagStats& stats_;
   const IntegrityReport& integrity_;
   std::string out_;
 };
 
+// Parses an input that is about `file`.
+Json parse_input(const ReportInput& input, const DagFile& file) {
+  Json json = Json::parse(input.text, nullptr, false);
+  if (!json.is_object() || !json.contains("content_hash"))
+    fail_input(input.path, "is neither a report of svdag build nor a verdict of svdag-verify");
+  if (json["content_hash"] != hash_of(file))
+    fail_usage(input.path + ": is the report of another bake than " + file.path() +
+               ": their content hashes differ");
+  return json;
+}
+
 }  // namespace
 
-std::string report_html(const std::string& bake, const std::string& path, const DagFile& file,
-                        const DagStats& stats, const IntegrityReport& integrity,
-                        const std::vector<ReportPicture>& pictures) {
-  const Json json = Json::parse(bake, nullptr, false);
-  if (!json.is_object() || !json.contains("content_hash"))
-    fail_input(path, "is not a report of svdag build");
-  Page page(json, file, stats, integrity);
-  if (json["content_hash"] != page.hash())
-    fail_usage(path + ": is the report of another bake than " + file.path() +
-               ": their content hashes differ");
+ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& file,
+                       const DagStats& stats, const IntegrityReport& integrity,
+                       const std::vector<ReportPicture>& pictures) {
+  Json bake;
+  std::vector<Json> verdicts;
+  std::string path = file.path();  // of the input that is used
+  ReportPage page;
+  page.ok = integrity.sound();
   try {
-    return page.make(pictures);
+    for (const ReportInput& input : inputs) {
+      path = input.path;
+      Json json = parse_input(input, file);
+      if (json.contains("command")) {
+        page.ok = page.ok && is_ok(json);
+        verdicts.push_back(std::move(json));
+        Page(Json(), {verdicts.back()}, file, stats, integrity).make({});  // complete?
+      } else {
+        if (!bake.is_null()) fail_usage(path + ": is a second report of the bake: give one");
+        bake = std::move(json);
+        Page(bake, {}, file, stats, integrity).make({});
+      }
+    }
+    page.html = Page(bake, verdicts, file, stats, integrity).make(pictures);
   } catch (const Json::exception&) {
-    fail_input(path, "is not a report of svdag build, or of another version");
+    fail_input(
+        path, "is not a report of svdag build or a verdict of svdag-verify, or of another version");
   } catch (const Error& error) {
+    if (!error.path().empty() || error.code() == ExitCode::kUsage) throw;
     fail_input(path, error.what());
   }
+  return page;
 }
 
 }  // namespace svdag

@@ -1,5 +1,6 @@
-// Makes an HTML page about a bake: its scene, pictures, contents, resources, and whether the file
-// is sound. The page is self-contained, so it can be mailed and archived.
+// Makes an HTML page about a .svdag: pictures, contents, whether it is sound; scene and resources
+// of its bake, and verdicts of other commands, where their JSON is given. The page is
+// self-contained, so it can be mailed and archived.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +18,21 @@ struct ReportPicture {
   std::vector<std::byte> png;
 };
 
-// `bake` is the JSON that `svdag build --report` wrote for `file`, read from `path`. Error, with
-// `path`: kBadInput if it is not such a report or is incomplete, kUsage if it is that of another
-// file.
-std::string report_html(const std::string& bake, const std::string& path, const DagFile& file,
-                        const DagStats& stats, const IntegrityReport& integrity,
-                        const std::vector<ReportPicture>& pictures);
+// JSON about the file: of `svdag build --report`, or a verdict of svdag-verify --json.
+struct ReportInput {
+  std::string path;
+  std::string text;
+};
+
+struct ReportPage {
+  std::string html;
+  bool ok = false;  // the file is sound and no verdict differs
+};
+
+// Error, with the path of an input: kBadInput if it is neither a report nor a verdict or is
+// incomplete, kUsage if it is about another file, or a second report of a bake.
+ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& file,
+                       const DagStats& stats, const IntegrityReport& integrity,
+                       const std::vector<ReportPicture>& pictures);
 
 }  // namespace svdag
