@@ -49,7 +49,7 @@ int parse_resolution(std::string_view text) {
   return std::countr_zero(n);
 }
 
-Box parse_bounds(const std::string& text) {
+Box parse_bounds(const std::string& text, const char* option) {
   double v[6];
   int used = 0;
   const int n = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3],
@@ -57,7 +57,8 @@ Box parse_bounds(const std::string& text) {
   bool good = n == 6 && used == int(text.size());
   for (int a = 0; good && a < 3; ++a) good = v[a] <= v[a + 3];
   if (!good)
-    fail_usage("--bounds: \"" + text + "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
+    fail_usage(std::string(option) + ": \"" + text +
+               "\" is not x0,y0,z0,x1,y1,z1 with the minimum first");
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 

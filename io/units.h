@@ -15,7 +15,7 @@ uint64_t parse_count(std::string_view text, const char* option);
 // A resolution N = 2^L from "8" to "1M" -> L in 3 .. 20. Throws Error (kUsage).
 int parse_resolution(std::string_view text);
 // --bounds: "x0,y0,z0,x1,y1,z1", the minimum first. Throws Error (kUsage).
-Box parse_bounds(const std::string& text);
+Box parse_bounds(const std::string& text, const char* option = "--bounds");
 // --units: mm, cm, m, km, in or ft -> its length in metres. Throws Error (kUsage).
 double parse_unit(const std::string& text);
 // --voxel-size: "0.5", or "5cm" if the scene's `unit` (in metres) is known, not 0 -> the size in

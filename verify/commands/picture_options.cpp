@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
+#include "io/units.h"
 #include "verify/commands/options.h"
 
 namespace svdag {
@@ -69,6 +70,17 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
           "them)")
       ->type_name("K");
   command
+      ->add_option_function<std::string>(
+          "--clip",
+          [config](const std::string& text) { config->clip = parse_bounds(text, "--clip"); },
+          "Show only the voxels in this box; cut matter is red")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command
+      ->add_option("--slice", config->slice,
+                   "Show only the voxels from this plane on, away from the camera, for example "
+                   "z=1.5; cut matter is red")
+      ->type_name("AXIS=V");
+  command
       ->add_option("--fly", config->fly,
                    "Render N frames of a full turn, 1 to 9999, as X_0001.png, X_0002.png, ...")
       ->type_name("N");
@@ -84,7 +96,8 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
   add_common(command, &config->common, false);
   add_examples(command, {"svdag-verify render scene.svdag -o scene.png",
                          "svdag-verify render scene.svdag -o ao.png --mode ao --preset inside",
-                         "svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65"});
+                         "svdag-verify render scene.svdag -o in.png --camera=-9,2,0,8,3,0,65",
+                         "svdag-verify render scene.svdag -o plan.png --preset top --slice y=1.5"});
   command->callback([=] { *parsed = *config; });
 }
 

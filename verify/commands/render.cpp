@@ -87,6 +87,61 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 
+// The voxels in `bounds`, which must meet the grid.
+VoxelBox clipped_voxels(const Grid& grid, const Box& bounds, const char* option) {
+  const VoxelBox voxels = voxels_in(grid, bounds), whole = grid.whole();
+  const VoxelBox inside{glm::max(voxels.min, whole.min), glm::min(voxels.max, whole.max)};
+  if (inside.empty()) fail_usage(std::string(option) + ": contains no voxel of the grid");
+  return inside;
+}
+
+// Parses "z=1.5".
+std::pair<int, double> parse_plane(const std::string& text) {
+  const size_t axis = std::string("xyz").find(text.substr(0, 1));
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  bool good = text.size() > 2 && text[1] == '=' && axis < 3;
+  if (good) {
+    const auto parsed = std::from_chars(text.data() + 2, end, value);
+    good = parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value);
+  }
+  if (!good) fail_usage("--slice: \"" + text + "\" is not an axis and a position, such as z=1.5");
+  return {int(axis), value};
+}
+
+// Restricts `box` to the layer of the plane of --slice and all voxels beyond it, seen from
+// `camera`.
+void slice(const std::string& text, const Grid& grid, const Vec3& camera, VoxelBox* box) {
+  const auto [axis, value] = parse_plane(text);
+  const double layer = std::floor((value - grid.corner()[axis]) / grid.voxel_size);
+  if (!(layer >= double(box->min[axis]) && layer < double(box->max[axis])))
+    fail_usage("--slice " + text + ": the plane does not cut the voxels that are shown");
+  if (camera[axis] > layer)
+    box->max[axis] = int64_t(layer) + 1;
+  else
+    box->min[axis] = int64_t(layer);
+}
+
+ClipBox clip_box(const VoxelBox& box) {
+  ClipBox clip;
+  for (int a = 0; a < 3; ++a) {
+    clip.min[a] = uint32_t(box.min[a]);
+    clip.max[a] = uint32_t(box.max[a]);
+  }
+  return clip;
+}
+
+// The part of `box` that --clip shows, for framing.
+VoxelBounds clipped_bounds(VoxelBounds box, const VoxelBox& voxels) {
+  VoxelBounds shown = box;
+  for (int a = 0; a < 3; ++a) {
+    shown.min[a] = std::max(box.min[a], double(voxels.min[a]));
+    shown.max[a] = std::min(box.max[a], double(voxels.max[a]));
+    if (shown.min[a] >= shown.max[a]) return box;
+  }
+  return shown;
+}
+
 // The output, or with --fly that of a frame: "fly_0007.png" for "fly.png" and frame 6.
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
@@ -135,9 +190,13 @@ int run(const RenderCommandConfig& config) {
 
   const DagFile file = DagFile::open(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
-  const VoxelBounds box = framing_bounds(file.view());
+  VoxelBox shown =
+      config.clip ? clipped_voxels(file.grid(), *config.clip, "--clip") : file.grid().whole();
+  const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);
   const double aspect = double(picture.width) / picture.height;
   const Camera first = make_camera(config, file, int(up), aspect, box);
+  if (!config.slice.empty()) slice(config.slice, file.grid(), first.position, &shown);
+  if (config.clip || !config.slice.empty()) picture.clip = clip_box(shown);
   // The light does not move with the camera.
   const Light light = make_shading(mode, first, int(up), box).light;
   ParallelExecutor executor(threads_or_all(config.common.threads));

@@ -50,8 +50,34 @@ class Tile {
 
   void trace_camera_rays() {
     hits_.resize(rays_.size());
+    section_.assign(rays_.size(), false);
+    if (config_.clip) return trace_clipped_rays();
     const Span span = config_.beams ? beam_span(rays_, {}, shading_.primary, false) : Span{};
     trace_closest(dag_, tree_, rays_.data(), rays_.size(), span, shading_.primary, hits_.data());
+    make_surfels();
+  }
+
+  // One by one: the rays of a beam have different spans in the box.
+  void trace_clipped_rays() {
+    std::vector<int> entry(rays_.size(), -1);
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      hits_[i] = {};
+      const auto part = clip(*config_.clip, rays_[i], dag_.resolution(), {});
+      if (!part) continue;
+      hits_[i] = trace_closest(dag_, rays_[i], part->span, shading_.primary);
+      section_[i] = is_section(*part, hits_[i]);
+      entry[i] = part->entry;
+    }
+    make_surfels();
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      if (!section_[i] || !surfels_[i].found) continue;
+      const int a = entry[i];
+      surfels_[i].normal = {};
+      surfels_[i].normal[a] = rays_[i].direction[a] < 0 ? 1 : -1;
+    }
+  }
+
+  void make_surfels() {
     surfels_.clear();
     const bool needs_surfels =
         shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
@@ -77,11 +103,14 @@ class Tile {
         secondary_.push_back(secondary_ray(i, k, n));
     }
     Span span{0, ao ? shading_.secondary.reach : 1};
-    if (!ao && config_.beams && !secondary_.empty())
+    if (!ao && !config_.clip && config_.beams && !secondary_.empty())
       span = beam_span(secondary_, span, shading_.secondary.cut, true);
     blocked_.resize(secondary_.size());
-    trace_any(dag_, tree_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
-              blocked_.data());
+    if (config_.clip)
+      trace_clipped_secondary(span);
+    else
+      trace_any(dag_, tree_, secondary_.data(), secondary_.size(), span, shading_.secondary.cut,
+                blocked_.data());
     size_t at = 0;
     for (size_t i = 0; i < rays_.size(); ++i) {
       if (!surfels_[i].found) continue;
@@ -89,6 +118,13 @@ class Tile {
       const auto blocked = std::count(first, first + n, uint8_t(1));
       visibility_[i] = 1 - double(blocked) / n;
       at += n;
+    }
+  }
+
+  void trace_clipped_secondary(const Span& span) {
+    for (size_t i = 0; i < secondary_.size(); ++i) {
+      const auto part = clip(*config_.clip, secondary_[i], dag_.resolution(), span);
+      blocked_[i] = part && trace_any(dag_, secondary_[i], part->span, shading_.secondary.cut);
     }
   }
 
@@ -106,7 +142,9 @@ class Tile {
     for (int p = 0; p < width_ * height_; ++p) {
       Vec3 sum{};
       for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
-        sum = sum + shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i]);
+        sum =
+            sum + (section_[i] ? section_colour(shading_, surfels_[i])
+                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i]));
       const Vec3 colour = sum * (1.0 / n);
       const int x = left_ + p % width_, y = top_ + p / width_;
       shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);
@@ -123,6 +161,7 @@ class Tile {
   std::vector<Hit> hits_;
   std::vector<Surfel> surfels_;
   std::vector<uint8_t> blocked_;
+  std::vector<bool> section_;  // of each ray: hits where the clip box cuts through matter
   std::vector<double> visibility_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
+#include "verify/trace/clip.h"
 #include "verify/trace/image.h"
 #include "verify/trace/kernel/tree64_view.h"
 #include "verify/trace/shade.h"
@@ -12,8 +13,9 @@ namespace svdag {
 struct RenderConfig {
   int width = 1280;
   int height = 720;
-  int supersample = 2;  // n x n rays per pixel
-  bool beams = true;    // false: every ray starts at the camera (same picture)
+  int supersample = 2;               // n x n rays per pixel
+  bool beams = true;                 // false: every ray starts at the camera (same picture)
+  std::optional<ClipBox> clip = {};  // the voxels that are shown; none: all
 };
 
 // Upper bound of the rays of a picture that have no cut: those that a 64-tree can trace.

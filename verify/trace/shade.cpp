@@ -71,6 +71,12 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   return shading;
 }
 
+Vec3 section_colour(const Shading& shading, const Surfel& surfel) {
+  const Vec3 red{{0.62, 0.13, 0.09}};
+  const double facing = 0.85 + 0.15 * dot(surfel.normal, shading.up);
+  return red * facing;
+}
+
 Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel,
            double visibility) {
   if (shading.mode == ShadeMode::kSteps) return heat(double(hit.steps) / shading.max_steps);
