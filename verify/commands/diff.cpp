@@ -5,12 +5,15 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/dag_level.h"
+#include "io/dag/occupied_bounds.h"
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
 #include "verify/compare/diff.h"
+#include "verify/compare/diff_clusters.h"
 #include "verify/compare/difference_points.h"
 #include "verify/compare/grid_alignment.h"
 
@@ -51,13 +54,40 @@ std::vector<DifferingVoxel> first_differing(DagDiff* diff, uint64_t max) {
   return voxels;
 }
 
+// The clusters that are listed, with their boxes in the world of A.
+struct ListedClusters {
+  size_t total = 0;
+  std::vector<DiffCluster> first;
+  std::vector<Box> boxes;
+};
+
+ListedClusters list_clusters(DagDiff* diff, const Grid& a) {
+  constexpr size_t kMaxListed = 10;
+  const std::vector<DiffCluster> clusters = diff_clusters(diff);
+  const Grid grid = level_grid(a, int(diff->levels()));
+  ListedClusters listed{clusters.size(), {}, {}};
+  for (size_t i = 0; i < std::min(clusters.size(), kMaxListed); ++i) {
+    listed.first.push_back(clusters[i]);
+    listed.boxes.push_back(world_box(grid, clusters[i].box));
+  }
+  return listed;
+}
+
 void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
-                const std::vector<DifferingVoxel>& voxels) {
+                const ListedClusters& clusters, const std::vector<DifferingVoxel>& voxels) {
   nlohmann::json json = {{"command", "diff"},       {"a", config.a},
                          {"b", config.b},           {"same", counts.same()},
                          {"both", counts.both},     {"only_a", counts.only_a},
                          {"only_b", counts.only_b}, {"resolution", uint64_t(1) << diff.levels()},
                          {"pairs", counts.pairs}};
+  json["clusters"] = clusters.total;
+  json["largest_clusters"] = nlohmann::json::array();
+  for (size_t i = 0; i < clusters.first.size(); ++i) {
+    const auto& [min, max] = clusters.boxes[i];
+    json["largest_clusters"].push_back({{"only_a", clusters.first[i].only_a},
+                                        {"only_b", clusters.first[i].only_b},
+                                        {"bounds", {min.x, min.y, min.z, max.x, max.y, max.z}}});
+  }
   json["first"] = nlohmann::json::array();
   for (const DifferingVoxel& o : voxels)
     json["first"].push_back(
@@ -65,13 +95,19 @@ void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts&
   std::printf("%s\n", json_text(json).c_str());
 }
 
-void print_text(const DagDiff& diff, const DiffCounts& counts,
+void print_text(const DagDiff& diff, const DiffCounts& counts, const ListedClusters& clusters,
                 const std::vector<DifferingVoxel>& voxels) {
   std::printf("compared at %s^3, %s pairs of nodes\n",
               format_resolution(uint64_t(1) << diff.levels()).c_str(),
               format_count(counts.pairs).c_str());
   std::printf("both    %s voxels\nonly A  %s\nonly B  %s\n", format_count(counts.both).c_str(),
               format_count(counts.only_a).c_str(), format_count(counts.only_b).c_str());
+  for (size_t i = 0; i < clusters.first.size(); ++i)
+    std::printf("cluster %zu of %zu  %s voxels only A, %s only B, in %s to %s\n", i + 1,
+                clusters.total, format_count(clusters.first[i].only_a).c_str(),
+                format_count(clusters.first[i].only_b).c_str(),
+                format_point(clusters.boxes[i].min).c_str(),
+                format_point(clusters.boxes[i].max).c_str());
   for (const DifferingVoxel& o : voxels)
     std::printf("only %c  voxel (%lld, %lld, %lld)\n", o.in_a ? 'A' : 'B',
                 static_cast<long long>(o.voxel.x), static_cast<long long>(o.voxel.y),
@@ -99,12 +135,13 @@ int run(const DiffConfig& config) {
   const DiffCounts counts = diff.count();
   if (!config.write_diff.empty())
     write_difference(&diff, counts, a.grid(), config.write_diff, config.write_most);
+  const ListedClusters clusters = list_clusters(&diff, a.grid());
   const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();
   if (config.common.json) {
-    print_json(config, diff, counts, voxels);
+    print_json(config, diff, counts, clusters, voxels);
   } else if (!config.common.quiet) {
-    print_text(diff, counts, voxels);
+    print_text(diff, counts, clusters, voxels);
   }
   return int(counts.same() ? ExitCode::kOk : ExitCode::kDiffers);
 }

@@ -108,8 +108,23 @@ DagDiff::Counts DagDiff::count(uint32_t level, Pair pair) {
 }
 
 void DagDiff::visit(const DiffSink& sink) {
-  const Pair root{a_.empty() ? kNoChild : 0, b_.empty() ? kNoChild : 0};
-  visit(0, root, {0, 0, 0}, sink);
+  visit(0, root(), {0, 0, 0}, sink);
+}
+
+void DagDiff::visit_cubes(uint32_t level, const DiffCubeSink& sink) {
+  visit_cubes(0, root(), {0, 0, 0}, level, sink);
+}
+
+void DagDiff::visit_cubes(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at,
+                          uint32_t last, const DiffCubeSink& sink) {
+  const Counts counts = count(level, pair);
+  if (counts.only_a == 0 && counts.only_b == 0) return;
+  if (level == last) return sink(at, counts.only_a, counts.only_b);
+  for (unsigned c = 0; c < 8; ++c) {
+    const std::array<uint32_t, 3> corner{2 * at[0] + (c >> 2 & 1), 2 * at[1] + (c >> 1 & 1),
+                                         2 * at[2] + (c & 1)};
+    visit_cubes(level + 1, child(level, pair, c), corner, last, sink);
+  }
 }
 
 bool DagDiff::visit(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at,

@@ -30,6 +30,10 @@ struct DiffCounts {
 // Receives a brick that differs; its coordinates are in bricks.
 using DiffSink = std::function<bool(const std::array<uint32_t, 3>& brick, uint64_t a, uint64_t b)>;
 
+// Receives a cube of a level that holds differences; its coordinates are in cubes.
+using DiffCubeSink =
+    std::function<void(const std::array<uint32_t, 3>& cube, uint64_t only_a, uint64_t only_b)>;
+
 class DagDiff {
  public:
   // Both views must outlive this.
@@ -40,6 +44,8 @@ class DagDiff {
   DiffCounts count();
   // After count(): the bricks that differ, in Morton order, until the sink returns false.
   void visit(const DiffSink& sink);
+  // After count(): the cubes of `level` (0 .. levels() - 2) that hold differences, in Morton order.
+  void visit_cubes(uint32_t level, const DiffCubeSink& sink);
 
  private:
   struct Pair {
@@ -71,6 +77,9 @@ class DagDiff {
   Counts count(uint32_t level, Pair pair);
   void prefetch(uint32_t level, Pair pair) const;
   bool visit(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at, const DiffSink& sink);
+  void visit_cubes(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at, uint32_t last,
+                   const DiffCubeSink& sink);
+  Pair root() const { return {a_.empty() ? kNoChild : 0, b_.empty() ? kNoChild : 0}; }
   std::array<uint64_t, 2> bricks_of(Pair pair) const;
   Pair child(uint32_t level, Pair pair, unsigned c) const;
 
