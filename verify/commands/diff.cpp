@@ -12,10 +12,14 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
+#include "verify/commands/render.h"
 #include "verify/compare/diff.h"
 #include "verify/compare/diff_clusters.h"
 #include "verify/compare/difference_points.h"
 #include "verify/compare/grid_alignment.h"
+#include "verify/trace/difference_picture.h"
+#include "verify/trace/program/picture_name.h"
+#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {
@@ -73,6 +77,42 @@ ListedClusters list_clusters(DagDiff* diff, const Grid& a) {
   return listed;
 }
 
+// Draws both from the default view.
+void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, Progress* progress) {
+  const RenderConfig picture = parse_size(config.size);
+  const DagView &one = a.view(), &two = b.view();
+  VoxelBounds box = framing_bounds(one.empty() ? two : one);
+  for (int i = 0; i < 3 && !one.empty() && !two.empty(); ++i) {
+    const VoxelBounds other = framing_bounds(two);
+    box.min[i] = std::min(box.min[i], other.min[i]);
+    box.max[i] = std::max(box.max[i], other.max[i]);
+  }
+  constexpr int kUp = 1;
+  const Camera camera = preset_camera("iso", one, box, kUp, Camera::kDefaultFov,
+                                      double(picture.width) / picture.height);
+  const Shading shading = make_shading(ShadeMode::kPrimary, camera, kUp, box);
+  ParallelExecutor executor(threads_or_all(0));
+  write_png(render_difference(one, two, camera, shading, picture, executor, *progress),
+            config.render);
+}
+
+// The outputs are none of the inputs, have the right names, and can be written.
+void check_outputs(const DiffConfig& config) {
+  for (const std::string& output : {config.write_diff, config.render}) {
+    if (output.empty()) continue;
+    for (const std::string& input : {config.a, config.b}) {
+      if (same_file(input, output))
+        fail_usage(output + ": is an input; choose another name for the difference");
+    }
+    AtomicFile::check(output);
+  }
+  if (!config.write_diff.empty() && !config.write_diff.ends_with(".ply"))
+    fail_usage(config.write_diff + ": the difference is written as a .ply");
+  if (config.render.empty()) return;
+  reject_other_picture_format(config.render, ".png", "pictures are PNG: choose a name in .png");
+  parse_size(config.size);
+}
+
 void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
                 const ListedClusters& clusters, const std::vector<DifferingVoxel>& voxels) {
   nlohmann::json json = {{"command", "diff"},       {"a", config.a},
@@ -119,22 +159,19 @@ void print_text(const DagDiff& diff, const DiffCounts& counts, const ListedClust
 
 int run(const DiffConfig& config) {
   const Stopwatch stopwatch(config.common);
-  for (const std::string& input : {config.a, config.b}) {
-    if (same_file(input, config.write_diff))
-      fail_usage(config.write_diff + ": is an input; choose another name for the difference");
-  }
-  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
-  if (!config.write_diff.empty() && !config.write_diff.ends_with(".ply"))
-    fail_usage(config.write_diff + ": the difference is written as a .ply");
+  check_outputs(config);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);
   if (!config.by_index) require_same_place(a, b);
+  if (!config.render.empty() && a.view().levels != b.view().levels)
+    fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");
   progress.phase("compare", 0);
   DagDiff diff(a.view(), b.view());
   const DiffCounts counts = diff.count();
   if (!config.write_diff.empty())
     write_difference(&diff, counts, a.grid(), config.write_diff, config.write_most);
+  if (!config.render.empty()) render_both(config, a, b, &progress);
   const ListedClusters clusters = list_clusters(&diff, a.grid());
   const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();

@@ -8,9 +8,11 @@ namespace svdag {
 struct DiffConfig {
   CommonConfig common;
   std::string a, b;
-  uint64_t show = 10;      // differing voxels to list
-  bool by_index = false;   // compare by voxel index, ignoring positions
-  std::string write_diff;  // output: a PLY of the centres of differing voxels; empty: none
+  uint64_t show = 10;             // differing voxels to list
+  bool by_index = false;          // compare by voxel index, ignoring positions
+  std::string write_diff;         // output: a PLY of the centres of differing voxels; empty: none
+  std::string render;             // output: a PNG; empty: none
+  std::string size = "1280x720";  // of the PNG
   uint64_t write_most = 10'000'000;  // limit of its points
 };
 

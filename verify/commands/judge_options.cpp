@@ -64,8 +64,17 @@ void add_diff(CLI::App* app, VerifyCommand* parsed) {
       ->type_name("X.ply");
   add_count(command, "--write-most", &config->write_most,
             "Refuse to write more points than this (default 10M)");
+  takes_files(command->add_option("--render", config->render,
+                                  "Draw both: voxels of both grey, of only A red, of only B blue"),
+              {".png"})
+      ->type_name("X.png");
+  command
+      ->add_option("--size", config->size,
+                   "Pixels of --render, 1 to 16384 each way (default 1280x720)")
+      ->type_name("WxH");
   add_common(command, &config->common, true);
-  add_examples(command, {"svdag-verify diff old.svdag new.svdag"});
+  add_examples(command, {"svdag-verify diff old.svdag new.svdag",
+                         "svdag-verify diff old.svdag new.svdag --render changes.png"});
   command->callback([=] { *parsed = *config; });
 }
 
@@ -91,10 +100,10 @@ void add_vdb(CLI::App* app, VerifyCommand* parsed) {
   takes_whole_number(command->add_option("--show", config->show,
                                          "Differing voxels to list of each kind (default 10)"))
       ->type_name("N");
-  takes_files(command->add_option(
-                  "--write-diff", config->write_diff,
-                  "Write two mask grids, missing and extra, with the position and axes of GRID"),
-              {".vdb"})
+  takes_files(
+      command->add_option("--write-diff", config->write_diff,
+                          "Write two grids, missing and extra, with the position and axes of GRID"),
+      {".vdb"})
       ->type_name("X.vdb");
   add_count(command, "--write-most", &config->write_most,
             "Refuse to write more extra voxels than this (default 10M)");

@@ -28,8 +28,8 @@ struct RenderCommandConfig {
   std::optional<double> cone;  // half the angle of the rays' cones, in degrees; 0: exact; none: 9
                                // for ao, 0 for soft
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
-  std::optional<Box> clip;     // only voxels in this box are shown, in scene units
-  std::string slice;           // "z=1.5": only voxels behind this plane, and the layer in it
+  std::optional<Box> clip;        // only voxels in this box are shown, in scene units
+  std::string slice;              // "z=1.5": only voxels behind this plane, and the layer in it
   std::optional<int> fly;         // number of frames of a full turn; none: one picture
 };
 
