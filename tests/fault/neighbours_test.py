@@ -26,8 +26,8 @@ class Neighbour:
     def __init__(self, folder, number):
         self.folder, self.output = folder, f"{number}.svdag"
         self.command = [bakes.BUILD / "svdag", "build", "scene.ply", "-s", str(0.004 + 0.0001 * number), *OPTIONS, "-o"]
-        subprocess.run([*self.command, "expected"], cwd=folder, check=True)
-        (folder / "expected").rename(folder / f"{number}.expected")
+        subprocess.run([*self.command, "expected.svdag"], cwd=folder, check=True)
+        (folder / "expected.svdag").rename(folder / f"{number}.expected")
         self.expected = (folder / f"{number}.expected").read_bytes()
 
     def begin(self):
