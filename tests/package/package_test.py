@@ -60,9 +60,9 @@ class Package(unittest.TestCase):
         self.assertEqual((voxel[0], voxel[2]), (n // 2, n // 2))
         self.assertAlmostEqual(float(found.group(4)), (2 * n - voxel[1] - 1) * size, delta=1e-4 * n * size)
         centre = " ".join(str(c + (v + 0.5) * size) for c, v in zip((x, y, z), voxel))
-        asked = subprocess.run([BUILD / "svdag", "query", self.file], input=centre, capture_output=True, text=True)
-        self.assertIn("set", asked.stdout)
-        self.assertNotIn("empty", asked.stdout)
+        queried = subprocess.run([BUILD / "svdag", "query", self.file], input=centre, capture_output=True, text=True)
+        self.assertIn("set", queried.stdout)
+        self.assertNotIn("empty", queried.stdout)
 
     def test_the_view_needs_a_compiler_and_nothing_else(self):
         program, prefix = self.root / "mapped", self.install()
