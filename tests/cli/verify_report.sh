@@ -24,9 +24,8 @@ svdag-verify report a.svdag c.json -o x.html 2>&1 || echo "exit $?"
 svdag-verify report a.svdag a.json -o a.json 2>&1 || echo "exit $?"
 # Verdicts are shown beside the report, which may be left out; each must be about this file.
 svdag-verify mesh a.svdag a.ply --json > mesh.json
-svdag-verify trace a.svdag a.ply --rays 100 --json > trace.json
 svdag-verify check a.svdag --json > check.json
-svdag-verify report a.svdag mesh.json a.json trace.json check.json -o all.html --size 64x36
+svdag-verify report a.svdag mesh.json a.json check.json -o all.html --size 64x36
 grep -o "<p class=\"verdict good\"><b>svdag-verify [a-z]*</b>: ok; [a-z ]*" all.html
 svdag-verify report a.svdag -o bare.html --size 64x36
 grep -c "Seconds per phase" all.html bare.html
