@@ -203,8 +203,14 @@ class BatchRun {
 
   // Bakes all jobs. Throws Interrupted; report_text() then has the finished ones.
   void run() {
-    ParallelExecutor workers(std::min(batch_.parallel, std::max<size_t>(1, jobs_.size())));
-    workers.for_each(jobs_.size(), [this](size_t, size_t i) { run_job(i); });
+    // One by one, predictions are not mixed.
+    ParallelExecutor workers(batch_.dry_run ? 1 : batch_.parallel);
+    try {
+      workers.for_each(jobs_.size(), [this](size_t, size_t i) { run_job(i); });
+    } catch (Interrupted& interrupted) {
+      interrupted.resumable = resumable_;
+      throw;
+    }
   }
 
   ExitCode first_failure() const {
@@ -246,7 +252,13 @@ class BatchRun {
       if (!job.output.quiet) std::printf("%s: already exists, skipped\n", job.build.output.c_str());
       return;
     }
-    Outcome outcome = bake(job, batch_);
+    Outcome outcome;
+    try {
+      outcome = bake(job, batch_);
+    } catch (const Interrupted& interrupted) {
+      if (interrupted.resumable) resumable_ = true;
+      throw;
+    }
     if (outcome.code != ExitCode::kOk) failed_ = true;
     outcomes_[i] = std::move(outcome);
   }
@@ -255,6 +267,7 @@ class BatchRun {
   const std::vector<BakeCommand>& jobs_;
   std::vector<std::optional<Outcome>> outcomes_;  // of each job that was tried
   std::atomic<bool> failed_ = false;
+  std::atomic<bool> resumable_ = false;  // an interrupted bake saved work
   std::atomic<size_t> skipped_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "io/help/command_line.h"
 #include "io/suggest.h"
 #include "io/units.h"
+#include "streaming/counts.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -128,10 +129,11 @@ void add_options(CLI::App* app, BuildOptions* options) {
       {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", options->keep_going, "Continue a batch after a bake fails");
-  app->add_option("-P,--parallel", options->parallel,
-                  "Run up to N bakes of a batch at once; they share --memory and --threads")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+  from_to(
+      app->add_option("-P,--parallel", options->parallel,
+                      "Run up to N bakes of a batch at once; they share --memory and --threads"),
+      1, kMaxThreads)
+      ->type_name("N");
   app->add_option_function<size_t>(
          "--shard",
          [=](size_t shard) {  // the plan has a grid and an output

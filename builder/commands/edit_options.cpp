@@ -36,7 +36,7 @@ void add_edit(CLI::App* program, Command* command) {
   app->add_option("--level", edit->level,
                   "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
       ->type_name("K");
-  app->add_flag("-n,--no-clobber", config->output.no_clobber, "Never overwrite an existing output");
+  add_no_clobber(app, &config->output.no_clobber);
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
   app->add_flag("--json", config->output.json, "Print counts and content hash as JSON");
   add_quiet(app, &config->output);

@@ -41,13 +41,10 @@ SVDAG_HD inline int popcount8(uint32_t v) {
 #endif
 }
 
-// The coordinate `world` of `axis` in voxels: voxel k is [k, k+1). World coordinates are those of the
-// scene after --transform, --up and --scale.
+// The coordinate `world` of `axis` in voxels: voxel k is [k, k+1). World coordinates are those of
+// the scene after --transform, --up and --scale.
 SVDAG_HD inline double voxel_from_world(const DagView& dag, int axis, double world) {
   return (world - dag.corner[axis]) / dag.voxel_size;
-}
-SVDAG_HD inline double world_from_voxel(const DagView& dag, int axis, double voxel) {
-  return dag.corner[axis] + voxel * dag.voxel_size;
 }
 
 // The child c (0 .. 7) of the node at word `node` of level `level`, or kNoChild.

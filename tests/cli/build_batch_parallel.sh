@@ -17,3 +17,7 @@ echo '[{"scene": "a.ply", "output": "c.svdag", "resolution": "64"}, {"scene": "b
 svdag build --batch bad.json -P 2 2>&1 || echo "exit $?"
 ls *.svdag
 svdag build a.ply -o x.svdag -r 64 -P 2 2>&1 || echo "exit $?"
+# They may share a cache.
+svdag build --batch list.json -P 3 -q --cache cells
+for file in at_once/*.svdag; do cmp $file ${file#at_once/}; done
+svdag build --batch list.json -q --cache cells --json | python3 -c 'import json, sys; r = json.load(sys.stdin); print(all(d["report"]["cache_hits"] == d["report"]["cells"] for d in r["done"]))'

@@ -35,3 +35,7 @@ svdag-verify report a.svdag wrong.json -o wrong.html --size 64x36 || echo "exit 
 svdag-verify mesh b.svdag a.ply --json > other.json
 svdag-verify report a.svdag other.json -o x.html 2>&1 || echo "exit $?"
 svdag-verify report a.svdag a.json a.json -o x.html 2>&1 || echo "exit $?"
+sed 's/"mesh"/"bless"/' mesh.json > unknown.json
+svdag-verify report a.svdag unknown.json -o x.html 2>&1 || echo "exit $?"
+cut -c 1-100 mesh.json > cut.json
+svdag-verify report a.svdag cut.json -o x.html 2>&1 || echo "exit $?"

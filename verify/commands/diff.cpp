@@ -82,8 +82,8 @@ void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, P
   const RenderConfig picture = parse_size(config.size);
   const DagView &one = a.view(), &two = b.view();
   VoxelBounds box = framing_bounds(one.empty() ? two : one);
-  for (int i = 0; i < 3 && !one.empty() && !two.empty(); ++i) {
-    const VoxelBounds other = framing_bounds(two);
+  const VoxelBounds other = framing_bounds(two.empty() ? one : two);
+  for (int i = 0; i < 3; ++i) {
     box.min[i] = std::min(box.min[i], other.min[i]);
     box.max[i] = std::max(box.max[i], other.max[i]);
   }
@@ -166,6 +166,8 @@ int run(const DiffConfig& config) {
   if (!config.by_index) require_same_place(a, b);
   if (!config.render.empty() && a.view().levels != b.view().levels)
     fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");
+  if (!config.render.empty() && a.view().empty() && b.view().empty())
+    fail_usage("--render: neither file has a voxel");
   progress.phase("compare", 0);
   DagDiff diff(a.view(), b.view());
   const DiffCounts counts = diff.count();

@@ -28,10 +28,9 @@ ShadeMode parse_mode(const std::string& mode) {
 }
 
 // Converts the point (c[0], c[1], c[2]) from scene units to voxels.
-Vec3 in_voxels(const double* c, const Grid& grid) {
-  const Point corner = grid.corner();
+Vec3 in_voxels(const double* c, const DagView& dag) {
   Vec3 point;
-  for (int a = 0; a < 3; ++a) point[a] = (c[a] - corner[a]) / grid.voxel_size;
+  for (int a = 0; a < 3; ++a) point[a] = voxel_from_world(dag, a, c[a]);
   return point;
 }
 
@@ -46,8 +45,8 @@ Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int u
   const double fov = c.size() == 7 ? c[6] : Camera::kDefaultFov;
   if (!(fov >= 0.1 && fov <= 179))
     fail_usage("--camera: the angle of view is not 0.1 to 179 degrees");
-  const Grid grid = file.grid();
-  const Vec3 position = in_voxels(c.data(), grid), target = in_voxels(c.data() + 3, grid);
+  const Vec3 position = in_voxels(c.data(), file.view()),
+             target = in_voxels(c.data() + 3, file.view());
   const Vec3 d = target - position;
   if (!(dot(d, d) > 0 && dot(d, d) < 1e300))
     fail_usage("--camera: position and target must be two different, finite points");
@@ -55,15 +54,15 @@ Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int u
 }
 
 // Applies --light, --samples, --reach, --cone and --level.
-void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& camera,
+void apply(const RenderCommandConfig& config, const DagView& dag, const Camera& camera,
            const VoxelBounds& box, int height, Shading* shading) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  shading->levels = uint32_t(grid.levels);
+  shading->levels = dag.levels;
   if (!config.light.empty()) {
     if (config.light.size() != 3 && config.light.size() != 4)
       fail_usage("--light: give x,y,z or x,y,z,radius");
-    shading->light = {in_voxels(config.light.data(), grid),
-                      config.light.size() == 4 ? config.light[3] / grid.voxel_size : 0};
+    shading->light = {in_voxels(config.light.data(), dag),
+                      config.light.size() == 4 ? config.light[3] / dag.voxel_size : 0};
     const double far = length(shading->light.centre);
     if (!(far < 1e100) || !(shading->light.radius >= 0 && shading->light.radius < 1e100))
       fail_usage("--light: the position must be finite, the radius 0 or more");
@@ -74,25 +73,24 @@ void apply(const RenderCommandConfig& config, const Grid& grid, const Camera& ca
   const double cone = config.cone.value_or(ao ? 9 : 0);
   if (!(cone >= 0 && cone < 45)) fail_usage("--cone: give 0 degrees or more, and less than 45");
   if (!(config.reach >= 0)) fail_usage("--reach: give a length of 0 or more");
-  const uint64_t level = config.level.value_or(uint64_t(grid.levels));
-  if (level == 0 || level > uint64_t(grid.levels))
-    fail_usage("--level: " + config.file + " has levels 1 to " + std::to_string(grid.levels) +
+  const uint64_t level = config.level.value_or(uint64_t(dag.levels));
+  if (level == 0 || level > uint64_t(dag.levels))
+    fail_usage("--level: " + config.file + " has levels 1 to " + std::to_string(dag.levels) +
                " to trace");
   shading->secondary.samples = uint32_t(config.samples);
   shading->secondary.reach =
-      config.reach > 0 ? config.reach / grid.voxel_size : 0.05 * length(box.max - box.min);
+      config.reach > 0 ? config.reach / dag.voxel_size : 0.05 * length(box.max - box.min);
   if (ao || shading->mode == ShadeMode::kSoft)
     shading->secondary.cut.spread = 2 * std::tan(cone * kDegree);
   if (config.level) shading->primary.level = shading->secondary.cut.level = uint32_t(level);
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
 }
 
-// The voxels in `bounds`, which must meet the grid.
-VoxelBox clipped_voxels(const Grid& grid, const Box& bounds, const char* option) {
-  const VoxelBox voxels = voxels_in(grid, bounds), whole = grid.whole();
-  const VoxelBox inside{glm::max(voxels.min, whole.min), glm::min(voxels.max, whole.max)};
-  if (inside.empty()) fail_usage(std::string(option) + ": contains no voxel of the grid");
-  return inside;
+// The voxels that --clip shows.
+VoxelBox clipped_voxels(const Grid& grid, const Box& bounds) {
+  const VoxelBox voxels = select_bounds(grid, bounds).selection;
+  if (voxels.empty()) fail_usage("--clip: contains no voxel of the grid");
+  return voxels;
 }
 
 // Parses "z=1.5".
@@ -111,9 +109,9 @@ std::pair<int, double> parse_plane(const std::string& text) {
 
 // Restricts `box` to the layer of the plane of --slice and all voxels beyond it, seen from
 // `camera`.
-void slice(const std::string& text, const Grid& grid, const Vec3& camera, VoxelBox* box) {
+void slice(const std::string& text, const DagView& dag, const Vec3& camera, VoxelBox* box) {
   const auto [axis, value] = parse_plane(text);
-  const double layer = std::floor((value - grid.corner()[axis]) / grid.voxel_size);
+  const double layer = std::floor(voxel_from_world(dag, axis, value));
   if (!(layer >= double(box->min[axis]) && layer < double(box->max[axis])))
     fail_usage("--slice " + text + ": the plane does not cut the voxels that are shown");
   if (camera[axis] > layer)
@@ -190,12 +188,11 @@ int run(const RenderCommandConfig& config) {
 
   const DagFile file = DagFile::open(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
-  VoxelBox shown =
-      config.clip ? clipped_voxels(file.grid(), *config.clip, "--clip") : file.grid().whole();
+  VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
   const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);
   const double aspect = double(picture.width) / picture.height;
   const Camera first = make_camera(config, file, int(up), aspect, box);
-  if (!config.slice.empty()) slice(config.slice, file.grid(), first.position, &shown);
+  if (!config.slice.empty()) slice(config.slice, file.view(), first.position, &shown);
   if (config.clip || !config.slice.empty()) picture.clip = clip_box(shown);
   // The light does not move with the camera.
   const Light light = make_shading(mode, first, int(up), box).light;
@@ -206,7 +203,7 @@ int run(const RenderCommandConfig& config) {
     const Camera camera = config.fly ? turned(first, box, int(up), frame, frames) : first;
     Shading shading = make_shading(mode, camera, int(up), box);
     shading.light = light;
-    apply(config, file.grid(), camera, box, picture.height, &shading);
+    apply(config, file.view(), camera, box, picture.height, &shading);
     if (frame == 0 && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
       tree = tree_if_it_pays(
           file.view(),

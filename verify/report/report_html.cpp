@@ -137,6 +137,8 @@ class Page {
     else if (command == "vdb")
       text = "OpenVDB grid " + escaped(verdict.at("vdb").get<std::string>()) + ", " +
              counted("both") + " voxels of both";
+    else if (command != "check")
+      throw Error(ExitCode::kBadInput, "is a verdict of an unknown command");
     if (command == "mesh" || command == "vdb")
       text += ": " + counted("missing") + " missing, " + counted("extra") + " extra";
     const bool good = is_ok(verdict);

@@ -65,7 +65,7 @@ class Tile {
       const auto part = clip(*config_.clip, rays_[i], dag_.resolution(), {});
       if (!part) continue;
       hits_[i] = trace_closest(dag_, rays_[i], part->span, shading_.primary);
-      section_[i] = is_section(*part, hits_[i]);
+      section_[i] = shading_.linear() && is_section(*part, hits_[i]);
       entry[i] = part->entry;
     }
     make_surfels();

@@ -33,8 +33,7 @@ struct Shading {
 // The distances of `box`, and a light over the left shoulder of the camera.
 Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBounds& box);
 
-// The colour of a section: the same in every mode that shows light, so that cut matter is seen at
-// once.
+// The colour of a section in pictures of light. Pictures of data show data there, too.
 Vec3 section_colour(const Shading& shading, const Surfel& surfel);
 
 // `visibility`: the part of the light, or of the sky, that is visible from the surface (0 .. 1).
