@@ -64,7 +64,10 @@ struct SceneFile {
 };
 
 struct BuildReport {
-  std::vector<SceneFile> files;  // if BuildConfig::hash_files is set
+  // If BuildConfig::hash_files is set.
+  std::vector<SceneFile> files;
+  std::string description_hash;  // of all that determines the bytes; 32 hex digits
+  std::optional<Box> scene_bounds;  // unless --bounds or --cube replaces them
   Grid grid;
   int cell_level = 0;
   Rule rule = Rule::kConservative;

@@ -20,6 +20,7 @@ svdag build city.ply -o city.svdag -r 64 --report report.json
 svdag build city.ply -o thin.svdag -r 64 --rule thin
 svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
+svdag build --batch list.json --keep-going --report list.report.json
 svdag build --batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]

@@ -57,15 +57,16 @@ class PhaseMeter {
 struct ChosenGrid {
   Grid grid;
   uint64_t triangles = 0;  // in the bake; 0: unknown
+  std::optional<Box> scene_bounds = {};
 };
 
 ChosenGrid read_grid(const BuildConfig& config, const Scene& scene,
                      const std::optional<SavedBake>& saved) {
   if (saved) return {saved->grid};
   if (config.ready != nullptr) return {config.ready->grid};
-  SceneCounts counts;
-  const Grid grid = choose_grid(config, scene, &counts);
-  return {grid, config.part ? 0 : counts.triangles};
+  SceneExtent extent;
+  const Grid grid = choose_grid(config, scene, &extent);
+  return {grid, config.part ? 0 : extent.counts.triangles, extent.bounds};
 }
 
 SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const GridPart& part) {
@@ -176,6 +177,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   phases.begin("read bounds", kBoundsShare);
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
+  report.scene_bounds = chosen.scene_bounds;
   disk_need->expect_triangles(chosen.triangles, workspace->shares().triangles);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
@@ -199,12 +201,16 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report.cell_level = splitting.cell_level;
   meter.end_phase(&report.seconds.split, &report.phase_peaks.split);
   // Hashed at once: the files must not change until then.
-  if (config.hash_files) report.files = description->files();
+  if (config.hash_files) {
+    report.files = description->files();
+    report.description_hash = hash_of_description(description->text());
+  }
 
   meter.skip();
   phases.begin("voxelize", kVoxelizeShare);
   const MortonSet done = finished_ranges(part, saved);
-  RunCollector runs(grid, workspace, checkpoint, description, disk_need, store.get(), progress);
+  RunCollector runs(grid, workspace, checkpoint, description, disk_need, config.output, store.get(),
+                    progress);
   if (saved) {
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }

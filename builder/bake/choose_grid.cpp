@@ -8,14 +8,15 @@ namespace svdag {
 
 namespace {
 
-Grid place_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
+Grid place_grid(const BuildConfig& config, const Scene& scene, SceneExtent* extent) {
   if (config.cube && config.voxel_size != 0)
     fail_usage("--cube: the cube is divided by --resolution: give -r instead of -s");
   if (config.cube) {
     const Grid grid = divide_cube(*config.cube, config.levels);
     return config.bounds ? select_bounds(grid, *config.bounds) : grid;
   }
-  const Box target = config.bounds ? *config.bounds : scene.bounds(counts);
+  if (!config.bounds) extent->bounds = scene.bounds(&extent->counts);
+  const Box target = config.bounds ? *config.bounds : *extent->bounds;
   const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size)
                                            : divide_box(target, config.levels);
   return config.bounds ? select_bounds(grid, *config.bounds) : grid;
@@ -23,8 +24,9 @@ Grid place_grid(const BuildConfig& config, const Scene& scene, SceneCounts* coun
 
 }  // namespace
 
-Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts) {
-  Grid grid = place_grid(config, scene, counts);
+Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneExtent* extent) {
+  SceneExtent unused;
+  Grid grid = place_grid(config, scene, extent != nullptr ? extent : &unused);
   grid.transform = config.scene.to_world();
   return grid;
 }

@@ -1,13 +1,21 @@
 // What a configuration leaves open: the grid and its cells.
 #pragma once
 
+#include <optional>
+
 #include "builder/build.h"
 
 namespace svdag {
 
-// The grid of `config`. Reads the scene's bounds, and its counts into `counts` if given, unless
-// --bounds or --cube replaces them. Error (kUsage) if the options contradict each other.
-Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneCounts* counts = nullptr);
+// What a pass over the scene finds.
+struct SceneExtent {
+  SceneCounts counts;
+  std::optional<Box> bounds;
+};
+
+// The grid of `config`. Reads the scene's extent, into `extent` if given, unless --bounds or --cube
+// replaces it. Error (kUsage) if the options contradict each other.
+Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneExtent* extent = nullptr);
 
 // The octree level of the cells of `grid`, in so much memory.
 int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory);

@@ -96,6 +96,12 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   return out.str();
 }
 
+std::string hash_of_description(const std::string& description) {
+  Hasher128 hasher;
+  hasher.update(std::as_bytes(std::span(description)));
+  return to_hex(hasher.digest());
+}
+
 bool describes(const std::string& description, Rule rule, const Grid& grid) {
   const bool box = grid.kind == Grid::Kind::kBox;
   return description.find('\n' + rule_and_size(rule, grid.levels, box ? 0 : grid.voxel_size)) !=

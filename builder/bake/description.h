@@ -18,6 +18,9 @@ std::vector<SceneFile> scene_files(const Scene& scene);
 // `files`: of the scene; not needed if config.ready is set, since the plan describes them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
+// 32 hex digits. Bakes whose descriptions have the same hash give the same bytes.
+std::string hash_of_description(const std::string& description);
+
 // Whether `description`, without a part, is of a bake with this rule and a grid of this size.
 bool describes(const std::string& description, Rule rule, const Grid& grid);
 

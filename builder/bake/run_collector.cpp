@@ -6,6 +6,28 @@
 #include "builder/bake/phase_shares.h"
 
 namespace svdag {
+namespace {
+
+constexpr uint64_t kMinNodeBytes = 8;  // in a .svdag: a brick, or a node with one child
+
+template <class Key>
+uint64_t count_of(const RunLevel<Key>& level) {
+  return level.spilled ? level.spilled->bytes / sizeof(Key) : level.keys.size();
+}
+
+// The file of any scene that contains this run has all its nodes.
+uint64_t min_output_bytes(const Run& run) {
+  uint64_t keys = count_of(run.bricks);
+  for (const auto& level : run.nodes) keys += count_of(level);
+  return keys * kMinNodeBytes;
+}
+
+}  // namespace
+
+void RunCollector::add(BakedRun baked) {
+  disk_need_->expect_output(output_, min_output_bytes(baked.run));
+  set_.add(std::move(baked));
+}
 
 void RunCollector::save(BakedRun baked) {
   if (store_ != nullptr) store_->keep(baked, workspace_->scratch()->runs());
@@ -14,7 +36,7 @@ void RunCollector::save(BakedRun baked) {
     if (const auto text = description_->text_if_unchanged()) checkpoint_->begin(*text, grid_);
   }
   if (checkpoint_->begun()) checkpoint_->save_run(baked);
-  set_.add(std::move(baked));
+  add(std::move(baked));
   const auto [begin, end] = kVoxelizeShare;
   const double share = std::clamp((progress_->share() - begin) / (end - begin), 0.0, 1.0);
   disk_need_->expect_runs(set_.spilled_bytes, share);
@@ -23,7 +45,7 @@ void RunCollector::save(BakedRun baked) {
 void RunCollector::add_last(BakedRun baked) {
   if (set_.spilled) return save(std::move(baked));
   if (store_ != nullptr) store_->keep(baked, nullptr);
-  set_.add(std::move(baked));
+  add(std::move(baked));
 }
 
 void RunCollector::take_from_store() {

@@ -17,17 +17,19 @@ class RunCollector {
  public:
   // All must outlive the collector; `store` may be null.
   RunCollector(const Grid& grid, Workspace* workspace, Checkpoint* checkpoint,
-               Description* description, DiskNeed* disk_need, CellStore* store, Progress* progress)
+               Description* description, DiskNeed* disk_need, const std::string& output,
+               CellStore* store, Progress* progress)
       : grid_(grid),
         workspace_(workspace),
         checkpoint_(checkpoint),
         description_(description),
         disk_need_(disk_need),
+        output_(output),
         store_(store),
         progress_(progress) {}
 
   // Adds a run of an earlier process.
-  void restore(BakedRun baked) { set_.add(std::move(baked)); }
+  void restore(BakedRun baked) { add(std::move(baked)); }
   // Adds a spilled run, saved for --resume as long as the scene is unchanged. From any thread.
   void save(BakedRun baked);
   // Adds what was left in a table at the end. It is saved if others were, so that a bake killed in
@@ -40,11 +42,14 @@ class RunCollector {
   RunSet take_set() { return std::move(set_); }
 
  private:
+  void add(BakedRun baked);
+
   const Grid& grid_;
   Workspace* workspace_;
   Checkpoint* checkpoint_;
   Description* description_;
   DiskNeed* disk_need_;
+  const std::string& output_;  // path
   CellStore* store_;
   Progress* progress_;
   std::mutex mutex_;

@@ -4,13 +4,15 @@
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene", one or more paths. Each object becomes a command line; all are parsed before the first
 // bake. Options given with --batch are defaults for every bake in the list; options that
-// cannot apply to several bakes are rejected.
+// cannot apply to several bakes are rejected. Bakes that the previous --report shows to be up to
+// date are skipped.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "builder/commands/batch_record.h"
 #include "builder/commands/command_files.h"
 #include "builder/commands/options.h"
 #include "builder/run/bake_output.h"
@@ -135,6 +137,7 @@ struct Outcome {
   ExitCode code = ExitCode::kOk;
   std::string error;
   std::string report;
+  bool up_to_date = false;
 };
 
 Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
@@ -195,11 +198,21 @@ std::vector<BakeCommand> shared_jobs(const BatchCommand& batch, std::vector<Bake
   return jobs;
 }
 
-// The bakes of a batch that were tried, in the order of the list.
+// The bakes of a batch that were tried or up to date, in the order of the list.
 class BatchRun {
  public:
   BatchRun(const BatchCommand& batch, const std::vector<BakeCommand>& jobs)
       : batch_(batch), jobs_(jobs), outcomes_(jobs.size()) {}
+
+  // Looks for bakes that need not run. Before the first bake, so that a stopped run loses none.
+  void find_up_to_date(const BatchRecord& record) {
+    for (size_t i = 0; i < jobs_.size(); ++i) {
+      const std::optional<std::string> report = record.report_if_up_to_date(jobs_[i]);
+      if (!report) continue;
+      outcomes_[i] = Outcome{ExitCode::kOk, "", *report, true};
+      if (!jobs_[i].output.quiet) std::printf("%s: up to date\n", jobs_[i].build.output.c_str());
+    }
+  }
 
   // Bakes all jobs. Throws Interrupted; report_text() then has the finished ones.
   void run() {
@@ -225,6 +238,7 @@ class BatchRun {
     for (size_t i = 0; i < jobs_.size(); ++i) {
       if (!outcomes_[i]) continue;
       Json entry = {{"output", jobs_[i].build.output}, {"exit", int(outcomes_[i]->code)}};
+      if (outcomes_[i]->up_to_date) entry["up_to_date"] = true;
       if (!outcomes_[i]->error.empty()) entry["error"] = outcomes_[i]->error;
       if (!outcomes_[i]->report.empty()) entry["report"] = Json::parse(outcomes_[i]->report);
       done.push_back(std::move(entry));
@@ -234,18 +248,22 @@ class BatchRun {
   }
 
   void print_summary() const {
-    size_t good = 0, failed = 0;
+    size_t good = 0, failed = 0, up_to_date = 0;
     for (const auto& outcome : outcomes_) {
-      if (outcome) ++(outcome->code == ExitCode::kOk ? good : failed);
+      if (!outcome) continue;
+      ++(outcome->up_to_date ? up_to_date : outcome->code == ExitCode::kOk ? good : failed);
     }
-    std::printf("%zu of %zu %s, %zu failed%s\n", good, jobs_.size(),
+    const auto also = [](size_t count, const char* what) {
+      return count > 0 ? ", " + std::to_string(count) + what : "";
+    };
+    std::printf("%zu of %zu %s, %zu failed%s%s\n", good, jobs_.size(),
                 batch_.dry_run ? "predicted" : "baked", failed,
-                skipped_ > 0 ? (", " + std::to_string(skipped_) + " skipped").c_str() : "");
+                also(up_to_date, " up to date").c_str(), also(skipped_, " skipped").c_str());
   }
 
  private:
   void run_job(size_t i) {
-    if (failed_ && !batch_.keep_going) return;
+    if (outcomes_[i] || (failed_ && !batch_.keep_going)) return;
     const BakeCommand& job = jobs_[i];
     if (job.output.no_clobber && name_exists(job.build.output)) {
       ++skipped_;
@@ -265,7 +283,7 @@ class BatchRun {
 
   const BatchCommand& batch_;
   const std::vector<BakeCommand>& jobs_;
-  std::vector<std::optional<Outcome>> outcomes_;  // of each job that was tried
+  std::vector<std::optional<Outcome>> outcomes_;  // of each job that was tried or up to date
   std::atomic<bool> failed_ = false;
   std::atomic<bool> resumable_ = false;  // an interrupted bake saved work
   std::atomic<size_t> skipped_ = 0;
@@ -282,12 +300,14 @@ int run(const BatchCommand& config) {
   check_files(config, jobs);
   std::optional<AtomicFile> report;  // created first: a bad path fails before any work
   if (!config.report.empty()) report.emplace(config.report);
+  const BatchRecord record = BatchRecord::read(config.report);
   const auto write_report = [&](const BatchRun& batch) {
     if (!report) return;
     report->append(batch.report_text());
     report->commit();
   };
   BatchRun batch(config, jobs);
+  batch.find_up_to_date(record);
   try {
     batch.run();
   } catch (const Interrupted&) {

@@ -33,6 +33,12 @@ Json grid_json(const Grid& g) {
           {"transform", g.transform.m}};
 }
 
+Json bounds_json(const std::optional<Box>& bounds) {
+  if (!bounds) return nullptr;
+  const auto& [min, max] = *bounds;
+  return {{min.x, min.y, min.z}, {max.x, max.y, max.z}};
+}
+
 Json files_json(const std::vector<SceneFile>& files) {
   Json list = Json::array();
   for (const SceneFile& file : files)
@@ -67,7 +73,9 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
   Json json = {{"svdag", SVDAG_VERSION},
                {"scene", config.build.scene.paths},
                {"files", files_json(r.files)},
+               {"description_hash", r.description_hash},
                {"output", config.build.output},
+               {"scene_bounds", bounds_json(r.scene_bounds)},
                {"grid", grid_json(r.grid)},
                {"rule", rule_name(r.rule)},
                {"triangles", r.split.scene.triangles},

@@ -125,7 +125,8 @@ void add_options(CLI::App* app, BuildOptions* options) {
             grid_is_optional();
           },
           "Bake each entry of a list, [{\"scene\": ..., \"output\": ..., OPTION: ...}, ...]; "
-          "other options given here are defaults for every bake; --report covers all bakes"),
+          "other options given here are defaults for every bake; --report covers all bakes, and "
+          "the next run with it skips those that are up to date"),
       {".json"})
       ->type_name("LIST.json");
   app->add_flag("--keep-going", options->keep_going, "Continue a batch after a bake fails");

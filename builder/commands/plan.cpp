@@ -7,6 +7,7 @@
 #include "builder/farm/planner/print_plan.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/file_folder.h"
 
 namespace svdag {
 namespace {
@@ -46,12 +47,16 @@ int predict(const DryRunCommand& config) {
   dry.build = config.build;
   dry.step_threads = threads_or_all(config.threads);
   const Plan made = plan(dry, config.output);
+  const std::string folder = folder_of(config.build.output);
+  const std::string& scratch = config.build.scratch;
+  const FreeDisk disk = {config.build.output, free_bytes_of(folder),
+                         free_bytes_of(scratch.empty() ? folder : scratch)};
   if (config.output.json) {
-    print_bake_json(made);
+    print_bake_json(made, disk);
     return int(ExitCode::kOk);
   }
   if (config.output.quiet) return int(ExitCode::kOk);
-  print_bake(made, config.build.output);
+  print_bake(made, disk);
   print_scene_notes(made.counts.scene);
   return int(ExitCode::kOk);
 }

@@ -9,6 +9,8 @@
 #include "builder/run/bake_output.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
 
@@ -40,12 +42,30 @@ void require_same_kind(const PlanStep& step, const std::string& output) {
                   : " makes a .svdag: choose an output that does not end in .run"));
 }
 
+// Warns if the disks do not have the space that the plan predicts.
+void warn_of_full_disk(const PlanStep& step, const std::string& output,
+                       const std::string& scratch) {
+  const std::string folder = folder_of(output);
+  const auto warn = [&](const std::string& disk, uint64_t bytes) {
+    const uint64_t free = free_bytes_of(disk);
+    if (bytes > free)
+      std::fprintf(stderr, "svdag: %s: %s is predicted to write about %s here, and only %s is free\n",
+                   disk.c_str(), step.name.c_str(), format_bytes(bytes).c_str(),
+                   format_bytes(free).c_str());
+  };
+  if (scratch.empty()) return warn(folder, step.predicted.output + step.predicted.scratch);
+  warn(folder, step.predicted.output);
+  warn(scratch, step.predicted.scratch);
+}
+
 int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
             const OutputConfig& output) {
   CommandFiles files;
   files.read(plan, &step);
-  files.write(config.output.empty() ? plan.path(step.output) : config.output);
+  const std::string written = config.output.empty() ? plan.path(step.output) : config.output;
+  files.write(written);
   if (!config.output.empty()) require_same_kind(step, config.output);
+  warn_of_full_disk(step, written, config.scratch);
   ParallelExecutor executor(threads != 0 ? threads : step.threads);
   Progress progress(output.mode());
   StepReport report;

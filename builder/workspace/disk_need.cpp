@@ -5,6 +5,8 @@
 #include "io/triangle.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
 
 namespace svdag {
 namespace {
@@ -47,6 +49,15 @@ void DiskNeed::expect_runs(uint64_t bytes, double share) {
   if (share < kMinShare) return;
   runs_ = uint64_t(double(bytes) / share);
   if (runs_ > bytes) check((runs_ - bytes) / 2, runs_ - bytes, "nodes");
+}
+
+void DiskNeed::expect_output(const std::string& path, uint64_t min_bytes) const {
+  const uint64_t free = free_bytes_of(folder_of(path));
+  if (min_bytes <= free) return;
+  throw Error(ExitCode::kOutput,
+              "needs at least " + format_bytes(min_bytes) + ", but the disk has only " +
+                  format_bytes(free) + " free: free disk space, or choose another output",
+              path);
 }
 
 }  // namespace svdag

@@ -1,14 +1,15 @@
-// Estimates the scratch space of a bake or an import, so that a full disk is reported before hours
-// of work.
+// Estimates the disk space of a bake or an import, so that a full disk is reported before hours of
+// work.
 //
 // Triangles: a lower bound follows from their number, a better estimate from the first ones in
 // bins, where a large triangle is stored several times. Runs: how often a scene repeats itself is
 // unknown before it is baked, so their size is extrapolated from the runs so far, once a fifth of
 // the cells is done. Cells differ, so it is an Error (kOutput) only if the disk cannot hold half of
-// an estimate.
+// an estimate. Output: the file holds at least the unique nodes of each run.
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "builder/workspace/scratch.h"
 
@@ -29,6 +30,9 @@ class DiskNeed {
   void expect_records(uint64_t bytes, uint64_t in_memory, const char* purpose);
   // Runs of `bytes` were spilled for `share` of the work.
   void expect_runs(uint64_t bytes, double share);
+
+  // The file at `path` will have at least `min_bytes`.
+  void expect_output(const std::string& path, uint64_t min_bytes) const;
 
   // Estimated bytes of all spilled data; 0: nothing is spilled.
   uint64_t estimate() const { return triangles_ + records_ + runs_; }

@@ -24,6 +24,10 @@ bool same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
+uint64_t free_bytes_in(const struct statvfs& disk) {
+  return uint64_t(disk.f_bavail) * disk.f_frsize;
+}
+
 }  // namespace
 
 Folder Folder::open_or_create_folder(std::string path) {
@@ -180,7 +184,7 @@ uint64_t Folder::free_bytes() const {
   struct statvfs status;
   if (retry_interrupted([&] { return ::fstatvfs(fd_, &status); }) != 0)
     fail_call(ExitCode::kOutput, "cannot be examined", path_, errno);
-  return uint64_t(status.f_bavail) * status.f_frsize;
+  return free_bytes_in(status);
 }
 
 bool Folder::remove_itself() const {
@@ -188,6 +192,13 @@ bool Folder::remove_itself() const {
   if (errno != ENOTEMPTY && errno != EEXIST)
     fail_call(ExitCode::kOutput, "cannot be removed", path_, errno);
   return false;
+}
+
+uint64_t free_bytes_of(const std::string& folder) {
+  struct statvfs disk;
+  if (retry_interrupted([&] { return ::statvfs(folder.c_str(), &disk); }) != 0) return UINT64_MAX;
+  const bool counts_files = disk.f_files != 0;  // btrfs does not
+  return counts_files && disk.f_favail == 0 ? 0 : free_bytes_in(disk);
 }
 
 std::string absolute_path(const std::string& path) {

@@ -69,6 +69,10 @@ class Folder {
   bool created_ = false;
 };
 
+// Bytes that this user can still write to files in `folder`; 0 if no file can be created, and
+// UINT64_MAX if that is unknown: writing a file will report why.
+uint64_t free_bytes_of(const std::string& folder);
+
 // `path` as an absolute path with the symbolic links of its folder resolved, but not a link that is
 // the last component.
 std::string absolute_path(const std::string& path);

@@ -104,6 +104,25 @@ def failures_of(fixture, case, size, must_fail):
     return found + bakes.check_message(done.stderr) + (["the old file is gone"] if state != "old" else [])
 
 
+def dry_run_failures(fixture, case):
+    """A dry run needs no space on the disk of the output, and reports that the bake will."""
+    with small_disk(fixture, case, 2 * pages(fixture.old)) as folder:
+        (folder / case.output).write_bytes(bytes(2 * pages(fixture.old)))
+        words = [word for word in case.bake.command("--dry-run", output=case.output) if word != "-q"]
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    expected = "not enough disk space for the file: 0 bytes free"
+    return [] if done.returncode == 0 and expected in done.stdout else [f"{done.returncode} {done}"]
+
+
+def refusal_failures(fixture, case):
+    """A bake whose nodes alone need more space than there is ends before its merge."""
+    with small_disk(fixture, case, pages(fixture.old) + len(fixture.new) // 8) as folder:
+        done = subprocess.run(case.bake.command("--scratch", ".", output=case.output), cwd=folder, capture_output=True,
+                              text=True)
+    expected = f"svdag: {case.output}: needs at least"
+    return [] if done.returncode == 4 and done.stderr.startswith(expected) else [f"{done.returncode} {done}"]
+
+
 def run_case(report, case):
     with bakes.BakeFixture(case.bake) as fixture:
         old, both = pages(fixture.old), pages(fixture.old) + pages(fixture.new)
@@ -114,6 +133,9 @@ def run_case(report, case):
             report.record(f"{case.name}: disk of {size} bytes",
                          failures_of(fixture, case, size, case.exact and size < both))
         report.record(f"{case.name}: an ample disk", failures_of(fixture, case, 2 * need, False))
+        if case.exact:
+            report.record(f"{case.name}: a dry run", dry_run_failures(fixture, case))
+            report.record(f"{case.name}: refused early", refusal_failures(fixture, case))
         print(f"{case.name}: {len(sizes)} sizes from {sizes[0]} to {sizes[-1]} bytes, {need} needed")
 
 

@@ -195,6 +195,19 @@ class Page {
                             "<br><code>" + escaped(source.at("hash").get<std::string>()) +
                             "</code>");
     row("triangles", format_count(count("triangles")));
+    if (const Json& bounds = bake_.at("scene_bounds"); !bounds.is_null())
+      row("bounds of the scene", box_text({point_of(bounds.at(0)), point_of(bounds.at(1))}));
+  }
+
+  static Point point_of(const Json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+  }
+
+  static std::string box_text(const Box& box) {
+    const auto point = [](const Point& p) {
+      return formatted("%.6g", p.x) + ", " + formatted("%.6g", p.y) + ", " + formatted("%.6g", p.z);
+    };
+    return point(box.min) + " to " + point(box.max);
   }
 
   void contents() {
@@ -210,12 +223,7 @@ class Page {
         format_double(corner.x) + ", " + format_double(corner.y) + ", " + format_double(corner.z));
     row("rule", rule_name(file_.rule()));
     if (!file_.view().empty()) {
-      const Box box = world_box(grid, occupied_bounds(file_.view()));
-      const auto point = [](const Point& p) {
-        return formatted("%.6g", p.x) + ", " + formatted("%.6g", p.y) + ", " +
-               formatted("%.6g", p.z);
-      };
-      row("bounds of the voxels", point(box.min) + " to " + point(box.max));
+      row("bounds of the voxels", box_text(world_box(grid, occupied_bounds(file_.view()))));
     }
     row("voxels", format_count(stats_.voxels));
     row("content hash of the result", "<code>" + hash_of(file_) + "</code>");

@@ -2,15 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "builder/run/bake_output.h"
-#include "builder/run/run_check.h"
-#include "builder/run/run_file.h"
-#include "io/dag/check.h"
+#include "builder/run/content_hash.h"
 #include "io/json_number.h"
 #include "io/json_text.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/file/checksum.h"
 
 namespace svdag {
 namespace {
@@ -18,26 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr uint64_t kMaxReceiptBytes = 1 << 16;
-constexpr uint64_t kCheckMemory = uint64_t(64) << 20;
-
-std::string content_of_run(const std::string& path, bool thorough) {
-  MemoryBudget budget;
-  const RunFile run = RunFile::open(path, &budget);
-  if (thorough) check_run(run, kCheckMemory, &budget);
-  return to_hex(run.header().content_hash);
-}
-
-std::string content_of_dag(const std::string& path, bool thorough) {
-  const File file = File::open_read(path);
-  Header header;
-  if (thorough) {
-    header = check_dag(file);
-  } else {
-    file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
-    if (header.file_bytes != file.size()) fail_input(path, "is truncated");
-  }
-  return to_hex(header.content_hash);
-}
 
 }  // namespace
 
@@ -89,9 +65,7 @@ OutputState output_state(const Plan& plan, const PlanStep& step, const std::stri
   const std::optional<Receipt> receipt = read_receipt(plan, step);
   if (!receipt) return OutputState::kInvalid;
   try {
-    const std::string content =
-        names_run(path) ? content_of_run(path, thorough) : content_of_dag(path, thorough);
-    return content == receipt->content_hash ? OutputState::kValid : OutputState::kInvalid;
+    return content_hash_of(path, thorough) == receipt->content_hash ? OutputState::kValid : OutputState::kInvalid;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     return OutputState::kInvalid;

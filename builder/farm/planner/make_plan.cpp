@@ -27,6 +27,7 @@ constexpr uint64_t kBinsPerShard = 8;       // a shard reads up to 1/8 too much 
 constexpr uint64_t kMinLightBin = 4096;     // triangles: smaller bins waste blocks
 constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
 constexpr size_t kMinBlockBytes = 1 << 14;
+constexpr uint64_t kMinDryRunBytes = 64 << 20;  // on the disk of the output
 
 void reject_existing_plan(const std::string& folder) {
   if (is_plan(folder))
@@ -44,11 +45,15 @@ void require_names(const PlanConfig& config) {
 }
 
 // Scratch folder of the planner, which differs from that of a bake of the same output, since that
-// may hold work to resume.
+// may hold work to resume. A dry run for a full disk uses the folder of temporary files.
 std::string scratch_path(const PlanConfig& config) {
-  const std::string name =
-      config.folder.empty() ? config.build.output + ".dry-run" : config.folder + "/plan";
-  return ScratchDir::path_for(name, config.build.scratch);
+  if (!config.folder.empty())
+    return ScratchDir::path_for(config.folder + "/plan", config.build.scratch);
+  const std::string& output = config.build.output;
+  std::string parent = config.build.scratch;
+  if (parent.empty() && free_bytes_of(folder_of(output)) < kMinDryRunBytes)
+    parent = std::filesystem::temp_directory_path();
+  return ScratchDir::path_for(output + ".dry-run", parent);
 }
 
 // Turns a scene into a plan; one function per phase.

@@ -74,30 +74,38 @@ void print_plan(const Plan& plan, bool steps) {
   if (steps) print_steps(plan);
 }
 
-void print_bake_json(const Plan& plan) {
+void print_bake_json(const Plan& plan, const FreeDisk& disk) {
   const PlanStep& step = plan.steps.front();
   const auto whole = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf(
       "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %zu, \"threads\": %zu, "
       "\"cpu_seconds\": %.3f, \"seconds\": %.3f, \"budget_bytes\": %llu, \"memory_bytes\": %llu, "
-      "\"output_bytes\": %llu, \"scratch_bytes\": %llu}\n",
+      "\"output_bytes\": %llu, \"output_free_bytes\": %llu, \"scratch_bytes\": %llu, "
+      "\"scratch_free_bytes\": %llu}\n",
       whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles), plan.cells,
       step.threads, plan.one_bake_cpu, plan.one_bake_cpu / double(step.threads),
       whole(step.predicted.budget), whole(step.predicted.memory),
-      whole(plan.steps.back().predicted.output), whole(step.predicted.scratch));
+      whole(plan.steps.back().predicted.output), whole(disk.output_bytes),
+      whole(step.predicted.scratch), whole(disk.scratch_bytes));
 }
 
-void print_bake(const Plan& plan, const std::string& output) {
+void print_bake(const Plan& plan, const FreeDisk& disk) {
   const Prediction& p = plan.steps.front().predicted;
   const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);
-  std::printf("%s: %s^3, %s triangles in %s cells\n", output.c_str(),
+  std::printf("%s: %s^3, %s triangles in %s cells\n", disk.output.c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
   std::printf("  about %.2f CPU seconds, %.2f s on %zu thread%s\n", plan.one_bake_cpu, seconds,
               plan.steps.front().threads, plan.steps.front().threads == 1 ? "" : "s");
-  std::printf("  a file of about %s, scratch of about %s\n",
-              format_bytes(plan.steps.back().predicted.output).c_str(),
+  const uint64_t output_bytes = plan.steps.back().predicted.output;
+  std::printf("  a file of about %s, scratch of about %s\n", format_bytes(output_bytes).c_str(),
               format_bytes(p.scratch).c_str());
+  if (output_bytes > disk.output_bytes)
+    std::printf("  not enough disk space for the file: %s free\n",
+                format_bytes(disk.output_bytes).c_str());
+  if (p.scratch > disk.scratch_bytes)
+    std::printf("  not enough disk space for scratch: %s free (choose another with --scratch)\n",
+                format_bytes(disk.scratch_bytes).c_str());
   std::printf("  at most %s of memory with --memory %lluM\n", format_bytes(p.memory).c_str(),
               static_cast<unsigned long long>(p.budget >> 20));
 }

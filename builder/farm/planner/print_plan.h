@@ -8,9 +8,15 @@ namespace svdag {
 // Prints the totals; with `steps`, also the prediction and the command of each step.
 void print_plan(const Plan& plan, bool steps);
 
-// Prints the prediction of a bake to `output`, from a plan of one shard.
-void print_bake(const Plan& plan, const std::string& output);
+// The disks of a bake: free bytes for the output and for scratch.
+struct FreeDisk {
+  std::string output;  // path
+  uint64_t output_bytes, scratch_bytes;
+};
+
+// Prints the prediction of a bake, from a plan of one shard.
+void print_bake(const Plan& plan, const FreeDisk& disk);
 // The same as one line of JSON: counts, seconds and bytes.
-void print_bake_json(const Plan& plan);
+void print_bake_json(const Plan& plan, const FreeDisk& disk);
 
 }  // namespace svdag

@@ -43,6 +43,18 @@ TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   EXPECT_SVDAG_ERROR(runs.expect_runs(4 * free, 0.5), ExitCode::kOutput, "free");
 }
 
+TEST(DiskNeed, RefusesAnOutputThatCannotFit) {
+  const TempFolder folder;
+  MemoryBudget budget;
+  ScratchDir scratch_folder(folder.file("scratch"));
+  Scratch scratch(&scratch_folder, &budget);
+  const DiskNeed need(&scratch);
+  const std::string output = folder.file("out.svdag");
+  EXPECT_NO_THROW(need.expect_output(output, kMiB));
+  EXPECT_SVDAG_ERROR(need.expect_output(output, 2 * scratch_folder.free_bytes()),
+                     ExitCode::kOutput, "out.svdag: needs at least");
+}
+
 // In double the share of all of them may be a byte less than what there is.
 TEST(DiskNeed, IsNeverLessThanWhatWasSpilled) {
   const TempFolder directory;
