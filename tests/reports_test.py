@@ -36,7 +36,8 @@ svdag-verify mesh city.svdag city.ply --sample 1000
 svdag-verify mesh city.svdag scan.ply --judge openvdb
 svdag-verify diff city.svdag thin.svdag
 svdag-verify vdb city.svdag thin.vdb
-svdag-verify trace city.svdag scan.ply --rays 1000"""
+svdag-verify trace city.svdag scan.ply --rays 1000
+svdag-trace city.svdag --size 64x48 --samples 4 --rounds 1"""
 
 
 def keys_of(value):

@@ -88,9 +88,9 @@ void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, P
     box.max[i] = std::max(box.max[i], other.max[i]);
   }
   constexpr int kUp = 1;
-  const Camera camera = preset_camera("iso", one, box, kUp, Camera::kDefaultFov,
+  const Camera camera = preset_camera("iso", {}, box, kUp, Camera::kDefaultFov,
                                       double(picture.width) / picture.height);
-  const Shading shading = make_shading(ShadeMode::kPrimary, camera, kUp, box);
+  const Shading shading = make_shading(ShadeMode::kPrimary, one, camera, kUp, box);
   ParallelExecutor executor(threads_or_all(0));
   write_png(render_difference(one, two, camera, shading, picture, executor, *progress),
             config.render);

@@ -80,6 +80,8 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
                    "Show only the voxels from this plane on, away from the camera, for example "
                    "z=1.5; cut matter is red")
       ->type_name("AXIS=V");
+  command->add_flag("--grid-lines", config->grid_lines,
+                    "Draw the edges of voxels that are several pixels large");
   command
       ->add_option("--fly", config->fly,
                    "Render N frames of a full turn, 1 to 9999, as X_0001.png, X_0002.png, ...")

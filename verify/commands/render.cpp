@@ -38,6 +38,9 @@ Vec3 in_voxels(const double* c, const DagView& dag) {
 Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int up, double aspect,
                    const VoxelBounds& box) {
   const std::vector<double>& c = config.camera;
+  if (c.empty() && config.fly && config.preset != "inside")
+    return preset_camera(config.preset, {}, turntable_bounds(box, up), up, Camera::kDefaultFov,
+                         aspect);
   if (c.empty())
     return preset_camera(config.preset, file.view(), box, up, Camera::kDefaultFov, aspect);
   if (c.size() != 6 && c.size() != 7)
@@ -57,7 +60,8 @@ Camera make_camera(const RenderCommandConfig& config, const DagFile& file, int u
 void apply(const RenderCommandConfig& config, const DagView& dag, const Camera& camera,
            const VoxelBounds& box, int height, Shading* shading) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  shading->levels = dag.levels;
+  shading->pixel = 2 * camera.slope / height;
+  shading->grid_lines = config.grid_lines;
   if (!config.light.empty()) {
     if (config.light.size() != 3 && config.light.size() != 4)
       fail_usage("--light: give x,y,z or x,y,z,radius");
@@ -83,7 +87,7 @@ void apply(const RenderCommandConfig& config, const DagView& dag, const Camera& 
   if (ao || shading->mode == ShadeMode::kSoft)
     shading->secondary.cut.spread = 2 * std::tan(cone * kDegree);
   if (config.level) shading->primary.level = shading->secondary.cut.level = uint32_t(level);
-  if (shading->mode == ShadeMode::kLevel) shading->primary.spread = 2 * camera.slope / height;
+  if (shading->mode == ShadeMode::kLevel) shading->primary.spread = shading->pixel;
 }
 
 // The voxels that --clip shows.
@@ -195,13 +199,13 @@ int run(const RenderCommandConfig& config) {
   if (!config.slice.empty()) slice(config.slice, file.view(), first.position, &shown);
   if (config.clip || !config.slice.empty()) picture.clip = clip_box(shown);
   // The light does not move with the camera.
-  const Light light = make_shading(mode, first, int(up), box).light;
+  const Light light = make_shading(mode, file.view(), first, int(up), box).light;
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
   Tree64 tree;
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = config.fly ? turned(first, box, int(up), frame, frames) : first;
-    Shading shading = make_shading(mode, camera, int(up), box);
+    Shading shading = make_shading(mode, file.view(), camera, int(up), box);
     shading.light = light;
     apply(config, file.view(), camera, box, picture.height, &shading);
     if (frame == 0 && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal

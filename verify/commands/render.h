@@ -30,6 +30,7 @@ struct RenderCommandConfig {
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
   std::optional<Box> clip;        // only voxels in this box are shown, in scene units
   std::string slice;              // "z=1.5": only voxels behind this plane, and the layer in it
+  bool grid_lines = false;        // draw the edges of voxels that are several pixels large
   std::optional<int> fly;         // number of frames of a full turn; none: one picture
 };
 

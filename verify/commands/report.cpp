@@ -33,7 +33,8 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   std::vector<ReportPicture> pictures;
   const DagView& dag = file.view();
   if (dag.empty()) return pictures;
-  const RenderConfig picture = parse_size(config.size);
+  RenderConfig picture = parse_size(config.size);
+  picture.supersample = 3;  // without moire on fine walls
   const int up = int(std::string("xyz").find(config.up));
   const VoxelBounds box = framing_bounds(dag);
   const double aspect = double(picture.width) / picture.height;
@@ -41,11 +42,11 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   Progress progress(config.common.progress);
   for (const View& view : kViews) {
     const Camera camera = preset_camera(view.preset, dag, box, up, Camera::kDefaultFov, aspect);
-    Shading shading = make_shading(view.mode, camera, up, box);
-    shading.levels = dag.levels;
-    shading.secondary.samples = 4;  // for each of four rays per pixel
+    Shading shading = make_shading(view.mode, dag, camera, up, box);
+    shading.pixel = 2 * camera.slope / picture.height;
+    shading.secondary.samples = 2;  // for each of nine rays per pixel
     shading.secondary.reach = 0.05 * length(box.max - box.min);
-    if (view.mode == ShadeMode::kLevel) shading.primary.spread = 2 * camera.slope / picture.height;
+    if (view.mode == ShadeMode::kLevel) shading.primary.spread = shading.pixel;
     const Image image = render(dag, {}, camera, shading, picture, executor, progress);
     pictures.push_back({view.caption, encode_png(image, config.output)});
   }

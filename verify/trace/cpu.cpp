@@ -81,8 +81,11 @@ class Tile {
     surfels_.clear();
     const bool needs_surfels =
         shading_.mode != ShadeMode::kDepth && shading_.mode != ShadeMode::kSteps;
-    for (size_t i = 0; i < rays_.size(); ++i)
+    for (size_t i = 0; i < rays_.size(); ++i) {
       surfels_.push_back(needs_surfels ? make_surfel(dag_, rays_[i], hits_[i]) : Surfel{});
+      Surfel& surfel = surfels_.back();
+      if (surfel.found) surfel.normal = shown_normal(shading_, rays_[i], hits_[i], surfel.normal);
+    }
   }
 
   Span beam_span(const std::vector<Ray>& rays, const Span& span, const Cut& cut, bool both) const {
@@ -144,7 +147,8 @@ class Tile {
       for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
         sum =
             sum + (section_[i] ? section_colour(shading_, surfels_[i])
-                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i]));
+                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i])) *
+                      grid_line(shading_, rays_[i], hits_[i]);
       const Vec3 colour = sum * (1.0 / n);
       const int x = left_ + p % width_, y = top_ + p / width_;
       shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);

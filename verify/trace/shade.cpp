@@ -53,9 +53,24 @@ Vec3 level_colour(const Shading& shading, const Ray& ray, const Hit& hit, const 
   return ramp(stops, 1 - below / kShown) * (0.55 + 0.45 * facing);
 }
 
+// A light as far from the camera as half of the empty space above it.
+Light lamp(const DagView& dag, const Camera& camera, const Vec3& up, double max_distance) {
+  const Vec3 towards = normalized(up * 0.8 + camera.right * -0.5 + camera.forward * 0.3);
+  const Hit ceiling = trace_closest(dag, {camera.position, towards}, {0, max_distance});
+  const double distance = 0.5 * (ceiling.found ? ceiling.t : max_distance);
+  return {camera.position + towards * distance, 0.1 * distance};
+}
+
+// Width of the side of the cube that was hit, in pixels; 0 if no width is known.
+double pixels_across(const Shading& shading, const Hit& hit) {
+  if (shading.pixel == 0) return 0;
+  return double(1U << (shading.levels - hit.level)) / std::max(shading.pixel * hit.t, 1e-9);
+}
+
 }  // namespace
 
-Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBounds& box) {
+Shading make_shading(ShadeMode mode, const DagView& dag, const Camera& camera, int up,
+                     const VoxelBounds& box) {
   Shading shading;
   shading.mode = mode;
   shading.up[up] = 1;
@@ -68,7 +83,34 @@ Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBo
   const Vec3 towards = normalized(camera.forward * -0.55 + camera.right * -0.6 + shading.up * 0.75);
   const double distance = 2 * length(box.max - box.min);
   shading.light = {(box.min + box.max) * 0.5 + towards * distance, 0.05 * distance};
+  shading.levels = dag.levels;
+  if (!dag.empty() &&
+      trace_any(dag, {camera.position, shading.light.centre - camera.position}, {0, 1}))
+    shading.light = lamp(dag, camera, shading.up, 0.25 * distance);
   return shading;
+}
+
+Vec3 shown_normal(const Shading& shading, const Ray& ray, const Hit& hit, const Vec3& smooth) {
+  constexpr double kSmooth = 4, kFlat = 8;  // pixels across a voxel
+  const double flat =
+      std::clamp((pixels_across(shading, hit) - kSmooth) / (kFlat - kSmooth), 0.0, 1.0);
+  if (flat == 0) return smooth;
+  return normalized(face_normal(hit, ray.direction) * flat + smooth * (1 - flat));
+}
+
+double grid_line(const Shading& shading, const Ray& ray, const Hit& hit) {
+  constexpr double kDark = 0.55, kMinPixels = 6;
+  if (!shading.grid_lines || !hit.found || pixels_across(shading, hit) < kMinPixels) return 1;
+  const double side = double(1U << (shading.levels - hit.level));
+  const Vec3 point = ray.origin + ray.direction * hit.t;
+  double edge = side;  // distance to the nearest edge of the face
+  for (int a = 0; a < 3; ++a) {
+    if (a == hit.axis) continue;
+    const double at = point[a] / side - std::floor(point[a] / side);
+    edge = std::min(edge, side * std::min(at, 1 - at));
+  }
+  const double pixels = edge / (shading.pixel * hit.t);
+  return pixels < 0.5 ? kDark : 1;
 }
 
 Vec3 section_colour(const Shading& shading, const Surfel& surfel) {

@@ -1,6 +1,7 @@
 // The colour of a camera ray, by what it hits.
 #pragma once
 
+#include "verify/trace/kernel/traverse.h"
 #include "verify/trace/kernel/workload.h"
 
 namespace svdag {
@@ -25,13 +26,24 @@ struct Shading {
   double near = 0, far = 1;  // kDepth: white and black at these distances, in voxels
   uint32_t levels = 0;       // of the DAG
   uint32_t max_steps = 128;  // kSteps: white at this number
+  double pixel = 0;  // width of a pixel at distance 1: near voxels show their faces; 0: none does
+  bool grid_lines = false;  // draw the edges of near voxels
 
   // Whether colours are light, not data.
   bool linear() const { return mode <= ShadeMode::kAo; }
 };
 
-// The distances of `box`, and a light over the left shoulder of the camera.
-Shading make_shading(ShadeMode mode, const Camera& camera, int up, const VoxelBounds& box);
+// The distances of `box`, and a light over the left shoulder of the camera. A camera that cannot
+// see that light, in a room for example, gets a lamp near it.
+Shading make_shading(ShadeMode mode, const DagView& dag, const Camera& camera, int up,
+                     const VoxelBounds& box);
+
+// The normal that a picture shows. Smooth normals are for voxels of a few pixels or less; the faces
+// of larger ones are flat. Between, the two are mixed.
+Vec3 shown_normal(const Shading& shading, const Ray& ray, const Hit& hit, const Vec3& smooth);
+
+// 1, or less on the edges of a near voxel if they are drawn.
+double grid_line(const Shading& shading, const Ray& ray, const Hit& hit);
 
 // The colour of a section in pictures of light. Pictures of data show data there, too.
 Vec3 section_colour(const Shading& shading, const Surfel& surfel);

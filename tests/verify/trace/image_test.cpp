@@ -17,7 +17,7 @@ TEST_P(PictureOf, DoesNotDependOnBeamsOrThreads) {
   const DagView dag = file.view();
   const VoxelBounds box = framing_bounds(dag);
   const Camera camera = preset_camera("iso", dag, box, 1, 40, 1.6);
-  Shading shading = make_shading(GetParam(), camera, 1, box);
+  Shading shading = make_shading(GetParam(), dag, camera, 1, box);
   shading.levels = 8;
   shading.secondary.samples = 4;
   shading.secondary.reach = 40;

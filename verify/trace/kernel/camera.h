@@ -36,6 +36,11 @@ Camera look_at(const Vec3& position, const Vec3& target, int up, double fov, dou
 // Looks at the middle of `box` from the direction `towards`, just far enough to see all of it.
 Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov, double aspect);
 
+// Looks in the same direction and fills the picture with what is set in `box`, to 1/128 of its
+// longest side; with the box itself if the DAG is empty.
+Camera frame_voxels(const DagView& dag, const VoxelBounds& box, const Vec3& towards, int up,
+                    double fov, double aspect);
+
 // Bounds of the set voxels, rounded outwards to 1/256 of the grid or to bricks, whichever is
 // larger: precise enough to frame a picture.
 VoxelBounds framing_bounds(const DagView& dag);

@@ -117,11 +117,21 @@ SVDAG_HD inline void diagonalize(double m[3][3], double axes[3][3]) {
   }
 }
 
-// Unit normal at the hit, facing the ray's origin. If a cut ended the ray above the voxels, the
-// normal is that of the entered face.
-SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Vec3& direction) {
+// Unit normal of the face of the voxel, or cube, that the ray entered.
+SVDAG_HD inline Vec3 face_normal(const Hit& hit, const Vec3& direction) {
   Vec3 normal{};
   normal[hit.axis] = direction[hit.axis] < 0 ? 1 : -1;
+  return normal;
+}
+
+// Unit normal at the hit, on the side from which the ray came. If a cut ended the ray above the
+// voxels, the normal is that of the entered face.
+//
+// The side is that of the ray a voxel before the hit, relative to the mean of the voxels: at the
+// rim of a shape, the ray is nearly in the surface, and its direction would not decide.
+SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Ray& ray) {
+  constexpr double kBefore = 1;
+  Vec3 normal = face_normal(hit, ray.direction);
   if (hit.level != dag.levels) return normal;
   const Moments moments = moments_around(dag, hit.voxel);
   double m[3][3], axes[3][3];
@@ -134,7 +144,10 @@ SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Ve
   // A sheet: thin in one direction, wide in the two others.
   if (!(m[thinnest][thinnest] < 0.7 * middle)) return normal;
   normal = {{axes[0][thinnest], axes[1][thinnest], axes[2][thinnest]}};
-  return dot(normal, direction) > 0 ? normal * -1 : normal;
+  Vec3 before = ray.origin + ray.direction * (hit.t - kBefore);
+  for (int a = 0; a < 3; ++a)
+    before[a] -= hit.voxel[a] + 0.5 + double(moments.first[a]) / moments.count;
+  return dot(normal, before) < 0 ? normal * -1 : normal;
 }
 
 }  // namespace svdag

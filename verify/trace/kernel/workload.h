@@ -58,7 +58,7 @@ SVDAG_HD inline Surfel make_surfel(const DagView& dag, const Ray& ray, const Hit
   Surfel surfel;
   surfel.found = hit.found;
   if (!hit.found) return surfel;
-  surfel.normal = surface_normal(dag, hit, ray.direction);
+  surfel.normal = surface_normal(dag, hit, ray);
   surfel.point = ray.origin + ray.direction * hit.t + surfel.normal * kLift;
   return surfel;
 }

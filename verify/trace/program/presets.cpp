@@ -1,6 +1,8 @@
 #include "verify/trace/program/presets.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "streaming/error.h"
 
@@ -15,47 +17,93 @@ bool contains(const VoxelBounds& box, const Vec3& point) {
   return inside;
 }
 
-// Distance from a point along an axis to the nearest voxel, at most `max`.
-double free_distance(const DagView& dag, const Vec3& from, int axis, double sign, double max) {
-  Vec3 direction{};
-  direction[axis] = sign;
-  const Hit wall = trace_closest(dag, {from, direction}, {0, max});
-  return wall.found ? wall.t : max;
+// Distance from `from` to the nearest voxel in a direction of length 1, or to the end of the box.
+double free_distance(const DagView& dag, const VoxelBounds& box, const Vec3& from,
+                     const Vec3& direction) {
+  double end = 1e300;
+  for (int a = 0; a < 3; ++a) {
+    if (direction[a] == 0) continue;
+    const double side = direction[a] > 0 ? box.max[a] : box.min[a];
+    end = std::min(end, (side - from[a]) / direction[a]);
+  }
+  const Hit wall = trace_closest(dag, {from, direction}, {0, end});
+  return wall.found ? wall.t : end;
 }
 
-// Looks along the longer horizontal axis, from a point as far back as empty space reaches. The view
-// goes through the middle of the box. If the view there is short (a small room, solid matter), it
-// goes through that of several candidate points with the longest view.
+// Unit vectors around a point, evenly spaced (a Fibonacci sphere).
+std::vector<Vec3> sphere_directions(int count) {
+  std::vector<Vec3> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z), angle = 2.399963 * i;
+    directions.push_back({{r * std::cos(angle), r * std::sin(angle), z}});
+  }
+  return directions;
+}
+
+struct InsidePoint {
+  Vec3 point{};
+  Vec3 view{};       // horizontal direction of the longest view
+  double score = 0;  // 0: not in empty space
+};
+
+// Prefers points that are enclosed by voxels, with space around them and a floor below.
+InsidePoint score_point(const DagView& dag, const VoxelBounds& box, int up, const Vec3& point,
+                        const std::vector<Vec3>& directions) {
+  constexpr int kViews = 16;
+  constexpr double kClearance = 2;  // voxels
+  constexpr double kAmple = 0.1;    // median view, of the size of the box
+  const Vec3 size = box.max - box.min;
+  const int x = (up + 1) % 3, y = (up + 2) % 3;
+  InsidePoint scored{point};
+  int blocked = 0;
+  for (const Vec3& direction : directions) {
+    const Hit wall = trace_closest(dag, {point, direction});
+    if (wall.found && wall.t < kClearance) return scored;
+    blocked += wall.found;
+  }
+  std::vector<double> views;
+  for (int i = 0; i < kViews; ++i) {
+    const double angle = 2 * kPi * i / kViews;
+    Vec3 view{};
+    view[x] = std::cos(angle);
+    view[y] = std::sin(angle);
+    views.push_back(free_distance(dag, box, point, view));
+    if (views.back() == *std::max_element(views.begin(), views.end())) scored.view = view;
+  }
+  std::nth_element(views.begin(), views.begin() + kViews / 2, views.end());
+  const double space =
+      std::min(1.0, views[kViews / 2] / (kAmple * std::max(size[x], size[y])));
+  Vec3 down{};
+  down[up] = -1;
+  const double floor = trace_any(dag, {point, down}) ? 1 : 0.3;
+  const double enclosed = double(blocked) / double(directions.size());
+  scored.score = floor * enclosed * enclosed * space;
+  return scored;
+}
+
+// From the best of 196 points, some way back from its longest view.
 Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double aspect) {
-  constexpr double kWide = 75, kMaxBack = 0.4, kLongEnough = 0.25;
+  constexpr double kWide = 75, kBack = 0.6;
   constexpr double kHeights[] = {0.3, 0.15, 0.5, 0.75},
                    kPositions[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
+  const std::vector<Vec3> directions = sphere_directions(64);
   const Vec3 size = box.max - box.min;
-  const int one = (up + 1) % 3, two = (up + 2) % 3;
-  const int along = size[one] > size[two] ? one : two, across = one + two - along;
-  const double max_distance = kMaxBack * size[along];
-  Vec3 best{};
-  double longest = -1;
+  InsidePoint best{(box.min + box.max) * 0.5};
+  best.view[(up + 1) % 3] = 1;
   for (const double height : kHeights) {
-    for (const double depth : kPositions) {
-      for (const double side : kPositions) {
+    for (const double x : kPositions) {
+      for (const double y : kPositions) {
         Vec3 point = box.min;
         point[up] += height * size[up];
-        point[along] += depth * size[along];
-        point[across] += side * size[across];
-        const double view = free_distance(dag, point, along, 1, max_distance) +
-                            free_distance(dag, point, along, -1, max_distance);
-        if (longest < kLongEnough * size[along] && view > longest) {
-          longest = view;
-          best = point;
-        }
+        point[(up + 1) % 3] += x * size[(up + 1) % 3];
+        point[(up + 2) % 3] += y * size[(up + 2) % 3];
+        const InsidePoint scored = score_point(dag, box, up, point, directions);
+        if (scored.score > best.score) best = scored;
       }
     }
   }
-  Vec3 back{};
-  back[along] = -1;
-  const double far = 0.95 * free_distance(dag, best, along, -1, max_distance);
-  return look_at(best + back * far, best - back * size[along], up, kWide, aspect);
+  const double back = kBack * free_distance(dag, box, best.point, best.view * -1);
+  return look_at(best.point - best.view * back, best.point + best.view, up, kWide, aspect);
 }
 
 }  // namespace
@@ -79,7 +127,18 @@ Camera preset_camera(const std::string& name, const DagView& dag, const VoxelBou
   } else {
     fail_usage("--preset: \"" + name + "\" is not iso, front, back, left, right, top or inside");
   }
-  return frame_box(box, towards, up, fov, aspect);
+  return frame_voxels(dag, box, towards, up, fov, aspect);
+}
+
+VoxelBounds turntable_bounds(VoxelBounds box, int up) {
+  const int x = (up + 1) % 3, y = (up + 2) % 3;
+  const Vec3 centre = (box.min + box.max) * 0.5;
+  const double radius = std::hypot(box.max[x] - centre[x], box.max[y] - centre[y]);
+  for (const int a : {x, y}) {
+    box.min[a] = centre[a] - radius;
+    box.max[a] = centre[a] + radius;
+  }
+  return box;
 }
 
 Camera turned(const Camera& camera, const VoxelBounds& box, int up, int frame, int frames) {

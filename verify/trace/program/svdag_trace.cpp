@@ -52,20 +52,47 @@ uint64_t hash_of(const TraceResults& results) {
   return hash;
 }
 
+uint64_t hits_of(const TraceResults& results, int kind) {
+  uint64_t hits = 0;
+  for (size_t pixel = 0; pixel < results.hits.size(); ++pixel)
+    hits += kind == kPrimaryRays ? results.hits[pixel].found : results.blocked[kind][pixel];
+  return hits;
+}
+
+unsigned long long whole(uint64_t n) {
+  return n;
+}
+
 void print(const TraceResults& results) {
   std::printf("%s\n%-8s %12s %12s %9s %9s\n", results.device.c_str(), "workload", "rays", "hit",
               "seconds", "MRays/s");
   for (int kind = 0; kind < kWorkloads; ++kind) {
-    uint64_t hit = 0;
-    for (size_t pixel = 0; pixel < results.hits.size(); ++pixel)
-      hit += kind == kPrimaryRays ? results.hits[pixel].found : results.blocked[kind][pixel];
     const double seconds = results.seconds[kind];
     std::printf("%-8s %12llu %12llu %9.4f %9.2f\n", kWorkloadNames[kind],
-                static_cast<unsigned long long>(results.rays[kind]),
-                static_cast<unsigned long long>(hit), seconds,
+                whole(results.rays[kind]), whole(hits_of(results, kind)), seconds,
                 seconds > 0 ? 1e-6 * double(results.rays[kind]) / seconds : 0.0);
   }
-  std::printf("results  %016llx\n", static_cast<unsigned long long>(hash_of(results)));
+  std::printf("results  %016llx\n", whole(hash_of(results)));
+}
+
+// The name of a device as a JSON string; it comes from a driver or from the kernel.
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return text + '"';
+}
+
+void print_json(const TraceResults& results) {
+  std::printf("{\"device\": %s, \"results\": \"%016llx\", \"workloads\": [",
+              quoted(results.device).c_str(), whole(hash_of(results)));
+  for (int kind = 0; kind < kWorkloads; ++kind)
+    std::printf("%s{\"workload\": \"%s\", \"rays\": %llu, \"hit\": %llu, \"seconds\": %.6f}",
+                kind == 0 ? "" : ", ", kWorkloadNames[kind], whole(results.rays[kind]),
+                whole(hits_of(results, kind)), results.seconds[kind]);
+  std::printf("]}");
 }
 
 // An optional output file, opened before the work, so that no work is lost if it cannot be written.
@@ -114,16 +141,37 @@ std::string picture_of(const TraceResults& results, const Workload& work) {
   return bytes;
 }
 
-int compare(const TraceResults& cpu, const TraceResults& gpu) {
-  size_t different = 0;
-  for (size_t pixel = 0; pixel < cpu.hits.size(); ++pixel) {
+struct Comparison {
+  size_t different = 0;  // pixels
+  size_t first = 0;      // of these
+};
+
+Comparison compare(const TraceResults& cpu, const TraceResults& gpu) {
+  Comparison found;
+  for (size_t pixel = cpu.hits.size(); pixel-- > 0;) {
     if (same(record_of(cpu, pixel), record_of(gpu, pixel))) continue;
-    if (different++ > 0) continue;
-    std::printf("first differing pixel: %zu, t %.17g and %.17g\n", pixel, cpu.hits[pixel].t,
-                gpu.hits[pixel].t);
+    ++found.different;
+    found.first = pixel;
   }
-  std::printf("%zu of %zu pixels differ\n", different, cpu.hits.size());
-  return int(different == 0 ? ExitCode::kOk : ExitCode::kDiffers);
+  return found;
+}
+
+void print_comparison(const TraceResults& cpu, const TraceResults& gpu, const Comparison& found) {
+  print(cpu);
+  print(gpu);
+  if (found.different != 0)
+    std::printf("first differing pixel: %zu, t %.17g and %.17g\n", found.first,
+                cpu.hits[found.first].t, gpu.hits[found.first].t);
+  std::printf("%zu of %zu pixels differ\n", found.different, cpu.hits.size());
+}
+
+void print_comparison_json(const TraceResults& cpu, const TraceResults& gpu,
+                           const Comparison& found) {
+  std::printf("{\"cpu\": ");
+  print_json(cpu);
+  std::printf(", \"cuda\": ");
+  print_json(gpu);
+  std::printf(", \"pixels\": %zu, \"different\": %zu}\n", cpu.hits.size(), found.different);
 }
 
 // Rejects outputs that are the input or each other, under any name.
@@ -166,12 +214,13 @@ int run(const TraceOptions& options) {
   if (options.compare) {
     const TraceResults gpu = trace_on_cuda(file, work);
     results = trace_on_cpu(file, work);
-    print(results);
-    print(gpu);
-    exit_code = compare(results, gpu);
+    const Comparison found = compare(results, gpu);
+    (options.json ? print_comparison_json : print_comparison)(results, gpu, found);
+    if (found.different != 0) exit_code = int(ExitCode::kDiffers);
   } else {
     results = options.device == "cuda" ? trace_on_cuda(file, work) : trace_on_cpu(file, work);
-    print(results);
+    (options.json ? print_json : print)(results);
+    if (options.json) std::printf("\n");
   }
   dump.write([&] { return dump_of(results); });
   picture.write([&] { return picture_of(results, work); });

@@ -118,6 +118,7 @@ void add_options(CLI::App* app, TraceOptions* options) {
       ->type_name("NAME");
   app->add_flag("--compare", options->compare,
                 "Trace on both devices and count the pixels that differ; exit 1 if any does");
+  app->add_flag("--json", options->json, "Print one line of JSON instead of the table");
   add_view_options(app, options);
   add_ray_options(app, options);
   from_to(app->add_option("--rounds", options->rounds,

@@ -23,6 +23,7 @@ struct TraceOptions {
   double cone = 0;       // half the angle of their cones, in degrees; 0: exact
   bool beams = true;
   bool compare = false;       // trace on both devices, and compare
+  bool json = false;          // print one line of JSON instead of a table
   std::string dump, picture;  // output files; empty: none
 };
 

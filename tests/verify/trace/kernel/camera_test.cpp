@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/expect_error.h"
 #include "tests/verify/raw_dag.h"
+#include "verify/trace/kernel/traverse.h"
 #include "verify/trace/program/presets.h"
 
 namespace svdag {
@@ -30,6 +33,67 @@ TEST(Camera, FramesTheWholeBox) {
   }
 }
 
+// The extent of the hits in the picture, as parts of its width and height.
+struct HitExtent {
+  double min[2] = {1, 1}, max[2] = {0, 0};
+};
+
+HitExtent hit_extent(const DagView& dag, const Camera& camera) {
+  constexpr int kPixels = 200;
+  HitExtent extent;
+  for (int y = 0; y < kPixels; ++y) {
+    for (int x = 0; x < kPixels; ++x) {
+      const double at[2] = {(x + 0.5) / kPixels, (y + 0.5) / kPixels};
+      if (!trace_closest(dag, camera.ray(at[0], at[1])).found) continue;
+      for (int i = 0; i < 2; ++i) {
+        extent.min[i] = std::min(extent.min[i], at[i]);
+        extent.max[i] = std::max(extent.max[i], at[i]);
+      }
+    }
+  }
+  return extent;
+}
+
+TEST(Camera, FillsThePictureWithWhatIsOccupied) {
+  VoxelSet voxels;  // a rod across the corner of the grid, whose box is nearly empty
+  for (int64_t i = 0; i < 48; ++i) {
+    for (int64_t w = 0; w < 27; ++w) voxels.emplace(i + w % 3, i / 3 + w / 3 % 3, i / 2 + w / 9);
+  }
+  const RawFile file(raw_dag(test_grid(6), voxels));
+  const VoxelBounds box = framing_bounds(file.view());
+  for (const char* name : {"iso", "front", "left", "top"}) {
+    for (int up = 0; up < 3; ++up) {
+      for (const double aspect : {0.6, 1.0, 1.8}) {
+        const HitExtent extent =
+            hit_extent(file.view(), preset_camera(name, file.view(), box, up, 40, aspect));
+        const double width = extent.max[0] - extent.min[0], height = extent.max[1] - extent.min[1];
+        EXPECT_GT(std::max(width, height), 0.7) << name << up << aspect;
+        for (int i = 0; i < 2; ++i) {
+          EXPECT_GT(extent.min[i], 0.005);
+          EXPECT_LT(extent.max[i], 0.995);
+        }
+      }
+    }
+  }
+}
+
+TEST(Camera, ATurntableBoxHoldsTheBoxAtEveryTurn) {
+  const VoxelBounds box{{{10, 20, 30}}, {{110, 60, 230}}};
+  const VoxelBounds held = turntable_bounds(box, 1);
+  const Vec3 centre = (box.min + box.max) * 0.5;
+  for (const Vec3& corner : corners_of(box)) {
+    for (int i = 0; i < 64; ++i) {
+      const double c = std::cos(0.1 * i), s = std::sin(0.1 * i);
+      const Vec3 d = corner - centre;
+      const Vec3 p = centre + Vec3{{c * d[0] - s * d[2], d[1], s * d[0] + c * d[2]}};
+      for (int a = 0; a < 3; ++a) {
+        EXPECT_GE(p[a], held.min[a] - 1e-9);
+        EXPECT_LE(p[a], held.max[a] + 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Camera, BoundsOfSmallGridsAreThoseOfBricks) {
   const RawFile file(raw_dag(test_grid(6), {{5, 40, 63}, {20, 41, 0}}));
   const VoxelBounds box = framing_bounds(file.view());
@@ -40,44 +104,36 @@ TEST(Camera, BoundsOfSmallGridsAreThoseOfBricks) {
   }
 }
 
-TEST(Camera, InsideIsInEmptySpace) {
-  VoxelSet voxels;  // two walls across x, with a floor between them
-  for (int64_t i = 0; i < 64; ++i) {
-    for (int64_t k = 0; k < 32; ++k) {
-      voxels.emplace(20, i, k);
-      voxels.emplace(63, i, k);
-      voxels.emplace(i, 0, k);
-    }
-  }
-  const RawFile file(raw_dag(test_grid(6), voxels));
-  const Camera camera =
-      preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
-  EXPECT_GT(camera.position[0], 21);
-  EXPECT_LT(camera.position[0], 32);
-  EXPECT_GT(camera.forward[0], 0.99);
-}
-
-TEST(Camera, InsideAvoidsASmallRoomInTheMiddle) {
-  VoxelSet voxels;
-  for (int64_t i = 0; i < 64; ++i) {
-    for (int64_t k = 0; k < 64; ++k) voxels.emplace(i, 0, k);
-  }
-  voxels.emplace(0, 63, 0);
-  for (int64_t x = 30; x <= 34; ++x) {
-    for (int64_t y = 10; y <= 30; ++y) {
-      for (int64_t z = 30; z <= 34; ++z) {
-        if (x == 30 || x == 34 || y == 10 || y == 30 || z == 30 || z == 34) voxels.emplace(x, y, z);
+// The walls of a box of voxels.
+void add_room(const LatticePoint& min, const LatticePoint& max, VoxelSet* voxels) {
+  for (int64_t x = min.x; x <= max.x; ++x) {
+    for (int64_t y = min.y; y <= max.y; ++y) {
+      for (int64_t z = min.z; z <= max.z; ++z) {
+        if (x == min.x || x == max.x || y == min.y || y == max.y || z == min.z || z == max.z)
+          voxels->emplace(x, y, z);
       }
     }
   }
+}
+
+TEST(Camera, InsideIsInTheLargestRoomAndNotOnTheRoof) {
+  VoxelSet voxels;
+  add_room({0, 0, 0}, {63, 20, 40}, &voxels);    // the hall
+  add_room({0, 20, 0}, {10, 40, 40}, &voxels);   // a tower on it
+  add_room({28, 8, 18}, {34, 20, 24}, &voxels);  // a closet in its middle
   const RawFile file(raw_dag(test_grid(6), voxels));
   const Camera camera =
       preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
-  bool in_room = true;
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_GT(camera.position[a], 1);
+    EXPECT_LT(camera.position[a], (Vec3{{63, 20, 40}})[a]);
+  }
+  bool in_closet = true;
   for (int a = 0; a < 3; ++a)
-    in_room = in_room && camera.position[a] >= (a == 1 ? 10 : 30) &&
-              camera.position[a] <= (a == 1 ? 31 : 35);
-  EXPECT_FALSE(in_room);
+    in_closet = in_closet && camera.position[a] > (Vec3{{28, 8, 18}})[a] &&
+                camera.position[a] < (Vec3{{35, 21, 25}})[a];
+  EXPECT_FALSE(in_closet);
+  EXPECT_NEAR(camera.forward[1], 0, 1e-12);
 }
 
 TEST(Camera, TurnsAroundTheBoxFromOutsideAndInPlaceInside) {

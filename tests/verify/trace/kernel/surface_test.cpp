@@ -23,17 +23,44 @@ TEST(Surface, NormalOfAPlaneIsThePlanes) {
   const Ray ray{{{64, 64, 64}}, normalized({{-1, -1, -1}})};
   const Hit hit = trace_closest(file.view(), ray);
   ASSERT_TRUE(hit.found);
-  const Vec3 normal = surface_normal(file.view(), hit, ray.direction);
+  const Vec3 normal = surface_normal(file.view(), hit, ray);
   EXPECT_GT(dot(normal, normalized({{1, 2, 2}})), 0.99);
 }
 
 TEST(Surface, ASingleVoxelHasTheNormalOfTheEnteredFace) {
   const RawFile file(raw_dag(test_grid(6), {{20, 30, 40}}));
   const Ray ray{{{20.5, 64, 40.5}}, {{0, -1, 0}}};
-  const Vec3 normal = surface_normal(file.view(), trace_closest(file.view(), ray), ray.direction);
+  const Vec3 normal = surface_normal(file.view(), trace_closest(file.view(), ray), ray);
   EXPECT_EQ(normal[0], 0);
   EXPECT_EQ(normal[1], 1);
   EXPECT_EQ(normal[2], 0);
+}
+
+// Where a ray is nearly in the surface, its direction does not decide which side it came from.
+TEST(Surface, NormalsOfASpherePointOutwardsUpToItsRim) {
+  VoxelSet voxels;
+  const Vec3 centre{{32, 32, 32}};
+  for (int64_t x = 0; x < 64; ++x) {
+    for (int64_t y = 0; y < 64; ++y) {
+      for (int64_t z = 0; z < 64; ++z) {
+        const double r = length(Vec3{{double(x) + 0.5, double(y) + 0.5, double(z) + 0.5}} - centre);
+        if (r > 27.5 && r < 29) voxels.emplace(x, y, z);
+      }
+    }
+  }
+  const RawFile file(raw_dag(test_grid(6), voxels));
+  int rim = 0;
+  for (int i = 0; i < 200; ++i) {
+    for (int k = 0; k < 200; ++k) {
+      const Ray ray{{{0.16 + 0.32 * i, 0.16 + 0.32 * k, 200}}, normalized({{1e-3, 2e-3, -1}})};
+      const Hit hit = trace_closest(file.view(), ray);
+      if (!hit.found) continue;
+      const Vec3 outwards = normalized(ray.origin + ray.direction * hit.t - centre);
+      rim += dot(outwards, ray.direction) > -0.2;
+      ASSERT_GT(dot(surface_normal(file.view(), hit, ray), outwards), 0) << i << " " << k;
+    }
+  }
+  EXPECT_GT(rim, 300);
 }
 
 TEST(Surface, BricksAreFoundFromTheirCommonAncestor) {
