@@ -9,6 +9,7 @@
 #include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
+#include "streaming/file/file.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/spill/invalid_scratch.h"
@@ -252,7 +253,9 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
   SpillSpace vertices = workspace.vertices();
-  const Scene scene(config.scene, workspace.budget(), &vertices);
+  SceneConfig scene_config = config.scene;
+  scene_config.unpack_folder = folder_of(workspace.folder()->path());
+  const Scene scene(scene_config, workspace.budget(), &vertices);
   Description description(config, scene);
   Checkpoint checkpoint(&workspace);
   DiskNeed disk_need(workspace.scratch());

@@ -12,9 +12,10 @@
 namespace svdag {
 namespace {
 
-// "scenes/hall.glb" -> "hall.svdag".
+// "scenes/hall.glb" and "scenes/hall.glb.gz" -> "hall.svdag".
 std::string output_name(const std::string& scene) {
-  const std::string name = scene.substr(scene.find_last_of('/') + 1);
+  std::string name = scene.substr(scene.find_last_of('/') + 1);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return name.substr(0, name.find_last_of('.')) + ".svdag";
 }
 

@@ -33,7 +33,6 @@ constexpr Foreign kForeign[] = {
     {" e57 pcd xyz pts ", "ASTM-E57", "a point cloud",
      "svdag bakes triangles: reconstruct a surface first, for example with CloudCompare"},
     {" splat spz ", "", "a Gaussian splat", "svdag bakes triangles: extract a mesh first"},
-    {" gz ", "\x1f\x8b", "compressed with gzip", "unpack it with gunzip"},
     {" zst ", "\x28\xb5\x2f\xfd", "compressed with zstd", "unpack it with unzstd"},
     {" zip ", "PK\x03\x04", "a ZIP archive", "unpack it and name the scene in it"},
     {" vdb ", " BDV", "an OpenVDB grid", "svdag import reads its voxels"},

@@ -5,9 +5,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/readers/gzip.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
@@ -144,18 +146,29 @@ void append_unmatched(const char* option, const std::vector<std::string>& patter
   }
 }
 
+// "ply" for "a.PLY" and "a.ply.gz".
 std::string lower_extension(const std::string& path) {
-  const std::string name = base_name(path);
+  std::string name = base_name(path);
+  for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
   const size_t dot = name.find_last_of('.');
-  std::string extension = dot == std::string::npos ? "" : name.substr(dot + 1);
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return dot == std::string::npos ? "" : name.substr(dot + 1);
 }
 
 }  // namespace
 
 Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
     : config_(std::move(config)), budget_(budget), spill_(spill) {}
+
+const File& Scene::content_of(const File& packed) const {
+  if (!is_gzip(packed)) return packed;
+  const auto found = unpacked_.find(packed.path());
+  if (found != unpacked_.end()) return found->second;
+  const std::string folder = config_.unpack_folder.empty()
+                                 ? std::filesystem::temp_directory_path().string()
+                                 : config_.unpack_folder;
+  return unpacked_.emplace(packed.path(), unpack_gzip(packed, folder)).first->second;
+}
 
 SceneCounts Scene::stream(const TriangleSink& sink) const {
   return read(sink, nullptr);
@@ -172,7 +185,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const std::string name = base_name(path);
     const bool by_name = !names.include.empty() && names.includes(PartKind::kFile, name);
     if (names.excludes(PartKind::kFile, name)) continue;
-    const File file = File::open_read(path);
+    const File packed = File::open_read(path);
+    const File& file = content_of(packed);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
     ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
@@ -220,8 +234,9 @@ void Scene::visit_files(const std::function<void(const File&)>& visit) const {
     if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
-    if (detect_format(file) != SceneFormat::kGltf) continue;
-    const GltfDocument document = load_gltf(file, budget_);
+    const File& content = content_of(file);
+    if (detect_format(content) != SceneFormat::kGltf) continue;
+    const GltfDocument document = load_gltf(content, budget_);
     for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
   }
 }
@@ -255,7 +270,8 @@ SceneFormat detect_format(const File& file) {
   if (!foreign.empty()) fail_input(file.path(), foreign);
   fail_input(file.path(),
              "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, "
-             "Draco and OpenMesh files, OBJ and binary STL by the ending of their names");
+             "Draco and OpenMesh files, also as .gz; OBJ and binary STL by the ending of their "
+             "names");
 }
 
 const char* format_name(SceneFormat format) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
+  std::string unpack_folder = {};  // of gzip files; empty: that of temporary files
 
   // From the coordinates of the files, transforms of glTF nodes included, to the world.
   Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }
@@ -57,13 +59,17 @@ class Scene {
 
  private:
   SceneCounts read(const TriangleSink& sink, MeshBox* box_alone) const;
+  // The content of a scene file: that of `packed`, unpacked once if it is a gzip file.
+  const File& content_of(const File& packed) const;
 
   SceneConfig config_;
   MemoryBudget* budget_;
   const SpillSpace* spill_;
+  mutable std::map<std::string, File> unpacked_;  // by path
 };
 
-// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off).
+// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off). A
+// gzip file must be unpacked; its ".gz" is ignored.
 // An unknown file is an Error (kBadInput) that lists what can be read.
 SceneFormat detect_format(const File& file);
 const char* format_name(SceneFormat format);

@@ -5,6 +5,7 @@ Most are written by the programs; the journal follows builder/bake/saved_bake.cp
 tests/fuzz/corpus: run this again when a format changes.
 """
 import base64
+import gzip
 import io
 import json
 import pathlib
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+import zlib
 
 import numpy
 import pyopenvdb
@@ -104,6 +106,21 @@ def plys():
             body = b"".join(struct.pack(order + fx + fy + fz, *p) for p in ((0, 0, 0), (9, 0, 1), (0, 7, 2)))
             face = struct.pack(order + ("H" if first else "B") + ("3I" if first == 3 else "3h"), 3, 0, 1, 2)
             yield f"types_{name}_{first}.ply", head.encode() + body + face
+
+
+def gzips():
+    """Stored, fixed and dynamic blocks, all fields of a header, two members, and bytes behind them."""
+    text = b"solid a\nendsolid a\n" * 9
+    for level in (0, 1, 9):
+        yield f"level_{level}.gz", gzip.compress(text, level, mtime=0)
+    named = io.BytesIO()
+    with gzip.GzipFile("a.stl", "wb", 9, named, mtime=1) as file:
+        file.write(text)
+    yield "members.gz", named.getvalue() + gzip.compress(b"", mtime=0) + b"\0\0"
+    body = zlib.compress(text, 9)[2:-4]
+    fields = b"\x1f\x8b\x08\x1e\0\0\0\0\0\3" + b"\2\0ab" + b"name\0" + b"comment\0"
+    fields += struct.pack("<H", zlib.crc32(fields) & 0xffff)
+    yield "fields.gz", fields + body + struct.pack("<II", zlib.crc32(text), len(text))
 
 
 def npzs():
@@ -199,7 +216,7 @@ def main(programs, corpus):
             parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
             keep("plan", f"{kind}.plan", b"\n---\n".join(part.read_bytes().replace(str(folder).encode(), b"/work")
                                                      for part in parts))
-        svdag("build", "two.stl", "-o", "a.svdag", "-r", "32", "--exclude", "<q>", "--report", "r.json")
+        svdag("build", "two.stl", "-o", "a.svdag", "-r", "32", "--exclude", "<q>", "--allow-empty", "--report", "r.json")
         for name, data in reports((folder / "r.json").read_text()):
             keep("report", name, data)
         for name, data in scenes(corpus):
@@ -213,6 +230,8 @@ def main(programs, corpus):
             keep("ply", name, data)
         for name, data in npzs():
             keep("npz", name, data)
+        for name, data in gzips():
+            keep("gzip", name, data)
         keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
              b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):

@@ -1,0 +1,21 @@
+// Unpacks gzip files (RFC 1952), of one or several members, with zlib.
+//
+// Readers need random access, so the file is unpacked to disk, into a file without a name.
+// Rejected: inflating on the fly (every pass would inflate again, and PLY reads two ranges at
+// once), unpacking into memory (scenes are larger).
+#pragma once
+
+#include <string>
+
+#include "streaming/file/file.h"
+
+namespace svdag {
+
+// Whether the content begins as that of a gzip file.
+bool is_gzip(const File& file);
+
+// The content of `file`, in an anonymous file in `folder` that has the same path(). Damaged data is
+// an Error (kBadInput); a full disk is an Error (kOutput).
+File unpack_gzip(const File& file, const std::string& folder);
+
+}  // namespace svdag

@@ -1,0 +1,98 @@
+// Gzip files are unpacked as gunzip does.
+#include "io/scene/readers/gzip.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <random>
+
+#include "io/scene/scene.h"
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+std::string packed(const std::string& text, int level = 6) {
+  z_stream state{};
+  deflateInit2(&state, level, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string out(deflateBound(&state, text.size()) + 64, '\0');
+  state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  state.avail_in = uInt(text.size());
+  state.next_out = reinterpret_cast<Bytef*>(out.data());
+  state.avail_out = uInt(out.size());
+  EXPECT_EQ(deflate(&state, Z_FINISH), Z_STREAM_END);
+  out.resize(state.total_out);
+  deflateEnd(&state);
+  return out;
+}
+
+std::string random_text(size_t size, char values) {
+  std::mt19937 random(5);
+  std::string text(size, ' ');
+  for (char& c : text) c = char(random() % uint32_t(values));
+  return text;
+}
+
+class Gzip : public testing::Test {
+ protected:
+  std::string unpacked(const std::string& bytes) {
+    const File out = unpack_gzip(File::open_read(folder_.write("a.ply.gz", bytes)), folder_.path());
+    std::string text(out.size(), ' ');
+    out.read_at(0, std::as_writable_bytes(std::span(text)));
+    return text;
+  }
+  TempFolder folder_;
+};
+
+TEST_F(Gzip, GivesTheContentOfAnySizeAndLevel) {
+  for (const size_t size :
+       {size_t(0), size_t(1), size_t(1) << 18, (size_t(1) << 18) + 1, size_t(3000000)}) {
+    for (const int level : {0, 1, 9}) {
+      const std::string text = random_text(size, level == 0 ? 127 : 4);
+      EXPECT_EQ(unpacked(packed(text, level)), text) << size << " " << level;
+    }
+  }
+}
+
+TEST_F(Gzip, AppendsMembersAndIgnoresWhatIsNotOne) {
+  EXPECT_EQ(unpacked(packed("one ") + packed("") + packed("two")), "one two");
+  EXPECT_EQ(unpacked(packed("one") + std::string(512, '\0')), "one");
+}
+
+TEST_F(Gzip, DamageIsAnError) {
+  const std::string text = random_text(100000, 16), bytes = packed(text);
+  for (size_t size = 2; size < bytes.size(); size += 997)
+    EXPECT_SVDAG_ERROR(unpacked(bytes.substr(0, size)), ExitCode::kBadInput, "ends too early");
+  int found = 0;
+  for (size_t at = 20; at < bytes.size(); at += 997) {  // the checksum is the last resort
+    std::string wrong = bytes;
+    wrong[at] = char(wrong[at] ^ 0x10);
+    try {
+      unpacked(wrong);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, int((bytes.size() - 20 + 996) / 997));
+}
+
+TEST_F(Gzip, ASceneIsReadAsIfUnpackedAndUnpackedOnce) {
+  const std::string obj = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 5\nf 1 2 3\n";
+  MemoryBudget budget;
+  SceneConfig config = {.paths = {folder_.write("scene.OBJ.GZ", packed(obj))}, .names = {}};
+  config.unpack_folder = folder_.path();
+  const Scene scene(config, &budget);
+  const Box box = scene.bounds();
+  EXPECT_EQ(box.max, Point(1, 1, 5));
+  uint64_t triangles = 0;
+  EXPECT_EQ(scene.stream([&](const TriangleBatch& batch) { triangles += batch.triangles.size(); })
+                .triangles,
+            1U);
+  EXPECT_EQ(triangles, 1U);
+  EXPECT_EQ(folder_.entries(), 1U);  // the unpacked file has no name
+}
+
+}  // namespace
+}  // namespace svdag
