@@ -5,7 +5,6 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kByBlender = "open it in Blender and export it as .glb";
 constexpr const char* kByMeshLab = "convert it to .ply, for example with MeshLab or Open3D";
 
 struct Foreign {
@@ -16,15 +15,11 @@ struct Foreign {
 };
 
 constexpr Foreign kForeign[] = {
-    {" fbx ", "Kaydara FBX", "FBX", kByBlender},
-    {" dae ", "", "COLLADA", kByBlender},
-    {" 3ds ", "", "3D Studio", kByBlender},
     {" blend ", "BLENDER", "Blender", kByBlender},
     {" abc ", "Ogawa", "Alembic", kByBlender},
     {" usd usda ", "#usda", "USD", kByBlender},
     {" usdz ", "", "a USD archive", kByBlender},
     {" usdc ", "PXR-USDC", "USD", kByBlender},
-    {" 3mf ", "", "3MF", "export it from the slicer as .stl"},
     {" step stp iges igs ", "ISO-1030", "a CAD model",
      "tessellate it, for example with FreeCAD, and export it as .stl"},
     {" vrml wrl x3d ", "#VRML", "VRML or X3D", kByMeshLab},

@@ -113,7 +113,8 @@ class ToWorld {
 };
 
 void read_file(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  switch (detect_format(file)) {
+  const SceneFormat format = detect_format(file);
+  switch (format) {
     case SceneFormat::kPly:
       return read_ply(file, options, sink);
     case SceneFormat::kStl:
@@ -128,6 +129,11 @@ void read_file(const File& file, const ReadOptions& options, const TriangleSink&
       return read_draco(file, options, sink);
     case SceneFormat::kOpenMesh:
       return read_openmesh(file, options, sink);
+    case SceneFormat::kFbx:
+    case SceneFormat::kCollada:
+    case SceneFormat::k3mf:
+    case SceneFormat::k3ds:
+      return read_with_assimp(file, format_name(format), options, sink);
   }
 }
 
@@ -262,6 +268,10 @@ SceneFormat detect_format(const File& file) {
   if (extension == "ply") return SceneFormat::kPly;
   if (extension == "drc") return SceneFormat::kDraco;
   if (extension == "om") return SceneFormat::kOpenMesh;
+  if (extension == "fbx" || start.starts_with("Kaydara")) return SceneFormat::kFbx;
+  if (extension == "dae") return SceneFormat::kCollada;
+  if (extension == "3mf") return SceneFormat::k3mf;
+  if (extension == "3ds") return SceneFormat::k3ds;
   if (start.starts_with("OFF")) return SceneFormat::kOff;
   if (start.starts_with("solid")) return SceneFormat::kStl;
   if (extension == "svdag")
@@ -269,9 +279,9 @@ SceneFormat detect_format(const File& file) {
   const std::string foreign = foreign_format_message(extension, start);
   if (!foreign.empty()) fail_input(file.path(), foreign);
   fail_input(file.path(),
-             "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, "
-             "Draco and OpenMesh files, also as .gz; OBJ and binary STL by the ending of their "
-             "names");
+             "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, Draco, "
+             "OpenMesh, FBX, COLLADA, 3MF and 3DS files, also as .gz; OBJ and binary STL by the "
+             "ending of their names");
 }
 
 const char* format_name(SceneFormat format) {
@@ -290,6 +300,14 @@ const char* format_name(SceneFormat format) {
       return "Draco";
     case SceneFormat::kOpenMesh:
       return "OpenMesh";
+    case SceneFormat::kFbx:
+      return "FBX";
+    case SceneFormat::kCollada:
+      return "COLLADA";
+    case SceneFormat::k3mf:
+      return "3MF";
+    case SceneFormat::k3ds:
+      return "3DS";
   }
   return "";
 }

@@ -12,7 +12,19 @@
 
 namespace svdag {
 
-enum class SceneFormat { kPly, kStl, kObj, kOff, kGltf, kDraco, kOpenMesh };
+enum class SceneFormat {
+  kPly,
+  kStl,
+  kObj,
+  kOff,
+  kGltf,
+  kDraco,
+  kOpenMesh,
+  kFbx,
+  kCollada,
+  k3mf,
+  k3ds
+};
 
 struct SceneConfig {
   std::vector<std::string> paths;  // at least one

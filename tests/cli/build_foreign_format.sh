@@ -1,5 +1,5 @@
 # A scene of a format that is not read: the message names the format and a way to convert it.
-for name in a.fbx a.dae a.usdz a.3mf cloud.las scene.obj.zst a.vdb; do
+for name in a.blend a.abc a.usdz a.step cloud.las scene.obj.zst a.vdb; do
   echo data > $name
   svdag build $name -r 64 -o r.svdag || echo "exit $?"
 done

@@ -22,6 +22,8 @@ import xxhash
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "io"))
 import hostile_counts_test  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
+import foreign_scenes  # noqa: E402
 
 
 def stl(path, triangles):
@@ -232,6 +234,9 @@ def main(programs, corpus):
             keep("npz", name, data)
         for name, data in gzips():
             keep("gzip", name, data)
+        foreign_scenes.main(str(folder / "s"))
+        for number, name in enumerate(("s_z.fbx", "s.dae", "s.3mf", "s.3ds")):
+            keep("assimp", name, bytes([number]) + (folder / name).read_bytes())
         keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
              b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):

@@ -1,6 +1,6 @@
 // The interface of all scene formats: triangles in world space, in batches.
 //
-// One function per format, one file per function. A reader streams: it holds at most the vertex
+// One function per format, one file per function. A reader of ours streams: it holds at most the vertex
 // positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
 // memory go to a spill file if it has one (io/scene/mesh/positions.h). It checks every count
 // against the remaining bytes before it allocates, and reports a damaged file as one Error
@@ -81,6 +81,9 @@ void read_off(const File& file, const ReadOptions& options, const TriangleSink& 
 void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink);  // and GLB
 void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
 void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
+// `format`: FBX, COLLADA, 3MF or 3DS.
+void read_with_assimp(const File& file, const std::string& format, const ReadOptions& options,
+                      const TriangleSink& sink);
 
 // Collects triangles and passes them on in batches of up to kBatch; used by all readers.
 class BatchWriter {

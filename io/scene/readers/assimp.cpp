@@ -1,0 +1,203 @@
+// Reads FBX, COLLADA, 3MF and 3DS with Assimp.
+//
+// Assimp holds the whole scene (about ten times the file), so these formats are not streamed. It
+// parses untrusted bytes, so it always runs in a process of its own; under --sandbox, one that can
+// only compute. Its positions are floats; the transforms of nodes are composed here, in double.
+// Polygons are triangulated here as those of all formats: Assimp's own triangulation may drop some.
+//
+// Files that name their vertical axis are turned so that y is up: COLLADA and 3DS by Assimp, FBX
+// here. COLLADA comes in metres, the others in the units of the file.
+//
+// The child sends blocks: a tag, then a header (flags, the material, the names of the nodes from
+// the root on, separated by zero bytes) or the triangles that belong to the last header.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <string_view>
+
+#include "io/affine.h"
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/limited_decoder.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+enum class Tag : unsigned char { kHeader, kTriangles };
+
+constexpr int kMaxDepth = 512;  // of nodes; the walk recurses
+
+Affine affine_of(const aiMatrix4x4& m) {
+  Affine affine;
+  for (unsigned r = 0; r < 3; ++r) {
+    for (unsigned c = 0; c < 4; ++c) affine.m[r][c] = double(m[r][c]);
+  }
+  return affine;
+}
+
+// Sends the meshes of a scene, node by node.
+class Sender {
+ public:
+  Sender(const File& file, const aiScene& scene, const BlockSink& send)
+      : file_(file), scene_(scene), send_(send) {}
+
+  void send_node(const aiNode& node, const Affine& parent, const std::string& parent_names,
+                 int depth) {
+    if (depth > kMaxDepth) fail_input(file_.path(), "has nodes nested too deeply");
+    const Affine to_world = compose(parent, affine_of(node.mTransformation));
+    const std::string names = parent_names + '\0' + node.mName.C_Str();
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+      send_mesh(*scene_.mMeshes[node.mMeshes[i]], to_world, names);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+      send_node(*node.mChildren[i], to_world, names, depth + 1);
+  }
+
+ private:
+  void send_mesh(const aiMesh& mesh, const Affine& to_world, const std::string& names) {
+    std::string material;
+    if (mesh.mMaterialIndex < scene_.mNumMaterials)
+      material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    if (material == AI_DEFAULT_MATERIAL_NAME || material == "%%%DEFAULT") material.clear();
+    const bool undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
+    block_.assign(1, char(Tag::kHeader));
+    block_ += char(undeformed);
+    block_ += material + names;
+    flush();
+
+    const TriangleSink sink = [&](const TriangleBatch& batch) { send_triangles(batch.triangles); };
+    BatchWriter out(sink);
+    out.mirrored(is_mirror(to_world));
+    MemoryBudget without_limit;  // the process of its own has one
+    Triangulator polygon(&without_limit, file_.path());
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // a point or a line
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices)
+          fail_input(file_.path(), "has a face with a corner that does not exist");
+        const aiVector3D& p = mesh.mVertices[face.mIndices[k]];
+        polygon.corner(to_world({double(p.x), double(p.y), double(p.z)}));
+      }
+      polygon.finish(out);
+    }
+    out.flush();
+  }
+
+  void send_triangles(std::span<const Triangle> triangles) {
+    block_.assign(1, char(Tag::kTriangles));
+    block_.append(reinterpret_cast<const char*>(triangles.data()), triangles.size_bytes());
+    flush();
+  }
+
+  void flush() { send_(std::as_bytes(std::span(block_))); }
+
+  const File& file_;
+  const aiScene& scene_;
+  const BlockSink& send_;
+  std::string block_;
+};
+
+// FBX stores the number of its vertical axis, and its sign.
+Affine up_axis_to_y(const aiScene& scene) {
+  int axis = 1, sign = 1;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2)
+    return {};
+  scene.mMetaData->Get("UpAxisSign", sign);
+  return parse_up((sign < 0 ? "-" : "") + std::string(1, "xyz"[axis]));
+}
+
+// "fbx"; Assimp chooses the reader by it.
+std::string hint_of(const std::string& format) {
+  return format == "COLLADA" ? "dae" : format == "FBX" ? "fbx" : format == "3MF" ? "3mf" : "3ds";
+}
+
+void decode(const File& file, std::span<const std::byte> bytes, const std::string& format,
+            const BlockSink& send) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint_of(format).c_str());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+  }
+  // Assimp catches std::bad_alloc.
+  const std::string why = importer.GetErrorString();
+  if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
+  if (scene == nullptr || scene->mRootNode == nullptr)
+    fail_input(file.path(), "is not a valid " + format + " file: " + why);
+  Sender(file, *scene, send).send_node(*scene->mRootNode, up_axis_to_y(*scene), {}, 0);
+}
+
+// Passes on the triangles of a child, by the names of its headers.
+class Receiver {
+ public:
+  Receiver(const File& file, const ReadOptions& options, const TriangleSink& sink)
+      : file_(file), options_(options), out_(sink) {}
+
+  void take(std::span<const std::byte> block) {
+    if (block.empty()) fail();
+    const Tag tag = Tag(block[0]);
+    block = block.subspan(1);
+    tag == Tag::kHeader ? take_header(block) : take_triangles(block);
+  }
+  void finish() { out_.flush(); }
+
+ private:
+  void take_header(std::span<const std::byte> block) {
+    if (block.size() < 2) fail();
+    const bool undeformed = block[0] != std::byte(0);
+    std::string_view text(reinterpret_cast<const char*>(block.data()) + 1, block.size() - 1);
+    const std::string material(text.substr(0, text.find('\0')));
+    const NameFilter& filter = *options_.names;
+    // All are called in any case: they record which patterns match.
+    bool included = filter.includes(PartKind::kMaterial, material) || options_.file_included;
+    bool excluded = filter.excludes(PartKind::kMaterial, material);
+    std::string name;
+    for (size_t at = text.find('\0'); at != text.npos; at = text.find('\0', at + 1)) {
+      name = text.substr(at + 1, text.find('\0', at + 1) - at - 1);
+      included |= filter.includes(PartKind::kObject, name);
+      excluded |= filter.excludes(PartKind::kObject, name);
+    }
+    wanted_ = included && !excluded;
+    out_.mesh(name, undeformed);
+    out_.material(material);
+  }
+
+  void take_triangles(std::span<const std::byte> block) {
+    if (block.size() % sizeof(Triangle) != 0) fail();
+    for (; wanted_ && !block.empty(); block = block.subspan(sizeof(Triangle))) {
+      Triangle t;
+      std::memcpy(&t, block.data(), sizeof t);
+      out_.add(t.v[0], t.v[1], t.v[2]);
+    }
+  }
+
+  [[noreturn]] void fail() const { fail_input(file_.path(), "its decoder sent an invalid block"); }
+
+  const File& file_;
+  const ReadOptions& options_;
+  BatchWriter out_;
+  bool wanted_ = false;
+};
+
+}  // namespace
+
+void read_with_assimp(const File& file, const std::string& format, const ReadOptions& options,
+                      const TriangleSink& sink) {
+  const auto memory = options.budget->reserve(file.size(), (format + " files").c_str());
+  std::vector<std::byte> bytes(size_t(file.size()));
+  file.read_at(0, bytes);
+  Receiver receiver(file, options, sink);
+  run_limited(
+      decoder_limits(bytes.size(), *options.budget, options.sandbox), file.path(),
+      [&](const BlockSink& send) { decode(file, bytes, format, send); },
+      [&](std::span<const std::byte> block) { receiver.take(block); });
+  receiver.finish();
+}
+
+}  // namespace svdag
