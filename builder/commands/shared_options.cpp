@@ -55,8 +55,10 @@ void add_scene_options(CLI::App* app, SceneConfig* scene) {
   app->add_flag("--allow-empty", scene->allow_unmatched, "Accept a pattern that matches no name");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");
-  app->add_flag("--sandbox", scene->sandbox,
-                "Decode Draco and OpenMesh data in a limited process: for untrusted scenes");
+  app->add_flag(
+      "--sandbox", scene->sandbox,
+      "Run Assimp, Draco, meshoptimizer and OpenMesh in a process that can only compute: for "
+      "untrusted scenes");
   app->add_option_function<std::string>(
          "--transform", [scene](const std::string& s) { scene->transform = parse_transform(s); },
          "Transform the scene by a 4x4 matrix, row by row; bounds and sizes are those after it")

@@ -195,7 +195,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File& file = content_of(packed);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
-    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
+    ReadOptions options{
+        &names, by_name, budget_, spill_, box_alone, config_.sandbox, config_.unpack_folder};
     if (to_world == Affine()) {
       read_file(file, options, filtered);
     } else {

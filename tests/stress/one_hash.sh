@@ -26,7 +26,7 @@ hashes_of() {  # PROGRAMS WORK-FOLDER
 
 compile() {  # COMPILER FLAGS FOLDER
   cmake -S . -B "$3" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$1" \
-    -DCMAKE_CXX_FLAGS="$2" -DSVDAG_ASSIMP=OFF -DSVDAG_DRACO=OFF -DSVDAG_OPENMESH=OFF >/dev/null
+    -DCMAKE_CXX_FLAGS="$2" -DSVDAG_ASSIMP=OFF -DSVDAG_DRACO=OFF -DSVDAG_MESHOPT=OFF -DSVDAG_OPENMESH=OFF >/dev/null
   ninja -C "$3" svdag svdag-scene >/dev/null
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include "io/scene/gltf/gltf_uri.h"
+#include "io/scene/readers/meshopt.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -128,8 +130,38 @@ const Blob& GltfBuffers::blob(uint64_t index) {
   return blobs_.emplace(index, std::move(blob)).first->second;
 }
 
+GltfBuffers::View GltfBuffers::unpacked_view(uint64_t index, const JsonObject& meshopt) {
+  const MeshoptView shape = {meshopt.text("mode"), meshopt.text("filter"), meshopt.count("count"),
+                             meshopt.count("byteStride")};
+  auto known = unpacked_.find(index);
+  if (known == unpacked_.end()) {
+    const View data = view_of(meshopt, index);
+    const auto memory = budget_->reserve(data.size, "compressed glTF meshes");
+    std::vector<std::byte> bytes(size_t(data.size));
+    data.blob->read_at(data.begin, bytes);
+    if (!unpacked_file_)
+      unpacked_file_ = File::create_anonymous(
+          unpack_folder_.empty() ? std::filesystem::temp_directory_path().string() : unpack_folder_,
+          document_.file->path());
+    const uint64_t begin = unpacked_bytes_;
+    decode_meshopt({bytes, document_.file->path(), sandbox_}, shape, *budget_,
+                   [this](std::span<const std::byte> block) {
+                     unpacked_file_->write_at(unpacked_bytes_, block);
+                     unpacked_bytes_ += block.size();
+                   });
+    known = unpacked_.emplace(index, Blob::in_file(&*unpacked_file_, begin, shape.bytes())).first;
+  }
+  return {&known->second, 0, known->second.size(), shape.stride};
+}
+
 GltfBuffers::View GltfBuffers::view(uint64_t index) {
   const JsonObject object = document_.element("bufferViews", index);
+  const auto meshopt = object.extension("EXT_meshopt_compression");
+  // Without the library, a file may have uncompressed data as well.
+  return meshopt && has_meshopt() ? unpacked_view(index, *meshopt) : view_of(object, index);
+}
+
+GltfBuffers::View GltfBuffers::view_of(const JsonObject& object, uint64_t index) {
   const Blob& data = blob(object.count("buffer"));
   const View view{&data, object.count("byteOffset", 0), object.count("byteLength"),
                   object.count("byteStride", 0)};

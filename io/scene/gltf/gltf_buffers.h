@@ -78,8 +78,13 @@ class GltfBuffers {
   // bytes of JSON could request 18 EB.
   static constexpr uint64_t kMaxImplicit = uint64_t(1) << 20;
 
-  GltfBuffers(const GltfDocument& document, MemoryBudget* budget)
-      : document_(document), budget_(budget) {}
+  // Compressed views are unpacked into an anonymous file in `unpack_folder`.
+  GltfBuffers(const GltfDocument& document, MemoryBudget* budget, std::string unpack_folder = {},
+              bool sandbox = false)
+      : document_(document),
+        budget_(budget),
+        unpack_folder_(std::move(unpack_folder)),
+        sandbox_(sandbox) {}
 
   static constexpr const char* kAnyType = "";
 
@@ -99,6 +104,10 @@ class GltfBuffers {
     uint64_t stride;  // 0: elements are contiguous
   };
   View view(uint64_t index);
+  // The place that `object`, buffer view `index` or its extension, describes.
+  View view_of(const JsonObject& object, uint64_t index);
+  // The view of `meshopt`, the EXT_meshopt_compression of buffer view `index`, unpacked.
+  View unpacked_view(uint64_t index, const JsonObject& meshopt);
   const Blob& blob(uint64_t index);
   Blob open(uint64_t index);
   // Places `array` (type and count are set) at `offset` of buffer view `view`.
@@ -107,6 +116,11 @@ class GltfBuffers {
   const GltfDocument& document_;
   MemoryBudget* budget_;
   std::map<uint64_t, Blob> blobs_;  // opened on first use: skipped nodes cost nothing
+  std::string unpack_folder_;       // empty: that of temporary files
+  bool sandbox_;
+  std::optional<File> unpacked_file_;  // all unpacked views, one after the other
+  uint64_t unpacked_bytes_ = 0;
+  std::map<uint64_t, Blob> unpacked_;  // by view
 };
 
 }  // namespace svdag

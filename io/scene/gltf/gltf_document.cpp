@@ -6,6 +6,7 @@
 
 #include "io/scene/gltf/gltf_json.h"
 #include "io/scene/readers/draco.h"
+#include "io/scene/readers/meshopt.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -56,6 +57,7 @@ void load_glb(GltfDocument* document) {
 
 bool supported(const std::string& extension) {
   if (extension == "KHR_draco_mesh_compression") return has_draco();
+  if (extension == "EXT_meshopt_compression") return has_meshopt();
   constexpr std::array<std::string_view, 11> kKnown = {
       "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_texture_transform",
       "KHR_texture_basisu",    "EXT_texture_webp",        "EXT_texture_avif",

@@ -65,6 +65,7 @@ struct ReadOptions {
   MeshBox* box_alone = nullptr;
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
+  std::string unpack_folder = {};  // of decompressed data; empty: that of temporary files
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {

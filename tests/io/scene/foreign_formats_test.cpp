@@ -7,14 +7,14 @@ namespace svdag {
 namespace {
 
 TEST(ForeignFormats, AreRecognisedByName) {
-  EXPECT_EQ(foreign_format_message("fbx", ""),
-            "is FBX, which svdag does not read: open it in Blender and export it as .glb");
-  for (const char* extension : {"dae", "usdz", "step", "laz", "gz", "splat", "npz"})
+  EXPECT_EQ(foreign_format_message("blend", ""),
+            "is Blender, which svdag does not read: open it in Blender and export it as .glb");
+  for (const char* extension : {"abc", "usdz", "step", "laz", "zst", "splat", "npz"})
     EXPECT_NE(foreign_format_message(extension, "anything"), "") << extension;
 }
 
 TEST(ForeignFormats, AreRecognisedByTheirFirstBytes) {
-  EXPECT_NE(foreign_format_message("", "Kaydara "), "");
+  EXPECT_NE(foreign_format_message("", "BLENDER-"), "");
   EXPECT_NE(foreign_format_message("model", "#usda 1."), "");
   EXPECT_NE(foreign_format_message("", std::string_view("PK\x03\x04zzzz", 8)).find("ZIP"),
             std::string::npos);

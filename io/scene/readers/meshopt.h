@@ -1,0 +1,39 @@
+// Decodes buffer views of EXT_meshopt_compression; only meshopt.cpp uses the meshoptimizer library.
+//
+// Memory: a decoder needs a whole view at once. The codecs store at least a byte per 64 bytes of
+// vertices and per triangle, so sizes beyond kMaxRatio times the data are an Error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "streaming/memory/memory_budget.h"
+#include "streaming/process/limited_child.h"
+
+namespace svdag {
+
+struct MeshoptView {
+  std::string mode;     // ATTRIBUTES, TRIANGLES or INDICES
+  std::string filter;   // NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL; empty: NONE
+  uint64_t count = 0;   // of elements
+  uint64_t stride = 0;  // bytes of an element
+
+  uint64_t bytes() const { return count * stride; }
+};
+
+struct MeshoptSource {
+  std::span<const std::byte> bytes;
+  std::string path;      // for errors
+  bool sandbox = false;  // with a system call filter
+};
+
+bool has_meshopt();
+
+// Passes the decoded bytes to `out`, in blocks: view.bytes() in total. Decodes in a limited child
+// process. A view that the extension does not allow, or broken data, is an Error (kBadInput).
+void decode_meshopt(const MeshoptSource& source, const MeshoptView& view,
+                    const MemoryBudget& budget, const BlockSink& out);
+
+}  // namespace svdag
