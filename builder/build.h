@@ -44,6 +44,7 @@ struct BuildConfig {
   DescentConfig descent;              // --rule
   std::optional<Box> bounds;          // --bounds, in world units
   std::optional<GridCube> cube;       // --cube, in world units; needs levels
+  std::optional<Point> origin;        // --origin, in world units; needs voxel_size
   uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
   int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder

@@ -30,11 +30,8 @@ std::string rounded_up(double size) {
 }
 
 // Returns false if `box` does not fit 2^levels voxels of the lattice.
-bool try_cover(const Box& box, double size, int levels, Grid* out) {
-  Grid grid;
-  grid.kind = Grid::Kind::kLattice;
+bool try_cover(const Box& box, Grid grid, int levels, Grid* out) {
   grid.levels = levels;
-  grid.voxel_size = size;
   grid.selection = grid.whole();
   const Lattice at_zero(grid);  // k0 = 0: voxel numbers relative to plane 0
   const LatticePoint low = at_zero.snap(box.min), high = at_zero.snap(box.max);
@@ -49,9 +46,11 @@ bool try_cover(const Box& box, double size, int levels, Grid* out) {
 }  // namespace
 
 Point Grid::corner() const {
-  if (kind == Kind::kBox) return origin;
-  Point p;
-  for (int a = 0; a < 3; ++a) p[a] = (double(k0[a]) + 0.5) * voxel_size;
+  Point p = origin;
+  for (int a = 0; a < 3; ++a) {
+    if (kind == Kind::kLattice) p[a] = (double(k0[a]) + 0.5) * voxel_size;
+    if (kind == Kind::kOrigin) p[a] = origin[a] + double(k0[a]) * voxel_size;
+  }
   return p;
 }
 
@@ -64,7 +63,7 @@ bool Grid::is_valid() const {
         selection.max[a] > resolution() || k0[a] < -kFarthestPlane || k0[a] > kFarthestPlane)
       return false;
   }
-  return kind == Kind::kBox || kind == Kind::kLattice;
+  return kind <= Kind::kOrigin;
 }
 
 Grid divide_box(const Box& box, int levels) {
@@ -93,17 +92,23 @@ Grid divide_cube(const GridCube& cube, int levels) {
   return grid;
 }
 
-Grid cover_lattice(const Box& box, double size) {
+Grid cover_lattice(const Box& box, double size, const std::optional<Point>& origin) {
   SVDAG_ASSERT(!box.empty());
   check_voxel_size(size);
+  Grid lattice;
+  lattice.kind = origin ? Grid::Kind::kOrigin : Grid::Kind::kLattice;
+  lattice.voxel_size = size;
+  lattice.origin = origin.value_or(Point(0));
   for (int a = 0; a < 3; ++a) {
-    if (!(std::abs(box.min[a] / size) < 0x1p38 && std::abs(box.max[a] / size) < 0x1p38))
-      fail_usage(
-          "--voxel-size: the scene is more than 2^38 voxels away from zero: choose larger voxels");
+    const double zero = lattice.origin[a];
+    if (!(std::abs((box.min[a] - zero) / size) < 0x1p38 &&
+          std::abs((box.max[a] - zero) / size) < 0x1p38))
+      fail_usage(std::string("--voxel-size: the scene is more than 2^38 voxels away from ") +
+                 (origin ? "--origin" : "zero") + ": choose larger voxels");
   }
   Grid grid;
   for (int levels = kMinLevels; levels <= kMaxLevels; ++levels) {
-    if (try_cover(box, size, levels, &grid)) return grid;
+    if (try_cover(box, lattice, levels, &grid)) return grid;
   }
   double extent = 0;
   for (int a = 0; a < 3; ++a) extent = std::max(extent, box.max[a] - box.min[a]);
@@ -115,7 +120,7 @@ Grid cover_lattice(const Box& box, double size) {
 VoxelBox voxels_in(const Grid& grid, const Box& bounds) {
   // Outside every grid, but within the range of the snap.
   const Point reach(0x1.8p38 * grid.voxel_size);
-  const Point middle = grid.kind == Grid::Kind::kBox ? grid.origin : Point(0);
+  const Point middle = grid.origin;  // of kLattice: zero
   const auto near = [&](const Point& p) { return glm::clamp(p, middle - reach, middle + reach); };
   const Lattice lattice(grid);
   const LatticePoint low = lattice.snap(near(bounds.min)), high = lattice.snap(near(bounds.max));

@@ -11,11 +11,15 @@
 // Kind kLattice (--voxel-size S): voxel planes are at (k + 1/2) * S, independent of the scene, so
 // tiles of one world agree. The grid's corner is plane k0, a multiple of corner_step() on each
 // axis, so cells of at most that many voxels keep their content when a scene grows.
+//
+// Kind kOrigin (--voxel-size S --origin O): as kLattice, but with planes at O + k * S, so that O is
+// a corner of voxels. Tiles agree if they have the same O.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <optional>
 
 #include "io/affine.h"
 #include "io/triangle.h"
@@ -25,7 +29,7 @@ namespace svdag {
 constexpr int kMinLevels = 3;
 constexpr int kMaxLevels = 20;
 
-// The largest |k0| of a kLattice grid: 2^38 voxels, and two corner steps of 1024.
+// The largest |k0|: 2^38 voxels, and two corner steps of 1024.
 constexpr int64_t kFarthestPlane = (int64_t(1) << 38) + (int64_t(1) << 11);
 
 // F depends on L alone. L + F <= 39 bits, so every exact test fits 128 bits.
@@ -33,9 +37,9 @@ constexpr int fraction_bits(int levels) {
   return std::min(23, 39 - levels);
 }
 
-// The corner k0 of a kLattice grid is a multiple of this, in voxels: the side of the largest cells,
-// at most half of the grid. A larger step would make the grid of a small scene several times too
-// large.
+// The corner k0 of a kLattice or kOrigin grid is a multiple of this, in voxels: the side of the
+// largest cells, at most half of the grid. A larger step would make the grid of a small scene
+// several times too large.
 constexpr int64_t corner_step(int levels) {
   return std::min<int64_t>(1024, int64_t(1) << (levels - 1));
 }
@@ -57,13 +61,13 @@ struct VoxelBox {
 };
 
 struct Grid {
-  enum class Kind : uint32_t { kBox = 0, kLattice = 1 };
+  enum class Kind : uint32_t { kBox = 0, kLattice = 1, kOrigin = 2 };
 
   Kind kind = Kind::kBox;
   int levels = kMinLevels;  // L
-  double voxel_size = 1;    // world units; the S of kLattice
-  Point origin{0};          // kBox: world position of the grid's corner; kLattice: unused
-  LatticePoint k0{0};       // kLattice: voxel plane of the grid's corner; kBox: unused
+  double voxel_size = 1;    // world units; the S of kLattice and kOrigin
+  Point origin{0};          // kBox: world position of the grid's corner; kOrigin: of plane 0
+  LatticePoint k0{0};       // voxel plane of the grid's corner; kBox: unused
   bool bounded = false;     // voxels outside `selection` stay empty (--bounds, --cube)
   VoxelBox selection;       // the voxels that may be set; the whole grid unless bounded
   Affine transform;         // of the scene into the world: --transform, --up, --scale
@@ -82,6 +86,12 @@ struct Grid {
   bool is_valid() const;
   bool operator==(const Grid&) const = default;
 };
+
+constexpr const char* kGridKindNames[] = {"box", "lattice", "origin"};
+
+constexpr const char* kind_name(Grid::Kind kind) {
+  return kGridKindNames[size_t(kind)];
+}
 
 // Calls visit(name, field) for every stored field of a Grid: the field list of journals and plans.
 template <class AnyGrid, class Visit>
@@ -118,9 +128,9 @@ struct GridCube {
 // every L, for which the error bounds of all filters would have to be proved again.
 Grid divide_cube(const GridCube& cube, int levels);
 
-// The smallest kLattice grid of voxel size `size` that holds `box`. An invalid size, or a box of
-// more than 2^20 voxels on an axis, is an Error (kUsage).
-Grid cover_lattice(const Box& box, double size);
+// The smallest kLattice grid of voxel size `size`, or kOrigin grid with a plane at `origin`, that
+// holds `box`. An invalid size, or a box of more than 2^20 voxels on an axis, is an Error (kUsage).
+Grid cover_lattice(const Box& box, double size, const std::optional<Point>& origin = {});
 
 // The voxels whose interior meets the closed `bounds`, including voxels outside the grid; empty if
 // there are none.

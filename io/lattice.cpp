@@ -19,8 +19,8 @@ Lattice::Lattice(const Grid& grid)
 LatticePoint Lattice::snap(const Point& p, double* move) const {
   LatticePoint q;
   for (int a = 0; a < 3; ++a) {
-    const bool box = grid_.kind == Grid::Kind::kBox;
-    const double offset = box ? p[a] - grid_.origin[a] : p[a];
+    const bool lattice = grid_.kind == Grid::Kind::kLattice;
+    const double offset = lattice ? p[a] : p[a] - grid_.origin[a];
     const double exact = offset / grid_.voxel_size * scale_;
     const double rounded = std::nearbyint(exact);
     // The comparison is also false for NaN and infinity.
@@ -30,7 +30,7 @@ LatticePoint Lattice::snap(const Point& p, double* move) const {
                   "voxels or larger bounds");
     if (move != nullptr) *move = std::max(*move, std::abs(exact - rounded));
     q[a] = int64_t(rounded);
-    if (!box) q[a] -= (2 * grid_.k0[a] + 1) * (int64_t(1) << (fraction_ - 1));
+    q[a] -= (2 * grid_.k0[a] + int64_t(lattice)) * (int64_t(1) << (fraction_ - 1));
   }
   return q;
 }

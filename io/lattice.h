@@ -2,6 +2,7 @@
 //
 //   kBox:     q = nearbyint((v - origin) / voxel_size * 2^F)
 //   kLattice: q = nearbyint(v / S * 2^F) - (2*k0 + 1) * 2^(F-1)     (snap first, shift in integers)
+//   kOrigin:  q = nearbyint((v - origin) / S * 2^F) - k0 * 2^F
 //
 // Every expression is evaluated in double in the order written, in round-to-nearest, without fused
 // multiply-add. q is monotone in v, so bounds may be snapped instead of all vertices. After the

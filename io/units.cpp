@@ -87,6 +87,15 @@ double parse_voxel_size(const std::string& text, double unit) {
   return size * length->metres / unit;
 }
 
+Point parse_origin(const std::string& text) {
+  Point p;
+  int used = 0;
+  const int n = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &p.x, &p.y, &p.z, &used);
+  if (n != 3 || used != int(text.size()) || !std::isfinite(p.x + p.y + p.z))
+    fail_usage("--origin: \"" + text + "\" is not x,y,z");
+  return p;
+}
+
 GridCube parse_cube(const std::string& text) {
   double v[4];
   int used = 0;

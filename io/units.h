@@ -21,6 +21,8 @@ double parse_unit(const std::string& text);
 // --voxel-size: "0.5", or "5cm" if the scene's `unit` (in metres) is known, not 0 -> the size in
 // units of the scene. Throws Error (kUsage).
 double parse_voxel_size(const std::string& text, double unit);
+// --origin: "x,y,z". Throws Error (kUsage).
+Point parse_origin(const std::string& text);
 // --cube: "x,y,z,side". Throws Error (kUsage).
 GridCube parse_cube(const std::string& text);
 // 65536 -> "64K", 1000 -> "1000".

@@ -11,13 +11,15 @@ namespace {
 Grid place_grid(const BuildConfig& config, const Scene& scene, SceneExtent* extent) {
   if (config.cube && config.voxel_size != 0)
     fail_usage("--cube: the cube is divided by --resolution: give -r instead of -s");
+  if (config.origin && config.voxel_size == 0)
+    fail_usage("--origin: voxel planes follow from it with -s: give -s instead of -r");
   if (config.cube) {
     const Grid grid = divide_cube(*config.cube, config.levels);
     return config.bounds ? select_bounds(grid, *config.bounds) : grid;
   }
   if (!config.bounds) extent->bounds = scene.bounds(&extent->counts);
   const Box target = config.bounds ? *config.bounds : *extent->bounds;
-  const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size)
+  const Grid grid = config.voxel_size != 0 ? cover_lattice(target, config.voxel_size, config.origin)
                                            : divide_box(target, config.levels);
   return config.bounds ? select_bounds(grid, *config.bounds) : grid;
 }

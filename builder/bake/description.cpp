@@ -79,6 +79,11 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
     for (int a = 0; a < 3; ++a) out << ' ' << format_double(config.cube->min[a]);
     out << ' ' << format_double(config.cube->side) << '\n';
   }
+  if (config.origin) {
+    out << "origin:";
+    for (int a = 0; a < 3; ++a) out << ' ' << format_double((*config.origin)[a]);
+    out << '\n';
+  }
   if (config.bounds) {
     out << "bounds:";
     for (const Point& p : {config.bounds->min, config.bounds->max}) {

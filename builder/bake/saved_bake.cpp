@@ -42,7 +42,10 @@ struct GetField {
     in->get(&value);
   }
   void operator()(const char*, Grid::Kind& kind) const {
-    kind = flag() ? Grid::Kind::kLattice : Grid::Kind::kBox;
+    uint32_t value = 0;
+    in->get(&value);
+    kind =
+        Grid::Kind(std::min<uint32_t>(value, std::size(kGridKindNames)));  // is_valid() checks it
   }
   void operator()(const char*, bool& value) const { value = flag(); }
   void operator()(const char*, Affine& a) const {

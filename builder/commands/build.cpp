@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 Json grid_json(const Grid& g) {
   const Point corner = g.corner();
-  return {{"kind", g.kind == Grid::Kind::kBox ? "box" : "lattice"},
+  return {{"kind", kind_name(g.kind)},
           {"resolution", g.resolution()},
           {"levels", g.levels},
           {"fraction_bits", g.fraction()},

@@ -118,6 +118,10 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
          "Divide exactly this cube into the voxels of -r, so that resolutions line up")
       ->type_name("x,y,z,side");
   app->add_option_function<std::string>(
+         "--origin", [build](const std::string& s) { build->origin = parse_origin(s); },
+         "Put a corner of voxels here: planes are whole steps of -s from it")
+      ->type_name("x,y,z");
+  app->add_option_function<std::string>(
          "--bounds", [build](const std::string& s) { build->bounds = parse_bounds(s); },
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");

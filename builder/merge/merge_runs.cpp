@@ -17,7 +17,10 @@ namespace {
 const char* difference(const RunFile& a, const RunFile& b) {
   const Grid g = a.grid(), h = b.grid();
   if (a.rule() != b.rule()) return "the rule differs";
-  if (g.kind != h.kind) return "one was baked with --resolution, the other with --voxel-size";
+  if ((g.kind == Grid::Kind::kBox) != (h.kind == Grid::Kind::kBox))
+    return "one was baked with --resolution, the other with --voxel-size";
+  if (g.kind != h.kind || (g.kind == Grid::Kind::kOrigin && g.origin != h.origin))
+    return "--origin differs";
   const bool divides = g.kind == Grid::Kind::kBox;  // then the voxel size follows
   if (divides && g.levels != h.levels) return "the resolution differs";
   if (g.voxel_size != h.voxel_size) return "the voxel size differs";

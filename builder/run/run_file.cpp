@@ -25,9 +25,9 @@ void check_grid_fields(const File& file, const RunHeader& h) {
     require_run(condition, file, sentence, offset);
   });
   for (int a = 0; a < 3; ++a) {
-    require_run(std::isfinite(h.origin[a]) && (h.grid_kind == 0 || h.origin[a] == 0), file,
+    require_run(std::isfinite(h.origin[a]) && (h.grid_kind != 1 || h.origin[a] == 0), file,
                 "impossible grid corner", offsetof(RunHeader, origin));
-    require_run(h.grid_kind == 1 || h.k0[a] == 0, file, "impossible grid corner",
+    require_run(h.grid_kind != 0 || h.k0[a] == 0, file, "impossible grid corner",
                 offsetof(RunHeader, k0));
   }
 }

@@ -33,9 +33,9 @@ struct RunHeader {
   uint32_t fraction;      // F
   uint32_t rule;          // Rule
   uint32_t grid_kind;     // Grid::Kind
-  double origin[3];       // kBox: world position of the grid's corner; else 0
+  double origin[3];       // world position of the grid's corner (kBox) or plane 0 (kOrigin); else 0
   double voxel_size;
-  int64_t k0[3];         // kLattice: plane number of the corner; else 0
+  int64_t k0[3];         // plane number of the corner; kBox: 0
   uint32_t bounded;      // 1 if voxels outside the selection are left empty by request
   uint32_t block_bytes;  // kRunBlockBytes
   uint32_t selection_min[3];

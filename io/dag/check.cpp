@@ -42,8 +42,12 @@ void check_fields(const File& file, const Header& h) {
   });
   require(h.section_count == h.levels - 1, file, "wrong number of sections",
           offsetof(Header, section_count));
-  for (int a = 0; a < 3; ++a)
+  const bool has_origin = h.grid_kind == uint32_t(Grid::Kind::kOrigin);
+  for (int a = 0; a < 3; ++a) {
     require(std::isfinite(h.corner[a]), file, "impossible grid corner", offsetof(Header, corner));
+    require(std::isfinite(h.origin[a]) && (has_origin || h.origin[a] == 0), file,
+            "impossible grid origin", offsetof(Header, origin));
+  }
   for (const unsigned char byte : h.reserved)
     require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }

@@ -26,7 +26,8 @@ std::string_view DagFile::metadata() const {
 }
 
 Grid grid_of(const Header& header) {
-  return get_grid(header, header.corner);
+  const bool box = header.grid_kind == uint32_t(Grid::Kind::kBox);
+  return get_grid(header, box ? header.corner : header.origin);
 }
 
 }  // namespace svdag

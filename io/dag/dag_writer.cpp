@@ -19,7 +19,10 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint6
   put_grid(grid, rule, &header_);
   header_.section_count = uint32_t(grid.levels - 1);
   const Point corner = grid.corner();
-  for (int a = 0; a < 3; ++a) header_.corner[a] = corner[a];
+  for (int a = 0; a < 3; ++a) {
+    header_.corner[a] = corner[a];
+    if (grid.kind == Grid::Kind::kOrigin) header_.origin[a] = grid.origin[a];
+  }
   block_.reserve(kChecksumBlock);
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
 }

@@ -43,7 +43,7 @@ struct Header {
   uint32_t grid_kind;     // Grid::Kind
   double corner[3];       // world position of the corner of voxel (0, 0, 0)
   double voxel_size;
-  int64_t k0[3];           // kLattice: plane number of the corner; else 0
+  int64_t k0[3];           // plane number of the corner; kBox: 0
   uint32_t bounded;        // 1: voxels outside the selection are empty (--bounds, --cube)
   uint32_t section_count;  // L-1
   uint32_t selection_min[3];
@@ -56,7 +56,8 @@ struct Header {
   Section sections[kMaxSections];  // [k] is level k; unused sections are zero
   uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table
   double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
-  unsigned char reserved[272];  // zero
+  double origin[3];             // kOrigin: world position of plane 0; else 0
+  unsigned char reserved[248];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 

@@ -53,16 +53,16 @@ bool has_transform(const H& header) {
                      [](double v) { return v != 0; });
 }
 
-// `corner`: the corner field of the header.
+// `origin`: the field of the header that holds Grid::origin.
 template <class H>
-Grid get_grid(const H& header, const double (&corner)[3]) {
+Grid get_grid(const H& header, const double (&origin)[3]) {
   Grid grid;
   grid.kind = Grid::Kind(header.grid_kind);
   grid.levels = int(header.levels);
   grid.voxel_size = header.voxel_size;
   grid.bounded = header.bounded != 0;
   for (int a = 0; a < 3; ++a) {
-    if (grid.kind == Grid::Kind::kBox) grid.origin[a] = corner[a];
+    if (grid.kind != Grid::Kind::kLattice) grid.origin[a] = origin[a];
     grid.k0[a] = header.k0[a];
     grid.selection.min[a] = header.selection_min[a];
     grid.selection.max[a] = header.selection_max[a];
@@ -81,7 +81,7 @@ void check_grid(const H& h, const Require& require) {
   require(h.fraction == uint32_t(fraction_bits(int(h.levels))), "wrong lattice fraction",
           offsetof(H, fraction));
   require(h.rule < std::size(kRuleNames), "unknown rule", offsetof(H, rule));
-  require(h.grid_kind <= 1, "unknown kind of grid", offsetof(H, grid_kind));
+  require(h.grid_kind < std::size(kGridKindNames), "unknown kind of grid", offsetof(H, grid_kind));
   require(std::isnormal(h.voxel_size) && h.voxel_size > 0, "impossible voxel size",
           offsetof(H, voxel_size));
   require(h.bounded <= 1, "impossible flag", offsetof(H, bounded));

@@ -1,5 +1,6 @@
 #include "io/dag/metadata.h"
 
+#include "io/dag/dag_file.h"
 #include "io/dag/grid_fields.h"
 #include "io/grid.h"
 #include "io/units.h"
@@ -22,13 +23,15 @@ std::string metadata_of(const Header& h) {
   for (uint32_t k = 0; k < h.section_count; ++k)
     nodes += (k ? "," : "[") + number(h.sections[k].nodes);
   const std::string transform =
-      has_transform(h)
-          ? ",\"transform\":[" + format_transform(get_grid(h, h.corner).transform) + "]"
+      has_transform(h) ? ",\"transform\":[" + format_transform(grid_of(h).transform) + "]" : "";
+  const std::string origin =
+      Grid::Kind(h.grid_kind) == Grid::Kind::kOrigin
+          ? ",\"origin\":" + json_list({real(h.origin[0]), real(h.origin[1]), real(h.origin[2])})
           : "";
   return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
          ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
          "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
-         (Grid::Kind(h.grid_kind) == Grid::Kind::kBox ? "box" : "lattice") +
+         kind_name(Grid::Kind(h.grid_kind)) +
          "\",\"corner\":" + json_list({real(h.corner[0]), real(h.corner[1]), real(h.corner[2])}) +
          ",\"voxel_size\":" + real(h.voxel_size) +
          ",\"k0\":" + json_list({number(h.k0[0]), number(h.k0[1]), number(h.k0[2])}) +
@@ -36,7 +39,7 @@ std::string metadata_of(const Header& h) {
          json_list({number(h.selection_min[0]), number(h.selection_min[1]),
                     number(h.selection_min[2]), number(h.selection_max[0]),
                     number(h.selection_max[1]), number(h.selection_max[2])}) +
-         transform + "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
+         origin + transform + "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
          "],\"largest_snap\":" + real(h.largest_snap) + "}\n";
 }
 

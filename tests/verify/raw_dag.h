@@ -101,7 +101,7 @@ inline std::string raw_metadata(const RawDag& raw) {
   return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + std::to_string(g.levels) +
          ",\"resolution\":" + std::to_string(g.resolution()) + ",\"rule\":\"" +
          rule_name(raw.rule) + "\",\"fraction_bits\":" + std::to_string(g.fraction()) +
-         ",\"grid\":{\"kind\":\"" + (g.kind == Grid::Kind::kBox ? "box" : "lattice") +
+         ",\"grid\":{\"kind\":\"" + kind_name(g.kind) +
          "\",\"corner\":" + list(corner) + ",\"voxel_size\":" + number(g.voxel_size) +
          ",\"k0\":" + list(k0) + ",\"bounded\":" + (g.bounded ? "true" : "false") +
          ",\"selection\":" + list(selection) + "},\"voxels\":" + std::to_string(raw.voxels) +

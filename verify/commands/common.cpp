@@ -18,7 +18,7 @@ std::string describe_grid(const DagFile& file) {
   const Grid grid = file.grid();
   const Point corner = grid.corner();
   std::string text = format_resolution(uint64_t(grid.resolution())) + "^3 " +
-                     (grid.kind == Grid::Kind::kBox ? "box" : "lattice") + ", voxel size " +
+                     kind_name(grid.kind) + ", voxel size " +
                      format_double(grid.voxel_size) + ", corner (" + format_double(corner.x) +
                      ", " + format_double(corner.y) + ", " + format_double(corner.z) + "), rule " +
                      rule_name(file.rule());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "io/dag/dag_file.h"
 #include "io/grid.h"
 #include "verify/integrity/node_index.h"
 
@@ -200,7 +201,7 @@ class OutsideSearch {
 
 // Checks the corner's lattice plane k0, a multiple of corner_step(). A box has no such planes.
 void check_lattice(const Header& header, std::vector<std::string>* defects) {
-  const bool lattice = header.grid_kind == uint32_t(Grid::Kind::kLattice);
+  const bool lattice = header.grid_kind != uint32_t(Grid::Kind::kBox);
   const int64_t step = corner_step(int(header.levels));
   for (const int64_t k0 : header.k0) {
     if (lattice && k0 % step != 0)
@@ -209,8 +210,9 @@ void check_lattice(const Header& header, std::vector<std::string>* defects) {
     if (!lattice && k0 != 0)
       defects->push_back("the grid is a box, but has a lattice plane k0 = " + std::to_string(k0));
   }
+  const Point corner = grid_of(header).corner();
   for (int a = 0; lattice && a < 3; ++a) {
-    if (header.corner[a] != (double(header.k0[a]) + 0.5) * header.voxel_size)
+    if (header.corner[a] != corner[a])
       defects->push_back("the grid's corner is not at the lattice plane k0");
   }
 }

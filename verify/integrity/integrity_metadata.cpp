@@ -23,7 +23,7 @@ json expected_metadata(const Header& h) {
                    {"rule", rule_name(Rule(h.rule))},
                    {"fraction_bits", h.fraction},
                    {"grid",
-                    {{"kind", h.grid_kind == 0 ? "box" : "lattice"},
+                    {{"kind", kind_name(Grid::Kind(h.grid_kind))},
                      {"corner", h.corner},
                      {"voxel_size", h.voxel_size},
                      {"k0", h.k0},
@@ -34,6 +34,7 @@ json expected_metadata(const Header& h) {
                    {"voxels", h.voxels},
                    {"nodes", nodes},
                    {"largest_snap", h.largest_snap}};
+  if (Grid::Kind(h.grid_kind) == Grid::Kind::kOrigin) expected["grid"]["origin"] = h.origin;
   if (has_transform(h)) expected["grid"]["transform"] = h.transform;
   return expected;
 }

@@ -215,10 +215,11 @@ class Page {
     const Point corner = grid.corner();
     begin_facts("What was baked");
     if (baked()) scene_files();
-    row("grid",
-        format_resolution(grid.resolution()) + "<sup>3</sup> voxels of " +
-            format_double(grid.voxel_size) +
-            (grid.kind == Grid::Kind::kBox ? ", fitted to a box" : ", on the world lattice"));
+    row("grid", format_resolution(grid.resolution()) + "<sup>3</sup> voxels of " +
+                    format_double(grid.voxel_size) +
+                    (grid.kind == Grid::Kind::kBox       ? ", fitted to a box"
+                     : grid.kind == Grid::Kind::kLattice ? ", on the world lattice"
+                                                         : ", with a corner at the given origin"));
     row("corner of the grid",
         format_double(corner.x) + ", " + format_double(corner.y) + ", " + format_double(corner.z));
     row("rule", rule_name(file_.rule()));

@@ -13,8 +13,12 @@ namespace {
 bool follows_from(const Grid& grid, const Box& bounds) {
   if (grid.bounded) return false;
   try {
-    const Grid own = grid.kind == Grid::Kind::kBox ? divide_box(bounds, grid.levels)
-                                                   : cover_lattice(bounds, grid.voxel_size);
+    const bool has_origin = grid.kind == Grid::Kind::kOrigin;
+    const Grid own =
+        grid.kind == Grid::Kind::kBox
+            ? divide_box(bounds, grid.levels)
+            : cover_lattice(bounds, grid.voxel_size,
+                            has_origin ? std::optional<Point>(grid.origin) : std::nullopt);
     return own == grid;
   } catch (const Error&) {
     return false;  // the scene has no extent, or is too large for this voxel size
@@ -57,7 +61,7 @@ std::string snap_defect(double recorded, const SnapCounts& whole_scene) {
 GridJudgement judge_grid(const Grid& grid, const Box& bounds) {
   GridJudgement judgement;
   judgement.recomputed = follows_from(grid, bounds);
-  if (grid.kind == Grid::Kind::kLattice) {
+  if (grid.kind != Grid::Kind::kBox) {
     for (int a = 0; a < 3; ++a) {
       const int64_t step = corner_step(grid.levels);
       if (grid.k0[a] % step != 0)

@@ -44,9 +44,7 @@ struct PutJson {
   void operator()(const char* name, const T& value) const {
     (*out)[name] = value;
   }
-  void operator()(const char* name, Grid::Kind kind) const {
-    (*out)[name] = kind == Grid::Kind::kBox ? "box" : "lattice";
-  }
+  void operator()(const char* name, Grid::Kind kind) const { (*out)[name] = kind_name(kind); }
   void operator()(const char* name, const Affine& a) const { (*out)[name] = a.m; }
   void operator()(const char* name, const Point& v) const { (*out)[name] = {v.x, v.y, v.z}; }
   void operator()(const char* name, const LatticePoint& v) const { (*out)[name] = {v.x, v.y, v.z}; }
@@ -62,8 +60,9 @@ struct GetJson {
   void operator()(const char* name, uint64_t& value) const { value = count_of(in, name); }
   void operator()(const char* name, Grid::Kind& kind) const {
     const std::string text = in.at(name);
-    if (text != "box" && text != "lattice") fail_plan(plan, "unknown kind of grid (" + text + ")");
-    kind = text == "box" ? Grid::Kind::kBox : Grid::Kind::kLattice;
+    const auto found = std::find(std::begin(kGridKindNames), std::end(kGridKindNames), text);
+    if (found == std::end(kGridKindNames)) fail_plan(plan, "unknown kind of grid (" + text + ")");
+    kind = Grid::Kind(found - std::begin(kGridKindNames));
   }
   void operator()(const char* name, Affine& a) const { in.at(name).get_to(a.m); }
   void operator()(const char* name, Point& v) const {

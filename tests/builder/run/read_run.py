@@ -41,7 +41,7 @@ class Run:
         require(magic == b"\x89SVRUN\r\n" and (version, size, block) == (1, 1024, BLOCK), "magic, version or sizes")
         require(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
                "header checksum")
-        require(3 <= self.L <= 20 and F == min(23, 39 - self.L) and rule in (0, 1) and kind in (0, 1), "grid")
+        require(3 <= self.L <= 20 and F == min(23, 39 - self.L) and rule in (0, 1) and kind in (0, 1, 2), "grid")
         require(not any(self.counts[self.L - 1:]) and not any(self.data[336:1016]), "unused fields")
         require(file_size == len(self.data), "size of the file")
 

@@ -56,17 +56,21 @@ class Svdag:
                "header checksum")
         demand((self.version, size) == (1, 1024), "version or header size")
         demand(3 <= self.L <= 20 and self.F == min(23, 39 - self.L), "L or F")
-        demand(self.rule in (0, 1) and self.kind in (0, 1) and self.bounded in (0, 1), "rule, kind or flag")
+        demand(self.rule in (0, 1) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
         demand(count == self.L - 1, "number of sections")
         self.entries = [struct.unpack_from("<3Q", self.data, 176 + 24 * k) for k in range(19)]
         demand(not any(map(any, self.entries[self.L - 1:])), "unused entries")
-        demand(not any(self.data[648:1016]), "reserved bytes")
+        demand(not any(self.data[648:744]) and not any(self.data[768:1016]), "reserved bytes")
+        self.origin = list(struct.unpack_from("<3d", self.data, 744))
         demand(self.bounded or self.selection == [0, 0, 0] + [2**self.L] * 3, "selection")
-        if self.kind == 1:
+        if self.kind != 0:
             demand(all(k % min(1024, 1 << self.L >> 1) == 0 for k in self.k0), "k0")
-            demand(all(c == (k + 0.5) * self.voxel_size for c, k in zip(self.corner, self.k0)), "corner")
+            planes = [(k + 0.5) * self.voxel_size for k in self.k0] if self.kind == 1 else \
+                [o + k * self.voxel_size for o, k in zip(self.origin, self.k0)]
+            demand(self.corner == planes, "corner")
         else:
             demand(self.k0 == [0, 0, 0], "k0")
+        demand(self.kind == 2 or self.origin == [0, 0, 0], "origin")
 
     def check_layout(self):
         at, parts = 1024, [self.entries[k][:2] for k in range(self.L - 2, -1, -1)]
@@ -120,9 +124,9 @@ class Svdag:
         demand(json.loads(text) == {
             "format": "svdag", "version": 1, "levels": self.L, "resolution": 2**self.L,
             "rule": ["conservative", "thin"][self.rule], "fraction_bits": self.F,
-            "grid": {"kind": ["box", "lattice"][self.kind], "corner": self.corner,
+            "grid": {"kind": ["box", "lattice", "origin"][self.kind], "corner": self.corner,
                      "voxel_size": self.voxel_size, "k0": self.k0, "bounded": bool(self.bounded),
-                     "selection": self.selection},
+                     "selection": self.selection, **({"origin": self.origin} if self.kind == 2 else {})},
             "voxels": self.voxel_count, "nodes": [e[2] for e in self.entries[:self.L - 1]],
             "largest_snap": self.largest_snap}, "metadata")
 
