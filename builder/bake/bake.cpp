@@ -95,8 +95,7 @@ SplitScene split_scene(const Tools& tools, const Scene& scene, const ChosenGrid&
   tools.progress->phase("split", chosen.triangles, "triangles");
   SplitScene split = svdag::split(scene, chosen.grid, config, tools.workspace->budget());
   description->check_files();  // the triangles are not read again
-  if (split.counts.scene.triangles == 0)
-    fail_input(tools.config.scene.paths.front(), "the scene has no triangles to bake");
+  if (split.counts.scene.triangles == 0) scene.fail_empty(split.counts.scene);
   if (!split.tree) {
     checkpoint->begin(description->text(), chosen.grid);
     checkpoint->save_split(split);

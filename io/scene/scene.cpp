@@ -10,6 +10,7 @@
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/readers/gzip.h"
+#include "io/scene/readers/ply_header.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
@@ -222,12 +223,21 @@ Box Scene::bounds(SceneCounts* counts) const {
   seen.triangles += alone.triangles;
   box.add(alone.box);
   if (counts != nullptr) *counts = seen;
-  if (box.empty()) {
-    std::string why;
-    for (const std::string& pattern : seen.unmatched) why += "; nothing matches " + pattern;
-    fail_input(config_.paths.front(), "the scene has no triangles to bake" + why);
-  }
+  if (box.empty()) fail_empty(seen);
   return box;
+}
+
+void Scene::fail_empty(const SceneCounts& counts) const {
+  std::string why;
+  for (const std::string& pattern : counts.unmatched) why += "; nothing matches " + pattern;
+  for (const std::string& path : config_.paths) {
+    const File packed = File::open_read(path);
+    const File& file = content_of(packed);
+    if (detect_format(file) == SceneFormat::kPly && is_point_cloud(file))
+      why += "; " + base_name(path) +
+             " holds points alone: reconstruct a surface first, for example with CloudCompare";
+  }
+  fail_input(config_.paths.front(), "the scene has no triangles to bake" + why);
 }
 
 InputWatch Scene::watch() const {

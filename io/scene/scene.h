@@ -62,6 +62,10 @@ class Scene {
   // triangles is an Error (kBadInput).
   Box bounds(SceneCounts* counts = nullptr) const;
 
+  // Error (kBadInput): the scene has no triangles; with the patterns that matched nothing, and the
+  // files that hold points alone.
+  [[noreturn]] void fail_empty(const SceneCounts& counts) const;
+
   // All files that determine the triangles: those of the scene, and the buffers that a .gltf names.
   void visit_files(const std::function<void(const File&)>& visit) const;
   // Records the state of all these files. Call before the scene is read.

@@ -9,3 +9,7 @@ for f in a.basic_dag.dag.bin symvox.svdag a.svo a.npz a.binvox a.vox; do
   svdag-verify check b.svdag -q
   svdag-verify diff a.svdag b.svdag --by-index -q
 done
+# The points of an export are neither voxels with a grid nor triangles.
+svdag export a.svdag -o points.ply -q
+svdag import points.ply -o back.svdag || echo "exit $?"
+svdag build points.ply -o back.svdag -r 64 || echo "exit $?"

@@ -1,4 +1,5 @@
 #include "builder/commands/export/selection.h"
+#include "io/dag/occupied_bounds.h"
 #include "io/formats/voxels/binvox.h"
 #include "io/formats/voxels/npz.h"
 #include "io/formats/voxels/ply_points.h"
@@ -32,6 +33,14 @@ uint64_t export_window(Selection* selection, const ExportConfig& config, MemoryB
   return window.voxels;
 }
 
+// The occupied box, in voxels of the exported level.
+VoxelBox occupied_window(const Selection& selection) {
+  const VoxelBox box = occupied_bounds(selection.file.view());
+  const int shift = selection.file.grid().levels - selection.grid.levels;
+  const LatticePoint up((int64_t(1) << shift) - 1);
+  return {box.min >> LatticePoint(shift), (box.max + up) >> LatticePoint(shift)};
+}
+
 }  // namespace
 
 uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
@@ -39,6 +48,7 @@ uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudg
 }
 
 uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
+  if (!config.bounds) selection->grid.selection = occupied_window(*selection);
   return export_window(selection, config, budget, write_binvox);
 }
 

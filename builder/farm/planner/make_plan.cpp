@@ -136,8 +136,7 @@ void Planner::read_scene() {
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();
   plan_.counts = scene.counts;
-  if (scene.counts.scene.triangles == 0)
-    fail_input(config_.build.scene.paths.front(), "the scene has no triangles to bake");
+  if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);
   progress_->phase("distribute triangles", 0);
   LeafConfig leaf;
   leaf.light =

@@ -153,4 +153,14 @@ PlyHeader read_ply_header(ByteStream* stream) {
   return HeaderParser(stream).parse();
 }
 
+bool is_point_cloud(const File& file) {
+  ByteStream stream(file);
+  uint64_t vertices = 0;
+  for (const PlyElement& element : read_ply_header(&stream).elements) {
+    if (element.name == "vertex") vertices = element.count;
+    if ((element.name == "face" || element.name == "tristrips") && element.count > 0) return false;
+  }
+  return vertices > 0;
+}
+
 }  // namespace svdag

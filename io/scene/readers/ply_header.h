@@ -47,4 +47,7 @@ struct PlyHeader {
 // Reads the header and leaves `stream` at the first byte of the body.
 PlyHeader read_ply_header(ByteStream* stream);
 
+// Whether a PLY file has vertices, but neither faces nor triangle strips.
+bool is_point_cloud(const File& file);
+
 }  // namespace svdag
