@@ -64,10 +64,13 @@ struct SceneFile {
   std::string name() const { return path.substr(path.find_last_of('/') + 1); }
 };
 
+// The description_hash of the report that this bake would give. Reads all files of the scene.
+std::string description_hash_of(const BuildConfig& config);
+
 struct BuildReport {
   // If BuildConfig::hash_files is set.
   std::vector<SceneFile> files;
-  std::string description_hash;  // of all that determines the bytes; 32 hex digits
+  std::string description_hash;  // 32 hex digits; equal for bakes with the same inputs and options
   std::optional<Box> scene_bounds;  // unless --bounds or --cube replaces them
   Grid grid;
   int cell_level = 0;

@@ -117,6 +117,9 @@ EXACT = {
 LIBRARIES = {
     r"CLI/": r"(builder/commands(/export|/import)?|verify/commands|verify/trace/program)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
+    r"assimp/": r"io/scene/readers/assimp\.cpp",
+    r"meshoptimizer": r"io/scene/readers/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
+    r"zlib": r"io/scene/readers/gzip\.cpp|tests/io/scene/readers/gzip_test\.cpp",
     r"draco/": r"io/scene/readers/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",

@@ -282,6 +282,12 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
 
 }  // namespace
 
+std::string description_hash_of(const BuildConfig& config) {
+  MemoryBudget budget(memory_or_default(config.memory));
+  const Scene scene(config.scene, &budget);
+  return hash_of_description(describe(config, scene_files(scene)));
+}
+
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");

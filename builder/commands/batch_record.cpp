@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "builder/bake/description.h"
 #include "builder/run/content_hash.h"
 #include "io/json_text.h"
 #include "streaming/error.h"
@@ -15,12 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr uint64_t kMaxReportBytes = uint64_t(256) << 20;
 constexpr int kMaxDepth = 16;  // of reports; json_text() recurses
-
-std::string description_hash_of(const BakeCommand& job) {
-  MemoryBudget budget(memory_or_default(job.build.memory));
-  const Scene scene(job.build.scene, &budget);
-  return hash_of_description(describe(job.build, scene_files(scene)));
-}
 
 }  // namespace
 
@@ -58,7 +51,7 @@ std::optional<std::string> BatchRecord::report_if_up_to_date(const BakeCommand& 
   const Entry& entry = found->second;
   try {
     if (content_hash_of(job.build.output, false) != entry.content_hash) return {};
-    if (description_hash_of(job) != entry.description_hash) return {};
+    if (description_hash_of(job.build) != entry.description_hash) return {};
   } catch (const Error&) {  // the bake reports it
     return {};
   }

@@ -5,6 +5,7 @@
 namespace svdag {
 namespace {
 
+constexpr const char* kByBlender = "open it in Blender and export it as .glb";
 constexpr const char* kByMeshLab = "convert it to .ply, for example with MeshLab or Open3D";
 
 struct Foreign {

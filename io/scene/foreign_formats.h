@@ -6,9 +6,6 @@
 
 namespace svdag {
 
-// The advice for formats of editors.
-constexpr const char* kByBlender = "open it in Blender and export it as .glb";
-
 // The sentence for a file with this lower-case extension that starts with `start`; empty if the
 // format is not known.
 std::string foreign_format_message(std::string_view extension, std::string_view start);

@@ -16,7 +16,6 @@
 #include "io/formats/voxels/npz.h"
 #include "io/formats/voxels/vox.h"
 #include "io/help/command_line.h"
-#include "io/scene/readers/ply_header.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -85,8 +84,10 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
   }
   if (!config.format.empty())
     fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
-  if (has_ending(config.file, ".ply") && is_point_cloud(file))
-    fail_input(config.file, "holds points without a grid: export voxels as .npz to import them");
+  if (has_ending(config.file, ".ply"))
+    fail_input(config.file,
+               "is a mesh or points without a grid: bake a mesh with svdag build; export voxels as "
+               ".npz to import them");
   for (const std::string& ending : kSceneEndings) {
     if (has_ending(config.file, ending))
       fail_input(config.file, "is a scene: bake it with svdag build");

@@ -1,7 +1,6 @@
 // Replaces assimp.cpp in builds without the Assimp library.
 #ifndef SVDAG_HAS_ASSIMP
 
-#include "io/scene/foreign_formats.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/error.h"
 
@@ -10,7 +9,7 @@ namespace svdag {
 void read_with_assimp(const File& file, const std::string& format, const ReadOptions&,
                       const TriangleSink&) {
   fail_input(file.path(), "is a " + format + " file, which this build of svdag cannot read: " +
-                              kByBlender);
+                              "open it in Blender and export it as .glb");
 }
 
 }  // namespace svdag
