@@ -94,8 +94,10 @@ Vec3 shown_normal(const Shading& shading, const Ray& ray, const Hit& hit, const 
   constexpr double kSmooth = 4, kFlat = 8;  // pixels across a voxel
   const double flat =
       std::clamp((pixels_across(shading, hit) - kSmooth) / (kFlat - kSmooth), 0.0, 1.0);
+  const Vec3 face = face_normal(hit, ray.direction);
   if (flat == 0) return smooth;
-  return normalized(face_normal(hit, ray.direction) * flat + smooth * (1 - flat));
+  if (dot(face, smooth) < 0) return face;
+  return normalized(face * flat + smooth * (1 - flat));
 }
 
 double grid_line(const Shading& shading, const Ray& ray, const Hit& hit) {
