@@ -2,7 +2,7 @@
 python3 $TESTS/foreign_scenes.py s
 svdag build s.obj -o s.svdag -r 256 -q
 for name in s.dae s.fbx s_z.fbx s.3mf s.3ds; do
-  svdag build $name -o a.svdag -r 256 && cmp s.svdag a.svdag
+  svdag build $name -o a.svdag -r 256 -q && cmp s.svdag a.svdag
   svdag build $name --sandbox -o a.svdag -r 256 -q && cmp s.svdag a.svdag
   svdag info $name --parts | grep 'object:\|material:'
 done
@@ -14,5 +14,5 @@ svdag build s.dae.gz -o a.svdag -r 256 -q && cmp s.svdag a.svdag
 svdag-verify mesh s.svdag s.3ds | tail -1
 for name in s.dae s.fbx s.3mf s.3ds; do
   head -c 200 $name > short.${name#s.}
-  svdag build short.${name#s.} -o b.svdag -r 64 2>&1 | sed 's/file: .*/file: .../' 
+  svdag build short.${name#s.} -o b.svdag -r 64 -q 2>&1 | sed 's/file: .*/file: .../' 
 done

@@ -3,7 +3,7 @@ for name in a.blend a.abc a.usdz a.step cloud.las scene.obj.zst a.vdb; do
   echo data > $name
   svdag build $name -r 64 -o r.svdag || echo "exit $?"
 done
-printf 'Kaydara FBX Binary' > unnamed
+printf 'BLENDER-v300' > unnamed
 svdag build unnamed -r 64 -o r.svdag || echo "exit $?"
 mkdir folder
 svdag build folder -r 64 -o r.svdag || echo "exit $?"

@@ -1,6 +1,6 @@
 # --origin: a corner of voxels is there, planes are whole steps from it, and bakes with one origin agree voxel by voxel.
 svdag-scene city -n 6K -q -o a.ply
-svdag build a.ply -o a.svdag -s 0.3 --origin 0.1,-7,1e3
+svdag build a.ply -o a.svdag -s 0.3 --origin 0.1,-7,1e3 -q
 svdag info a.svdag | grep -v hash | head -4
 svdag-verify check a.svdag
 svdag-verify mesh a.svdag a.ply | head -1

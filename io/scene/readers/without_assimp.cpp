@@ -8,7 +8,7 @@ namespace svdag {
 
 void read_with_assimp(const File& file, const std::string& format, const ReadOptions&,
                       const TriangleSink&) {
-  fail_input(file.path(), "is a " + format + " file, which this build of svdag cannot read: " +
+  fail_input(file.path(), "is " + format + ", which this build of svdag cannot read: " +
                               "open it in Blender and export it as .glb");
 }
 

@@ -117,6 +117,10 @@ TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {
   EXPECT_EQ(format("a.Obj", "solid"), SceneFormat::kObj);
   EXPECT_EQ(format("a", "OFF\n"), SceneFormat::kOff);
   EXPECT_EQ(format("a", "solid x"), SceneFormat::kStl);
+  EXPECT_EQ(format("a", "Kaydara FBX Binary"), SceneFormat::kFbx);
+  EXPECT_EQ(format("a.DAE.gz", "<?xml"), SceneFormat::kCollada);
+  EXPECT_EQ(format("a.3mf", "PK"), SceneFormat::k3mf);
+  EXPECT_EQ(format("a.3ds", "MM"), SceneFormat::k3ds);
 }
 
 // The counts and boxes that were made with other software (six significant digits).
