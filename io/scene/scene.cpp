@@ -251,16 +251,16 @@ void Scene::visit_files(const std::function<void(const File&)>& visit) const {
     if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
-    const File& content = content_of(file);
-    if (detect_format(content) != SceneFormat::kGltf) continue;
-    const GltfDocument document = load_gltf(content, budget_);
+    if (detect_format(file) != SceneFormat::kGltf) continue;
+    const GltfDocument document = load_gltf(content_of(file), budget_);
     for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
   }
 }
 
 SceneFormat detect_format(const File& file) {
   std::array<char, 8> head{};
-  file.read_some_at(0, std::as_writable_bytes(std::span(head)));
+  const auto bytes = std::as_writable_bytes(std::span(head));
+  is_gzip(file) ? unpack_start(file, bytes) : file.read_some_at(0, bytes);
   std::string_view start(head.data(), head.size());
   if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
   const std::string extension = lower_extension(file.path());

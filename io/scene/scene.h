@@ -84,8 +84,8 @@ class Scene {
   mutable std::map<std::string, File> unpacked_;  // by path
 };
 
-// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off). A
-// gzip file must be unpacked; its ".gz" is ignored.
+// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off). Of
+// a gzip file, only the first bytes are unpacked, and its ".gz" is ignored.
 // An unknown file is an Error (kBadInput) that lists what can be read.
 SceneFormat detect_format(const File& file);
 const char* format_name(SceneFormat format);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
@@ -13,7 +14,8 @@ namespace svdag {
 namespace {
 
 constexpr size_t kOutput = size_t(1) << 18;
-constexpr int kGzipOnly = 16;  // added to the window bits
+constexpr size_t kStart = size_t(1) << 16;  // holds any usual header and the first codes
+constexpr int kGzipOnly = 16;               // added to the window bits
 
 class Inflater {
  public:
@@ -22,6 +24,16 @@ class Inflater {
   }
   ~Inflater() { inflateEnd(&state_); }
   Inflater(const Inflater&) = delete;
+
+  // Inflates the first bytes.
+  size_t unpack_start(std::span<std::byte> bytes, std::span<std::byte> out) {
+    state_.next_in = reinterpret_cast<Bytef*>(bytes.data());
+    state_.avail_in = uInt(bytes.size());
+    state_.next_out = reinterpret_cast<Bytef*>(out.data());
+    state_.avail_out = uInt(out.size());
+    const int result = inflate(&state_, Z_SYNC_FLUSH);
+    return result == Z_OK || result == Z_STREAM_END ? out.size() - state_.avail_out : 0;
+  }
 
   // Inflates a member of the file from the stream's position on, and appends it to `out`.
   void unpack_member(ByteStream* stream, File* out, uint64_t* size) {
@@ -55,14 +67,21 @@ class Inflater {
 };
 
 bool begins_member(std::span<const std::byte> bytes) {
-  return bytes.size() >= 2 && bytes[0] == std::byte(0x1f) && bytes[1] == std::byte(0x8b);
+  return bytes.size() >= 3 && bytes[0] == std::byte(0x1f) && bytes[1] == std::byte(0x8b) &&
+         bytes[2] == std::byte(Z_DEFLATED);
 }
 
 }  // namespace
 
 bool is_gzip(const File& file) {
-  std::array<std::byte, 2> head{};
+  std::array<std::byte, 3> head{};
   return file.read_some_at(0, head) == head.size() && begins_member(head);
+}
+
+size_t unpack_start(const File& file, std::span<std::byte> out) {
+  std::vector<std::byte> bytes(kStart);
+  bytes.resize(file.read_some_at(0, bytes));
+  return Inflater().unpack_start(bytes, out);
 }
 
 File unpack_gzip(const File& file, const std::string& folder) {
@@ -73,7 +92,7 @@ File unpack_gzip(const File& file, const std::string& folder) {
   try {
     inflater.unpack_member(&stream, &out, &size);
     // As gzip does: further members are appended, anything else after a member is ignored.
-    while (begins_member(stream.peek(2))) inflater.unpack_member(&stream, &out, &size);
+    while (begins_member(stream.peek(3))) inflater.unpack_member(&stream, &out, &size);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     throw error.with_hint("; it is unpacked in " + folder);

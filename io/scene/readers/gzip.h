@@ -5,6 +5,8 @@
 // once), unpacking into memory (scenes are larger).
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "streaming/file/file.h"
@@ -13,6 +15,9 @@ namespace svdag {
 
 // Whether the content begins as that of a gzip file.
 bool is_gzip(const File& file);
+
+// The first bytes of the content, at most out.size(); returns their number. 0 for damaged data.
+size_t unpack_start(const File& file, std::span<std::byte> out);
 
 // The content of `file`, in an anonymous file in `folder` that has the same path(). Damaged data is
 // an Error (kBadInput); a full disk is an Error (kOutput).

@@ -60,6 +60,19 @@ TEST_F(Gzip, AppendsMembersAndIgnoresWhatIsNotOne) {
   EXPECT_EQ(unpacked(packed("one") + std::string(512, '\0')), "one");
 }
 
+TEST_F(Gzip, TheStartIsUnpackedAlone) {
+  const auto start = [&](const std::string& bytes) {
+    std::string out(8, '?');
+    const size_t n = unpack_start(File::open_read(folder_.write("a.gz", bytes)),
+                                  std::as_writable_bytes(std::span(out)));
+    return out.substr(0, n);
+  };
+  EXPECT_EQ(start(packed("glTF and more, " + random_text(1000000, 100))), "glTF and");
+  EXPECT_EQ(start(packed("OFF")), "OFF");
+  EXPECT_EQ(start(packed("")), "");
+  EXPECT_EQ(start("\x1f\x8b\x08 damaged"), "");
+}
+
 TEST_F(Gzip, DamageIsAnError) {
   const std::string text = random_text(100000, 16), bytes = packed(text);
   for (size_t size = 2; size < bytes.size(); size += 997)
