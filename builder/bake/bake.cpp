@@ -9,7 +9,6 @@
 #include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
-#include "streaming/file/file.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/spill/invalid_scratch.h"
@@ -252,9 +251,7 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
   SpillSpace vertices = workspace.vertices();
-  SceneConfig scene_config = config.scene;
-  scene_config.unpack_folder = folder_of(workspace.folder()->path());
-  const Scene scene(scene_config, workspace.budget(), &vertices);
+  const Scene scene(config.scene, workspace.budget(), &vertices);
   Description description(config, scene);
   Checkpoint checkpoint(&workspace);
   DiskNeed disk_need(workspace.scratch());

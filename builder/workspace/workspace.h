@@ -29,10 +29,10 @@ class Workspace {
   const MemoryShares& shares() const { return shares_; }
   ScratchDir* folder() { return &folder_; }
   Scratch* scratch() { return &scratch_; }
-  // Where the vertices of a mesh are spilled.
+  // Where the vertices of a mesh are spilled; compressed files are unpacked beside it.
   SpillSpace vertices() {
     return {shares_.vertices, [this] { return scratch_.transient(); },
-            [this] { return scratch_.new_streams(); }};
+            [this] { return scratch_.new_streams(); }, folder_of(folder_.path())};
   }
 
   bool has_unfinished_bake() const { return folder_.has(kJournalName); }

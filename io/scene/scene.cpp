@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
@@ -171,10 +170,9 @@ const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;
   const auto found = unpacked_.find(packed.path());
   if (found != unpacked_.end()) return found->second;
-  const std::string folder = config_.unpack_folder.empty()
-                                 ? std::filesystem::temp_directory_path().string()
-                                 : config_.unpack_folder;
-  return unpacked_.emplace(packed.path(), unpack_gzip(packed, folder)).first->second;
+  File content = create_unpacked(packed.path(), spill_);
+  unpack_gzip(packed, &content);
+  return unpacked_.emplace(packed.path(), std::move(content)).first->second;
 }
 
 SceneCounts Scene::stream(const TriangleSink& sink) const {
@@ -196,8 +194,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File& file = content_of(packed);
     FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
-    ReadOptions options{
-        &names, by_name, budget_, spill_, box_alone, config_.sandbox, config_.unpack_folder};
+    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
     if (to_world == Affine()) {
       read_file(file, options, filtered);
     } else {
@@ -296,31 +293,9 @@ SceneFormat detect_format(const File& file) {
 }
 
 const char* format_name(SceneFormat format) {
-  switch (format) {
-    case SceneFormat::kPly:
-      return "PLY";
-    case SceneFormat::kStl:
-      return "STL";
-    case SceneFormat::kObj:
-      return "OBJ";
-    case SceneFormat::kOff:
-      return "OFF";
-    case SceneFormat::kGltf:
-      return "glTF";
-    case SceneFormat::kDraco:
-      return "Draco";
-    case SceneFormat::kOpenMesh:
-      return "OpenMesh";
-    case SceneFormat::kFbx:
-      return "FBX";
-    case SceneFormat::kCollada:
-      return "COLLADA";
-    case SceneFormat::k3mf:
-      return "3MF";
-    case SceneFormat::k3ds:
-      return "3DS";
-  }
-  return "";
+  constexpr const char* kNames[] = {"PLY",      "STL", "OBJ",     "OFF", "glTF", "Draco",
+                                    "OpenMesh", "FBX", "COLLADA", "3MF", "3DS"};
+  return kNames[size_t(format)];
 }
 
 }  // namespace svdag

@@ -35,7 +35,6 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
-  std::string unpack_folder = {};  // of decompressed files; empty: that of temporary files
 
   // From the coordinates of the files, transforms of glTF nodes included, to the world.
   Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }

@@ -30,3 +30,14 @@ rm r.json
 bake
 echo '{"done": [{"output": "a.svdag"}]}' > r.json
 bake
+echo "damaged reports"
+for text in '' '[' '[]' '7' '{"done": 7}' '{"done": [[]]}' '{"done": [{"exit": 0, "output": 7, "report": {}}]}' \
+  '{"done": [{"exit": 0, "output": "a.svdag", "report": {"description_hash": 1, "content_hash": []}}]}'; do
+  echo "$text" > r.json
+  bake -q
+done
+head -c 900 last.json > r.json
+bake -q
+python3 -c 'print("{\"done\": " + 100000 * "[")' > r.json
+bake
+bake

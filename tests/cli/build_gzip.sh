@@ -24,4 +24,5 @@ svdag plan t.stl.gz -r 64 -o plan --shards 2 -q
 svdag run plan -q && cmp t.svdag plan/t.svdag
 head -c 20 t.obj.gz > short.obj.gz
 svdag build short.obj.gz -o b.svdag -r 64 || echo "exit $?"
+TMPDIR=/nowhere svdag info t.obj.gz | head -1
 ls -A

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Writes one small scene as COLLADA, 3MF, 3DS, FBX (text, with y and with z up) and OBJ: NAME.dae, .3mf, .3ds, .fbx,
-_z.fbx, .obj.
+"""Writes one small scene as COLLADA and FBX (text), with y up and with z up, 3MF, 3DS and OBJ: NAME.dae, NAME_z.dae, ...
 
 Written from the formats' specifications, independent of the reader. The scene: a quad and a triangle, shown as they are
 ("floor") and, moved by (0, 0, 10) and mirrored in x, a second time ("copy"). 3MF has triangles only, and 3DS neither
@@ -13,7 +12,6 @@ import zipfile
 POINTS = [(0, 0, 0), (8, 0, 0), (8, 4, 0), (0, 4, 0), (4, 2, 5)]
 FACES = [(0, 1, 2, 3), (0, 1, 4)]
 TRIANGLES = [(0, 1, 2), (0, 2, 3), (0, 1, 4)]
-COPY = (-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 10, 0, 0, 0, 1)  # row by row
 
 
 def moved(p):
@@ -28,15 +26,21 @@ def words(values):
     return " ".join(str(v) for row in values for v in row)
 
 
-def dae():
+def dae(up):
+    """With z up, in half metres."""
+    turned = z_up if up == "Z" else lambda p: p
+    scale = 2 if up == "Z" else 1
+    points = [[scale * v for v in turned(p)] for p in POINTS]
+    x, y, z = (scale * v for v in turned((0, 0, 10)))
+    copy = (-1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)  # row by row
     return f"""<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
  <asset><created>2026-01-01T00:00:00Z</created><modified>2026-01-01T00:00:00Z</modified>
-  <unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+  <unit name="unit" meter="{1 / scale}"/><up_axis>{up}_UP</up_axis></asset>
  <library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong/></technique></profile_COMMON></effect></library_effects>
  <library_materials><material id="m" name="stone"><instance_effect url="#e"/></material></library_materials>
  <library_geometries><geometry id="g" name="g"><mesh>
-  <source id="p"><float_array id="a" count="{3 * len(POINTS)}">{words(POINTS)}</float_array>
+  <source id="p"><float_array id="a" count="{3 * len(POINTS)}">{words(points)}</float_array>
    <technique_common><accessor source="#a" count="{len(POINTS)}" stride="3">
     <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
   <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
@@ -46,7 +50,7 @@ def dae():
  <library_visual_scenes><visual_scene id="s">
   <node id="floor" name="floor"><instance_geometry url="#g"><bind_material><technique_common>
    <instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry></node>
-  <node id="copy" name="copy"><matrix>{" ".join(map(str, COPY))}</matrix><instance_geometry url="#g"/></node>
+  <node id="copy" name="copy"><matrix>{" ".join(map(str, copy))}</matrix><instance_geometry url="#g"/></node>
  </visual_scene></library_visual_scenes>
  <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>
@@ -163,7 +167,7 @@ def obj():
 
 def main(name):
     three_mf(name + ".3mf")
-    for ending, data in ((".dae", dae()), (".fbx", fbx(1)), ("_z.fbx", fbx(2)), (".obj", obj())):
+    for ending, data in ((".dae", dae("Y")), ("_z.dae", dae("Z")), (".fbx", fbx(1)), ("_z.fbx", fbx(2)), (".obj", obj())):
         with open(f"{name}{ending}", "w", encoding="utf-8") as file:
             file.write(data)
     with open(name + ".3ds", "wb") as file:

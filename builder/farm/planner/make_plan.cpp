@@ -51,16 +51,11 @@ std::string scratch_path(const PlanConfig& config) {
     return ScratchDir::path_for(config.folder + "/plan", config.build.scratch);
   const std::string& output = config.build.output;
   std::string parent = config.build.scratch;
-  if (parent.empty() && free_bytes_of(folder_of(output)) < kMinDryRunBytes)
-    parent = std::filesystem::temp_directory_path();
+  if (parent.empty() && free_bytes_of(folder_of(output)) < kMinDryRunBytes) {
+    std::error_code none;  // TMPDIR may name anything
+    parent = std::filesystem::temp_directory_path(none);
+  }
   return ScratchDir::path_for(output + ".dry-run", parent);
-}
-
-// Gzip files are unpacked beside the scratch folder.
-SceneConfig scene_config(const PlanConfig& config, const std::string& scratch_folder) {
-  SceneConfig scene = config.build.scene;
-  scene.unpack_folder = folder_of(scratch_folder);
-  return scene;
 }
 
 // Turns a scene into a plan; one function per phase.
@@ -71,7 +66,7 @@ class Planner {
         progress_(progress),
         workspace_(scratch_path(config), config.build.memory, 1),
         vertices_(workspace_.vertices()),
-        scene_(scene_config(config, workspace_.folder()->path()), workspace_.budget(), &vertices_) {
+        scene_(config.build.scene, workspace_.budget(), &vertices_) {
     clear_scratch();
   }
 

@@ -30,7 +30,7 @@ class GltfReader {
   GltfReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
       : document_(load_gltf(file, options.budget)),
         options_(options),
-        buffers_(document_, options.budget, options.unpack_folder, options.sandbox),
+        buffers_(document_, options.budget, options.spill, options.sandbox),
         kept_(options.budget),
         out_(sink) {}
 

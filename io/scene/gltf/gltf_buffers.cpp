@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 
 #include "io/scene/gltf/gltf_uri.h"
@@ -135,14 +134,9 @@ GltfBuffers::View GltfBuffers::unpacked_view(uint64_t index, const JsonObject& m
                              meshopt.count("byteStride")};
   auto known = unpacked_.find(index);
   if (known == unpacked_.end()) {
-    const View data = view_of(meshopt, index);
-    const auto memory = budget_->reserve(data.size, "compressed glTF meshes");
-    std::vector<std::byte> bytes(size_t(data.size));
-    data.blob->read_at(data.begin, bytes);
-    if (!unpacked_file_)
-      unpacked_file_ = File::create_anonymous(
-          unpack_folder_.empty() ? std::filesystem::temp_directory_path().string() : unpack_folder_,
-          document_.file->path());
+    MemoryBudget::Reservation memory;
+    const auto bytes = bytes_of(view_of(meshopt, index), &memory);
+    if (!unpacked_file_) unpacked_file_ = create_unpacked(document_.file->path(), spill_);
     const uint64_t begin = unpacked_bytes_;
     decode_meshopt({bytes, document_.file->path(), sandbox_}, shape, *budget_,
                    [this](std::span<const std::byte> block) {
@@ -225,10 +219,13 @@ Accessor GltfBuffers::accessor(uint64_t index, const std::string& type) {
 }
 
 std::vector<std::byte> GltfBuffers::view_bytes(uint64_t index, MemoryBudget::Reservation* memory) {
-  const View data = view(index);
-  *memory = budget_->reserve(data.size, "compressed glTF meshes");
-  std::vector<std::byte> bytes(size_t(data.size));
-  data.blob->read_at(data.begin, bytes);
+  return bytes_of(view(index), memory);
+}
+
+std::vector<std::byte> GltfBuffers::bytes_of(const View& view, MemoryBudget::Reservation* memory) {
+  *memory = budget_->reserve(view.size, "compressed glTF meshes");
+  std::vector<std::byte> bytes(size_t(view.size));
+  view.blob->read_at(view.begin, bytes);
   return bytes;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/scene/gltf/gltf_document.h"
+#include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -78,13 +79,10 @@ class GltfBuffers {
   // bytes of JSON could request 18 EB.
   static constexpr uint64_t kMaxImplicit = uint64_t(1) << 20;
 
-  // Compressed views are unpacked into an anonymous file in `unpack_folder`.
-  GltfBuffers(const GltfDocument& document, MemoryBudget* budget, std::string unpack_folder = {},
+  // Compressed views are unpacked into an anonymous file of `spill`.
+  GltfBuffers(const GltfDocument& document, MemoryBudget* budget, const SpillSpace* spill = nullptr,
               bool sandbox = false)
-      : document_(document),
-        budget_(budget),
-        unpack_folder_(std::move(unpack_folder)),
-        sandbox_(sandbox) {}
+      : document_(document), budget_(budget), spill_(spill), sandbox_(sandbox) {}
 
   static constexpr const char* kAnyType = "";
 
@@ -108,6 +106,7 @@ class GltfBuffers {
   View view_of(const JsonObject& object, uint64_t index);
   // The view of `meshopt`, the EXT_meshopt_compression of buffer view `index`, unpacked.
   View unpacked_view(uint64_t index, const JsonObject& meshopt);
+  std::vector<std::byte> bytes_of(const View& view, MemoryBudget::Reservation* memory);
   const Blob& blob(uint64_t index);
   Blob open(uint64_t index);
   // Places `array` (type and count are set) at `offset` of buffer view `view`.
@@ -116,7 +115,7 @@ class GltfBuffers {
   const GltfDocument& document_;
   MemoryBudget* budget_;
   std::map<uint64_t, Blob> blobs_;  // opened on first use: skipped nodes cost nothing
-  std::string unpack_folder_;       // empty: that of temporary files
+  const SpillSpace* spill_;
   bool sandbox_;
   std::optional<File> unpacked_file_;  // all unpacked views, one after the other
   uint64_t unpacked_bytes_ = 0;

@@ -1,9 +1,18 @@
 #include "io/scene/mesh/mesh_reader.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace svdag {
+
+File create_unpacked(const std::string& path, const SpillSpace* spill) {
+  const bool given = spill != nullptr && !spill->unpack_folder.empty();
+  std::error_code none;  // TMPDIR may name anything
+  const std::string folder =
+      given ? spill->unpack_folder : std::filesystem::temp_directory_path(none).string();
+  return File::create_anonymous(none ? "/tmp" : folder, path);
+}
 
 void BatchWriter::mesh(std::string_view name, bool undeformed) {
   flush();

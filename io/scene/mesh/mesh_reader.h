@@ -1,10 +1,10 @@
 // The interface of all scene formats: triangles in world space, in batches.
 //
-// One function per format, one file per function. A reader of ours streams: it holds at most the vertex
-// positions of one mesh (reserved in `budget`), never the faces; positions beyond its share of the
-// memory go to a spill file if it has one (io/scene/mesh/positions.h). It checks every count
-// against the remaining bytes before it allocates, and reports a damaged file as one Error
-// (kBadInput).
+// One function per format, one file per function. Readers of ours stream: they hold at most the
+// vertex positions of one mesh (reserved in `budget`), never the faces; positions beyond their
+// share of the memory go to a spill file if there is one (io/scene/mesh/positions.h). A reader
+// checks every count against the remaining bytes before it allocates, and reports a damaged file as
+// one Error (kBadInput).
 // Readers pass non-finite coordinates on unchanged; io/scene/scene.cpp decides about them.
 #pragma once
 
@@ -46,7 +46,11 @@ struct SpillSpace {
   uint64_t share = 0;
   std::function<SpillFile*()> file;         // opened by the first call
   std::function<uint64_t()> stream_number;  // never used before in the file
+  std::string unpack_folder = {};           // of decompressed files; empty: the temporary folder
 };
+
+// An anonymous file for decompressed data, with the path() of the compressed file.
+File create_unpacked(const std::string& path, const SpillSpace* spill);
 
 // The result of reading a mesh for its box only.
 struct MeshBox {
@@ -65,7 +69,6 @@ struct ReadOptions {
   MeshBox* box_alone = nullptr;
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
-  std::string unpack_folder = {};  // of decompressed data; empty: that of temporary files
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {

@@ -1,6 +1,6 @@
 // Reads FBX, COLLADA, 3MF and 3DS with Assimp.
 //
-// Assimp holds the whole scene (about ten times the file), so these formats are not streamed. It
+// Assimp holds the whole scene, so these formats are not streamed. It
 // parses untrusted bytes, so it always runs in a process of its own; under --sandbox, one that can
 // only compute. Its positions are floats; the transforms of nodes are composed here, in double.
 // Polygons are triangulated here as those of all formats: Assimp's own triangulation may drop some.
@@ -10,11 +10,10 @@
 //
 // The child sends blocks: a tag, then a header (flags, the material, the names of the nodes from
 // the root on, separated by zero bytes) or the triangles that belong to the last header.
-#include <assimp/postprocess.h>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <cstring>
 #include <string_view>
 
 #include "io/affine.h"
@@ -170,11 +169,7 @@ class Receiver {
 
   void take_triangles(std::span<const std::byte> block) {
     if (block.size() % sizeof(Triangle) != 0) fail();
-    for (; wanted_ && !block.empty(); block = block.subspan(sizeof(Triangle))) {
-      Triangle t;
-      std::memcpy(&t, block.data(), sizeof t);
-      out_.add(t.v[0], t.v[1], t.v[2]);
-    }
+    if (wanted_) add_triangles(block, &out_);
   }
 
   [[noreturn]] void fail() const { fail_input(file_.path(), "its decoder sent an invalid block"); }

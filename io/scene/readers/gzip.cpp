@@ -84,20 +84,13 @@ size_t unpack_start(const File& file, std::span<std::byte> out) {
   return Inflater().unpack_start(bytes, out);
 }
 
-File unpack_gzip(const File& file, const std::string& folder) {
-  File out = File::create_anonymous(folder, file.path());
+void unpack_gzip(const File& file, File* out) {
   ByteStream stream(file);
   Inflater inflater;
   uint64_t size = 0;
-  try {
-    inflater.unpack_member(&stream, &out, &size);
-    // As gzip does: further members are appended, anything else after a member is ignored.
-    while (begins_member(stream.peek(3))) inflater.unpack_member(&stream, &out, &size);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kOutput) throw;
-    throw error.with_hint("; it is unpacked in " + folder);
-  }
-  return out;
+  inflater.unpack_member(&stream, out, &size);
+  // As gzip does: further members are appended, anything else after a member is ignored.
+  while (begins_member(stream.peek(3))) inflater.unpack_member(&stream, out, &size);
 }
 
 }  // namespace svdag

@@ -1,6 +1,6 @@
 // Unpacks gzip files (RFC 1952), of one or several members, with zlib.
 //
-// Readers need random access, so the file is unpacked to disk, into a file without a name.
+// Readers need random access, so a scene is unpacked to disk, into a file without a name.
 // Rejected: inflating on the fly (every pass would inflate again, and PLY reads two ranges at
 // once), unpacking into memory (scenes are larger).
 #pragma once
@@ -19,8 +19,7 @@ bool is_gzip(const File& file);
 // The first bytes of the content, at most out.size(); returns their number. 0 for damaged data.
 size_t unpack_start(const File& file, std::span<std::byte> out);
 
-// The content of `file`, in an anonymous file in `folder` that has the same path(). Damaged data is
-// an Error (kBadInput); a full disk is an Error (kOutput).
-File unpack_gzip(const File& file, const std::string& folder);
+// Writes the content of `file` to `out`. Damaged data is an Error (kBadInput).
+void unpack_gzip(const File& file, File* out);
 
 }  // namespace svdag

@@ -7,7 +7,6 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <array>
-#include <cstring>
 #include <exception>
 #include <sstream>
 
@@ -116,11 +115,7 @@ void decode_limited(const File& file, std::span<const std::byte> bytes, const He
       [&](std::span<const std::byte> block) {
         if (block.size() % sizeof(Triangle) != 0)
           fail_input(file.path(), "its decoder sent an invalid triangle");
-        for (; !block.empty(); block = block.subspan(sizeof(Triangle))) {
-          Triangle t;
-          std::memcpy(&t, block.data(), sizeof t);
-          out.add(t.v[0], t.v[1], t.v[2]);
-        }
+        add_triangles(block, &out);
       });
   out.flush();
 }

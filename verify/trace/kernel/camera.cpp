@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/brick.h"
+
 namespace svdag {
 namespace {
 
@@ -80,11 +82,10 @@ void add_cubes(const DagView& dag, uint32_t level, uint32_t node, const Vec3& co
   if (side <= framed.finest)
     return framing->add(corner + Vec3{{side / 2, side / 2, side / 2}}, side / 2);
   if (level == dag.brick_level()) {
-    for (int bit = 0; bit < 64; ++bit) {
-      const Vec3 voxel{{double((bit >> 4 & 2) + (bit >> 2 & 1)),
-                        double((bit >> 3 & 2) + (bit >> 1 & 1)),
-                        double((bit >> 2 & 2) + (bit & 1))}};
-      if (dag.bricks[node] >> bit & 1) framing->add(corner + voxel + Vec3{{0.5, 0.5, 0.5}}, 0.5);
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      if ((dag.bricks[node] >> bit & 1) == 0) continue;
+      const auto [x, y, z] = brick_voxel(bit);
+      framing->add(corner + Vec3{{x + 0.5, y + 0.5, z + 0.5}}, 0.5);
     }
     return;
   }

@@ -7,6 +7,7 @@
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file_names.h"
 #include "streaming/memory/memory_budget.h"
+#include "streaming/printable.h"
 #include "streaming/process/program.h"
 #include "verify/trace/program/device.h"
 #include "verify/trace/program/trace_options.h"
@@ -68,8 +69,8 @@ void print(const TraceResults& results) {
               "seconds", "MRays/s");
   for (int kind = 0; kind < kWorkloads; ++kind) {
     const double seconds = results.seconds[kind];
-    std::printf("%-8s %12llu %12llu %9.4f %9.2f\n", kWorkloadNames[kind],
-                whole(results.rays[kind]), whole(hits_of(results, kind)), seconds,
+    std::printf("%-8s %12llu %12llu %9.4f %9.2f\n", kWorkloadNames[kind], whole(results.rays[kind]),
+                whole(hits_of(results, kind)), seconds,
                 seconds > 0 ? 1e-6 * double(results.rays[kind]) / seconds : 0.0);
   }
   std::printf("results  %016llx\n", whole(hash_of(results)));
@@ -78,9 +79,9 @@ void print(const TraceResults& results) {
 // The name of a device as a JSON string; it comes from a driver or from the kernel.
 std::string quoted(const std::string& name) {
   std::string text = "\"";
-  for (const char c : name) {
+  for (const char c : printable(name)) {
     if (c == '"' || c == '\\') text += '\\';
-    text += c >= ' ' && c <= '~' ? c : '?';
+    text += c;
   }
   return text + '"';
 }

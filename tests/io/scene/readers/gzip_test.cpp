@@ -37,7 +37,8 @@ std::string random_text(size_t size, char values) {
 class Gzip : public testing::Test {
  protected:
   std::string unpacked(const std::string& bytes) {
-    const File out = unpack_gzip(File::open_read(folder_.write("a.ply.gz", bytes)), folder_.path());
+    File out = File::create_anonymous(folder_.path());
+    unpack_gzip(File::open_read(folder_.write("a.ply.gz", bytes)), &out);
     std::string text(out.size(), ' ');
     out.read_at(0, std::as_writable_bytes(std::span(text)));
     return text;
@@ -94,9 +95,10 @@ TEST_F(Gzip, DamageIsAnError) {
 TEST_F(Gzip, ASceneIsReadAsIfUnpackedAndUnpackedOnce) {
   const std::string obj = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 5\nf 1 2 3\n";
   MemoryBudget budget;
-  SceneConfig config = {.paths = {folder_.write("scene.OBJ.GZ", packed(obj))}, .names = {}};
-  config.unpack_folder = folder_.path();
-  const Scene scene(config, &budget);
+  const SceneConfig config = {.paths = {folder_.write("scene.OBJ.GZ", packed(obj))}, .names = {}};
+  SpillSpace spill;
+  spill.unpack_folder = folder_.path();
+  const Scene scene(config, &budget, &spill);
   const Box box = scene.bounds();
   EXPECT_EQ(box.max, Point(1, 1, 5));
   uint64_t triangles = 0;
