@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/brick.h"
+#include "verify/trace/kernel/surface.h"
 
 namespace svdag {
 namespace {
@@ -82,10 +82,11 @@ void add_cubes(const DagView& dag, uint32_t level, uint32_t node, const Vec3& co
   if (side <= framed.finest)
     return framing->add(corner + Vec3{{side / 2, side / 2, side / 2}}, side / 2);
   if (level == dag.brick_level()) {
-    for (unsigned bit = 0; bit < 64; ++bit) {
+    for (int bit = 0; bit < 64; ++bit) {
       if ((dag.bricks[node] >> bit & 1) == 0) continue;
-      const auto [x, y, z] = brick_voxel(bit);
-      framing->add(corner + Vec3{{x + 0.5, y + 0.5, z + 0.5}}, 0.5);
+      Vec3 centre = corner + Vec3{{0.5, 0.5, 0.5}};
+      for (int a = 0; a < 3; ++a) centre[a] += brick_coordinate(bit, a);
+      framing->add(centre, 0.5);
     }
     return;
   }

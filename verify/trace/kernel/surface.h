@@ -63,12 +63,17 @@ class BrickPath {
   uint32_t nodes_[kMaxSections] = {};
 };
 
+// Coordinate `axis`, 0 .. 3, of the voxel in bit `bit` of a brick.
+SVDAG_HD inline int brick_coordinate(int bit, int axis) {
+  return (bit >> (4 - axis) & 2) + (bit >> (2 - axis) & 1);
+}
+
 // Adds the voxels of the brick with corner (x, y, z), relative to the hit.
 SVDAG_HD inline void add_brick(uint64_t brick, int x, int y, int z, Moments* moments) {
   for (int bit = 0; brick != 0; ++bit, brick >>= 1) {
     if (brick & 1U)
-      moments->add(x + (bit >> 4 & 2) + (bit >> 2 & 1), y + (bit >> 3 & 2) + (bit >> 1 & 1),
-                   z + (bit >> 2 & 2) + (bit & 1));
+      moments->add(x + brick_coordinate(bit, 0), y + brick_coordinate(bit, 1),
+                   z + brick_coordinate(bit, 2));
   }
 }
 
