@@ -64,6 +64,8 @@ ALLOWED = {
     "builder/farm/planner": BAKE + ["builder/bake", "builder/farm/plan"],
     "builder/farm/engines": BAKE + ["builder/bake", "builder/farm/plan"],
     "builder/commands": BAKE + ["io/help", "builder/edit", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines"],
+    "builder/commands/farm": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines", "builder/commands"],
+    "builder/commands/info": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/commands"],
     "builder/commands/export": STREAMING + ["io", "io/help", "io/dag"] + FORMATS,
     "builder/commands/import": STREAMING + ["io", "io/help", "io/dag"] + FORMATS + ["builder/run", "builder/import"],
     "verify/integrity": STREAMING + ["io", "io/dag"],
@@ -115,7 +117,7 @@ EXACT = {
 }
 
 LIBRARIES = {
-    r"CLI/": r"(builder/commands(/export|/import)?|verify/commands|verify/trace/program)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
+    r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace/program)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
     r"meshoptimizer": r"io/scene/readers/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
