@@ -8,6 +8,7 @@
 
 #include "io/scene/scene.h"
 #include "tests/expect_error.h"
+#include "tests/io/scene/mesh/test_spill.h"
 #include "tests/temp_folder.h"
 
 namespace svdag {
@@ -96,7 +97,8 @@ TEST_F(Gzip, ASceneIsReadAsIfUnpackedAndUnpackedOnce) {
   const std::string obj = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 5\nf 1 2 3\n";
   MemoryBudget budget;
   const SceneConfig config = {.paths = {folder_.write("scene.OBJ.GZ", packed(obj))}, .names = {}};
-  SpillSpace spill;
+  const TestSpill vertices(uint64_t(1) << 20);
+  SpillSpace spill = *vertices.space();
   spill.unpack_folder = folder_.path();
   const Scene scene(config, &budget, &spill);
   const Box box = scene.bounds();
