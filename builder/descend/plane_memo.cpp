@@ -31,19 +31,7 @@ uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
 }
 
-uint32_t pack(uint32_t x, uint32_t y, uint32_t z) noexcept {
-  return x | y << 10 | z << 20;
-}
-
 }  // namespace
-
-PlaneMemoCounts& PlaneMemoCounts::operator+=(const PlaneMemoCounts& other) {
-  queries += other.queries;
-  answered += other.answered;
-  hits += other.hits;
-  computed += other.computed;
-  return *this;
-}
 
 PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
                      NodeTable* table, uint64_t bytes)
@@ -52,13 +40,14 @@ PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repea
       kernels_(kernels),
       repeats_(repeats),
       table_(table),
-      tables_(size_t(levels - 1)),
+      tables_(size_t(levels - 3)),
+      contents_(levels, rule, kernels, table),
       normal_slots_(1024),
       max_bytes_(std::min({bytes, table->budget()->limit() / 32, uint64_t(1) << 29})),
       reservation_(table->budget()->reserve(0, "plane memo")) {
-  for (int level = 0; level <= levels - 2; ++level) {
-    const int log2 = std::min(14 + 2 * (levels - 2 - level), kMaxTableLog2);
-    tables_[size_t(level)].limit = size_t(1) << log2;
+  for (size_t level = 0; level < tables_.size(); ++level) {
+    const int log2 = std::min(14 + 2 * (levels - 2 - int(level)), kMaxTableLog2);
+    tables_[level].limit = size_t(1) << log2;
   }
 }
 
@@ -101,9 +90,12 @@ void PlaneMemo::forget() {
   normals_ = {};
   planes_ = {};
   std::fill(normal_slots_.begin(), normal_slots_.end(), 0);
-  drop_contents();
-  for (LevelTable& table : tables_) table.entries = {}, table.memory = {};
-  reservation_.resize(0, "plane memo");
+  for (LevelTable& table : tables_) {
+    table.entries = {}, table.memory = {};
+    table.unsettled.clear();
+    table.used = 0;
+  }
+  reservation_.resize(contents_.bytes(), "plane memo");
 }
 
 bool PlaneMemo::charge(uint64_t bytes) {
@@ -155,13 +147,18 @@ PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
 }
 
 void PlaneMemo::add_plane(const Normal& normal) {
-  Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}};
+  if (!contents_.allocated()) {
+    const uint64_t bytes = PlaneContents::table_bytes(max_bytes_ / 2);
+    if (bytes != 0 && charge(bytes)) contents_.allocate(bytes);
+  }
+  Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}, {}};
   for (const int64_t n : plane.n) (n < 0 ? plane.negative : plane.positive) += n;
-  for (int level = 0; level <= levels_ - 2; ++level) {
+  for (int level = 0; level < contents_.level(); ++level) {
     const int log2 = std::ilogb(contents(plane.n, level).length);
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
   plane.brick = make_plane_brick(plane);
+  plane.heights = contents_.heights_of(plane.n);
   planes_.push_back(plane);
 }
 
@@ -197,15 +194,22 @@ std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cu
                                       const OffsetRange& range, Witness* witness) {
   ++counts_.queries;
   min_stored_level_ = known.min_stored_level;
-  Answer answer;
+  PlaneAnswer answer;
   if (!find_node(known.number, cube.level, range, &answer)) return std::nullopt;
   ++counts_.answered;
   *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
   return SubDag{answer.node, answer.voxels};
 }
 
-bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, Answer* out) {
-  if (level < min_stored_level_) return compute(number, level, range, out);
+bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out) {
+  if (level == contents_.level()) {
+    const auto query = contents_.query(planes_[number].heights, range);
+    if (!query) return compute(number, level, range, out);
+    *out = contents_.find(planes_[number].heights, *query, &counts_);
+    return true;
+  }
+  if (level < min_stored_level_ || level > contents_.level())
+    return compute(number, level, range, out);
   LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) {
     grow(&table);
@@ -231,15 +235,16 @@ bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, 
 }
 
 void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset) {
+  if (level < min_stored_level_ || level >= contents_.level()) return;
   LevelTable& table = tables_[size_t(level)];
-  if (level < min_stored_level_ || table.entries.empty()) return;
+  if (table.entries.empty()) return;
   const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
   const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(number, bucket)));
   __builtin_prefetch(set);
   __builtin_prefetch(set + 64);
 }
 
-bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Answer* out) {
+bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out) {
   if (level == levels_ - 2) return compute_brick(planes_[number], range, out);
   const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
@@ -251,6 +256,8 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   *out = {-kFarOffset, kFarOffset, 0, 0, 0};
   const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
   int64_t shift[8];
+  std::optional<PlaneContents::Query> queries[8];
+  const bool by_content = level + 1 == contents_.level();
   unsigned met = 0;
   for (unsigned c = 0; c < 8; ++c) {
     shift[c] = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
@@ -260,20 +267,30 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
       out->low = std::max(out->low, high + 1 + shift[c]);
     } else {
       met |= 1U << c;
-      prefetch(number, level + 1, range.low - shift[c]);
+      const OffsetRange child{range.low - shift[c], range.high - shift[c]};
+      if (by_content) {
+        queries[c] = contents_.query(planes_[number].heights, child);
+      } else {
+        prefetch(number, level + 1, child.low);
+      }
     }
   }
   for (; met != 0; met &= met - 1) {
     const unsigned c = unsigned(std::countr_zero(met));
-    Answer child;
-    if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, &child))
+    PlaneAnswer child;
+    if (queries[c]) {
+      child = contents_.find(planes_[number].heights, *queries[c], &counts_);
+    } else if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]},
+                          &child)) {
       return false;
+    }
     out->low = std::max(out->low, child.low + shift[c]);
     out->high = std::min(out->high, child.high + shift[c]);
     if (child.node == 0) continue;
     key[c] = child.node;
     out->voxels += child.voxels;
-    out->witness = child.witness + pack((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
+    out->witness =
+        child.witness + pack_voxel((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
   }
   if (out->voxels == 0) return true;
   ++counts_.computed;
@@ -281,14 +298,14 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, An
   return true;
 }
 
-bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Answer* out) {
+bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, PlaneAnswer* out) {
   const PlaneVoxels found = kernels_->plane(plane.brick, range.low, range.high);
   if (found.straddles) return false;
   *out = {found.low, found.high, 0, uint32_t(std::popcount(found.voxels)), 0};
   if (found.voxels == 0) return true;
   ++counts_.computed;
   const uint8_t* at = kBrickTables.coordinate[std::countr_zero(found.voxels)];
-  out->witness = pack(at[0], at[1], at[2]);
+  out->witness = pack_voxel(at[0], at[1], at[2]);
   out->node = table_->add_brick(found.voxels);
   return true;
 }
@@ -297,7 +314,7 @@ PlaneMemo::MemoEntry* PlaneMemo::set_of(LevelTable* table, uint32_t tag) {
   return &table->entries[(tag & table->mask) * kWays];
 }
 
-void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const Answer& answer) {
+void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const PlaneAnswer& answer) {
   if (2 * table->used > table->entries.size()) grow(table);
   MemoEntry* set = set_of(table, tag);
   size_t way = 0;
@@ -313,12 +330,13 @@ void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const Answe
 }
 
 void PlaneMemo::settle() {
-  for (int level = 0; level <= levels_ - 2; ++level) {
-    LevelTable& table = tables_[size_t(level)];
+  for (size_t level = 0; level < tables_.size(); ++level) {
+    LevelTable& table = tables_[level];
     for (const uint32_t i : table.unsettled)
-      table.entries[i].node = table_->settled(level, table.entries[i].node);
+      table.entries[i].node = table_->settled(int(level), table.entries[i].node);
     table.unsettled.clear();
   }
+  contents_.settle();
 }
 
 void PlaneMemo::drop_contents() {
@@ -327,6 +345,7 @@ void PlaneMemo::drop_contents() {
     table.unsettled.clear();
     table.used = 0;
   }
+  contents_.drop();
 }
 
 // Replaces the table by an empty larger one, if there is memory. Entries are not moved: they do not

@@ -16,6 +16,10 @@
 // graph over the column, and if it missed a voxel with l <= g <= h throughout, it would pass above
 // (or below) the voxel's corner of largest (smallest) n_q . x, where g would be beyond h (l).
 //
+// Entries are stored per plane for cubes of at least 16^3 voxels; below, planes share the contents
+// of cubes of 8^3 voxels (builder/descend/plane_contents.h), and what that cache cannot answer is
+// computed.
+//
 // When it pays: a plane of A square voxels meets about A/s^2 cubes of side s but has at most
 // 2(s+1)^3 contents there (2s+1 if it is axis-aligned). So entries are stored only for cube sizes
 // whose contents repeat, and a plane is admitted only when its bricks do. A is the area of the
@@ -30,6 +34,7 @@
 #include <span>
 #include <vector>
 
+#include "builder/descend/plane_contents.h"
 #include "builder/octree/octree_cube.h"
 #include "builder/overlap/kernels/kernels.h"
 #include "builder/overlap/lattice_plane.h"
@@ -39,15 +44,6 @@
 #include "streaming/memory/huge_pages.h"
 
 namespace svdag {
-
-struct PlaneMemoCounts {
-  uint64_t queries = 0;   // cubes that one triangle or a patch covers, looked up in the memo
-  uint64_t answered = 0;  // of these: answered, without a descent
-  uint64_t hits = 0;      // nodes found, including nodes below the root of an answer
-  uint64_t computed = 0;  // nodes computed
-
-  PlaneMemoCounts& operator+=(const PlaneMemoCounts& other);
-};
 
 // A set voxel of a cube, relative to the cube's corner; for cubes of up to 1024^3 voxels.
 struct Witness {
@@ -89,12 +85,6 @@ class PlaneMemo {
   const PlaneMemoCounts& counts() const { return counts_; }
 
  private:
-  struct Answer {
-    int64_t low, high;
-    uint32_t node;
-    uint32_t voxels;
-    uint32_t witness;  // a set voxel, see Witness
-  };
   struct MemoEntry {
     int64_t low, high;
     uint32_t node;
@@ -102,7 +92,7 @@ class PlaneMemo {
     uint32_t witness;
     uint32_t plane;  // 1 + plane number; 0: free
   };
-  // The entries of one level. Small cubes have few contents, so their table stays in the CPU cache.
+  // The entries of one level.
   struct LevelTable {
     HugePages memory;
     std::span<MemoEntry> entries;     // in `memory`; a set begins at a cache line
@@ -122,6 +112,7 @@ class PlaneMemo {
     int64_t negative, positive;          // sums of the negative and of the positive components
     std::array<int8_t, 24> bucket_log2;  // [level]: approximate length of an interval
     PlaneBrick brick;
+    PlaneHeights heights;
   };
   static constexpr size_t kWays = 4;
 
@@ -135,12 +126,12 @@ class PlaneMemo {
   int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
   PlaneBrick make_plane_brick(const Plane& plane) const;
-  bool find_node(uint32_t number, int level, const OffsetRange& range, Answer* out);
+  bool find_node(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out);
   void prefetch(uint32_t number, int level, int64_t offset);
-  bool compute(uint32_t number, int level, const OffsetRange& range, Answer* out);
-  bool compute_brick(const Plane& plane, const OffsetRange& range, Answer* out);
+  bool compute(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out);
+  bool compute_brick(const Plane& plane, const OffsetRange& range, PlaneAnswer* out);
   static MemoEntry* set_of(LevelTable* table, uint32_t tag);
-  void put(LevelTable* table, uint32_t tag, uint32_t plane, const Answer& answer);
+  void put(LevelTable* table, uint32_t tag, uint32_t plane, const PlaneAnswer& answer);
   // Reserves `bytes` more; false if the budget does not allow it.
   bool charge(uint64_t bytes);
   void grow(LevelTable* table);
@@ -151,7 +142,8 @@ class PlaneMemo {
   double repeats_;
   NodeTable* table_;
   int min_stored_level_ = 0;        // of the current query
-  std::vector<LevelTable> tables_;  // [level]
+  std::vector<LevelTable> tables_;  // [level], of cubes of at least 16^3 voxels
+  PlaneContents contents_;          // the cubes of 8^3 voxels
   std::vector<Plane> planes_;
   std::vector<Normal> normals_;
   std::vector<uint32_t> normal_slots_;  // open addressing by normal: 1 + index in normals_

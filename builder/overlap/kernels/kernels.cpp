@@ -47,12 +47,32 @@ PlaneVoxels plain_plane(const PlaneBrick& plane, int64_t low, int64_t high) noex
   return out;
 }
 
+ColumnParities plain_heights(int32_t first, int32_t step_u, int32_t step_v) noexcept {
+  ColumnParities out{0, 0, kHeightFraction, 0};
+  const auto is_odd = [&](int32_t i, int32_t j) {
+    const int32_t h = std::clamp(first - i * step_u - j * step_v, kMinHeight, kMaxHeight);
+    out.min_fraction = std::min(out.min_fraction, h & kHeightFraction);
+    out.max_fraction = std::max(out.max_fraction, h & kHeightFraction);
+    return uint32_t(h >> kHeightBits & 1);
+  };
+  for (int32_t i = 0; i < 8; ++i) {
+    for (int32_t j = 0; j < 8; ++j) out.rows |= uint64_t(is_odd(i, j)) << (8 * i + j);
+  }
+  for (int32_t j = 0; j < 8; ++j) out.last |= is_odd(8, j == 0 ? 8 : j) << j;
+  for (int32_t i = 0; i < 8; ++i) out.last |= is_odd(i == 0 ? 1 : i, 8) << (8 + i);
+  return out;
+}
+
 }  // namespace
 
 const Kernels& plain_kernels() {
-  static constexpr Kernels kPlain = {
-      "plain",    1, plain_children, plain_voxels<overlap_brick>, plain_voxels<overlap_brick_thin>,
-      plain_plane};
+  static constexpr Kernels kPlain = {"plain",
+                                     1,
+                                     plain_children,
+                                     plain_voxels<overlap_brick>,
+                                     plain_voxels<overlap_brick_thin>,
+                                     plain_plane,
+                                     plain_heights};
   return kPlain;
 }
 

@@ -35,6 +35,20 @@ struct PlaneVoxels {
   bool straddles;
 };
 
+// The heights of a plane over the corners of the 8x8 columns of a cube of 8x8x8 voxels
+// (builder/descend/plane_contents.h), in units of 2^-kHeightBits voxels: h(i, j) = first - i step_u
+// - j step_v for 0 <= i, j <= 8 without (0, 8) and (8, 0), clamped to [-1/2, 8 1/2]. 0 <= step_u,
+// step_v <= 1 voxel; -4 <= first <= 24 voxels.
+constexpr int kHeightBits = 26;
+constexpr int32_t kHeightFraction = (1 << kHeightBits) - 1;
+constexpr int32_t kMinHeight = -(1 << (kHeightBits - 1)), kMaxHeight = -17 * kMinHeight;
+// Whether the whole part of each height is odd, and the range of their fractions.
+struct ColumnParities {
+  uint64_t rows;  // bit 8 i + j: h(i, j), for i, j < 8
+  uint32_t last;  // from bit 0: h(8, 8), h(8, 1 .. 7); from bit 8: h(1, 8), h(1 .. 7, 8)
+  int32_t min_fraction, max_fraction;
+};
+
 constexpr int64_t kFarOffset = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 
 struct Kernels {
@@ -49,12 +63,15 @@ struct Kernels {
 
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
+  using Heights = ColumnParities (*)(int32_t first, int32_t step_u, int32_t step_v) noexcept;
+
   const char* name;  // of the instruction set
   int lanes;         // floats per vector
   Children children;
   Voxels conservative;
   Voxels thin;
   Plane plane;
+  Heights heights;
 };
 
 // The reference: one triangle after the other, by builder/overlap/overlap.h.

@@ -6,6 +6,7 @@
 
 #include "builder/overlap/kernels/kernel_children-inl.h"
 #include "builder/overlap/kernels/kernel_conservative-inl.h"
+#include "builder/overlap/kernels/kernel_heights-inl.h"
 #include "builder/overlap/kernels/kernel_plane-inl.h"
 #include "builder/overlap/kernels/kernel_thin-inl.h"
 
@@ -13,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 
 Kernels kernels_of_target() {
-  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin, plane};
+  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin, plane, heights};
 }
 
 }  // namespace svdag::HWY_NAMESPACE

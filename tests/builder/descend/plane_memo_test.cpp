@@ -118,8 +118,8 @@ TEST(PlaneMemo, ComputesTheSameForAnyMemoryAddressesOfItsTriangles) {
   std::vector<LatticeTriangle> triangles;
   for (int i = 0; i < 100; ++i) {
     const LatticePoint at = middle + LatticePoint(i % 10 * 40, i / 10 * 40, i) * voxel;
-    triangles.push_back({{at, at + LatticePoint(90, 0, int64_t(random() % 50)) * voxel,
-                          at + LatticePoint(0, 90, int64_t(random() % 50)) * voxel}});
+    triangles.push_back({{at, at + LatticePoint(250, 0, int64_t(random() % 90)) * voxel,
+                          at + LatticePoint(0, 250, int64_t(random() % 90)) * voxel}});
   }
   std::set<uint64_t> computed;
   for (int i = 0; i < 10; ++i) {

@@ -156,5 +156,29 @@ TEST(Kernels, AgreeOnAPlaneAndABrickAtEveryTie) {
   }
 }
 
+TEST(Kernels, AgreeOnTheHeightsOfAPlane) {
+  std::mt19937_64 random(5);
+  const std::vector<Kernels> all = vector_kernels();
+  constexpr int32_t kUnit = 1 << kHeightBits;
+  for (int i = 0; i < 100'000; ++i) {
+    // Steps of whole and half voxels now and then; heights from -4 to 24 voxels.
+    const auto step = [&] {
+      return random() % 4 == 0 ? int32_t(random() % 3) * (kUnit / 2)
+                               : int32_t(random() % (kUnit + 1));
+    };
+    const int32_t u = step(), v = step();
+    const int32_t first = random() % 4 == 0 ? int32_t(random() % 57) * (kUnit / 2) - 4 * kUnit
+                                            : int32_t(random() % (28U * kUnit + 1)) - 4 * kUnit;
+    const ColumnParities truth = plain_kernels().heights(first, u, v);
+    for (const Kernels& k : all) {
+      const ColumnParities ours = k.heights(first, u, v);
+      ASSERT_EQ(ours.rows, truth.rows) << k.name;
+      ASSERT_EQ(ours.last, truth.last) << k.name;
+      ASSERT_EQ(ours.min_fraction, truth.min_fraction) << k.name;
+      ASSERT_EQ(ours.max_fraction, truth.max_fraction) << k.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace svdag
