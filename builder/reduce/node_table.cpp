@@ -19,4 +19,10 @@ void NodeTable::close() {
   for (auto& level : nodes_) level.forget_slots();
 }
 
+void NodeTable::clear() {
+  close();
+  take_bricks();
+  for (int level = 0; level < brick_level(); ++level) take_nodes(level);
+}
+
 }  // namespace svdag

@@ -61,7 +61,7 @@ class NodeTable {
     return root > kPending ? 1 + numbers_[size_t(level)][root - 1 - kPending] : root;
   }
 
-  // Flushes; afterwards keys can only be read, until every level was cleared.
+  // Flushes; afterwards keys can only be read, until every level was taken.
   void close();
 
   // By number; valid after a flush.
@@ -70,9 +70,11 @@ class NodeTable {
   }
   Brick brick(uint32_t number) const { return bricks_[number]; }
   const NodeKey& node(int level, uint32_t number) const { return nodes_[size_t(level)][number]; }
-  void clear(int level) {
-    level == brick_level() ? bricks_.clear() : nodes_[size_t(level)].clear();
-  }
+  // Discards all keys.
+  void clear();
+  // Returns the keys of a level, which is then empty.
+  SegmentedArray<Brick> take_bricks() { return bricks_.take_keys(); }
+  SegmentedArray<NodeKey> take_nodes(int level) { return nodes_[size_t(level)].take_keys(); }
 
  private:
   // Multiply-and-fold hashes (after wyhash): the table compares whole keys, so quality only costs

@@ -1,6 +1,8 @@
 #include "builder/reduce/run.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "streaming/process/interrupt.h"
 #include "streaming/sort/radix_sort.h"
@@ -8,17 +10,34 @@
 namespace svdag {
 namespace {
 
-template <class Key>
-struct Numbered {
-  Key key;
+constexpr const char* kPurpose = "sorting of nodes";
+
+// Sorted instead of a key, which stays where it is: the first 96 bits of the key's code, and its
+// number.
+struct SortRecord {
+  std::array<uint32_t, 3> prefix;
   uint32_t number;
 };
 
-uint32_t key_word(const Numbered<Brick>& record, size_t i) {
-  return uint32_t(record.key >> (i == 0 ? 32 : 0));
+// Keys are in the order of their codes: a 0 for an absent child, a 1 and the rank in `rank_bits`
+// bits for any other. 96 bits hold about 4 children, which decide almost all orders.
+SortRecord record_of(const NodeKey& key, uint32_t number, int rank_bits) noexcept {
+  unsigned __int128 code = 0;
+  int left = 96;
+  for (const uint32_t child : key) {
+    const int length = child == 0 ? 1 : 1 + rank_bits;
+    const uint64_t bits = child == 0 ? 0 : uint64_t(1) << rank_bits | (child - 1);
+    left -= length;
+    if (left <= 0) {
+      code |= bits >> -left;
+      break;
+    }
+    code |= static_cast<unsigned __int128>(bits) << left;
+  }
+  return {{uint32_t(code >> 64), uint32_t(code >> 32), uint32_t(code)}, number};
 }
-uint32_t key_word(const Numbered<NodeKey>& record, size_t i) {
-  return record.key[i];
+SortRecord record_of(Brick brick, uint32_t number, int) noexcept {
+  return {{uint32_t(brick >> 32), uint32_t(brick), 0}, number};
 }
 
 using Marks = std::vector<std::vector<bool>>;  // [level][number]
@@ -41,106 +60,91 @@ Marks reached(const NodeTable& table, std::span<SubDagRoot> roots) {
   return marks;
 }
 
-// Room for sorting, kept from level to level.
-template <class Key>
-class SortRoom {
- public:
-  explicit SortRoom(MemoryBudget* budget)
-      : budget_(budget), reservation_(budget->reserve(0, kPurpose)) {}
-
-  // key_of(number) for the numbers that are marked.
-  template <class KeyOf>
-  void make(const std::vector<bool>& marks, const KeyOf& key_of) {
-    const size_t count = size_t(std::count(marks.begin(), marks.end(), true));
-    if (count > records_.capacity()) {
-      records_ = {};  // so that growing moves nothing
-      scratch_ = {};
-      reservation_.resize(2 * count * sizeof(Numbered<Key>), kPurpose);
-    }
-    records_.resize(count);
-    scratch_.resize(count);
-    size_t next = 0;
-    for (uint32_t i = 0; i < marks.size(); ++i) {
-      if (marks[i]) records_[next++] = {key_of(i), i};
-    }
-  }
-
-  // The records sorted into *level; returns the rank of each of `numbers` numbers.
-  HugeVector<uint32_t> sort_into(RunLevel<Key>* level, size_t numbers, SpillWriter* writer) {
-    radix_sort(
-        std::span(records_), sizeof(Key) / 4,
-        [](const Numbered<Key>& r, size_t i) { return key_word(r, i); }, &scratch_);
-    HugeVector<uint32_t> ranks(numbers);
-    if (writer == nullptr) {
-      level->reservation = budget_->reserve(records_.size() * sizeof(Key), kPurpose);
-      level->keys.resize(records_.size());
-    }
-    for (uint32_t i = 0; i < records_.size(); ++i) {
-      if (writer == nullptr) {
-        level->keys[i] = records_[i].key;
-      } else {
-        writer->append(std::as_bytes(std::span(&records_[i].key, 1)));
-      }
-      ranks[records_[i].number] = i;
-    }
-    if (writer != nullptr) level->spilled = writer->finish();
-    return ranks;
-  }
-
- private:
-  static constexpr const char* kPurpose = "sorting of nodes";
-
-  MemoryBudget* budget_;
-  HugeVector<Numbered<Key>> records_, scratch_;
-  MemoryBudget::Reservation reservation_;
-};
-
 // Sorts the levels of one table, from the bricks up.
 class Freezer {
  public:
   Freezer(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* target)
-      : table_(table), roots_(roots), target_(target), marks_(reached(*table, roots)) {}
+      : table_(table),
+        roots_(roots),
+        target_(target),
+        marks_(reached(*table, roots)),
+        room_(table->budget()->reserve(0, kPurpose)) {}
 
   Run run() {
     const int brick_level = table_->brick_level();
     Run run;
     run.nodes.resize(size_t(brick_level));
-    {
-      SortRoom<Brick> room(table_->budget());
-      sort(&room, brick_level, &run.bricks, [&](uint32_t i) { return table_->brick(i); });
-    }
-    SortRoom<NodeKey> room(table_->budget());
+    sort(brick_level, table_->take_bricks(), &run.bricks);
     for (int level = brick_level - 1; level >= 0; --level) {
-      sort(&room, level, &run.nodes[size_t(level)], [&](uint32_t i) {
-        NodeKey key = table_->node(level, i);
-        for (uint32_t& child : key) child = child == 0 ? 0 : 1 + ranks_[child - 1];
-        return key;
-      });
+      SegmentedArray<NodeKey> nodes = table_->take_nodes(level);
+      for (size_t i = 0; i < nodes.size(); ++i) {
+        if (!marks_[size_t(level)][i]) continue;
+        for (uint32_t& child : nodes[i]) child = child == 0 ? 0 : 1 + ranks_[child - 1];
+      }
+      sort(level, std::move(nodes), &run.nodes[size_t(level)]);
     }
     return run;
   }
 
  private:
-  template <class Key, class KeyOf>
-  void sort(SortRoom<Key>* room, int level, RunLevel<Key>* out, const KeyOf& key_of) {
+  // Sorts the marked ones of `keys`, whose children are ranks, into *out, and sets ranks_.
+  template <class Key>
+  void sort(int level, SegmentedArray<Key> keys, RunLevel<Key>* out) {
     check_interrupt();
-    const std::vector<bool>& own = marks_[size_t(level)];
-    room->make(own, key_of);
-    table_->clear(level);
+    const HugeVector<SortRecord> sorted = sort_records(level, keys);
+    MemoryBudget* const budget = table_->budget();
     std::optional<SpillWriter> writer;
-    if (target_ != nullptr)
-      writer.emplace(target_->file, target_->first_stream + uint64_t(level), table_->budget());
-    ranks_ = room->sort_into(out, own.size(), writer ? &*writer : nullptr);
+    if (target_ != nullptr) {
+      writer.emplace(target_->file, target_->first_stream + uint64_t(level), budget);
+    } else {
+      out->reservation = budget->reserve(sorted.size() * sizeof(Key), kPurpose);
+      out->keys.resize(sorted.size());
+    }
+    ranks_ = HugeVector<uint32_t>(keys.size());
+    for (size_t i = 0; i < sorted.size(); ++i) {
+      constexpr size_t kAhead = 16;
+      if (i + kAhead < sorted.size()) keys.prefetch(sorted[i + kAhead].number);
+      const Key& key = keys[sorted[i].number];
+      writer ? writer->append(std::as_bytes(std::span(&key, 1))) : void(out->keys[i] = key);
+      ranks_[sorted[i].number] = uint32_t(i);
+    }
+    if (writer) out->spilled = writer->finish();
     for (SubDagRoot& root : roots_) {
       if (root.level == level) root.rank = ranks_[root.rank];
     }
+  }
+
+  template <class Key>
+  HugeVector<SortRecord> sort_records(int level, const SegmentedArray<Key>& keys) {
+    const std::vector<bool>& marks = marks_[size_t(level)];
+    const int rank_bits = int(std::bit_width(ranks_.size()));
+    const size_t count = size_t(std::count(marks.begin(), marks.end(), true));
+    room_.resize(2 * count * sizeof(SortRecord), kPurpose);
+    HugeVector<SortRecord> records(count), scratch(count);
+    size_t next = 0;
+    for (uint32_t i = 0; i < marks.size(); ++i) {
+      if (marks[i]) records[next++] = record_of(keys[i], i, rank_bits);
+    }
+    const auto word = [](const SortRecord& r, size_t i) { return r.prefix[i]; };
+    radix_sort(std::span(records), 3, word, &scratch);
+    const auto less = [&](const SortRecord& a, const SortRecord& b) {
+      return keys[a.number] < keys[b.number];
+    };
+    for (size_t begin = 0, end; begin < count; begin = end) {
+      for (end = begin + 1; end < count && records[end].prefix == records[begin].prefix;) ++end;
+      if (end - begin > 1) std::sort(&records[begin], &records[begin] + (end - begin), less);
+    }
+    scratch = {};
+    room_.resize(count * sizeof(SortRecord), kPurpose);
+    return records;
   }
 
   NodeTable* table_;
   std::span<SubDagRoot> roots_;
   const SpillTarget* target_;
   Marks marks_;
-  HugeVector<uint32_t> ranks_;  // by number, of the level sorted last
+  MemoryBudget::Reservation room_;  // of the records
+  HugeVector<uint32_t> ranks_;      // by number, of the level sorted last
 };
 
 }  // namespace

@@ -49,9 +49,9 @@ inline SpillTarget new_target(Scratch* scratch, int levels) {
 // `target`, if given.
 Run freeze(NodeTable* table, std::span<SubDagRoot> roots, const SpillTarget* target = nullptr);
 
-// Upper bounds of the memory of a key in a table that is frozen: the key and the slot table while
-// it doubles, or two sort records and a rank, whichever is more.
-constexpr uint64_t kFreezeBytesPerBrick = 48, kFreezeBytesPerNode = 84;
+// Upper bounds of the memory of a key in a table that is frozen: the key, and its slots or two sort
+// records and a rank, whichever is more.
+constexpr uint64_t kFreezeBytesPerBrick = 44, kFreezeBytesPerNode = 68;
 
 // Upper bound of the memory that `table` takes until it is frozen and spilled, in bytes.
 uint64_t freeze_bytes(const NodeTable& table);

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -30,7 +31,7 @@ template <class Key, class Hash, uint32_t most = 0x7ffffffdU>
 class UniqueSet {
  public:
   explicit UniqueSet(MemoryBudget* budget)
-      : keys_(budget, kPurpose), reservation_(budget->reserve(0, kPurpose)) {}
+      : budget_(budget), keys_(budget, kPurpose), reservation_(budget->reserve(0, kPurpose)) {}
 
   // The handle of `key`.
   uint32_t add(const Key& key) {
@@ -56,10 +57,10 @@ class UniqueSet {
     for (size_t i = 0; i < count + 2 * kAhead; ++i) {
       if (i < count) {
         tags[i % tags.size()] = tag_of(pending_[i]);
-        __builtin_prefetch(&slots()[tags[i % tags.size()] & mask_]);
+        __builtin_prefetch(&slots()[home(tags[i % tags.size()])]);
       }
       if (i >= kAhead && i - kAhead < count) {
-        const uint64_t slot = slots()[tags[(i - kAhead) % tags.size()] & mask_];
+        const uint64_t slot = slots()[home(tags[(i - kAhead) % tags.size()])];
         if (slot != 0) keys_.prefetch(uint32_t(slot) - 1);
       }
       if (i >= 2 * kAhead) {
@@ -78,18 +79,20 @@ class UniqueSet {
     mask_ = 0;
     reservation_.resize(0, kPurpose);
   }
-  void clear() {
+  // Returns the keys; the set is then empty.
+  SegmentedArray<Key> take_keys() {
     forget_slots();
-    keys_.clear();
+    return std::exchange(keys_, SegmentedArray<Key>(budget_, kPurpose));
   }
 
  private:
   static constexpr int kRecentBits = 12;
+  static constexpr size_t kMinSlots = 1024;
   static constexpr size_t kAhead = 16;
   static constexpr const char* kPurpose = "node tables";
 
-  // A slot holds 1 + a number, and above it the tag: the part of the hash that also says where the
-  // slot is, so that growing needs no key.
+  // A slot holds 1 + a number, and above it the tag: 32 bits of the hash, whose first ones are the
+  // slot's index, so that growing needs no key and goes through the slots in order.
   uint64_t* slots() const { return static_cast<uint64_t*>(memory_.data()); }
   // Keys have no padding; the compiler turns this into a few word comparisons.
   static bool same(const Key& a, const Key& b) {
@@ -101,9 +104,10 @@ class UniqueSet {
     return differing == 0;
   }
   static uint32_t tag_of(const Key& key) { return uint32_t(Hash()(key)); }
+  size_t home(uint32_t tag) const { return size_t(uint64_t(tag) >> shift_); }
 
   uint32_t insert(const Key& key, uint32_t tag) {
-    size_t at = tag & mask_;
+    size_t at = home(tag);
     for (uint64_t slot = slots()[at]; slot != 0; slot = slots()[at]) {
       const uint32_t number = uint32_t(slot) - 1;
       if (slot >> 32 == tag && same(keys_[number], key)) return number;
@@ -120,27 +124,46 @@ class UniqueSet {
 
   // At most 5 of 8 slots are taken.
   void make_room(size_t members) {
-    size_t size = memory_.data() != nullptr ? mask_ + 1 : 1024;
+    size_t size = memory_.data() != nullptr ? mask_ + 1 : kMinSlots;
     while (members * 8 > size * 5) size *= 2;
-    if (size * sizeof(uint64_t) == memory_.bytes()) return;
-    reservation_.resize(memory_.bytes() + size * sizeof(uint64_t), kPurpose);
-    const HugePages old = std::exchange(memory_, HugePages(size * sizeof(uint64_t)));
-    mask_ = size - 1;
-    const uint64_t* from = static_cast<const uint64_t*>(old.data());
-    for (size_t i = 0; i < old.bytes() / sizeof(uint64_t); ++i) {
-      if (from[i] == 0) continue;
-      size_t at = (from[i] >> 32) & mask_;
-      while (slots()[at] != 0) at = (at + 1) & mask_;
-      slots()[at] = from[i];
-    }
-    reservation_.resize(memory_.bytes(), kPurpose);
+    if (size * sizeof(uint64_t) != memory_.bytes()) grow_slots(size);
   }
 
+  // Spreads the slots over `size` slots, in place. Invariant: slots are in the order of their tags
+  // but for probing, so home(tag) only moves up. From the last to the first, each maximal range of
+  // taken slots is taken out and put back; from begin > 0 its slots move to 2 * begin or beyond, so
+  // no slot that is still to be moved is in the way.
+  void grow_slots(size_t size) {
+    const size_t old_size = memory_.bytes() / sizeof(uint64_t);
+    reservation_.resize(size * sizeof(uint64_t), kPurpose);
+    memory_.grow(size * sizeof(uint64_t));
+    mask_ = size - 1;
+    shift_ = 33 - int(std::bit_width(size));
+    std::vector<uint64_t> range, past_end;
+    for (size_t end = old_size; end > 0;) {
+      while (end > 0 && slots()[end - 1] != 0) range.push_back(std::exchange(slots()[--end], 0));
+      for (const uint64_t slot : range) {
+        size_t at = home(uint32_t(slot >> 32));
+        while (at < size && slots()[at] != 0) ++at;
+        at < size ? void(slots()[at] = slot) : past_end.push_back(slot);
+      }
+      range.clear();
+      if (end > 0) --end;  // a free slot
+    }
+    for (const uint64_t slot : past_end) {
+      size_t at = home(uint32_t(slot >> 32));
+      while (slots()[at] != 0) at = (at + 1) & mask_;
+      slots()[at] = slot;
+    }
+  }
+
+  MemoryBudget* budget_;
   std::vector<Key> pending_;
   std::vector<uint32_t> recent_;  // by hash: positions in pending_
   SegmentedArray<Key> keys_;
   HugePages memory_;  // of the slots
-  size_t mask_ = 0;
+  size_t mask_ = 0;   // slots - 1
+  int shift_ = 0;     // 32 - log2(slots)
   MemoryBudget::Reservation reservation_;
 };
 

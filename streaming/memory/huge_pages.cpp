@@ -48,4 +48,18 @@ HugePages::HugePages(size_t bytes) : data_(map_huge_pages(bytes)), bytes_(bytes)
   if (bytes < kMinMapped) std::memset(data_, 0, bytes);
 }
 
+void HugePages::grow(size_t bytes) {
+  HugePages larger(bytes);
+  const size_t moved = round_up(bytes_);
+  if (bytes_ < kMinMapped ||
+      mremap(data_, moved, moved, MREMAP_MAYMOVE | MREMAP_FIXED, larger.data_) == MAP_FAILED) {
+    if (bytes_ != 0) std::memcpy(larger.data_, data_, bytes_);
+  } else {
+    bytes_ = 0;  // the old mapping is gone
+    data_ = nullptr;
+  }
+  std::swap(data_, larger.data_);
+  std::swap(bytes_, larger.bytes_);
+}
+
 }  // namespace svdag

@@ -29,6 +29,10 @@ class HugePages {
   }
   ~HugePages() { unmap_huge_pages(data_, bytes_); }
 
+  // Enlarges the block to `bytes`; what is new is zeroed. Moves pages where it can, not their
+  // content. Throws Error (kMemory) if the system has no memory; the block is then unchanged.
+  void grow(size_t bytes);
+
   void* data() const { return data_; }
   size_t bytes() const { return bytes_; }
 

@@ -82,8 +82,7 @@ class Survey::Baker {
   void empty_table() {
     bricks_ += table().size(table().brick_level());
     for (int k = 0; k < table().brick_level(); ++k) nodes_ += table().size(k);
-    table().close();
-    for (int k = table().brick_level(); k >= 0; --k) table().clear(k);
+    table().clear();
   }
 
   SubDagBuilder builder_;

@@ -45,6 +45,25 @@ TEST(UniqueSet, NumbersKeysInOrderOfArrivalEvenIfHashesCollide) {
   EXPECT_GT(budget.peak(), 1400 * sizeof(uint64_t));
 }
 
+// Probing runs over the end of the slots, at every size.
+struct EdgeHash {
+  uint64_t operator()(uint64_t key) const {
+    return key % 3 == 0 ? 0xffffffff - key % 5 : key * 0x9e3779b97f4a7c15 >> 32;
+  }
+};
+
+TEST(UniqueSet, KeepsItsNumbersWhileItGrows) {
+  MemoryBudget budget;
+  UniqueSet<uint64_t, EdgeHash> set(&budget);
+  std::vector<uint32_t> numbers;
+  for (uint64_t end = 100; end <= 12'800; end *= 2) {
+    for (uint64_t key = 0; key < end; ++key) set.add(key);
+    set.resolve(&numbers);
+    for (uint64_t key = 0; key < end; ++key) ASSERT_EQ(numbers[key], key);
+    ASSERT_EQ(set.size(), end);
+  }
+}
+
 TEST(UniqueSet, AMemberTooManyIsToldOf) {
   MemoryBudget budget;
   UniqueSet<uint64_t, WeakHash, 100> set(&budget);

@@ -58,5 +58,17 @@ TEST(HugePages, AreZero) {
   }
 }
 
+TEST(HugePages, GrowWithTheirContent) {
+  HugePages pages;
+  size_t filled = 0;
+  for (const size_t bytes : {size_t(100), size_t(1) << 22, size_t(10) << 20, size_t(30) << 20}) {
+    pages.grow(bytes);
+    ASSERT_EQ(pages.bytes(), bytes);
+    char* data = static_cast<char*>(pages.data());
+    for (size_t i = 0; i < bytes; ++i) ASSERT_EQ(data[i], i < filled ? char(i % 101) : 0);
+    for (; filled < bytes; ++filled) data[filled] = char(filled % 101);
+  }
+}
+
 }  // namespace
 }  // namespace svdag
