@@ -25,7 +25,7 @@ struct SubDag {
 
 class NodeTable {
  public:
-  static constexpr size_t kLargestBatch = size_t(1) << 18;
+  static constexpr size_t kLargestBatch = size_t(1) << 14;
 
   // `batch`: number of pending keys at which full() becomes true.
   NodeTable(int levels, MemoryBudget* budget, size_t batch = kLargestBatch)
