@@ -1,10 +1,12 @@
-// A source of one merge: the keys of one level of a run in ascending order, one at a time, from
-// memory or block by block from a file. If a map is given, children are rewritten while reading.
+// A source of one merge: the keys of one level of a run in ascending order, all in memory or block
+// by block from a file. If a map is given, children are rewritten while reading.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "builder/merge/rank_maps.h"
 #include "builder/reduce/run.h"
@@ -32,52 +34,49 @@ inline void rewrite_window(std::span<NodeKey> nodes, const RankMap& map) noexcep
 template <class Key>
 class LevelSource {
  public:
-  explicit LevelSource(std::span<const Key> keys)
-      : at_(keys.data()), end_(keys.data() + keys.size()) {
-    update_prefix();
-  }
-  // `map`, if given, rewrites the children; it must outlive the source.
-  explicit LevelSource(std::unique_ptr<BlockSource> blocks, const RankMap* map = nullptr)
-      : map_(map), blocks_(std::move(blocks)) {
-    refill();
-  }
+  explicit LevelSource(std::span<const Key> keys) : window_(keys.first(0)), left_(keys.size()) {}
+  // `count` keys in blocks. `map`, if given, rewrites the children; it must outlive the source.
+  LevelSource(std::unique_ptr<BlockSource> blocks, uint64_t count, const RankMap* map = nullptr)
+      : left_(count), map_(map), blocks_(std::move(blocks)) {}
 
-  bool ended() const { return at_ == end_; }
-  const Key& head() const { return *at_; }
-  void advance() {
-    if (++at_ == end_ && blocks_) return refill();
-    update_prefix();
-  }
-  // The first 64 bits of the head decide most comparisons; UINT64_MAX at the end.
-  uint64_t prefix() const { return prefix_; }
-  // Whether the head is less than that of `other`, which has the same prefix. An ended source is
-  // last.
-  bool before(const LevelSource& other) const {
-    if (ended() || other.ended()) return !ended();
-    return *at_ < *other.at_;
+  // The next keys.
+  std::span<const Key> window() const { return window_; }
+  // Whether keys are left after the window.
+  bool has_more() const { return left_ != 0; }
+  // Whether refill() reads and copies.
+  bool reads() const { return blocks_ != nullptr; }
+  // Removes the first n keys of the window.
+  void consume(size_t n) { window_ = window_.subspan(n); }
+  // Extends the window to at least `size` keys, or all that are left; from blocks, by less than a
+  // block more.
+  void refill(size_t size) {
+    if (window_.size() >= size || left_ == 0) return;
+    if (blocks_ == nullptr) {
+      const size_t added = std::min<uint64_t>(size - window_.size(), left_);
+      window_ = {window_.data(), window_.size() + added};
+      left_ -= added;
+      return;
+    }
+    std::copy(window_.begin(), window_.end(), buffer_.begin());
+    buffer_.resize(window_.size());
+    while (buffer_.size() < size && left_ != 0) {
+      const std::span<std::byte> block = blocks_->next();
+      const std::span<Key> keys(reinterpret_cast<Key*>(block.data()), block.size() / sizeof(Key));
+      if constexpr (std::is_same_v<Key, NodeKey>) {
+        if (map_ != nullptr) rewrite(keys, *map_);
+      }
+      buffer_.insert(buffer_.end(), keys.begin(), keys.end());
+      left_ -= keys.size();
+    }
+    window_ = buffer_;
   }
 
  private:
-  static uint64_t prefix_of(Brick brick) { return brick; }
-  static uint64_t prefix_of(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
-  void update_prefix() { prefix_ = ended() ? UINT64_MAX : prefix_of(*at_); }
-
-  void refill() {
-    const std::span<std::byte> block = blocks_->next();
-    const std::span<Key> keys(reinterpret_cast<Key*>(block.data()), block.size() / sizeof(Key));
-    if constexpr (std::is_same_v<Key, NodeKey>) {
-      if (map_ != nullptr) rewrite(keys, *map_);
-    }
-    at_ = keys.data();
-    end_ = at_ + keys.size();
-    update_prefix();
-  }
-
-  const Key* at_ = nullptr;
-  const Key* end_ = nullptr;
-  uint64_t prefix_ = 0;
+  std::span<const Key> window_;
+  uint64_t left_ = 0;  // number of keys after the window
   const RankMap* map_ = nullptr;
   std::unique_ptr<BlockSource> blocks_;
+  std::vector<Key> buffer_;  // holds the window, if keys come from blocks
 };
 
 }  // namespace svdag

@@ -179,8 +179,9 @@ class Merger {
     const bool many = inputs.size() > config_.max_sources;
     const bool spill = many || held + keys * sizeof(uint32_t) > config_.map_bytes;
     if (config_.scratch == nullptr || !spill)
-      return merge_at_once<Key>(inputs, add, nullptr, config_.budget);
-    return merge_in_groups<Key>(inputs, add, config_.max_sources, config_.scratch, config_.budget);
+      return merge_at_once<Key>(inputs, add, nullptr, config_.budget, executor_);
+    return merge_in_groups<Key>(inputs, add, config_.max_sources, config_.scratch, config_.budget,
+                                executor_);
   }
 
   std::span<Run> runs_;
