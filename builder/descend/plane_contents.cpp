@@ -21,18 +21,18 @@ constexpr uint64_t kMinBytes = 1 << 15;
 
 // Bit 8 * outer + inner of a brick's voxel (io/brick.h) is the sum of these, over the axes.
 constexpr uint8_t kBrickBit[3][4] = {{0, 4, 32, 36}, {0, 2, 16, 18}, {0, 1, 8, 9}};
-// [axis][reflected][set of 4]: the voxels of the first column along the axis that are in the set.
-constexpr auto kColumns = [] {
-  std::array<std::array<std::array<Brick, 16>, 2>, 3> columns{};
+// [axis][reflected][set of 4]: the voxels of the first row along the axis that are in the set.
+constexpr auto kRows = [] {
+  std::array<std::array<std::array<Brick, 16>, 2>, 3> rows{};
   for (unsigned a = 0; a < 3; ++a) {
     for (unsigned set = 0; set < 16; ++set) {
       for (unsigned k = 0; k < 4; ++k) {
-        columns[a][0][set] |= Brick(set >> k & 1) << kBrickBit[a][k];
-        columns[a][1][set] |= Brick(set >> k & 1) << kBrickBit[a][3 - k];
+        rows[a][0][set] |= Brick(set >> k & 1) << kBrickBit[a][k];
+        rows[a][1][set] |= Brick(set >> k & 1) << kBrickBit[a][3 - k];
       }
     }
   }
-  return columns;
+  return rows;
 }();
 
 struct Axes {
@@ -151,17 +151,14 @@ PlaneAnswer PlaneContents::find(const PlaneHeights& plane, const Query& q,
 // The voxels of the brick whose height over (0, 0) is `first`.
 Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first) const {
   const Axes axes(p.orientation);
-  const int32_t down = rule_ == Rule::kThin ? 0 : p.step_u + p.step_v;
-  const std::array<Brick, 16>& columns = kColumns[axes.w][axes.flip(axes.w) != 0];
+  const int32_t drop = rule_ == Rule::kThin ? 0 : p.step_u + p.step_v;
+  BrickLayers layers = kernels_->layers(first, p.step_u, p.step_v, drop);
+  const std::array<Brick, 16>& rows = kRows[axes.v][axes.flip(axes.v) != 0];
   Brick voxels = 0;
-  for (unsigned i = 0; i < 4; ++i) {
-    for (unsigned j = 0; j < 4; ++j) {
-      const int32_t height = first - int32_t(i) * p.step_u - int32_t(j) * p.step_v;
-      const int32_t top = std::clamp(height >> kHeightBits, -1, 3);
-      const int32_t bottom = std::clamp((height - down) >> kHeightBits, 0, 4);
-      const unsigned set = (15U >> (3 - top)) & (15U << bottom);
-      voxels |= columns[set] << (kBrickBit[axes.u][i ^ axes.flip(axes.u)] +
-                                 kBrickBit[axes.v][j ^ axes.flip(axes.v)]);
+  for (unsigned k = 0; k < 4; ++k) {
+    for (unsigned i = 0; i < 4; ++i, layers >>= 4) {
+      voxels |= rows[layers & 15] << (kBrickBit[axes.w][k ^ axes.flip(axes.w)] +
+                                      kBrickBit[axes.u][i ^ axes.flip(axes.u)]);
     }
   }
   return voxels;

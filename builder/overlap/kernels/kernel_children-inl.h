@@ -29,11 +29,13 @@ HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
   return touched;
 }
 
+using EdgeMasks = hn::Vec<hn::RebindToUnsigned<Eight>>[8 / kEight];  // of the children
+
 // Removes the children outside the edges of the projection along W from *touched, and switches an
 // edge off in the children where it holds everywhere.
 template <int W>
 HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, float error,
-                                  unsigned* touched, ChildOverlap* out) noexcept {
+                                  unsigned* touched, EdgeMasks& edges) noexcept {
   const Eight d;
   const hn::RebindToUnsigned<Eight> du;
   const TriangleSetup& t = *entry.triangle;
@@ -50,7 +52,7 @@ HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, 
       outside |= bits(d, hn::Lt(value, low)) << i;
       const auto holds =
           hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
-      hn::StoreU(hn::AndNot(holds, hn::LoadU(du, out->edges + i)), du, out->edges + i);
+      edges[i / kEight] = hn::AndNot(holds, edges[i / kEight]);
     }
     *touched &= ~outside;
   }
@@ -65,18 +67,19 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
   for (; count != 0; --count, ++entries, ++out) {
     const TriangleSetup& t = *entries->triangle;
     unsigned touched = children_in_box(t.box, x, y, z);
-    for (size_t i = 0; i < 8; i += kEight)
-      hn::StoreU(hn::Set(du, uint32_t(entries->edges)), du, out->edges + i);
+    EdgeMasks edges;
+    for (auto& mask : edges) mask = hn::Set(du, uint32_t(entries->edges));
     // A small triangle whose box meets one or two children touches these. (A triangle beside the
     // parent may not; that costs time, but sets no wrong voxel.)
     const bool few = __builtin_popcount(touched) <= 2;
     if (!few || t.extent >= half) {
       const float error = error_of(t, 4 * half, c);
       touched &= children_on_plane(t, c, error);
-      if (touched != 0) children_at_edges<0>(*entries, c, error, &touched, out);
-      if (touched != 0) children_at_edges<1>(*entries, c, error, &touched, out);
-      if (touched != 0) children_at_edges<2>(*entries, c, error, &touched, out);
+      if (touched != 0) children_at_edges<0>(*entries, c, error, &touched, edges);
+      if (touched != 0) children_at_edges<1>(*entries, c, error, &touched, edges);
+      if (touched != 0) children_at_edges<2>(*entries, c, error, &touched, edges);
     }
+    for (size_t i = 0; i < 8; i += kEight) hn::StoreU(edges[i / kEight], du, out->edges + i);
     out->touched = uint8_t(touched);
   }
 }

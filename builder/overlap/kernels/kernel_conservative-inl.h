@@ -113,16 +113,26 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPlacement& p
   const Sixteen d;
   PlaneValues values;
   plane_values(t, p, &values);
-  const auto sure = hn::Set(d, 0.5f - error), maybe = hn::Set(d, 0.5f + error);
-  Brick on = 0, near = 0;
+  // How far values are beyond 1/2, and how close they come to it.
+  const auto half = hn::Set(d, 0.5f), zero = hn::Zero(d);
+  auto closest = half;
+  Brick on = 0;
   for_voxels(values, [&](size_t shift, auto value) HWY_ATTR {
-    on |= Brick(bits(d, hn::Lt(hn::Abs(value), sure))) << shift;
-    near |= Brick(bits(d, hn::Le(hn::Abs(value), maybe))) << shift;
+    const auto beyond = hn::Sub(hn::Abs(value), half);
+    closest = hn::Min(closest, hn::Abs(beyond));
+    on |= Brick(bits(d, hn::Lt(beyond, zero))) << shift;
   });
   p.counts->total += unsigned(__builtin_popcountll(voxels));
-  for (Brick left = voxels & near & ~on; left != 0; left &= left - 1) {
+  if (hn::AllFalse(d, hn::Le(closest, hn::Set(d, error)))) return voxels & on;
+  Brick unsure = 0;
+  for_voxels(values, [&](size_t shift, auto value) HWY_ATTR {
+    const auto distance = hn::Abs(hn::Sub(hn::Abs(value), half));
+    unsure |= Brick(bits(d, hn::Le(distance, hn::Set(d, error)))) << shift;
+  });
+  for (Brick left = voxels & unsure; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(__builtin_ctzll(left));
     ++p.counts->exact;
+    on &= ~(Brick(1) << bit);
     on |= Brick(voxel_meets_plane(t, p.corner, p.fraction, bit)) << bit;
   }
   return voxels & on;

@@ -1,5 +1,5 @@
-// Vector kernel: the heights of a plane over the columns of a cube of 8x8x8 voxels.
-// Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
+// Vector kernels: the heights of a plane over the columns of a cube of 8x8x8 voxels, and of a
+// brick. Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
 #if defined(SVDAG_BUILDER_KERNEL_HEIGHTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVDAG_BUILDER_KERNEL_HEIGHTS_INL_H
 #undef SVDAG_BUILDER_KERNEL_HEIGHTS_INL_H
@@ -49,6 +49,28 @@ ColumnParities heights(int32_t first, int32_t step_u, int32_t step_v) noexcept {
   }
   out.min_fraction = hn::GetLane(hn::MinOfLanes(d, min));
   out.max_fraction = hn::GetLane(hn::MaxOfLanes(d, max));
+  return out;
+}
+
+// Row i and column j of the 16 columns 4i + j of a brick.
+alignas(32) constexpr int32_t kBrickI[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(32) constexpr int32_t kBrickJ[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+
+BrickLayers layers(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
+  constexpr int32_t kVoxel = 1 << kHeightBits;
+  const Ints d;
+  const auto corner = hn::Set(d, first), u = hn::Set(d, step_u), v = hn::Set(d, step_v);
+  BrickLayers out = 0;
+  for (size_t lane = 0; lane < 16; lane += kInts) {
+    const auto row = hn::Sub(corner, hn::Mul(hn::Load(d, kBrickI + lane), u));
+    const auto top = hn::Sub(row, hn::Mul(hn::Load(d, kBrickJ + lane), v));
+    const auto bottom = hn::Sub(top, hn::Set(d, drop));
+    for (int k = 0; k < 4; ++k) {
+      const auto set = hn::And(hn::Gt(top, hn::Set(d, k * kVoxel - 1)),
+                               hn::Gt(hn::Set(d, (k + 1) * kVoxel), bottom));
+      out |= BrickLayers(bits(d, set)) << (16 * unsigned(k) + lane);
+    }
+  }
   return out;
 }
 

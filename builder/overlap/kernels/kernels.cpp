@@ -63,6 +63,17 @@ ColumnParities plain_heights(int32_t first, int32_t step_u, int32_t step_v) noex
   return out;
 }
 
+BrickLayers plain_layers(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
+  BrickLayers layers = 0;
+  for (int bit = 0; bit < 64; ++bit) {
+    const int k = bit >> 4, i = bit >> 2 & 3, j = bit & 3;
+    const int32_t h = first - i * step_u - j * step_v;
+    const bool set = k <= h >> kHeightBits && (h - drop) >> kHeightBits <= k;
+    layers |= BrickLayers(set) << bit;
+  }
+  return layers;
+}
+
 }  // namespace
 
 const Kernels& plain_kernels() {
@@ -72,7 +83,8 @@ const Kernels& plain_kernels() {
                                      plain_voxels<overlap_brick>,
                                      plain_voxels<overlap_brick_thin>,
                                      plain_plane,
-                                     plain_heights};
+                                     plain_heights,
+                                     plain_layers};
   return kPlain;
 }
 

@@ -49,6 +49,10 @@ struct ColumnParities {
   int32_t min_fraction, max_fraction;
 };
 
+// The voxels of a brick by layers: bit 16 k + 4 i + j is set iff k <= h(i, j) and h(i, j) - drop <
+// k + 1, for heights h(i, j) = first - i step_u - j step_v as above, not clamped.
+using BrickLayers = uint64_t;
+
 constexpr int64_t kFarOffset = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
 
 struct Kernels {
@@ -64,6 +68,8 @@ struct Kernels {
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
   using Heights = ColumnParities (*)(int32_t first, int32_t step_u, int32_t step_v) noexcept;
+  using Layers = BrickLayers (*)(int32_t first, int32_t step_u, int32_t step_v,
+                                 int32_t drop) noexcept;
 
   const char* name;  // of the instruction set
   int lanes;         // floats per vector
@@ -72,6 +78,7 @@ struct Kernels {
   Voxels thin;
   Plane plane;
   Heights heights;
+  Layers layers;
 };
 
 // The reference: one triangle after the other, by builder/overlap/overlap.h.

@@ -14,7 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 
 Kernels kernels_of_target() {
-  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin, plane, heights};
+  return {hwy::TargetName(HWY_TARGET),
+          int(kSixteen),
+          children,
+          conservative,
+          thin,
+          plane,
+          heights,
+          layers};
 }
 
 }  // namespace svdag::HWY_NAMESPACE

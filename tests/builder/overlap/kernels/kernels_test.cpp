@@ -176,6 +176,8 @@ TEST(Kernels, AgreeOnTheHeightsOfAPlane) {
       ASSERT_EQ(ours.last, truth.last) << k.name;
       ASSERT_EQ(ours.min_fraction, truth.min_fraction) << k.name;
       ASSERT_EQ(ours.max_fraction, truth.max_fraction) << k.name;
+      for (const int32_t drop : {0, u + v})
+        ASSERT_EQ(k.layers(first, u, v, drop), plain_kernels().layers(first, u, v, drop)) << k.name;
     }
   }
 }
