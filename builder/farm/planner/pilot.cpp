@@ -18,7 +18,7 @@ constexpr double kSampleShare = 0.03;  // of the cells
 constexpr size_t kMaxSamples = 512, kMinSamples = 8;
 constexpr int kSubsetStride = 4;  // every 4th drawn cell is also in the smaller sample
 // Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
-constexpr double kUnsurveyedTriangle = 7.05e-6;
+constexpr double kUnsurveyedTriangle = 7.27e-6;
 
 SurveyConfig survey_config(const PilotConfig& config, int level, int cell_level) {
   SurveyConfig survey = {level, cell_level, config.descent, config.table_bytes,

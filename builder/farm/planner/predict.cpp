@@ -10,13 +10,13 @@ namespace svdag {
 namespace {
 
 // Seconds, as printed by tests/bench/plan.py --calibrate.
-constexpr double kStart = 0.0103;            // start of a process
-constexpr double kSceneTriangle = 875.6e-9;  // read, snapped, sorted into cells and prepared
-constexpr double kPlanTriangle = 478.9e-9;   // read from a bin and prepared
-constexpr double kDivided = 305.1e-9;        // a cube divided
-constexpr double kComputed = 346.4e-9;       // a node computed for the plane memo
-constexpr double kFound = 397.1e-9;          // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 102.7e-9;
+constexpr double kStart = 0.0207;            // start of a process
+constexpr double kSceneTriangle = 892.9e-9;  // read, snapped, sorted into cells and prepared
+constexpr double kPlanTriangle = 561.2e-9;   // read from a bin and prepared
+constexpr double kDivided = 366.5e-9;        // a cube divided
+constexpr double kComputed = 83.32e-9;       // a node computed for the plane memo
+constexpr double kFound = 377.4e-9;          // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 111.8e-9;
 constexpr double kNodeInFile = 22.7;  // bytes of a node in a .svdag
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
@@ -67,7 +67,7 @@ Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool la
   constexpr double kRankBytes = 4, kMargin = 1.5;
   Prediction p;
   p.cpu = kStart + kMergeRead * read.keys();
-  p.seconds = p.cpu;  // a merge uses one thread
+  p.seconds = kStart + (p.cpu - kStart) / double(limits.threads);
   const double maps = 2 * kRankBytes * read.keys();
   p.budget = budget_for(kMargin * 2 * maps, limits);
   p.memory = p.budget + kBesideBudget;
