@@ -56,7 +56,8 @@ class LevelMerge {
         add_(add),
         maps_(maps),
         executor_(executor),
-        share_(keys_per_round(budget) / std::max<size_t>(sources_.size(), 1) + 1),
+        share_(keys_per_round(budget, executor->workers()) / std::max<size_t>(sources_.size(), 1) +
+               1),
         reservation_(budget->reserve(
             share_ * sources_.size() * (2 * sizeof(Key) + sizeof(uint32_t)), "merge buffers")),
         buffers_(executor->workers()) {}
@@ -80,7 +81,7 @@ class LevelMerge {
   }
 
  private:
-  static constexpr uint64_t kMaxKeysPerRound = 1 << 17, kMinKeysPerRound = 1 << 10;
+  static constexpr uint64_t kMinKeysPerRound = 1 << 10, kMaxKeysPerWorker = 1 << 16;
   static constexpr size_t kMinKeysPerPiece = 1 << 12;
   static constexpr size_t kPiecesPerWorker = 4;
 
@@ -102,9 +103,9 @@ class LevelMerge {
   };
 
   // 1/32 of the budget, so that buffers fit beside maps and blocks.
-  static uint64_t keys_per_round(const MemoryBudget* budget) {
+  static uint64_t keys_per_round(const MemoryBudget* budget, size_t workers) {
     return std::clamp<uint64_t>(budget->limit() / 64 / sizeof(Key), kMinKeysPerRound,
-                                kMaxKeysPerRound);
+                                kMaxKeysPerWorker * workers);
   }
 
   // Loads the next keys of every source; false if none is left.
