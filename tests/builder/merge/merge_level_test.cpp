@@ -83,8 +83,8 @@ TEST_F(MergeLevelTest, GivesTheUnionAndTheMapsInAnySchedule) {
       {{}, {}, {5}},
       {{7}, {7}, {7}},
       {draw(20'000, 0.5), draw(20'000, 0.5)},
-      {draw(300'000, 0.9), draw(1000, 0.1), {299'999}, draw(300'000, 0.4), {}, draw(300'000, 0.01)},
-      {draw(100'000, 1), draw(100'000, 1), draw(100'000, 1)}};
+      {draw(90'000, 0.9), draw(1000, 0.1), {89'999}, draw(90'000, 0.4), {}, draw(90'000, 0.01)},
+      {draw(50'000, 1), draw(50'000, 1), draw(50'000, 1)}};
   for (const auto& sources : cases) {
     for (MemoryBudget* budget : {&large_, &small_}) {
       for (const bool spill_maps : {false, true}) {
