@@ -112,9 +112,7 @@ std::optional<PlaneContents::Query> PlaneContents::query(const PlaneHeights& p,
   q.first = first;
   q.low = range.low - int64_t(__int128(down) * p.unit >> kHeightBits);
   q.high = range.low + int64_t(__int128(up) * p.unit >> kHeightBits);
-  const unsigned __int128 product = static_cast<unsigned __int128>(q.rows ^ 0xa0761d6478bd642f) *
-                                    ((uint64_t(q.rest) << 32 | q.rest) ^ 0xe7037ed1a0b428db);
-  q.set = uint32_t(uint64_t(product) ^ uint64_t(product >> 64)) & uint32_t(sets_.size() - 1);
+  q.set = uint32_t(mix(q.rows, uint64_t(q.rest) << 32 | q.rest)) & uint32_t(sets_.size() - 1);
   __builtin_prefetch(&sets_[q.set]);
   return q;
 }

@@ -54,6 +54,13 @@ struct PlaneMemoCounts {
   PlaneMemoCounts& operator+=(const PlaneMemoCounts& other);
 };
 
+// Hash of two words for the tables of planes and contents.
+inline uint64_t mix(uint64_t a, uint64_t b) noexcept {
+  const unsigned __int128 product =
+      static_cast<unsigned __int128>(a ^ 0xa0761d6478bd642f) * (b ^ 0xe7037ed1a0b428db);
+  return uint64_t(product) ^ uint64_t(product >> 64);
+}
+
 // A set voxel of a cube, relative to the cube's corner, in one word; for cubes of up to 1024^3.
 constexpr uint32_t pack_voxel(uint32_t x, uint32_t y, uint32_t z) noexcept {
   return x | y << 10 | z << 20;
@@ -96,7 +103,6 @@ class PlaneContents {
   static uint64_t table_bytes(uint64_t max_bytes);
   // Gives the cache its memory, `bytes` from table_bytes(). Before this every query fails.
   void allocate(uint64_t bytes);
-  bool allocated() const { return !sets_.empty(); }
   uint64_t bytes() const { return sets_.size_bytes(); }
 
   PlaneHeights heights_of(const int64_t n[3]) const;

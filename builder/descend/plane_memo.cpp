@@ -19,12 +19,6 @@ constexpr int64_t kBucketSpan = 3;       // neighbouring buckets per side that a
 constexpr int kMaxTableLog2 = 19;        // of the number of entries
 constexpr size_t kCacheLine = 64;        // bytes; a set fills two lines
 
-uint64_t mix(uint64_t a, uint64_t b) noexcept {
-  const unsigned __int128 product =
-      static_cast<unsigned __int128>(a ^ 0xa0761d6478bd642f) * (b ^ 0xe7037ed1a0b428db);
-  return uint64_t(product) ^ uint64_t(product >> 64);
-}
-
 // Tags of neighbouring buckets of a plane are adjacent.
 uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   const uint64_t hash = mix(plane, uint64_t(bucket >> 3) * 0x9e3779b97f4a7c15);
@@ -147,7 +141,7 @@ PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
 }
 
 void PlaneMemo::add_plane(const Normal& normal) {
-  if (!contents_.allocated()) {
+  if (contents_.bytes() == 0) {
     const uint64_t bytes = PlaneContents::table_bytes(max_bytes_ / 2);
     if (bytes != 0 && charge(bytes)) contents_.allocate(bytes);
   }

@@ -10,6 +10,7 @@
 
 #include "builder/merge/rank_maps.h"
 #include "builder/reduce/run.h"
+#include "streaming/error.h"
 #include "streaming/spill/block_source.h"
 
 namespace svdag {
@@ -65,6 +66,7 @@ class LevelSource {
       if constexpr (std::is_same_v<Key, NodeKey>) {
         if (map_ != nullptr) rewrite(keys, *map_);
       }
+      SVDAG_ASSERT(!keys.empty() && keys.size() <= left_);
       buffer_.insert(buffer_.end(), keys.begin(), keys.end());
       left_ -= keys.size();
     }
