@@ -53,25 +53,31 @@ class RankMarks {
   RankMarks(uint64_t bytes, MemoryBudget* budget)
       : max_ranks_(8 * std::max<uint64_t>(bytes, 1)), counted_(budget->reserve(0, kPurpose)) {}
 
-  uint64_t end() const { return first_ + marked_.size(); }
+  uint64_t end() const { return first_ + size_; }
   // Begins an unmarked window at rank `first` of `count`.
   void begin(uint64_t first, uint64_t count) {
     first_ = first;
     marked_ = {};
     const uint64_t size = std::min(max_ranks_, count - first);
     counted_.resize((size + 7) / 8, kPurpose);
-    marked_.resize(size);
+    size_ = size;
+    marked_.resize((size + 63) / 64);
+    if (size % 64 != 0) marked_.back() = ~uint64_t(0) << size % 64;
   }
   void mark(uint64_t rank) {
-    if (rank - first_ < marked_.size()) marked_[rank - first_] = true;
+    const uint64_t i = rank - first_;
+    if (i < size_) marked_[i / 64] |= uint64_t(1) << i % 64;
   }
-  bool all() const { return std::find(marked_.begin(), marked_.end(), false) == marked_.end(); }
+  bool all() const {
+    return std::all_of(marked_.begin(), marked_.end(),
+                       [](uint64_t marks) { return marks == ~uint64_t(0); });
+  }
 
  private:
   uint64_t max_ranks_;  // ranks in a window
-  uint64_t first_ = 0;
+  uint64_t first_ = 0, size_ = 0;
   MemoryBudget::Reservation counted_;
-  std::vector<bool> marked_;
+  std::vector<uint64_t> marked_;  // a bit per rank of the window; those past its end are set
 };
 
 class Check {
@@ -107,7 +113,8 @@ class Check {
   }
   // Reports the offset of the chunk read last.
   void require_here(bool condition, const char* sentence) const {
-    require(condition, sentence, offset_of(chunk_begin_));
+    if (!condition) [[unlikely]]
+      require(false, sentence, offset_of(chunk_begin_));
   }
   std::span<const std::byte> take_to(uint64_t position) {
     chunk_begin_ = payload_.position();
@@ -129,6 +136,7 @@ class Check {
   template <class Key>
   void scan(int level) {
     const RunSection& section = run_.layout().levels[level];
+    const uint64_t below = std::is_same_v<Key, NodeKey> ? run_.key_count(level + 1) : 0;
     skip_zeros(section.begin);
     Key last{};  // below every key, since no key is zero
     while (payload_.position() < section.end) {
@@ -137,14 +145,15 @@ class Check {
            std::span(reinterpret_cast<const Key*>(chunk.data()), chunk.size() / sizeof(Key))) {
         require_here(last < key, "nodes are empty or do not ascend");
         last = key;
-        if constexpr (std::is_same_v<Key, NodeKey>) check_children(level, key);
+        if constexpr (std::is_same_v<Key, NodeKey>) check_children(below, key);
       }
     }
   }
 
-  void check_children(int level, const NodeKey& key) {
+  // `count`: number of keys of the level below.
+  void check_children(uint64_t count, const NodeKey& key) {
     for (const uint32_t child : key) {
-      require_here(child <= run_.key_count(level + 1), "a child is outside of the run");
+      require_here(child <= count, "a child is outside of the run");
       if (child != 0) marks_.mark(child - 1);
     }
   }
@@ -168,7 +177,7 @@ class Check {
         check_interrupt();
         for (const NodeKey& key : std::span(reinterpret_cast<const NodeKey*>(block.data()),
                                             block.size() / sizeof(NodeKey)))
-          check_children(level - 1, key);
+          check_children(run_.key_count(level), key);
       }
     }
   }
