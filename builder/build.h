@@ -42,6 +42,7 @@ struct BuildConfig {
   int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
   double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
   DescentConfig descent;              // --rule
+  Layout layout = Layout::kPlain;     // --layout
   std::optional<Box> bounds;          // --bounds, in world units
   std::optional<GridCube> cube;       // --cube, in world units; needs levels
   std::optional<Point> origin;        // --origin, in world units; needs voxel_size

@@ -72,6 +72,7 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
     out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
+  if (config.layout != Layout::kPlain) out << "layout: " << layout_name(config.layout) << '\n';
   out << "algorithm: " << kAlgorithm << '\n';
   out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
   if (config.cube) {

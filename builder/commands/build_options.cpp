@@ -151,6 +151,7 @@ void add_options(CLI::App* app, BuildOptions* options) {
          "--part", [build](const std::string& s) { build->part = parse_part(s); },
          "Bake only part I of N of the grid, as a .run; svdag merge joins the runs")
       ->type_name("I/N");
+  add_layout(app, &build->layout);
   add_resource_options(app, &build->memory, &options->bake.threads, &build->scratch);
   add_resume_options(app, options);
   add_cache_options(app, &options->bake.cache);

@@ -129,6 +129,16 @@ struct EditCommand {
   OutputConfig output;
 };
 
+// svdag convert A.svdag -o B.svdag --layout LAYOUT.
+struct ConvertCommand {
+  std::string file;
+  std::string output_path;
+  Layout layout = Layout::kPlain;
+  uint64_t memory = 0;  // bytes; 0: half of the machine
+  std::string scratch;  // folder for data that does not fit in memory; empty: the output's
+  OutputConfig output;
+};
+
 // svdag help [SUBJECT]: the help of a command or topic.
 struct HelpCommand {
   Manual program;
@@ -137,7 +147,7 @@ struct HelpCommand {
 
 using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand,
                              MergeCommand, MergeStepCommand, PlanCommand, RunCommand, SubmitCommand,
-                             InfoCommand, QueryCommand, EditCommand>;
+                             InfoCommand, QueryCommand, EditCommand, ConvertCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
@@ -153,6 +163,7 @@ int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
 int run(const QueryCommand& command);
 int run(const EditCommand& command);
+int run(const ConvertCommand& command);
 
 // Bakes one scene. Returns its JSON report if in a batch or if --report is given, else "".
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);

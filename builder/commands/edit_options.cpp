@@ -1,4 +1,4 @@
-// The options of svdag edit.
+// The options of svdag edit and convert.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -36,6 +36,7 @@ void add_edit(CLI::App* program, Command* command) {
   app->add_option("--level", edit->level,
                   "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
       ->type_name("K");
+  add_layout(app, &edit->layout);
   add_no_clobber(app, &config->output.no_clobber);
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
   app->add_flag("--json", config->output.json, "Print counts and content hash as JSON");
@@ -43,6 +44,28 @@ void add_edit(CLI::App* program, Command* command) {
   add_examples(app, {"svdag edit city.svdag -o coarse.svdag --level 10",
                      "svdag edit city.svdag -o block.svdag --bounds=0,0,0,50,50,50",
                      "svdag edit new.svdag old.svdag -o added.svdag --difference"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+void add_convert(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("convert", "Write a .svdag in another layout");
+  auto config = std::make_shared<ConvertCommand>();
+  takes_files(app->add_option("FILE", config->file, "The .svdag to convert"), {".svdag"})
+      ->required();
+  takes_files(app->add_option("-o,--output", config->output_path, "The .svdag to write"),
+              {".svdag"})
+      ->required()
+      ->type_name("OUT");
+  add_layout(app, &config->layout);
+  app->get_option("--layout")->required();
+  add_no_clobber(app, &config->output.no_clobber);
+  add_memory_budget(app, &config->memory);
+  takes_folder(app->add_option("--scratch", config->scratch,
+                               "Folder for data that does not fit in memory (default: that of OUT)"))
+      ->type_name("DIR");
+  add_quiet(app, &config->output);
+  add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }

@@ -68,6 +68,7 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   ImportConfig import;
   import.source = config.first;
   import.output = config.output;
+  import.layout = config.layout;
   import.memory = memory - memory / 2;
   import.scratch = config.scratch;
   import.rule = first.rule();

@@ -22,6 +22,7 @@ struct EditConfig {
   std::optional<Box> bounds;              // --bounds: keeps the voxels in it, in world units
   std::optional<int> level;               // --level: K, whose voxels are cubes of 2^(L-K); alone
   std::string output;
+  Layout layout = Layout::kPlain;  // --layout
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
 };

@@ -26,6 +26,7 @@ struct ImportConfig {
   std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
   Rule rule = Rule::kConservative;  // of the voxels; most formats do not record it
   double largest_snap = 0;          // of the header
+  Layout layout = Layout::kPlain;   // --layout
 };
 
 struct ImportReport {

@@ -3,9 +3,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "io/dag/compact_view.h"
 #include "io/dag/grid_fields.h"
 #include "io/dag/symvox_header.h"
 #include "io/grid.h"
@@ -15,8 +17,8 @@
 namespace svdag {
 namespace {
 
-uint64_t aligned(uint64_t offset) {
-  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+bool is_compact(const Header& h) {
+  return Layout(h.layout) == Layout::kCompact;
 }
 
 void require(bool condition, const File& file, const char* sentence, uint64_t offset) {
@@ -26,9 +28,9 @@ void require(bool condition, const File& file, const char* sentence, uint64_t of
 void check_identity(const File& file, const Header& h) {
   if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
     fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
-  if (h.version != kFormatVersion)
+  if (h.version != 1 && h.version != 2)
     fail_input(file.path(), "has format version " + std::to_string(h.version) +
-                                ", this program reads version " + std::to_string(kFormatVersion));
+                                ", this program reads versions 1 and 2");
   const auto bytes = std::as_bytes(std::span(&h, 1));
   require(checksum64(bytes.first(offsetof(Header, header_checksum))) == h.header_checksum, file,
           "the header does not match its checksum", offsetof(Header, header_checksum));
@@ -48,6 +50,10 @@ void check_fields(const File& file, const Header& h) {
     require(std::isfinite(h.origin[a]) && (has_origin || h.origin[a] == 0), file,
             "impossible grid origin", offsetof(Header, origin));
   }
+  require(h.layout <= 1 && h.padding == 0 && h.version == version_of(Layout(h.layout)), file,
+          "impossible layout", offsetof(Header, layout));
+  require(is_compact(h) || (h.table_hash[0] == 0 && h.table_hash[1] == 0), file,
+          "unknown header field", offsetof(Header, table_hash));
   for (const unsigned char byte : h.reserved)
     require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }
@@ -59,11 +65,13 @@ void check_layout(const File& file, const Header& h) {
   require(h.file_bytes == size, file, "its size differs from the size in its header",
           offsetof(Header, file_bytes));
   const auto expect_section = [&](uint64_t offset, uint64_t bytes, uint64_t field) {
-    require(offset == aligned(end) && offset <= size && bytes <= size - offset, file,
+    require(offset == padded(end) && offset <= size && bytes <= size - offset, file,
             "a section is at the wrong offset", field);
     end = offset + bytes;
   };
-  for (uint32_t k = kMaxSections; k-- > 0;) {
+  const bool compact = is_compact(h);
+  for (uint32_t i = 0; i < kMaxSections; ++i) {
+    const uint32_t k = compact ? i : kMaxSections - 1 - i;
     const Section& s = h.sections[k];
     const uint64_t field = offsetof(Header, sections) + k * sizeof(Section);
     if (k >= h.section_count) {
@@ -71,9 +79,10 @@ void check_layout(const File& file, const Header& h) {
       continue;
     }
     expect_section(s.offset, s.bytes, field);
-    const uint64_t unit = k + 1 == h.section_count ? 8 : 4;
-    require(s.bytes % unit == 0 && s.bytes / unit <= kMaxWords, file, "impossible section size",
-            field);
+    const bool bricks = k + 1 == h.section_count;
+    const uint64_t unit = bricks ? 8 : 4;
+    require((compact && !bricks) || (s.bytes % unit == 0 && s.bytes / unit <= kMaxWords), file,
+            "impossible section size", field);
   }
   expect_section(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
   expect_section(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
@@ -90,10 +99,11 @@ std::vector<uint64_t> read_table(const File& file, const Header& h) {
   Header blank = h;
   blank.content_hash[0] = blank.content_hash[1] = blank.header_checksum = 0;
   Hasher128 hasher;
-  hasher.update(std::as_bytes(std::span(&blank, 1)));
+  if (!is_compact(h)) hasher.update(std::as_bytes(std::span(&blank, 1)));
   hasher.update(bytes);
-  require(hasher.digest() == Hash128{h.content_hash[0], h.content_hash[1]}, file,
-          "the checksum table does not match the content hash", h.checksum_offset);
+  const uint64_t* const expected = is_compact(h) ? h.table_hash : h.content_hash;
+  require(hasher.digest() == Hash128{expected[0], expected[1]}, file,
+          "the checksum table does not match its hash in the header", h.checksum_offset);
   return table;
 }
 
@@ -223,7 +233,8 @@ Header check_dag(const File& file) {
   check_fields(file, h);
   check_layout(file, h);
   const std::vector<uint64_t> table = read_table(file, h);
-  StructureScan scan(file, h);
+  std::optional<StructureScan> scan;
+  if (!is_compact(h)) scan.emplace(file, h);
   std::vector<std::byte> block(
       size_t(std::min<uint64_t>(kChecksumBlock, h.checksum_offset - sizeof(Header))));
   for (size_t i = 0; i < table.size(); ++i) {
@@ -232,9 +243,9 @@ Header check_dag(const File& file) {
         size_t(std::min<uint64_t>(kChecksumBlock, h.checksum_offset - offset)));
     file.read_at(offset, bytes);
     require(checksum64(bytes) == table[i], file, "a block does not match its checksum", offset);
-    scan.feed(offset, bytes);
+    if (scan) scan->feed(offset, bytes);
   }
-  scan.finish();
+  if (scan) scan->finish();
   return h;
 }
 

@@ -45,7 +45,7 @@ CubeWalk::WalkNode CubeWalk::child(const WalkNode& at, unsigned c) const {
 
 bool CubeWalk::is_full(uint32_t level, uint32_t node) {
   if (level + 2 == levels_) return dag_brick_at(dag_, level, node) == ~uint64_t(0);
-  if ((dag_.words[level][node] & 0xffU) != 0xffU) return false;
+  if (dag_mask(dag_, level, node) != 0xffU) return false;
   if (const auto cached = full_[level].find(node); cached != full_[level].end())
     return cached->second;
   bool all = true;

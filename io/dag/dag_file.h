@@ -2,6 +2,7 @@
 // is mapped, so code that walks the view needs no checks.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "io/dag/dag_view.h"
@@ -13,20 +14,29 @@ namespace svdag {
 class DagFile {
  public:
   // Error (kBadInput) with path and offset if the file violates docs/format.md: magic, version,
-  // sizes, checksums, pointers. Order and minimality are not checked (verify/integrity/integrity.h
+  // sizes, checksums, references. Order and minimality are not checked (verify/integrity/integrity.h
   // does).
   static DagFile open(const std::string& path);
 
-  const std::string& path() const { return file_.path(); }
+  // Maps a file that is known to be valid. Errors show `path`.
+  static DagFile adopt(File file, std::string path);
+
+  const std::string& path() const { return path_; }
   const Header& header() const { return *static_cast<const Header*>(file_.data()); }
   const DagView& view() const { return view_; }
+  Layout layout() const { return view_.layout; }
+  // The whole file.
+  std::span<const std::byte> bytes() const {
+    return {static_cast<const std::byte*>(file_.data()), size_t(header().file_bytes)};
+  }
   Grid grid() const;
   Rule rule() const { return Rule(header().rule); }
   std::string_view metadata() const;  // the JSON text
 
  private:
-  explicit DagFile(MappedFile file);
+  DagFile(MappedFile file, std::string path);
 
+  std::string path_;
   MappedFile file_;
   DagView view_;
 };

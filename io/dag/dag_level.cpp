@@ -9,7 +9,7 @@ namespace {
 
 // The child mask of a node of `level`; for a brick, the mask of its nonempty octants.
 uint32_t octants(const DagView& dag, uint32_t level, uint32_t index) {
-  if (level < dag.brick_level()) return dag.words[level][index] & 0xffU;
+  if (level < dag.brick_level()) return dag_mask(dag, level, index);
   const uint64_t brick = dag.bricks[index];
   uint32_t mask = 0;
   for (unsigned c = 0; c < 8; ++c) mask |= uint32_t((brick >> (8 * c) & 0xff) != 0) << c;

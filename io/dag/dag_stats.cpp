@@ -11,7 +11,7 @@ namespace svdag {
 namespace {
 
 std::vector<uint64_t> paths_to_root(const DagView& dag) {
-  std::vector<uint64_t> paths(dag.word_count[0]);
+  std::vector<uint64_t> paths(dag.index_end[0]);
   paths[0] = 1;
   return paths;
 }
@@ -20,16 +20,14 @@ uint64_t total(const std::vector<uint64_t>& paths) {
   return std::accumulate(paths.begin(), paths.end(), uint64_t(0));
 }
 
-// Adds the paths of each node of `level` to its children; `paths` is indexed by word.
+// Adds the paths of each node of `level` to its children; `paths` is by index.
 std::vector<uint64_t> paths_below(const DagView& dag, uint32_t level,
                                   const std::vector<uint64_t>& paths) {
   const bool to_bricks = level + 1 == dag.brick_level();
-  std::vector<uint64_t> below(to_bricks ? dag.brick_count : dag.word_count[level + 1]);
-  for (uint64_t w = 0; w < dag.word_count[level];) {
-    const int children = std::popcount(dag.words[level][w] & 0xffU);
-    for (int i = 1; i <= children; ++i) below[dag.words[level][w + i]] += paths[w];
-    w += 1 + children;
-  }
+  std::vector<uint64_t> below(to_bricks ? dag.brick_count : dag.index_end[level + 1]);
+  for (uint64_t i = 0; i < dag.index_end[level]; i = dag_next(dag, level, i))
+    dag_for_children(dag, level, uint32_t(i),
+                     [&](unsigned, uint32_t child) { below[child] += paths[i]; });
   return below;
 }
 
@@ -92,13 +90,13 @@ uint64_t count_level_voxels(const DagView& dag, uint32_t levels) {
 }
 
 uint64_t level_counting_bytes(const DagView& dag, uint32_t levels) {
-  uint64_t max_words = 0, above = 0;
+  uint64_t most = 0, above = 0;
   for (uint32_t level = 0; level <= std::min(levels, dag.brick_level()); ++level) {
-    const uint64_t here = level < dag.brick_level() ? dag.word_count[level] : dag.brick_count;
-    max_words = std::max(max_words, above + here);
+    const uint64_t here = level < dag.brick_level() ? dag.index_end[level] : dag.brick_count;
+    most = std::max(most, above + here);
     above = here;
   }
-  return 8 * max_words;
+  return 8 * most;
 }
 
 }  // namespace svdag

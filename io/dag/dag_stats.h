@@ -35,7 +35,7 @@ DagStats compute_stats(const DagFile& file);
 
 // The number of set voxels of level `levels`, 3 .. L. One pass over the nodes above them.
 uint64_t count_level_voxels(const DagView& dag, uint32_t levels);
-// The temporary memory of count_level_voxels(), in bytes: 8 per word of two adjacent levels.
+// The temporary memory of count_level_voxels(), in bytes: 8 per index of two adjacent levels.
 uint64_t level_counting_bytes(const DagView& dag, uint32_t levels);
 
 }  // namespace svdag

@@ -2,28 +2,28 @@
 // dependencies.
 //
 // Notation: level 0 is the root; a node of level k is a cube of side 2^(L-k) voxels; bricks are at
-// level L-2. An inner node is a word whose low 8 bits are the child mask, followed by one word per
-// present child, ascending: the index of the child's first word in the section of the next level,
-// or the index of the brick. Pointers lead to the next level only.
+// level L-2. A node is known by an index, which is private to the layout of the file; the root has
+// index 0. Children are in the next level only.
+//
+// Plain layout: a node is a word whose low 8 bits are the child mask, followed by one word per
+// present child, ascending: the child's index. The index of a node is that of its first word in the
+// section of its level, the index of a brick its number.
+// Compact layout: io/dag/compact_view.h. The index of a node is its number.
 #pragma once
 
-#include "format.h"  // beside this file: the two are used alone
-
-#if defined(__CUDACC__)
-#define SVDAG_HD __host__ __device__
-#else
-#define SVDAG_HD
-#endif
+#include "compact_view.h"  // beside this file, as format.h: the three are used alone
 
 namespace svdag {
 
 constexpr uint32_t kNoChild = 0xffffffffU;
 
 struct DagView {
-  uint32_t levels = 0;                       // L
-  const uint32_t* words[kMaxSections] = {};  // sections of levels 0 .. L-3
-  uint64_t word_count[kMaxSections] = {};
-  const uint64_t* bricks = nullptr;  // section of level L-2
+  uint32_t levels = 0;  // L
+  Layout layout = Layout::kPlain;
+  const uint32_t* words[kMaxSections] = {};  // plain: sections of levels 0 .. L-3
+  CompactLevel compact[kMaxSections];        // compact: the same
+  uint64_t index_end[kMaxSections] = {};     // the indices of a level's nodes are less
+  const uint64_t* bricks = nullptr;          // section of level L-2
   uint64_t brick_count = 0;
   double corner[3] = {0, 0, 0};  // world position of the corner of voxel (0, 0, 0)
   double voxel_size = 1;         // in world units
@@ -47,12 +47,39 @@ SVDAG_HD inline double voxel_from_world(const DagView& dag, int axis, double wor
   return (world - dag.corner[axis]) / dag.voxel_size;
 }
 
-// The child c (0 .. 7) of the node at word `node` of level `level`, or kNoChild.
-SVDAG_HD inline uint32_t dag_child(const DagView& dag, uint32_t level, uint32_t node, unsigned c) {
-  const uint32_t* word = dag.words[level] + node;
-  const uint32_t mask = word[0] & 0xffU;
-  if (!((mask >> c) & 1U)) return kNoChild;
-  return word[1 + popcount8(mask & ((1U << c) - 1U))];
+// The child mask of the node at `index` of `level` < brick_level().
+SVDAG_HD inline uint32_t dag_mask(const DagView& dag, uint32_t level, uint32_t index) {
+  if (dag.layout == Layout::kPlain) return dag.words[level][index] & 0xffU;
+  return dag.compact[level].mask(index);
+}
+
+// The child c (0 .. 7) of a node that has one.
+SVDAG_HD inline uint32_t dag_present_child(const DagView& dag, uint32_t level, uint32_t index,
+                                           unsigned c) {
+  if (dag.layout != Layout::kPlain) return dag.compact[level].child(index, c);
+  const uint32_t* word = dag.words[level] + index;
+  return word[1 + popcount8(word[0] & ((1U << c) - 1U))];
+}
+
+// The child c (0 .. 7), or kNoChild.
+SVDAG_HD inline uint32_t dag_child(const DagView& dag, uint32_t level, uint32_t index, unsigned c) {
+  if (!(dag_mask(dag, level, index) >> c & 1U)) return kNoChild;
+  return dag_present_child(dag, level, index, c);
+}
+
+// The index of the next node of a level, from 0 to index_end.
+SVDAG_HD inline uint64_t dag_next(const DagView& dag, uint32_t level, uint64_t index) {
+  if (dag.layout != Layout::kPlain) return index + 1;
+  return index + 1 + uint64_t(popcount8(dag.words[level][index] & 0xffU));
+}
+
+// Calls visit(c, child) for each child c of a node, ascending.
+template <class Visit>
+void dag_for_children(const DagView& dag, uint32_t level, uint32_t index, const Visit& visit) {
+  for (uint32_t mask = dag_mask(dag, level, index); mask != 0; mask &= mask - 1) {
+    const unsigned c = unsigned(__builtin_ctz(mask));
+    visit(c, dag_present_child(dag, level, index, c));
+  }
 }
 
 // The brick that holds voxels (4x..4x+3, 4y..4y+3, 4z..4z+3); 0 where nothing is set.
@@ -82,15 +109,40 @@ inline DagView dag_view(const void* data) {
   const char* base = static_cast<const char*>(data);
   DagView view;
   view.levels = header.levels;
+  view.layout = Layout(header.layout);
   view.voxel_size = header.voxel_size;
   for (int a = 0; a < 3; ++a) view.corner[a] = header.corner[a];
   for (uint32_t level = 0; level + 2 < header.levels; ++level) {
-    view.words[level] = reinterpret_cast<const uint32_t*>(base + header.sections[level].offset);
-    view.word_count[level] = header.sections[level].bytes / 4;
+    const Section& section = header.sections[level];
+    if (view.layout == Layout::kPlain) {
+      view.words[level] = reinterpret_cast<const uint32_t*>(base + section.offset);
+      view.index_end[level] = section.bytes / 4;
+    } else if (section.nodes > 0) {
+      view.compact[level] = CompactLevel(base + section.offset, section.nodes);
+      view.index_end[level] = section.nodes;
+    }
   }
   const Section& bricks = header.sections[header.levels - 2];
   view.bricks = reinterpret_cast<const uint64_t*>(base + bricks.offset);
   view.brick_count = bricks.nodes;
+  return view;
+}
+
+// The view of a copy of a file: `view` is that of the file at `from`, the copy is at `to`.
+inline DagView moved_view(DagView view, const void* from, const void* to) {
+  const auto move = [&](auto*& pointer) {
+    using Byte = const char*;
+    if (pointer == nullptr) return;
+    const auto offset = reinterpret_cast<Byte>(pointer) - static_cast<Byte>(from);
+    pointer = reinterpret_cast<decltype(+pointer)>(static_cast<Byte>(to) + offset);
+  };
+  for (uint32_t level = 0; level < kMaxSections; ++level) {
+    move(view.words[level]);
+    move(view.compact[level].lines);
+    move(view.compact[level].bases);
+    for (auto*& stream : view.compact[level].streams) move(stream);
+  }
+  move(view.bricks);
   return view;
 }
 

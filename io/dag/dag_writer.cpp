@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "io/dag/compact_writer.h"
 #include "io/dag/grid_fields.h"
 #include "io/dag/metadata.h"
 #include "streaming/error.h"
@@ -10,11 +11,16 @@
 
 namespace svdag {
 
-DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t max_words)
-    : file_(path), max_words_(max_words), level_(grid.levels - 1) {
+DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
+                     std::optional<WorkRoom> compact, uint64_t max_words)
+    : path_(path),
+      compact_(std::move(compact)),
+      file_(path),
+      max_words_(max_words),
+      level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kMagic, sizeof kMagic);
-  header_.version = kFormatVersion;
+  header_.version = version_of(Layout::kPlain);
   header_.header_bytes = sizeof(Header);
   put_grid(grid, rule, &header_);
   header_.section_count = uint32_t(grid.levels - 1);
@@ -73,7 +79,7 @@ uint32_t DagWriter::add_brick(Brick brick) {
   if (words_ >= max_words_)
     throw Error(ExitCode::kOutput,
                 "the scene needs more than 2^32 - 2 different bricks, which "
-                "format version 1 cannot hold: lower the resolution");
+                "the format cannot hold: lower the resolution");
   append(&brick, sizeof brick);
   ++header_.sections[level_].nodes;
   return words_++;
@@ -92,8 +98,8 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   last_node_ = children;
   if (uint64_t(words_) + count > max_words_)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
-                                       " needs more than 2^32 - 2 words, which format "
-                                       "version 1 cannot hold: lower the resolution");
+                                       " needs more than 2^32 - 2 words, which the format "
+                                       "cannot hold: lower the resolution");
   append(words, 4 * size_t(count));
   ++header_.sections[level_].nodes;
   const uint32_t index = words_;
@@ -101,7 +107,7 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   return index;
 }
 
-void DagWriter::finish(uint64_t voxels, double largest_snap) {
+void DagWriter::complete(uint64_t voxels, double largest_snap) {
   SVDAG_ASSERT(level_ == 0);
   close_level();
   header_.voxels = voxels;
@@ -127,7 +133,21 @@ void DagWriter::finish(uint64_t voxels, double largest_snap) {
   const auto bytes = std::as_bytes(std::span(&header_, 1));
   header_.header_checksum = checksum64(bytes.first(offsetof(Header, header_checksum)));
   file_.write_at(0, bytes);
-  file_.commit();
+}
+
+DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap,
+                                  const std::string& shown_as) {
+  complete(voxels, largest_snap);
+  return DagFile::adopt(File::open_read(file_.open_name()), shown_as);
+}
+
+void DagWriter::finish(uint64_t voxels, double largest_snap) {
+  if (!compact_) {
+    complete(voxels, largest_snap);
+    return file_.commit();
+  }
+  const DagFile plain = finish_unnamed(voxels, largest_snap, path_);
+  header_ = write_compact(plain, path_, *compact_);
 }
 
 }  // namespace svdag

@@ -1,24 +1,29 @@
-// Writes a `.svdag` file level by level, deepest first, in one sequential pass.
+// Writes a `.svdag` file level by level, deepest first, in one sequential pass. The compact layout is
+// then made from the plain one (io/dag/compact_writer.h), which has no name.
 //
 // Nodes arrive in canonical order (docs/format.md, "Order"), so the writer holds only one block of
 // 64 KiB and the checksum table. The file appears under its name only after finish().
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/brick.h"
-#include "io/dag/format.h"
+#include "io/dag/dag_file.h"
 #include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/memory/work_array.h"
 
 namespace svdag {
 
 class DagWriter {
  public:
-  // `max_words`: limit of a section; tests lower it.
-  DagWriter(const std::string& path, const Grid& grid, Rule rule, uint64_t max_words = kMaxWords);
+  // The layout is compact if there is a room to make it in. `max_words`: limit of a section; tests
+  // lower it.
+  DagWriter(const std::string& path, const Grid& grid, Rule rule,
+            std::optional<WorkRoom> compact = {}, uint64_t max_words = kMaxWords);
 
   // Begins the section of `level`; the order is L-2, L-3, ..., 0, each exactly once.
   void begin_level(int level);
@@ -30,6 +35,8 @@ class DagWriter {
   uint32_t add_node(const NodeKey& children);
   // Writes metadata, checksums and header, and renames the file to its name.
   void finish(uint64_t voxels, double largest_snap);
+  // The same, but the file gets no name and is in the plain layout; errors show `shown_as`.
+  DagFile finish_unnamed(uint64_t voxels, double largest_snap, const std::string& shown_as);
 
   const Header& header() const { return header_; }
 
@@ -40,6 +47,10 @@ class DagWriter {
   uint64_t position() const { return sizeof(Header) + written_ + block_.size(); }
   void close_level();
 
+  void complete(uint64_t voxels, double largest_snap);
+
+  std::string path_;
+  std::optional<WorkRoom> compact_;
   AtomicFile file_;
   Header header_{};
   uint64_t max_words_;

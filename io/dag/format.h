@@ -1,7 +1,9 @@
-// The structures of the `.svdag` file format, version 1 (docs/format.md).
+// The structures of the `.svdag` file format (docs/format.md).
 //
-//   header (1024 bytes) | level sections, deepest first, 64-byte aligned | metadata (JSON) |
-//   checksum table | end
+//   header (1024 bytes) | level sections, 64-byte aligned | metadata (JSON) | checksum table | end
+//
+// Version 1 is the plain layout, whose sections are ordered deepest first; version 2 is the compact
+// layout, whose sections are ordered root first.
 //
 // Little-endian. No dependencies: host and CUDA code include this file through dag_view.h.
 #pragma once
@@ -12,11 +14,22 @@
 namespace svdag {
 
 constexpr unsigned char kMagic[8] = {0x89, 'S', 'V', 'D', 'A', 'G', '\r', '\n'};
-constexpr uint32_t kFormatVersion = 1;
 constexpr uint32_t kMaxSections = 19;  // levels 0 .. L-2, L <= 20
 constexpr uint64_t kSectionAlignment = 64;
 constexpr uint64_t kChecksumBlock = 65536;   // bytes covered by one entry of the checksum table
 constexpr uint64_t kMaxWords = 0xfffffffeU;  // per section: the last two u32 values are reserved
+
+enum class Layout : uint32_t { kPlain = 0, kCompact = 1 };
+
+constexpr const char* kLayoutNames[] = {"plain", "compact"};
+
+constexpr const char* layout_name(Layout layout) {
+  return kLayoutNames[size_t(layout)];
+}
+
+constexpr uint32_t version_of(Layout layout) {
+  return layout == Layout::kPlain ? 1 : 2;
+}
 
 enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
 
@@ -26,7 +39,8 @@ constexpr const char* rule_name(Rule rule) {
   return kRuleNames[size_t(rule)];
 }
 
-// One level. Inner levels (0 .. L-3): u32 words; the brick level (L-2): u64 bricks.
+// One level. Inner levels (0 .. L-3): u32 words, or CompactEntry and what follows it; the brick level
+// (L-2): u64 bricks.
 struct Section {
   uint64_t offset;  // from the start of the file
   uint64_t bytes;   // without padding
@@ -54,10 +68,14 @@ struct Header {
   uint64_t checksum_offset, checksum_bytes;
   uint64_t file_bytes;
   Section sections[kMaxSections];  // [k] is level k; unused sections are zero
-  uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table
+  uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table,
+                                // of the plain layout
   double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
   double origin[3];             // kOrigin: world position of plane 0; else 0
-  unsigned char reserved[248];  // zero
+  uint32_t layout;              // Layout
+  uint32_t padding;             // zero
+  uint64_t table_hash[2];       // compact: XXH3-128 of the checksum table; plain: zero
+  unsigned char reserved[224];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 
@@ -67,7 +85,32 @@ static_assert(offsetof(Header, voxels) == 120);
 static_assert(offsetof(Header, sections) == 176);
 static_assert(offsetof(Header, content_hash) == 632);
 static_assert(offsetof(Header, transform) == 648);
+static_assert(offsetof(Header, layout) == 768);
 static_assert(offsetof(Header, header_checksum) == 1016);
 static_assert(sizeof(Header) == 1024);
+
+// Compact layout: how the nodes of an inner level refer to those of the level below, which are
+// divided into the classes A, B and C (io/dag/compact_view.h). The section of a level consists of
+// the entry, the lines of its nodes, the base table, and the streams of references A, B, C, each
+// padded to 64 bytes.
+enum class CompactKind : uint32_t {
+  kPrivate = 0,  // A: nodes with one reference, in the order of their parents; not stored
+  kExplicit = 1,
+};
+
+constexpr uint32_t kClasses = 3;
+constexpr uint32_t kLineNodes = 32;      // nodes of a line
+constexpr uint64_t kStreamReadable = 8;  // bytes that may be read after the last reference
+
+struct CompactEntry {
+  uint32_t kind;              // CompactKind
+  uint32_t widths[kClasses];  // bits of a reference, 0 .. 32; 0 for a class without a stream
+  uint32_t sizes[kClasses];   // nodes of the level below, by class
+  uint32_t padding;           // zero
+  uint64_t references[kClasses];
+  uint64_t reserved;  // zero
+};
+
+static_assert(sizeof(CompactEntry) == 64);
 
 }  // namespace svdag

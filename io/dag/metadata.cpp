@@ -28,7 +28,9 @@ std::string metadata_of(const Header& h) {
       Grid::Kind(h.grid_kind) == Grid::Kind::kOrigin
           ? ",\"origin\":" + json_list({real(h.origin[0]), real(h.origin[1]), real(h.origin[2])})
           : "";
-  return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + number(h.levels) +
+  const std::string layout = Layout(h.layout) == Layout::kPlain ? "" : ",\"layout\":\"compact\"";
+  return "{\"format\":\"svdag\",\"version\":" + number(h.version) + layout +
+         ",\"levels\":" + number(h.levels) +
          ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
          "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
          kind_name(Grid::Kind(h.grid_kind)) +

@@ -259,6 +259,20 @@ void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& te
       ->type_name("SIZE");
 }
 
+void add_layout(CLI::App* command, Layout* layout) {
+  const auto read = [layout](const std::string& name) {
+    for (const Layout known : {Layout::kPlain, Layout::kCompact}) {
+      if (name == layout_name(known)) return void(*layout = known);
+    }
+    fail_usage("--layout: unknown layout \"" + name + "\": choose plain or compact");
+  };
+  suggests(command->add_option_function<std::string>(
+               "--layout", read,
+               "plain (default), or compact: less than half the bytes, traced almost as fast"),
+           {"plain", "compact"})
+      ->type_name("LAYOUT");
+}
+
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before) {
   std::string notes = before + (before.empty() ? "" : "\n\n");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/dag/format.h"
 #include "io/help/manual.h"
 
 namespace CLI {
@@ -38,6 +39,9 @@ void add_no_clobber(CLI::App* command, bool* no_clobber);
 // Adds -m, the memory budget of a command, with its help text. Less than 1M is an Error (kUsage).
 void add_memory_budget(CLI::App* command, uint64_t* bytes,
                        const std::string& text = "Memory budget in bytes");
+
+// Adds --layout.
+void add_layout(CLI::App* command, Layout* layout);
 
 // Sets the notes of a command: `before`, examples (one command line each), and the exit codes.
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,

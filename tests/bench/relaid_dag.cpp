@@ -18,7 +18,7 @@ RelaidDag::RelaidDag(const DagView& dag, Layout layout)
 
 void RelaidDag::copy_all(const DagView& dag) {
   for (uint32_t level = 0; level < dag.brick_level(); ++level)
-    words_[level].assign(dag.words[level], dag.words[level] + dag.word_count[level]);
+    words_[level].assign(dag.words[level], dag.words[level] + dag.index_end[level]);
   bricks_.assign(dag.bricks, dag.bricks + dag.brick_count);
 }
 
@@ -27,9 +27,9 @@ void RelaidDag::copy_depth_first(const DagView& dag) {
   moved_.resize(bricks + 1);
   uint64_t all = 0;
   for (uint32_t level = 0; level < bricks; ++level) {
-    moved_[level].assign(dag.word_count[level], kNoChild);
-    if (!one_) words_[level].reserve(dag.word_count[level]);
-    all += dag.word_count[level];
+    moved_[level].assign(dag.index_end[level], kNoChild);
+    if (!one_) words_[level].reserve(dag.index_end[level]);
+    all += dag.index_end[level];
   }
   if (one_) words_[0].reserve(as_u32(all, "words of nodes in one section"));
   moved_[bricks].assign(dag.brick_count, kNoChild);

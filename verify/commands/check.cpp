@@ -1,6 +1,7 @@
 #include "verify/commands/check.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
@@ -49,7 +50,8 @@ int run(const CheckConfig& config) {
   progress.phase("checksums", 0);
   const DagFile file = DagFile::open(config.file);
   progress.phase("order and minimality", 0);
-  const IntegrityReport report = inspect(file.header(), file.view(), file.metadata());
+  MemoryBudget budget(memory_or_default(0));
+  const IntegrityReport report = inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
   progress.finish();
   if (config.common.json) {
     print_json(file, report);

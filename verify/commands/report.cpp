@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -70,7 +71,8 @@ int run(const ReportConfig& config) {
   const DagFile file = DagFile::open(config.file);
   std::vector<ReportInput> json;
   for (const std::string& path : config.inputs) json.push_back({path, read_text(path)});
-  const IntegrityReport integrity = inspect(file.header(), file.view(), file.metadata());
+  MemoryBudget budget(memory_or_default(0));
+  const IntegrityReport integrity = inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
   const DagStats stats = compute_stats(file);
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
   const ReportPage page = report_html(json, file, stats, integrity, make_pictures(config, file));

@@ -73,8 +73,13 @@ void DagDiff::prefetch(uint32_t level, Pair pair) const {
   if (pair.a == kNoChild && pair.b == kNoChild) return;
   const auto fetch = [level](const DagView& dag, uint32_t index) {
     if (index == kNoChild) return;
-    level == dag.brick_level() ? __builtin_prefetch(dag.bricks + index)
-                               : __builtin_prefetch(dag.words[level] + index);
+    if (level == dag.brick_level()) {
+      __builtin_prefetch(dag.bricks + index);
+    } else if (dag.layout == Layout::kPlain) {
+      __builtin_prefetch(dag.words[level] + index);
+    } else {
+      __builtin_prefetch(dag.compact[level].lines + index / kLineNodes * 8);
+    }
   };
   fetch(a_, pair.a);
   fetch(b_, pair.b);

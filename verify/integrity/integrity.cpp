@@ -6,9 +6,10 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "io/dag/dag_file.h"
+#include "io/dag/compact_writer.h"
+#include "io/dag/node_starts.h"
+#include "io/dag/plain_form.h"
 #include "io/grid.h"
-#include "verify/integrity/node_index.h"
 
 namespace svdag {
 namespace {
@@ -60,9 +61,9 @@ class Inspection {
 
   void check_nodes(uint32_t level) {
     const uint32_t* words = dag_.words[level];
-    const uint64_t count = dag_.word_count[level];
-    const NodeIndex index(words, count);
-    std::vector<uint64_t> voxels(index.nodes());
+    const uint64_t count = dag_.index_end[level];
+    RankBitmap starts = node_starts(dag_, level, &budget_);
+    std::vector<uint64_t> voxels(starts.count());
     std::vector<uint64_t> used((below_voxels_.size() + 63) / 64);
     uint64_t unordered = 0, empty = 0, invalid = 0, node = 0;
     Key last{};
@@ -85,16 +86,16 @@ class Inspection {
       last = key;
       w += size;
     }
-    report_->nodes[level] = index.nodes();
+    report_->nodes[level] = starts.count();
     report(level, unordered, empty, invalid, used);
     below_voxels_ = std::move(voxels);
-    below_ = index;
+    below_ = std::move(starts);
   }
 
   // Adds a child's voxels and marks it as used; returns false if no node begins there.
   bool visit_child(uint32_t level, uint32_t child, uint64_t* voxels, std::vector<uint64_t>* used) {
     const bool to_brick = level + 1 == dag_.brick_level();
-    if (to_brick ? child >= dag_.brick_count : !below_.is_start(child)) return false;
+    if (to_brick ? child >= dag_.brick_count : !below_.has(child)) return false;
     const uint64_t rank = to_brick ? child : below_.rank(child);
     *voxels += below_voxels_[rank];
     (*used)[rank / 64] |= uint64_t(1) << (rank % 64);
@@ -121,7 +122,8 @@ class Inspection {
   const DagView& dag_;
   IntegrityReport* report_;
   std::vector<uint64_t> below_voxels_;  // per node of the level below
-  NodeIndex below_;                     // of the level below, unless those are bricks
+  MemoryBudget budget_;
+  RankBitmap below_{&budget_, ""};  // the nodes of the level below, unless those are bricks
 };
 
 // Searches for a voxel outside the selection.
@@ -234,6 +236,17 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
     report.defects.push_back("the largest snap is more than half a lattice step");
   for (std::string& defect : metadata_defects(header, metadata))
     report.defects.push_back(std::move(defect));
+  return report;
+}
+
+IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
+  if (file.layout() == Layout::kPlain)
+    return inspect(file.header(), file.view(), file.metadata());
+  const DagFile plain =
+      plain_form(DagFile::adopt(File::open_read(file.path()), file.path()), room);
+  IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata());
+  if (!is_compact_form(file, plain, room))
+    report.defects.push_back("the bytes are not those of these nodes in the compact layout");
   return report;
 }
 

@@ -1,4 +1,4 @@
-// Proves that a valid file is *the* DAG of its voxels: canonical, minimal, and described correctly
+// Proves that a valid file in the plain layout is *the* DAG of its voxels: canonical, minimal, and described correctly
 // by its header.
 //
 // DagFile::open proves that the bytes are unchanged and that all pointers are valid. This proves
@@ -17,7 +17,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/dag/dag_view.h"
+#include "io/dag/dag_file.h"
+#include "streaming/memory/work_array.h"
 
 namespace svdag {
 
@@ -30,6 +31,10 @@ struct IntegrityReport {
 };
 
 IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata);
+
+// The same for a file in any layout. A compact file is proved by its plain form, and by having the
+// bytes that this gives in the compact layout. Error (kBadInput) if it has no plain form.
+IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room);
 
 // The differences between the JSON text of the metadata and the header.
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata);

@@ -1,8 +1,8 @@
 // Draws bricks from a DAG, and combines the draws from file and scene.
 #include <bit>
 
+#include "io/dag/node_starts.h"
 #include "streaming/error.h"
-#include "verify/integrity/node_index.h"
 #include "verify/sample/sample.h"
 
 namespace svdag {
@@ -11,31 +11,33 @@ namespace {
 // For every inner node, the number of occupied bricks of the grid below it.
 class BrickCounts {
  public:
-  explicit BrickCounts(const DagView& dag) : dag_(dag), levels_(dag.brick_level()) {
+  explicit BrickCounts(const DagView& dag) : dag_(dag) {
+    for (uint32_t level = 0; level < dag.brick_level(); ++level)
+      levels_.push_back({node_starts(dag, level, &budget_), {}});
     for (uint32_t level = dag.brick_level(); level-- > 0;) {
       Level& l = levels_[level];
-      l.index = NodeIndex(dag.words[level], dag.word_count[level]);
-      l.bricks.resize(l.index.nodes());
-      const uint32_t* words = dag.words[level];
-      for (uint64_t w = 0, node = 0; node < l.bricks.size(); ++node) {
-        const int children = std::popcount(words[w] & 0xffU);
-        for (int i = 1; i <= children; ++i) l.bricks[node] += of(level + 1, words[w + uint64_t(i)]);
-        w += 1 + uint64_t(children);
+      l.bricks.resize(l.starts.count());
+      for (uint64_t index = 0, node = 0; node < l.bricks.size(); ++node) {
+        dag_for_children(dag, level, uint32_t(index), [&](unsigned, uint32_t child) {
+          l.bricks[node] += of(level + 1, child);
+        });
+        index = dag_next(dag, level, index);
       }
     }
   }
 
   uint64_t of(uint32_t level, uint32_t node) const {
     if (level == dag_.brick_level()) return 1;
-    return levels_[level].bricks[levels_[level].index.rank(node)];
+    return levels_[level].bricks[levels_[level].starts.rank(node)];
   }
 
  private:
   struct Level {
-    NodeIndex index;
+    RankBitmap starts;
     std::vector<uint64_t> bricks;
   };
   const DagView& dag_;
+  MemoryBudget budget_;
   std::vector<Level> levels_;
 };
 

@@ -1,4 +1,5 @@
 #include "builder/commands/export/selection.h"
+#include "io/dag/plain_form.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
 #include "io/formats/dags/symvox.h"
@@ -8,33 +9,38 @@
 namespace svdag {
 namespace {
 
-// The DAG to write; `format` is named in errors.
-LevelDag level_dag(const Selection& selection, const ExportConfig& config, const char* format,
+// The file to write, in the plain layout; `format` is named in errors.
+DagFile whole_file(const Selection& selection, const ExportConfig& config, const char* format,
                    MemoryBudget* budget) {
   if (config.bounds)
     fail_usage("--bounds: " + std::string(format) +
                " holds whole DAGs only: bake or import just that part, or export voxels (npz, "
                "vdb, ...)");
-  return LevelDag(selection.file, selection.grid.levels, budget);
+  const std::string& path = selection.file.path();
+  return plain_form(DagFile::adopt(File::open_read(path), path),
+                    {budget, folder_of(config.output)});
 }
 
 }  // namespace
 
 uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const LevelDag dag = level_dag(*selection, config, "HashDAG", budget);
+  const DagFile file = whole_file(*selection, config, "HashDAG", budget);
+  const LevelDag dag(file, selection->grid.levels, budget);
   write_hashdag(dag, selection->grid, config.output);
   return dag.voxels();
 }
 
 uint64_t export_symvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const LevelDag dag = level_dag(*selection, config, "SymVox", budget);
+  const DagFile file = whole_file(*selection, config, "SymVox", budget);
+  const LevelDag dag(file, selection->grid.levels, budget);
   write_symvox(dag, selection->grid, config.output);
   return dag.voxels();
 }
 
 uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
                               MemoryBudget* budget) {
-  const LevelDag dag = level_dag(*selection, config, "the transform-DAG .svo", budget);
+  const DagFile file = whole_file(*selection, config, "the transform-DAG .svo", budget);
+  const LevelDag dag(file, selection->grid.levels, budget);
   write_transform_dag(dag, config.output);
   return dag.voxels();
 }
@@ -43,7 +49,8 @@ uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryB
   if (!config.output.ends_with(".octree"))
     fail_usage(config.output +
                ": the name must end in .octree (two more files are written beside it)");
-  const LevelDag dag = level_dag(*selection, config, "the .octree", budget);
+  const DagFile file = whole_file(*selection, config, "the .octree", budget);
+  const LevelDag dag(file, selection->grid.levels, budget);
   write_octree(dag, config.output);
   return dag.voxels();
 }

@@ -53,6 +53,7 @@ void add_merge(CLI::App* program, Command* command) {
          },
          "Do this merge of a plan; a finished one is kept")
       ->type_name("NAME");
+  add_layout(app, &config->merge.layout);
   add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
   add_quiet(app, &config->output);
   add_verbose(app, &config->output, "Print seconds per phase, and memory");

@@ -39,6 +39,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
       ->type_name("LOW,HIGH");
   app->add_flag("--sandbox", config->sandbox,
                 "vdb: decode in a process that can only compute, for untrusted files");
+  add_layout(app, &import->layout);
   add_memory_budget(app, &import->memory);
   from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
           kMaxThreads)

@@ -1,5 +1,6 @@
 #include "io/formats/dags/level_dag.h"
 
+#include "io/dag/node_starts.h"
 #include "streaming/counts.h"
 
 namespace svdag {
@@ -15,13 +16,13 @@ LevelDag::LevelDag(const DagFile& file, int levels, MemoryBudget* budget)
       levels_(uint32_t(levels)),
       budget_(budget),
       starts_(budget, "numbers of nodes") {
-  SVDAG_ASSERT(levels >= kMinLevels && levels_ <= dag_.levels);
+  SVDAG_ASSERT(levels >= kMinLevels && levels_ <= dag_.levels && dag_.layout == Layout::kPlain);
   if (cut()) starts_ = node_starts(brick_level());
   bricks_ = cut() ? starts_.count() : dag_.brick_count;
 }
 
 uint64_t LevelDag::words(uint32_t level) const {
-  return empty() ? (level == 0 ? 1 : 0) : dag_.word_count[level];
+  return empty() ? (level == 0 ? 1 : 0) : dag_.index_end[level];
 }
 
 uint64_t LevelDag::nodes(uint32_t level) const {
@@ -54,14 +55,7 @@ uint64_t LevelDag::voxels() const {
 }
 
 RankBitmap LevelDag::node_starts(uint32_t level) const {
-  RankBitmap starts(budget_, "numbers of nodes");
-  if (!empty()) {
-    const uint32_t* const begin = dag_.words[level];
-    for (uint64_t w = 0; w < dag_.word_count[level]; w += 1 + uint64_t(popcount8(begin[w] & 0xffU)))
-      starts.set(uint32_t(w));
-  }
-  starts.seal();
-  return starts;
+  return svdag::node_starts(dag_, level, budget_);
 }
 
 BlockNumbers LevelDag::blocks_before() const {

@@ -33,7 +33,7 @@ struct BlockNumbers {
 
 class LevelDag {
  public:
-  // `file` must outlive this; 3 <= levels <= L.
+  // `file`, in the plain layout, must outlive this; 3 <= levels <= L.
   LevelDag(const DagFile& file, int levels, MemoryBudget* budget);
 
   uint32_t levels() const { return levels_; }
@@ -48,7 +48,7 @@ class LevelDag {
   void for_each_node(uint32_t level, const Visit& visit) const {
     if (empty()) return level == 0 ? visit(0U, static_cast<const uint32_t*>(nullptr)) : void();
     const uint32_t* word = dag_.words[level];
-    const uint32_t* const end = word + dag_.word_count[level];
+    const uint32_t* const end = word + dag_.index_end[level];
     for (; word != end; word += 1 + popcount8(*word & 0xffU)) visit(*word & 0xffU, word + 1);
   }
   // The mask of the node at a word of an inner level.

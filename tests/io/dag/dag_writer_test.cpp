@@ -70,7 +70,7 @@ TEST(DagStats, CountTreeAndDag) {
 
 TEST(DagWriter, AFullSectionIsAnError) {
   const TempFolder folder;
-  DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, 4);
+  DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, {}, 4);
   writer.begin_level(2);
   for (Brick brick = 1; brick <= 4; ++brick) writer.add_brick(brick);
   EXPECT_SVDAG_ERROR(writer.add_brick(5), ExitCode::kOutput, "different bricks");

@@ -133,8 +133,7 @@ class Tracer::Walk {
     for (uint32_t k = *level; k < bricks; ++k) {
       const uint32_t shift = dag_.levels - 1 - k;
       const unsigned c = child_at(shift) ^ ray_.flip;
-      const uint32_t* word = dag_.words[k] + node;
-      const uint32_t mask = word[0];
+      const uint32_t mask = dag_mask(dag_, k, node);
       const uint32_t others = mask & ahead_.children(c) & ~(1U << c);
       const uint32_t leave = others != 0 ? 1U << shift : alone_[k];
       if (!(mask >> c & 1U)) {
@@ -143,7 +142,7 @@ class Tracer::Walk {
         return kNone;
       }
       alone_[k + 1] = leave;
-      node = word[1 + popcount8(mask & ((1U << c) - 1U))];
+      node = dag_present_child(dag_, k, node, c);
       tracer_.path_[k + 1] = node;
       if (kCut && cut_.solid(k + 1, double(1U << shift), t_)) {
         *level = k + 1;

@@ -30,19 +30,11 @@ uint64_t words_of(const DagView& dag, uint32_t level, uint32_t cells) {
   return 1 + (level == dag.brick_level() ? cells : (cells + 1) / 2);
 }
 
-// Calls visit(c, child) for each child c of a node.
-template <class Visit>
-void for_children(const DagView& dag, uint32_t level, uint32_t node, const Visit& visit) {
-  const uint32_t* word = dag.words[level] + node;
-  for (uint32_t mask = *word & 0xffU; mask != 0; mask &= mask - 1)
-    visit(lowest_bit64(mask), *++word);
-}
-
 Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   Cells cells;
   std::fill_n(cells.child, 64, kNoChild);
-  for_children(dag, level, node, [&](uint32_t b, uint32_t child) {
-    for_children(dag, level + 1, child,
+  dag_for_children(dag, level, node, [&](uint32_t b, uint32_t child) {
+    dag_for_children(dag, level + 1, child,
                  [&](uint32_t c, uint32_t grandchild) { cells.child[8 * b + c] = grandchild; });
   });
   return cells;
@@ -67,14 +59,12 @@ uint64_t count_words(const DagView& dag) {
   const uint32_t cells = count_present(root_cells(dag, &level));
   uint64_t words = words_of(dag, level, cells);
   for (; level < dag.brick_level(); level += 2) {
-    for (uint64_t node = 0; node < dag.word_count[level];) {
-      uint32_t children = 0, grandchildren = 0;
-      for_children(dag, level, uint32_t(node), [&](uint32_t, uint32_t child) {
-        ++children;
-        grandchildren += uint32_t(popcount8(dag.words[level + 1][child] & 0xffU));
+    for (uint64_t node = 0; node < dag.index_end[level]; node = dag_next(dag, level, node)) {
+      uint32_t grandchildren = 0;
+      dag_for_children(dag, level, uint32_t(node), [&](uint32_t, uint32_t child) {
+        grandchildren += uint32_t(popcount8(dag_mask(dag, level + 1, child)));
       });
       words += words_of(dag, level + 2, grandchildren);
-      node += 1 + children;
     }
   }
   return words;
@@ -86,7 +76,7 @@ class Tree64::Builder {
  public:
   Builder(const DagView& dag, HugeVector<uint64_t>* words) : dag_(dag), words_(*words) {
     for (uint32_t level = 1; level < dag.brick_level(); ++level) {
-      if (is_tree_level(dag, level)) indices_[level].assign(dag.word_count[level], kNoChild);
+      if (is_tree_level(dag, level)) indices_[level].assign(dag.index_end[level], kNoChild);
     }
   }
 
@@ -150,11 +140,12 @@ Tree64::Tree64(const DagView& dag, uint64_t bytes) {
 
 Tree64 tree_if_it_pays(const DagView& dag, uint64_t rays, uint64_t memory) {
   uint64_t nodes = dag.brick_count;
-  for (uint32_t level = 0; level < dag.brick_level(); ++level) nodes += dag.word_count[level] / 4;
+  for (uint32_t level = 0; level < dag.brick_level(); ++level)
+    nodes += dag.index_end[level] / (dag.layout == Layout::kPlain ? 4 : 1);
   if (!has_fast_target() || rays / kMinRaysPerNode <= nodes) return {};
   uint64_t builder_bytes = 0;
   for (uint32_t level = 1; level < dag.brick_level(); ++level) {
-    if (is_tree_level(dag, level)) builder_bytes += dag.word_count[level] * sizeof(uint32_t);
+    if (is_tree_level(dag, level)) builder_bytes += dag.index_end[level] * sizeof(uint32_t);
   }
   const uint64_t bytes = Tree64::bytes(dag);
   return bytes + builder_bytes <= memory && bytes <= kMaxBytes ? Tree64(dag, bytes) : Tree64();

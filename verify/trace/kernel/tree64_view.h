@@ -34,14 +34,6 @@ struct Tree64View {
   SVDAG_HD uint32_t resolution() const { return 1U << levels; }
 };
 
-SVDAG_HD inline uint32_t popcount64(uint64_t v) {
-#if defined(__CUDA_ARCH__)
-  return uint32_t(__popcll(static_cast<long long>(v)));
-#else
-  return uint32_t(__builtin_popcountll(v));
-#endif
-}
-
 // v must not be 0.
 SVDAG_HD inline uint32_t lowest_bit64(uint64_t v) {
 #if defined(__CUDA_ARCH__)

@@ -140,18 +140,6 @@ void require_free_memory(uint64_t bytes) {
                                      " MiB are free: choose a coarser DAG or a smaller --size");
 }
 
-// The file's view, with pointers into its copy on the device.
-DagView view_on_device(const PlainFile& file, const uint64_t* copy) {
-  DagView view = file.view;
-  const Header& header = file.header();
-  const char* base = reinterpret_cast<const char*>(copy);
-  for (uint32_t level = 0; level < view.brick_level(); ++level)
-    view.words[level] = reinterpret_cast<const uint32_t*>(base + header.sections[level].offset);
-  view.bricks =
-      reinterpret_cast<const uint64_t*>(base + header.sections[view.brick_level()].offset);
-  return view;
-}
-
 }  // namespace
 
 TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
@@ -167,7 +155,7 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
                       pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const DeviceArray<uint64_t> copy(file.words.size());
   copy.upload(file.words.data());
-  const DagView dag = view_on_device(file, copy.data());
+  const DagView dag = moved_view(file.view, file.words.data(), copy.data());
   const DeviceArray<Span> spans(tiles);
   const DeviceArray<Hit> hits(pixels);
   const DeviceArray<Surfel> surfels(pixels);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 
+#include "io/dag/compact_check.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
@@ -45,9 +46,10 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
 }
 
 void check_header(const Header& h, const std::string& path) {
-  if (h.version != kFormatVersion)
+  if (h.version != 1 && h.version != 2)
     fail_input(path, "has format version " + std::to_string(h.version) +
-                         ", this program reads version " + std::to_string(kFormatVersion));
+                         ", this program reads versions 1 and 2");
+  require(h.layout <= 1 && h.version == version_of(Layout(h.layout)), path, "impossible layout");
   require(h.header_bytes == sizeof(Header), path, "wrong header size");
   require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
           "the number of levels is not 3 to 20");
@@ -79,7 +81,7 @@ void check_pointers(const DagView& view, const std::string& path) {
   std::vector<bool> below;
   for (uint32_t level = view.brick_level(); level-- > 0;) {
     const uint32_t* words = view.words[level];
-    const uint64_t count = view.word_count[level];
+    const uint64_t count = view.index_end[level];
     const bool above_bricks = level + 1 == view.brick_level();
     std::vector<bool> starts(count);
     uint64_t nodes = 0;
@@ -105,9 +107,15 @@ PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
   PlainFile file;
   file.words = read_whole(path, max_bytes);
   check_header(file.header(), path);
+  if (Layout(file.header().layout) == Layout::kCompact) {
+    if (const auto defect = CompactCheck(file.words.data()).run())
+      require(false, path, defect->sentence);
+  }
   file.view = dag_view(file.words.data());
-  check_bricks(file.view, path);
-  check_pointers(file.view, path);
+  if (file.view.layout == Layout::kPlain) {
+    check_bricks(file.view, path);
+    check_pointers(file.view, path);
+  }
   return file;
 }
 

@@ -1,0 +1,50 @@
+// `svdag convert A.svdag -o B.svdag --layout LAYOUT`.
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/run/bake_output.h"
+#include "io/dag/compact_writer.h"
+#include "io/dag/plain_form.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+#include "streaming/file/file_names.h"
+
+namespace svdag {
+namespace {
+
+void copy(const DagFile& file, const std::string& path) {
+  AtomicFile output(path);
+  output.append(file.bytes());
+  output.commit();
+}
+
+}  // namespace
+
+int run(const ConvertCommand& config) {
+  const std::string& path = config.output_path;
+  if (same_file(config.file, path))
+    fail_usage(path + " is also the input, which is never overwritten: choose another output");
+  require_dag_name(path, false);
+  AtomicFile::check(path, config.output.no_clobber);
+  MemoryBudget budget(memory_or_default(config.memory));
+  const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
+  DagFile file = DagFile::open(config.file);
+  const uint64_t before = file.header().file_bytes;
+  const DagFile plain = plain_form(std::move(file), room);
+  Header header = plain.header();
+  if (config.layout == Layout::kCompact) {
+    header = write_compact(plain, path, room);
+  } else {
+    copy(plain, path);
+  }
+  if (!config.output.quiet)
+    std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", path.c_str(),
+                layout_name(config.layout), format_bytes(header.file_bytes).c_str(),
+                100 * double(header.file_bytes) / double(before), config.file.c_str(),
+                to_hex(header.content_hash).c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

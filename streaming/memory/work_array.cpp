@@ -1,0 +1,39 @@
+#include "streaming/memory/work_array.h"
+
+#include <sys/mman.h>
+
+#include <cerrno>
+
+#include "streaming/file/system_call.h"
+
+namespace svdag {
+
+WorkMemory::WorkMemory(uint64_t bytes, const WorkRoom& room)
+    : counted_(room.budget->reserve(0, "layout")) {
+  if (bytes == 0) return;
+  if (counted_.try_resize(bytes)) {
+    pages_ = HugePages(bytes);
+    return;
+  }
+  File file = File::create_anonymous(room.folder);
+  file.truncate(bytes);
+  void* const mapped =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
+  if (mapped == MAP_FAILED) fail_call(ExitCode::kOutput, "mapping", room.folder, errno);
+  mapped_ = mapped;
+  mapped_bytes_ = bytes;
+}
+
+WorkMemory& WorkMemory::operator=(WorkMemory&& other) noexcept {
+  std::swap(counted_, other.counted_);
+  std::swap(pages_, other.pages_);
+  std::swap(mapped_, other.mapped_);
+  std::swap(mapped_bytes_, other.mapped_bytes_);
+  return *this;
+}
+
+WorkMemory::~WorkMemory() {
+  if (mapped_ != nullptr) munmap(mapped_, mapped_bytes_);
+}
+
+}  // namespace svdag
