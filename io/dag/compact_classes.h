@@ -6,8 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "io/dag/dag_view.h"
-#include "streaming/memory/work_array.h"
+#include "io/dag/compact_view.h"
 
 namespace svdag {
 
@@ -66,15 +65,5 @@ class NodeClasses {
   CompactEntry entry_{};
   Top a_, b_;  // b_ includes a_, but for the ties
 };
-
-// Counts the references from `level` to each node of the level below, by its rank in content order:
-// (*references)[rank], zero before. `dag` is in the plain layout; `rank_of(index)` gives the rank.
-template <class RankOf>
-void count_references(const DagView& dag, uint32_t level, const RankOf& rank_of,
-                      WorkArray<uint32_t>* references) {
-  for (uint64_t i = 0; i < dag.index_end[level]; i = dag_next(dag, level, i))
-    dag_for_children(dag, level, uint32_t(i),
-                     [&](unsigned, uint32_t child) { ++(*references)[rank_of(child)]; });
-}
 
 }  // namespace svdag

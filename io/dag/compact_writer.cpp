@@ -1,6 +1,7 @@
 #include "io/dag/compact_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -81,7 +82,7 @@ class LevelBelow {
     if (!bricks()) starts_ = node_starts(dag, level_, room.budget);
   }
   uint64_t nodes() const { return bricks() ? dag_.brick_count : starts_.count(); }
-  uint64_t rank(uint32_t index) const { return bricks() ? index : starts_.rank(index); }
+  uint32_t rank(uint32_t index) const { return bricks() ? index : starts_.rank(index); }
   // Calls visit(index) in content order.
   template <class Visit>
   void for_each(const Visit& visit) const {
@@ -98,8 +99,19 @@ class LevelBelow {
 
 NodeClasses classes_of(const DagView& dag, uint32_t level, uint64_t nodes, const LevelBelow& below,
                        WorkArray<uint32_t>* references) {
-  count_references(
-      dag, level, [&](uint32_t index) { return below.rank(index); }, references);
+  // A reference is counted kDelay references after its counter was prefetched.
+  constexpr uint64_t kDelay = 32;
+  std::array<uint32_t, kDelay> ranks{};
+  uint64_t found = 0;
+  for (uint64_t i = 0; i < dag.index_end[level]; i = dag_next(dag, level, i)) {
+    dag_for_children(dag, level, uint32_t(i), [&](unsigned, uint32_t child) {
+      uint32_t& slot = ranks[found % kDelay];
+      if (found++ >= kDelay) ++(*references)[slot];
+      slot = below.rank(child);
+      __builtin_prefetch(&(*references)[slot]);
+    });
+  }
+  for (uint64_t i = 0; i < std::min(found, kDelay); ++i) ++(*references)[ranks[i]];
   ReferenceCounts counts;
   for (const uint32_t count : references->elements()) counts.add(count);
   check_interrupt();
@@ -177,6 +189,16 @@ class CompactWriter {
     }
     const uint32_t first[kClasses] = {0, entry.sizes[0], entry.sizes[0] + entry.sizes[1]};
     uint32_t placed = 0, used[kClasses] = {};
+    // Of the children of the next nodes; their words are prefetched before, their numbers here.
+    std::array<std::array<uint32_t, 8>, kAhead> ring;
+    const auto look_up = [&](uint64_t node) {
+      uint32_t* rank = ring[node % kAhead].data();
+      dag_for_children(dag_, level, order_[node], [&](unsigned, uint32_t child) {
+        *rank = below.rank(child);
+        __builtin_prefetch(&(*numbers)[*rank++]);
+      });
+    };
+    for (uint64_t node = 0; node < std::min(kAhead - 1, section.nodes); ++node) look_up(node);
     unsigned char line[2][kLineNodes];
     for (uint64_t node = 0; node < section.nodes; ++node) {
       const uint32_t i = node % kLineNodes;
@@ -185,13 +207,14 @@ class CompactWriter {
         bases.put(used, kClasses);
         check_interrupt();
       }
-      if (node + kAhead < section.nodes)
-        __builtin_prefetch(dag_.words[level] + order_[node + kAhead]);
+      if (node + 2 * kAhead < section.nodes)
+        __builtin_prefetch(dag_.words[level] + order_[node + 2 * kAhead]);
+      if (node + kAhead - 1 < section.nodes) look_up(node + kAhead - 1);
+      const uint32_t* rank = ring[node % kAhead].data();
       dag_for_children(dag_, level, order_[node], [&](unsigned c, uint32_t child) {
-        uint32_t& number = (*numbers)[below.rank(child)];
+        const uint32_t number = (*numbers)[*rank++];
         uint32_t s = 0;
-        if (number == kUnplaced) {
-          number = placed;
+        if (number == kUnplaced) {  // its only reference
           (*order)[placed++] = child;
         } else {
           s = uint32_t(number >= first[1]) + uint32_t(number >= first[2]);

@@ -76,9 +76,11 @@ SVDAG_HD inline uint64_t dag_next(const DagView& dag, uint32_t level, uint64_t i
 // Calls visit(c, child) for each child c of a node, ascending.
 template <class Visit>
 void dag_for_children(const DagView& dag, uint32_t level, uint32_t index, const Visit& visit) {
+  const bool plain = dag.layout == Layout::kPlain;
+  const uint32_t* word = plain ? dag.words[level] + index : nullptr;
   for (uint32_t mask = dag_mask(dag, level, index); mask != 0; mask &= mask - 1) {
     const unsigned c = unsigned(__builtin_ctz(mask));
-    visit(c, dag_present_child(dag, level, index, c));
+    visit(c, plain ? *++word : dag_present_child(dag, level, index, c));
   }
 }
 
