@@ -29,12 +29,14 @@ inline void repair_checksums(std::string* bytes) {
       const uint64_t sum = checksum64(part(begin, size));
       std::memcpy(bytes->data() + h.checksum_offset + 8 * i, &sum, 8);
     }
-    h.content_hash[0] = h.content_hash[1] = h.header_checksum = 0;
+    const bool compact = h.layout == uint32_t(Layout::kCompact);  // its content hash is another's
+    uint64_t* const of_table = compact ? h.table_hash : h.content_hash;
+    if (!compact) of_table[0] = of_table[1] = h.header_checksum = 0;
     Hasher128 hasher;
-    hasher.update(std::as_bytes(std::span(&h, 1)));
+    if (!compact) hasher.update(std::as_bytes(std::span(&h, 1)));
     hasher.update(part(h.checksum_offset, h.checksum_bytes));
     const Hash128 hash = hasher.digest();
-    std::memcpy(h.content_hash, hash.data(), sizeof hash);
+    std::memcpy(of_table, hash.data(), sizeof hash);
   }
   const auto header = std::as_bytes(std::span(&h, 1));
   h.header_checksum = checksum64(header.first(offsetof(Header, header_checksum)));

@@ -17,10 +17,10 @@ namespace svdag {
 struct MergeRunsConfig {
   std::vector<std::string> runs;
   std::string output;   // a `.run` if the name ends in ".run", else a `.svdag`
-  Layout layout = Layout::kPlain;  // --layout
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
   std::string scratch;  // --scratch: where to create the scratch folder; empty: beside the output
   bool discard_unfinished = false;  // delete the scratch of an unfinished bake of this output
+  Layout layout = Layout::kPlain;   // --layout
 };
 
 struct MergeRunsReport {
