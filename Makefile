@@ -22,6 +22,7 @@
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
+#   bench-size       bytes of each layout, and rays per second through them; its tables
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    build/cuda/svdag-trace: the tracer for NVIDIA GPUs
@@ -42,7 +43,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm stress fuzz-long bench bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bundle deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bundle deb cuda \
   cuda-packages pictures clean
 all: build
 
@@ -120,6 +121,9 @@ bench-accuracy: deps
 
 bench-vdb: build
 	@$(PYTHON) tests/bench/vdb_bounds.py --programs $(PROGRAMS)
+
+bench-size: build
+	@$(PYTHON) tests/bench/size.py --programs $(PROGRAMS)
 
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows

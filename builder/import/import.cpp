@@ -94,7 +94,7 @@ class Import {
     if (config_.levels != 0 && config_.levels != grid.levels)
       fail_usage("-r: the file has a fixed resolution of " +
                  format_resolution(uint64_t(grid.resolution())) + ": omit -r");
-    DagOutput output(config_.output, grid, config_.rule, room_for(config_.layout, &workspace_));
+    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
     const ReductionConfig reduction{workspace_.budget(), workspace_.shares().sort, executor_,
                                     [this] { return new_file(); }};
     const uint64_t voxels = reduce_graph(graph, reduction, &output);
@@ -125,7 +125,7 @@ class Import {
         });
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
-    DagOutput output(config_.output, grid, config_.rule, room_for(config_.layout, &workspace_));
+    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
     RunSet set = reduce(grid.levels, cubes, &*sort);
     sort.reset();  // the merge needs the memory
     const MergeConfig merging = share_for_merge(budget, set.spilled ? scratch : nullptr,

@@ -105,7 +105,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
     workspace.clear(config.output, "finish it, or choose another output");
   }
   const auto output = open_output(config.output, report.grid, files.front().rule(), part,
-                                  config.layout, &workspace);
+                                  config.layout, workspace.room());
   progress->show_memory(budget);
   Progress::Interval interval(progress, 0, 0.3);
   progress->phase("check", files.size());

@@ -28,15 +28,11 @@ bool names_run(const std::string& path) {
   return path.ends_with(".run");
 }
 
-std::optional<WorkRoom> room_for(Layout layout, Workspace* workspace) {
-  if (layout == Layout::kPlain) return {};
-  return WorkRoom{workspace->budget(), workspace->folder()->path()};
-}
-
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const GridPart& part, Layout layout, Workspace* workspace) {
+                                        const GridPart& part, Layout layout,
+                                        const WorkRoom& room) {
   if (!names_run(path))
-    return std::make_unique<DagOutput>(path, grid, rule, room_for(layout, workspace));
+    return std::make_unique<DagOutput>(path, grid, rule, layout, room);
   if (layout != Layout::kPlain) fail_usage("--layout: a .run has no layout: choose it when merging");
   return std::make_unique<RunWriter>(path, grid, rule, part);
 }

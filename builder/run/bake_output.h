@@ -9,7 +9,6 @@
 
 #include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
-#include "builder/workspace/workspace.h"
 #include "io/dag/dag_writer.h"
 
 namespace svdag {
@@ -33,10 +32,11 @@ class BakeOutput {
 
 class DagOutput final : public BakeOutput {
  public:
-  // `compact`: see DagWriter.
-  DagOutput(const std::string& path, const Grid& grid, Rule rule,
-            std::optional<WorkRoom> compact = {})
-      : writer_(path, grid, rule, std::move(compact)) {}
+  // `room`: for the compact layout.
+  DagOutput(const std::string& path, const Grid& grid, Rule rule, Layout layout = Layout::kPlain,
+            const WorkRoom& room = {})
+      : writer_(path, grid, rule, layout == Layout::kCompact ? std::optional(room) : std::nullopt) {
+  }
 
   void begin_level(int level) override { writer_.begin_level(level); }
   uint32_t add_brick(Brick brick) override { return writer_.add_brick(brick); }
@@ -59,12 +59,10 @@ void require_dag_name(const std::string& path, bool may_be_run = true);
 // Whether `path` names a run, that is, ends in ".run".
 bool names_run(const std::string& path);
 
-// Where an output of this layout is made; none for the plain layout.
-std::optional<WorkRoom> room_for(Layout layout, Workspace* workspace);
-
 // Opens the output for `part`, a `.run` or a `.svdag` by its name. A `.svdag` holds the whole grid.
 // Error (kUsage) for a `.run` of another than the plain layout.
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const GridPart& part, Layout layout, Workspace* workspace);
+                                        const GridPart& part, Layout layout,
+                                        const WorkRoom& room);
 
 }  // namespace svdag

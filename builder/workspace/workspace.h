@@ -9,6 +9,7 @@
 #include "builder/workspace/memory_shares.h"
 #include "builder/workspace/scratch.h"
 #include "io/scene/mesh/vertex_windows.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 
@@ -29,6 +30,8 @@ class Workspace {
   const MemoryShares& shares() const { return shares_; }
   ScratchDir* folder() { return &folder_; }
   Scratch* scratch() { return &scratch_; }
+  // Where a file is converted to another layout.
+  WorkRoom room() { return {&budget_, folder_.path()}; }
   // Where the vertices of a mesh are spilled; compressed files are unpacked beside it.
   SpillSpace vertices() {
     return {shares_.vertices, [this] { return scratch_.transient(); },

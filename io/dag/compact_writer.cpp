@@ -333,4 +333,17 @@ std::vector<uint64_t> compact_section_bytes(const DagView& dag, const WorkRoom& 
   return bytes;
 }
 
+std::vector<uint64_t> plain_section_bytes(const DagView& dag) {
+  SVDAG_ASSERT(dag.layout == Layout::kCompact);
+  std::vector<uint64_t> bytes(dag.brick_level() + 1);
+  for (uint32_t level = 0; level < dag.brick_level(); ++level) {
+    uint64_t words = 0;
+    for (uint64_t i = 0; i < dag.index_end[level]; ++i)
+      words += 1 + uint64_t(popcount8(dag_mask(dag, level, uint32_t(i))));
+    bytes[level] = words * sizeof(uint32_t);
+  }
+  bytes.back() = dag.brick_count * sizeof(uint64_t);
+  return bytes;
+}
+
 }  // namespace svdag

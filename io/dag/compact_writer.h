@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "io/dag/dag_file.h"
-#include "streaming/memory/work_array.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 
@@ -25,7 +25,9 @@ Header write_compact(const DagFile& plain, const std::string& path, const WorkRo
 // Whether `compact` has the bytes that write_compact() would write.
 bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoom& room);
 
-// What the sections of a plain file would take in the compact layout, [level], in bytes.
+// [level]: what the sections of a plain file would take in the compact layout, in bytes.
 std::vector<uint64_t> compact_section_bytes(const DagView& view, const WorkRoom& room);
+// [level]: what those of a compact one would take in the plain layout.
+std::vector<uint64_t> plain_section_bytes(const DagView& view);
 
 }  // namespace svdag

@@ -14,7 +14,7 @@
 #include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/memory/work_array.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 

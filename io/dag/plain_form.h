@@ -7,7 +7,7 @@
 #include <string>
 
 #include "io/dag/dag_file.h"
-#include "streaming/memory/work_array.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 

@@ -204,6 +204,9 @@ def main(programs, corpus):
             svdag("build", scene, "-o", "a.svdag", *grid)
             for reader in ("svdag", "plain_file"):
                 keep(reader, f"{kind}.svdag", (folder / "a.svdag").read_bytes())
+            svdag("convert", "a.svdag", "-o", "compact.svdag", "--layout", "compact")
+            for reader in ("svdag", "plain_file"):
+                keep(reader, f"compact_{kind}.svdag", (folder / "compact.svdag").read_bytes())
             svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")
             keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
             if grid[1] != "8":

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "io/dag/check.h"
+#include "io/dag/dag_file.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/repair_checksums.h"
 #include "verify/trace/kernel/rays.h"
@@ -22,7 +22,7 @@ bool is_sound(std::string bytes) {
   repair_checksums(&bytes);
   const MemoryFile memory(bytes);
   try {
-    check_dag(memory.file());
+    DagFile::open(memory.file().path());
   } catch (const Error&) {
     return false;
   }

@@ -72,7 +72,7 @@ class Package(unittest.TestCase):
     def test_view_and_format_side_by_side_need_no_include_path(self):
         prefix, alone = self.install(), self.root / "side_by_side"
         alone.mkdir()
-        for header in ("dag_view.h", "format.h"):
+        for header in ("dag_view.h", "compact_view.h", "format.h"):
             (alone / header).write_text((prefix / "include" / "svdag" / "io" / "dag" / header).read_text())
         source = (READER / "mapped.cpp").read_text().replace("<svdag/io/dag/dag_view.h>", '"dag_view.h"')
         (alone / "mapped.cpp").write_text(source)

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "io/dag/dag_file.h"
-#include "streaming/memory/work_array.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 

@@ -2,9 +2,11 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
+#include "io/dag/compact_writer.h"
 #include "io/dag/dag_stats.h"
 #include "io/dag/metadata.h"
 #include "io/dag/occupied_bounds.h"
@@ -68,16 +70,29 @@ Json dag_json(const DagFile& file, const DagStats& stats) {
   return json;
 }
 
-void print_levels(const DagStats& stats) {
-  std::printf("\n  level %18s %14s %14s\n", "SVO nodes", "DAG nodes", "bytes");
+// [level]: what the sections would take in the layout that the file does not have.
+std::vector<uint64_t> bytes_otherwise(const DagFile& file, uint64_t memory) {
+  MemoryBudget budget(memory_or_default(memory));
+  if (file.layout() == Layout::kCompact) return plain_section_bytes(file.view());
+  const WorkRoom room{&budget, std::filesystem::temp_directory_path()};
+  return compact_section_bytes(file.view(), room);
+}
+
+void print_levels(const DagFile& file, const DagStats& stats, uint64_t memory) {
+  const std::vector<uint64_t> otherwise = bytes_otherwise(file, memory);
+  const bool plain = file.layout() == Layout::kPlain;
+  std::printf("\n  level %18s %14s %14s %14s\n", "SVO nodes", "DAG nodes", "bytes",
+              plain ? "if compact" : "if plain");
   for (size_t k = 0; k < stats.levels.size(); ++k) {
     const LevelStats& level = stats.levels[k];
-    std::printf("  %5zu %18s %14s %14s%s\n", k, format_count(level.svo_nodes).c_str(),
+    std::printf("  %5zu %18s %14s %14s %14s%s\n", k, format_count(level.svo_nodes).c_str(),
                 format_count(level.dag_nodes).c_str(), format_count(level.bytes).c_str(),
+                format_count(otherwise[k]).c_str(),
                 k + 1 == stats.levels.size() ? "  (4x4x4 bricks)" : "");
   }
-  std::printf("  %5zu %18s %14s %14s  (2x2x2 blocks, inside the bricks)\n", stats.levels.size(),
-              format_count(stats.blocks).c_str(), format_count(stats.unique_blocks).c_str(), "");
+  std::printf("  %5zu %18s %14s %14s %14s  (2x2x2 blocks, inside the bricks)\n",
+              stats.levels.size(), format_count(stats.blocks).c_str(),
+              format_count(stats.unique_blocks).c_str(), "", "");
 }
 
 void info_dag(const InfoCommand& config) {
@@ -86,8 +101,9 @@ void info_dag(const InfoCommand& config) {
   if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
   const Header& h = file.header();
   const Grid grid = file.grid();
-  std::printf("%s: %s^3 voxels, rule %s\n", file.path().c_str(),
-              format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()));
+  std::printf("%s: %s^3 voxels, rule %s%s\n", file.path().c_str(),
+              format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()),
+              file.layout() == Layout::kPlain ? "" : ", compact layout");
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
               format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
               format_double(h.corner[2]).c_str(),
@@ -103,7 +119,7 @@ void info_dag(const InfoCommand& config) {
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
   std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
-  if (config.levels) print_levels(stats);
+  if (config.levels) print_levels(file, stats, config.memory);
 }
 
 }  // namespace

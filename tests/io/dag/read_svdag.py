@@ -39,8 +39,9 @@ class Svdag:
         self.read_header()
         self.check_layout()
         self.check_hashes()
-        self.levels = [self.read_nodes(k) for k in range(self.L - 2)]
         self.bricks = numpy.frombuffer(self.section(self.L - 2), "<u8")
+        read = self.read_compact_nodes if self.compact else self.read_nodes
+        self.levels = [read(k) for k in range(self.L - 2)]
         self.check_graph()
         self.check_metadata()
 
@@ -54,13 +55,14 @@ class Svdag:
         demand(magic == b"\x89SVDAG\r\n", "not a .svdag file")
         demand(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
                "header checksum")
-        demand((self.version, size) == (1, 1024), "version or header size")
+        self.compact, zero = struct.unpack_from("<2I", self.data, 768)
+        demand(self.compact in (0, 1) and (self.version, size, zero) == (1 + self.compact, 1024, 0), "version, size or layout")
         demand(3 <= self.L <= 20 and self.F == min(23, 39 - self.L), "L or F")
         demand(self.rule in (0, 1) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
         demand(count == self.L - 1, "number of sections")
         self.entries = [struct.unpack_from("<3Q", self.data, 176 + 24 * k) for k in range(19)]
         demand(not any(map(any, self.entries[self.L - 1:])), "unused entries")
-        demand(not any(self.data[648:744]) and not any(self.data[768:1016]), "reserved bytes")
+        demand(not any(self.data[648:744]) and not any(self.data[792:1016]), "reserved bytes")
         self.origin = list(struct.unpack_from("<3d", self.data, 744))
         demand(self.bounded or self.selection == [0, 0, 0] + [2**self.L] * 3, "selection")
         if self.kind != 0:
@@ -73,7 +75,8 @@ class Svdag:
         demand(self.kind == 2 or self.origin == [0, 0, 0], "origin")
 
     def check_layout(self):
-        at, parts = 1024, [self.entries[k][:2] for k in range(self.L - 2, -1, -1)]
+        order = range(self.L - 1) if self.compact else range(self.L - 2, -1, -1)
+        at, parts = 1024, [self.entries[k][:2] for k in order]
         for offset, size in parts + [(self.metadata_at, self.metadata_size), (self.table_at, self.table_size)]:
             demand(offset == aligned(at), "a section does not follow the previous one")
             demand(offset + size <= len(self.data), "a section ends beyond the end of the file")
@@ -87,8 +90,10 @@ class Svdag:
         sums = [xxhash.xxh3_64_intdigest(body[i:i + BLOCK]) for i in range(0, len(body), BLOCK)]
         demand(table == struct.pack(f"<{len(sums)}Q", *sums), "block checksums")
         header = self.data[:632] + bytes(16) + self.data[648:1016] + bytes(8)
-        digest = xxhash.xxh3_128_intdigest(header + table)
-        demand(struct.unpack_from("<2Q", self.data, 632) == (digest & (2**64 - 1), digest >> 64), "content hash")
+        digest = xxhash.xxh3_128_intdigest(table if self.compact else header + table)
+        hashed = struct.unpack_from("<2Q", self.data, 776 if self.compact else 632)
+        demand(hashed == (digest & (2**64 - 1), digest >> 64), "content hash")
+        demand(self.compact or not any(self.data[776:792]), "reserved bytes")
 
     def section(self, level):
         offset, size, _ = self.entries[level]
@@ -108,7 +113,115 @@ class Svdag:
         demand(len(nodes) == self.entries[level][2], f"number of nodes of level {level}")
         return nodes
 
+    def read_compact_nodes(self, level):
+        """{number: eight children, None where absent} of a level in the compact layout."""
+        data, count = self.section(level), self.entries[level][2]
+        if count == 0:
+            demand(data == b"", "an empty level")
+            return {}
+        entry = struct.unpack_from("<8I4Q", data)
+        kind, widths, sizes, references = entry[0], entry[1:4], entry[4:7], entry[8:11]
+        demand(kind in (0, 1) and entry[7] == entry[11] == 0, f"entry of level {level}")
+        demand(sum(sizes) == self.entries[level + 1][2], f"classes of level {level}")
+        lines = -(-count // 32)
+        bases_at = 64 + 64 * lines
+        at = aligned(bases_at + 12 * lines)
+        demand(not any(data[bases_at + 12 * lines:at]), f"padding of level {level}")
+        values = []
+        for s in range(3):
+            if kind == 0 and s == 0:
+                demand(widths[0] == 0 and references[0] == sizes[0], f"private nodes of level {level}")
+                values.append(iter(range(sizes[0])))
+                continue
+            demand(widths[s] == (sizes[s] - 1).bit_length() * (sizes[s] > 0), f"width of class {s} of level {level}")
+            used = -(-references[s] * widths[s] // 8)
+            bits = int.from_bytes(data[at:at + used], "little")
+            demand(bits >> references[s] * widths[s] == 0, f"padding of level {level}")
+            values.append(iter([bits >> t * widths[s] & (1 << widths[s]) - 1 for t in range(references[s])]))
+            end = at + aligned(used + 8)
+            demand(not any(data[at + used:end]), f"padding of level {level}")
+            at = end
+        demand(at == len(data), f"size of level {level}")
+        nodes, found, first = {}, [0, 0, 0], (0, sizes[0], sizes[0] + sizes[1])
+        for i in range(32 * lines):
+            line = 64 + 64 * (i // 32)
+            if i % 32 == 0:
+                demand(list(struct.unpack_from("<3I", data, bases_at + 12 * (i // 32))) == found, f"bases of level {level}")
+            m0, m1 = data[line + i % 32], data[line + 32 + i % 32]
+            demand((m0 | m1 != 0) == (i < count), f"mask of node {i} of level {level}")
+            children = [None] * 8
+            for c in range(8):
+                state = (m0 >> c & 1) + 2 * (m1 >> c & 1)
+                if state:
+                    found[state - 1] += 1
+                    value = next(values[state - 1], None)
+                    demand(value is not None and value < sizes[state - 1], f"reference of level {level}")
+                    children[c] = first[state - 1] + value
+            if i < count:
+                nodes[i] = children
+        demand(found == list(references), f"references of level {level}")
+        self.check_classes(level, nodes, kind, sizes)
+        return nodes
+
+    def check_classes(self, level, nodes, kind, sizes):
+        """Classes by the number of references; how many are in B, and in A of kind 1, is not checked."""
+        count = [0] * sum(sizes)
+        for node in nodes.values():
+            for child in node:
+                if child is not None:
+                    count[child] += 1
+        a, b = sizes[0], sizes[0] + sizes[1]
+        classes = [count[:a], count[a:b], count[b:]]
+        demand(all(count), f"a node below level {level} that no node uses")
+        if kind == 0:
+            demand(all(n == 1 for n in classes.pop(0)) and all(n > 1 for part in classes for n in part), f"class A of level {level}")
+        for more, fewer in zip(classes, classes[1:]):
+            demand(not more or not fewer or min(more) >= max(fewer), f"the most referenced nodes of level {level}")
+
+    def plain_form(self):
+        """The bytes of a compact file in the plain layout."""
+        sections, index = [], {}
+        for k in range(self.L - 2, -1, -1):
+            if k == self.L - 2:
+                order = sorted((int(brick), i) for i, brick in enumerate(self.bricks))
+                index = {i: n for n, (_, i) in enumerate(order)}
+                sections.append(b"".join(struct.pack("<Q", brick) for brick, _ in order))
+                continue
+            keys = sorted(([0 if c is None else 1 + index[c] for c in node], i) for i, node in self.levels[k].items())
+            words, index = [], {}
+            for key, i in keys:
+                index[i] = len(words)
+                words += [sum(1 << c for c in range(8) if key[c])] + [n - 1 for n in key if n]
+            sections.append(struct.pack(f"<{len(words)}I", *words))
+        header, body = bytearray(self.data[:1024]), bytearray()
+        struct.pack_into("<I", header, 8, 1)
+        header[768:792] = bytes(24)
+
+        def place(part):
+            body.extend(bytes(aligned(len(body)) - len(body)))
+            offset = 1024 + len(body)
+            body.extend(part)
+            return offset
+        for k, part in zip(range(self.L - 2, -1, -1), sections):
+            struct.pack_into("<3Q", header, 176 + 24 * k, place(part), len(part), self.entries[k][2])
+        text = self.data[self.metadata_at:self.metadata_at + self.metadata_size]
+        text = text.replace(b'"version":2,"layout":"compact"', b'"version":1')
+        at = place(text)
+        place(b"")
+        table = b"".join(struct.pack("<Q", xxhash.xxh3_64_intdigest(bytes(body[i:i + BLOCK]))) for i in range(0, len(body), BLOCK))
+        struct.pack_into("<5Q", header, 136, at, len(text), 1024 + len(body), len(table), 1024 + len(body) + len(table))
+        header[632:648] = bytes(16)
+        header[1016:] = bytes(8)
+        digest = xxhash.xxh3_128_intdigest(bytes(header) + table)
+        struct.pack_into("<2Q", header, 632, digest & (2**64 - 1), digest >> 64)
+        struct.pack_into("<Q", header, 1016, xxhash.xxh3_64_intdigest(bytes(header[:1016])))
+        return bytes(header + body + table)
+
     def check_graph(self):
+        if self.compact:
+            plain = Svdag(self.plain_form())  # checks order and minimality
+            demand(plain.data[632:648] == self.data[632:648], "content hash of the plain file")
+            return
         demand(len(self.bricks) == self.entries[self.L - 2][2], "number of bricks")
         demand(bool(numpy.all(self.bricks != 0)) and bool(numpy.all(self.bricks[1:] > self.bricks[:-1])), "bricks")
         demand(len(self.levels[0]) == (len(self.bricks) > 0), "number of roots")
@@ -122,7 +235,7 @@ class Svdag:
     def check_metadata(self):
         text = self.data[self.metadata_at:self.metadata_at + self.metadata_size].decode()
         demand(json.loads(text) == {
-            "format": "svdag", "version": 1, "levels": self.L, "resolution": 2**self.L,
+            "format": "svdag", "version": self.version, **({"layout": "compact"} if self.compact else {}), "levels": self.L, "resolution": 2**self.L,
             "rule": ["conservative", "thin"][self.rule], "fraction_bits": self.F,
             "grid": {"kind": ["box", "lattice", "origin"][self.kind], "corner": self.corner,
                      "voxel_size": self.voxel_size, "k0": self.k0, "bounded": bool(self.bounded),

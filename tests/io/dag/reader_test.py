@@ -41,6 +41,17 @@ class Reader(unittest.TestCase):
             with self.subTest(kind=kind):
                 self.assertGreater(self.expect_same_voxels(self.bake(kind, count, *grid)), 20)
 
+    def test_both_readers_see_the_same_voxels_and_plain_files_in_the_compact_layout(self):
+        for kind, count, grid in [("rectangle", 2, ["-r", "8"]), ("rectangle", 2, ["-r", "32"]), ("city", 1200, ["-r", "128"]),
+                                  ("hairball", 5000, ["-r", "128"]), ("terrain", 2000, ["--voxel-size", "1.5"])]:
+            with self.subTest(kind=kind):
+                plain = self.bake(kind, count, *grid)
+                compact = self.bake(kind, count, *grid, "--layout", "compact")
+                self.assertGreater(self.expect_same_voxels(compact), 20)
+                self.assertEqual(read_svdag.Svdag(compact.read_bytes()).plain_form(), plain.read_bytes())
+        empty = self.bake("city", 1200, "-r", "64", "--bounds=500,500,500,501,501,501", "--layout", "compact")
+        self.assertEqual(self.expect_same_voxels(empty), 0)
+
     def test_bounds_and_empty_bounds(self):
         dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")
         self.assertGreater(self.expect_same_voxels(dag), 20)
@@ -48,17 +59,18 @@ class Reader(unittest.TestCase):
         self.assertEqual(self.expect_same_voxels(dag), 0)
 
     def test_both_readers_detect_flipped_bits(self):
-        dag = self.bake("rectangle", 2, "-r", "32")
-        good = dag.read_bytes()
         chance = random.Random(1)
-        for _ in range(60):
-            damaged = bytearray(good)
-            damaged[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
-            with self.assertRaises(read_svdag.InvalidFile):
-                read_svdag.Svdag(bytes(damaged))
-            dag.write_bytes(damaged)
-            with self.assertRaises(AssertionError):
-                run("tests/dump_voxels", dag)
+        for layout in ("plain", "compact"):
+            dag = self.bake("rectangle", 2, "-r", "32", "--layout", layout)
+            good = dag.read_bytes()
+            for _ in range(60):
+                damaged = bytearray(good)
+                damaged[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
+                with self.assertRaises(read_svdag.InvalidFile):
+                    read_svdag.Svdag(bytes(damaged))
+                dag.write_bytes(damaged)
+                with self.assertRaises(AssertionError):
+                    run("tests/dump_voxels", dag)
 
     def test_truncated_and_longer_files_are_detected(self):
         good = self.bake("rectangle", 2, "-r", "8").read_bytes()

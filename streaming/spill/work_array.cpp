@@ -1,4 +1,4 @@
-#include "streaming/memory/work_array.h"
+#include "streaming/spill/work_array.h"
 
 #include <sys/mman.h>
 

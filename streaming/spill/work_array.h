@@ -16,7 +16,7 @@ namespace svdag {
 
 // Where a conversion of a whole file keeps its arrays.
 struct WorkRoom {
-  MemoryBudget* budget;
+  MemoryBudget* budget = nullptr;
   std::string folder;  // for anonymous files
 };
 

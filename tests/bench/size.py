@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""`make bench-size`: bytes of each layout, and rays per second through them; the tables of docs/performance.md, "Size".
+
+The columns of other programs are recorded: SVDAG-Compression (`.ssvdag`, Villanueva et al. 2017) and the tools of
+transform-aware DAGs (`tdag16`, Molenaar and Eisemann 2025), given the same voxels, exported by `svdag export`.
+"""
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from bench import fill
+from bench_tables import table
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SHARED = {"dragon": "stanford_dragon.ply", "sponza": "crytek_sponza.glb", "lyon": "lyon_city_epsg3946.glb"}
+GENERATED = {"hairball 1M": ["hairball", "-n", "1M"], "atrium": ["atrium"], "scan": ["scan"]}
+PEERS = {("dragon", "4K"): (8.95, 8.43), ("dragon", "8K"): (30.51, 25.25), ("sponza", "4K"): (5.42, 5.09),
+         ("sponza", "8K"): (15.74, 14.14), ("hairball 1M", "4K"): (23.22, 21.01), ("hairball 1M", "8K"): (74.75, 67.81)}
+LARGE = [(name, "16K") for name in ("sponza", "dragon", "atrium", "scan", "lyon")] + [("sponza", "64K")]
+
+
+class Sizes:
+    def __init__(self, programs, folder):
+        self.programs, self.folder = programs, pathlib.Path(folder)
+
+    def run(self, program, *words):
+        done = subprocess.run([self.programs / program, *map(str, words)], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{program} {words}: {done.stderr}")
+        return done.stdout
+
+    def scene(self, name):
+        if name in SHARED:
+            return pathlib.Path(os.environ["SVDAG_SCENES"], SHARED[name])
+        path = self.folder / f"{name}.ply"
+        if not path.exists():
+            self.run("svdag-scene", *GENERATED[name], "-o", path, "-q")
+        return path
+
+    def bake(self, name, resolution):
+        """Paths by layout."""
+        paths = {layout: self.folder / f"{layout}.svdag" for layout in ("plain", "compact")}
+        self.run("svdag", "build", self.scene(name), "-o", paths["plain"], "-r", resolution, "-q", "--restart")
+        self.run("svdag", "convert", paths["plain"], "-o", paths["compact"], "--layout", "compact", "-q")
+        return paths
+
+    def rays(self, path):
+        """MRays/s by workload, and the hash of all results."""
+        done = json.loads(self.run("svdag-trace", path, "--preset", "inside", "--size", "640x360", "--samples", "8",
+                                   "--rounds", "5", "-j", "1", "--json"))
+        return done
+
+
+def megabytes(path):
+    return path.stat().st_size / 1e6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
+    options = parser.parse_args()
+    if "SVDAG_SCENES" not in os.environ:
+        sys.exit("SVDAG_SCENES is not set: there are no scenes to measure")
+    peers, large, traced = [], [], []
+    with tempfile.TemporaryDirectory(prefix="svdag-size-") as folder:
+        sizes = Sizes(options.programs.resolve(), folder)
+        for name, resolution in [*PEERS, *LARGE]:
+            paths = sizes.bake(name, resolution)
+            plain, compact = megabytes(paths["plain"]), megabytes(paths["compact"])
+            if (name, resolution) in PEERS:
+                others = PEERS[name, resolution]
+                peers.append([name, f"{resolution}³", f"{plain:.2f}", f"{compact:.2f}", f"{others[0]:.2f}", f"{others[1]:.2f}",
+                              f"{compact / min(others):.3f}"])
+            else:
+                large.append([name, f"{resolution}³", f"{plain:.1f}", f"{compact:.1f}", f"{compact / plain:.3f}"])
+            if (name, resolution) in (("sponza", "16K"), ("sponza", "64K"), ("dragon", "8K")):
+                of_plain, of_compact = sizes.rays(paths["plain"]), sizes.rays(paths["compact"])
+                if of_plain["results"] != of_compact["results"]:
+                    sys.exit(f"{name} {resolution}: the layouts give different hits")
+                for a, b in zip(of_plain["workloads"], of_compact["workloads"]):
+                    speeds = [w["rays"] / w["seconds"] / 1e6 for w in (a, b)]
+                    traced.append([name, f"{resolution}³", a["workload"], *(f"{s:.2f}" for s in speeds),
+                                   f"{speeds[1] / speeds[0]:.2f}"])
+            print(f"{name} {resolution}: {plain:.2f} {compact:.2f} MB", flush=True)
+    fill(ROOT / "docs" / "performance.md", {
+        "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain"], large),
+        "layouts and peers": table(["scene", "grid", "plain, MB", "compact, MB", ".ssvdag, MB", "tdag16, MB",
+                                    "compact / smaller of them"], peers),
+        "layouts traced": table(["scene", "grid", "rays", "plain, MRays/s", "compact, MRays/s", "ratio"], traced)})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
