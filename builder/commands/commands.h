@@ -16,6 +16,7 @@
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
 #include "io/help/manual.h"
+#include "io/pack/pack.h"
 
 namespace svdag {
 
@@ -139,6 +140,25 @@ struct ConvertCommand {
   OutputConfig output;
 };
 
+// svdag pack FILE -o OUT.pack.
+struct PackCommand {
+  std::string file;
+  std::string output_path;
+  int level = kDefaultPackLevel;
+  uint64_t memory = 0;  // bytes; 0: half of the machine
+  size_t threads = 0;   // 0: all processors
+  OutputConfig output;
+};
+
+// svdag unpack FILE.pack -o OUT.svdag.
+struct UnpackCommand {
+  std::string file;
+  std::string output_path;
+  uint64_t memory = 0;  // bytes; 0: half of the machine
+  size_t threads = 0;   // 0: all processors
+  OutputConfig output;
+};
+
 // svdag help [SUBJECT]: the help of a command or topic.
 struct HelpCommand {
   Manual program;
@@ -147,7 +167,8 @@ struct HelpCommand {
 
 using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand,
                              MergeCommand, MergeStepCommand, PlanCommand, RunCommand, SubmitCommand,
-                             InfoCommand, QueryCommand, EditCommand, ConvertCommand>;
+                             InfoCommand, QueryCommand, EditCommand, ConvertCommand, PackCommand,
+                             UnpackCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
@@ -164,6 +185,8 @@ int run(const InfoCommand& command);
 int run(const QueryCommand& command);
 int run(const EditCommand& command);
 int run(const ConvertCommand& command);
+int run(const PackCommand& command);
+int run(const UnpackCommand& command);
 
 // Bakes one scene. Returns its JSON report if in a batch or if --report is given, else "".
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);

@@ -5,6 +5,7 @@
 #include "builder/run/bake_output.h"
 #include "io/dag/compact_writer.h"
 #include "io/dag/plain_form.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -30,9 +31,10 @@ int run(const ConvertCommand& config) {
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
-  DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   const uint64_t before = file.header().file_bytes;
-  const DagFile plain = plain_form(std::move(file), room);
+  const std::optional<DagFile> converted = plain_form(file, room);
+  const DagFile& plain = converted ? *converted : file;
   Header header = plain.header();
   if (config.layout == Layout::kCompact) {
     header = write_compact(plain, path, room);

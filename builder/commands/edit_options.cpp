@@ -1,10 +1,11 @@
-// The options of svdag edit and convert.
+// The options of svdag edit, convert, pack and unpack.
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
+#include "streaming/counts.h"
 
 namespace svdag {
 
@@ -66,6 +67,46 @@ void add_convert(CLI::App* program, Command* command) {
       ->type_name("DIR");
   add_quiet(app, &config->output);
   add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+void add_pack(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("pack", "Compress a .svdag for shipping");
+  auto config = std::make_shared<PackCommand>();
+  takes_files(app->add_option("FILE", config->file, "The .svdag to pack"), {".svdag"})->required();
+  takes_files(app->add_option("-o,--output", config->output_path, "The .pack to write"), {".pack"})
+      ->required()
+      ->type_name("OUT");
+  from_to(app->add_option("--level", config->level, "Level of zstd, 1 to 19 (default: 5)"), 1,
+          kMaxPackLevel)
+      ->type_name("N");
+  add_memory_budget(app, &config->memory);
+  from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
+          kMaxThreads)
+      ->type_name("N");
+  add_no_clobber(app, &config->output.no_clobber);
+  add_quiet(app, &config->output);
+  add_examples(app, {"svdag pack city.svdag -o city.svdag.pack"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+void add_unpack(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("unpack", "Write the .svdag of a .pack");
+  auto config = std::make_shared<UnpackCommand>();
+  takes_files(app->add_option("FILE", config->file, "The .pack to unpack"), {".pack"})->required();
+  takes_files(app->add_option("-o,--output", config->output_path, "The .svdag to write"),
+              {".svdag"})
+      ->required()
+      ->type_name("OUT");
+  add_memory_budget(app, &config->memory);
+  from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
+          kMaxThreads)
+      ->type_name("N");
+  add_no_clobber(app, &config->output.no_clobber);
+  add_quiet(app, &config->output);
+  add_examples(app, {"svdag unpack city.svdag.pack -o city.svdag"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }

@@ -50,6 +50,8 @@ int run_command(int argc, char** argv) {
   add_query(&app, &command);
   add_edit(&app, &command);
   add_convert(&app, &command);
+  add_pack(&app, &command);
+  add_unpack(&app, &command);
   app.add_subcommand("export", "Write the voxels of a .svdag in another format");
   app.add_subcommand("import", "Convert voxels of another program to a .svdag");
   add_help(&app, &command);

@@ -22,6 +22,8 @@ void add_info(CLI::App* program, Command* command);
 void add_query(CLI::App* program, Command* command);
 void add_edit(CLI::App* program, Command* command);
 void add_convert(CLI::App* program, Command* command);
+void add_pack(CLI::App* program, Command* command);
+void add_unpack(CLI::App* program, Command* command);
 
 // Parses one bake of a batch like a command line of `svdag build`; options that are not given keep
 // their value in `defaults`. Errors: kUsage.

@@ -12,6 +12,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/lattice.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
@@ -78,7 +79,7 @@ void print_cube(const DagFile& file, const Grid& grid, const LatticePoint& voxel
 }  // namespace
 
 int run(const QueryCommand& command) {
-  const DagFile file = DagFile::open(command.file);
+  const DagFile file = open_dag(command.file);
   const Grid grid = file.grid();
   const Lattice lattice(grid);
   std::string line;

@@ -8,6 +8,7 @@
 #include "builder/edit/box_graph.h"
 #include "builder/edit/combined_graph.h"
 #include "builder/edit/dag_graph.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -58,7 +59,7 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
-  const DagFile first = DagFile::open(config.first);
+  const DagFile first = open_dag(config.first);
   Grid grid = first.grid();
   if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
     fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
@@ -84,7 +85,7 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   std::optional<DagFile> second;
   std::unique_ptr<NodeGraph> b, both, box, cropped;
   if (config.second) {
-    second.emplace(DagFile::open(*config.second));
+    second.emplace(open_dag(*config.second));
     require_same(first, *second);
     b = std::make_unique<DagGraph>(*second, grid.levels);
     grid = combined_grid(*config.operation, grid, second->grid());

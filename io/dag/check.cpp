@@ -220,6 +220,11 @@ class StructureScan {
 
 }  // namespace
 
+void check_header(const File& file, const Header& header) {
+  check_identity(file, header);
+  check_fields(file, header);
+}
+
 Header check_dag(const File& file) {
   Header h;
   const size_t bytes_read = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
@@ -229,8 +234,7 @@ Header check_dag(const File& file) {
     fail_input(file.path(), "damaged file: it ends within its header", bytes_read);
   if (!has_magic) reject_symvox(file);
   if (bytes_read < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
-  check_identity(file, h);
-  check_fields(file, h);
+  check_header(file, h);
   check_layout(file, h);
   const std::vector<uint64_t> table = read_table(file, h);
   std::optional<StructureScan> scan;

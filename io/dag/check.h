@@ -13,6 +13,9 @@
 
 namespace svdag {
 
+// Error (kBadInput) unless the header is one of a valid file, but for the places of its parts.
+void check_header(const File& file, const Header& header);
+
 // Returns the header of a valid file; Error (kBadInput) with path and offset for any other.
 Header check_dag(const File& file);
 

@@ -29,27 +29,29 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
     header_.corner[a] = corner[a];
     if (grid.kind == Grid::Kind::kOrigin) header_.origin[a] = grid.origin[a];
   }
-  block_.reserve(kChecksumBlock);
+  block_.resize(kChecksumBlock);
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
 }
 
 void DagWriter::append(const void* bytes, size_t size) {
   const std::byte* from = static_cast<const std::byte*>(bytes);
   while (size > 0) {
-    const size_t n = std::min<size_t>(size, kChecksumBlock - block_.size());
-    block_.insert(block_.end(), from, from + n);
+    const size_t n = std::min<size_t>(size, kChecksumBlock - filled_);
+    std::memcpy(block_.data() + filled_, from, n);
+    filled_ += n;
     from += n;
     size -= n;
-    if (block_.size() == kChecksumBlock) flush_block();
+    if (filled_ == kChecksumBlock) flush_block();
   }
 }
 
 void DagWriter::flush_block() {
-  if (block_.empty()) return;
-  checksums_.push_back(checksum64(block_));
-  file_.write_at(sizeof(Header) + written_, block_);
-  written_ += block_.size();
-  block_.clear();
+  if (filled_ == 0) return;
+  const auto bytes = std::span(block_).first(filled_);
+  checksums_.push_back(checksum64(bytes));
+  file_.write_at(sizeof(Header) + written_, bytes);
+  written_ += filled_;
+  filled_ = 0;
 }
 
 void DagWriter::align() {
@@ -141,9 +143,11 @@ DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap,
   return DagFile::adopt(File::open_read(file_.open_name()), shown_as);
 }
 
-void DagWriter::finish(uint64_t voxels, double largest_snap) {
+void DagWriter::finish(uint64_t voxels, double largest_snap,
+                       const std::function<void(const Header&)>& check) {
   if (!compact_) {
     complete(voxels, largest_snap);
+    if (check) check(header_);
     return file_.commit();
   }
   const DagFile plain = finish_unnamed(voxels, largest_snap, path_);

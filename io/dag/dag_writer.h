@@ -5,6 +5,7 @@
 // 64 KiB and the checksum table. The file appears under its name only after finish().
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,9 @@ class DagWriter {
   // full section is an Error (kOutput).
   uint32_t add_node(const NodeKey& children);
   // Writes metadata, checksums and header, and renames the file to its name.
-  void finish(uint64_t voxels, double largest_snap);
+  // `check` may throw: then the file gets no name.
+  void finish(uint64_t voxels, double largest_snap,
+              const std::function<void(const Header&)>& check = {});
   // The same, but the file gets no name and is in the plain layout; errors show `shown_as`.
   DagFile finish_unnamed(uint64_t voxels, double largest_snap, const std::string& shown_as);
 
@@ -44,7 +47,7 @@ class DagWriter {
   void append(const void* bytes, size_t size);
   void flush_block();
   void align();
-  uint64_t position() const { return sizeof(Header) + written_ + block_.size(); }
+  uint64_t position() const { return sizeof(Header) + written_ + filled_; }
   void close_level();
 
   void complete(uint64_t voxels, double largest_snap);
@@ -59,7 +62,8 @@ class DagWriter {
   Brick last_brick_ = 0;  // the previous keys, to assert the order
   NodeKey last_node_{};
   uint64_t written_ = 0;          // payload bytes in the file
-  std::vector<std::byte> block_;  // payload bytes not yet written, less than kChecksumBlock
+  std::vector<std::byte> block_;  // kChecksumBlock bytes
+  size_t filled_ = 0;             // of the block: payload bytes not yet written
   std::vector<uint64_t> checksums_;
 };
 

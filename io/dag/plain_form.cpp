@@ -96,8 +96,8 @@ class PlainLevels {
 
 }  // namespace
 
-DagFile plain_form(DagFile file, const WorkRoom& room) {
-  if (file.view().layout == Layout::kPlain) return file;
+std::optional<DagFile> plain_form(const DagFile& file, const WorkRoom& room) {
+  if (file.layout() == Layout::kPlain) return std::nullopt;
   DagWriter writer(room.folder + "/plain.svdag", file.grid(), file.rule());
   PlainLevels(file, room, &writer).run();
   const Header& h = file.header();

@@ -4,15 +4,15 @@
 // the plain layout, then the nodes of the level are sorted by their children, out of core.
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "io/dag/dag_file.h"
 #include "streaming/spill/work_array.h"
 
 namespace svdag {
 
-// The file itself if its layout is plain, else its plain form, which has no name. Error (kBadInput)
-// if the plain form does not have the content hash of the file.
-DagFile plain_form(DagFile file, const WorkRoom& room);
+// The plain form of a compact file; it has no name. None if the layout is plain already. Error (kBadInput)
+// if it does not have the content hash of the file.
+std::optional<DagFile> plain_form(const DagFile& file, const WorkRoom& room);
 
 }  // namespace svdag

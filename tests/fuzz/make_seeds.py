@@ -205,6 +205,8 @@ def main(programs, corpus):
             for reader in ("svdag", "plain_file"):
                 keep(reader, f"{kind}.svdag", (folder / "a.svdag").read_bytes())
             svdag("convert", "a.svdag", "-o", "compact.svdag", "--layout", "compact")
+            svdag("pack", "a.svdag", "-o", "a.pack")
+            keep("packed", f"{kind}.pack", (folder / "a.pack").read_bytes())
             for reader in ("svdag", "plain_file"):
                 keep(reader, f"compact_{kind}.svdag", (folder / "compact.svdag").read_bytes())
             svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")

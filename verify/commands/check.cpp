@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/check.h"
 
 #include <cstdio>
@@ -48,7 +49,7 @@ int run(const CheckConfig& config) {
   const Stopwatch stopwatch(config.common);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   progress.phase("order and minimality", 0);
   MemoryBudget budget(memory_or_default(0));
   const IntegrityReport report = inspect_file(file, {&budget, std::filesystem::temp_directory_path()});

@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/diff.h"
 
 #include <cstdio>
@@ -162,7 +163,7 @@ int run(const DiffConfig& config) {
   check_outputs(config);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile a = DagFile::open(config.a), b = DagFile::open(config.b);
+  const DagFile a = open_dag(config.a), b = open_dag(config.b);
   if (!config.by_index) require_same_place(a, b);
   if (!config.render.empty() && a.view().levels != b.view().levels)
     fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");

@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/mesh.h"
 
 #include <cstdio>
@@ -155,7 +156,7 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.sample) require_count("--sample", *config.sample);
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   if (config.judge == "openvdb") return run_distance_bounds(config, file);
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};
   make_judge(choice);  // rejects a judge that is not in this build before reading the scene

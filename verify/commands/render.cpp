@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/render.h"
 
 #include <algorithm>
@@ -190,7 +191,7 @@ int run(const RenderCommandConfig& config) {
     AtomicFile::check(name);
   }
 
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
   const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);

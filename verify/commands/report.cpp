@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/report.h"
 
 #include <cmath>
@@ -68,7 +69,7 @@ int run(const ReportConfig& config) {
   }
   AtomicFile output(
       config.output);  // opened first, so that no work is lost if it cannot be written
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   std::vector<ReportInput> json;
   for (const std::string& path : config.inputs) json.push_back({path, read_text(path)});
   MemoryBudget budget(memory_or_default(0));

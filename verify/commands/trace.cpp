@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/trace.h"
 
 #include <bit>
@@ -261,7 +262,7 @@ void print_json(const DagFile& file, const TraceConfig& config, const TraceJudge
 int run(const TraceConfig& config) {
   const Stopwatch stopwatch(config.common);
   require_count("--rays", config.rays);
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   const TraceJudgement judgement = trace(config, file);
   if (config.common.json) {
     print_json(file, config, judgement);

@@ -1,3 +1,4 @@
+#include "io/pack/unpack.h"
 #include "verify/commands/vdb.h"
 
 #include <cstdio>
@@ -82,7 +83,7 @@ int run(const VdbConfig& config) {
   if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile file = DagFile::open(config.file);
+  const DagFile file = open_dag(config.file);
   progress.phase("reading the grid", 0);
   const std::unique_ptr<VdbGrid> theirs =
       read_vdb(config.vdb, config.grid, config.iso, config.sandbox);

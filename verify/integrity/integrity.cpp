@@ -240,12 +240,10 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
 }
 
 IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
-  if (file.layout() == Layout::kPlain)
-    return inspect(file.header(), file.view(), file.metadata());
-  const DagFile plain =
-      plain_form(DagFile::adopt(File::open_read(file.path()), file.path()), room);
+  const std::optional<DagFile> converted = plain_form(file, room);
+  const DagFile& plain = converted ? *converted : file;
   IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata());
-  if (!is_compact_form(file, plain, room))
+  if (converted && !is_compact_form(file, plain, room))
     report.defects.push_back("the bytes are not those of these nodes in the compact layout");
   return report;
 }

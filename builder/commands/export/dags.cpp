@@ -9,38 +9,42 @@
 namespace svdag {
 namespace {
 
-// The file to write, in the plain layout; `format` is named in errors.
-DagFile whole_file(const Selection& selection, const ExportConfig& config, const char* format,
-                   MemoryBudget* budget) {
-  if (config.bounds)
-    fail_usage("--bounds: " + std::string(format) +
-               " holds whole DAGs only: bake or import just that part, or export voxels (npz, "
-               "vdb, ...)");
-  const std::string& path = selection.file.path();
-  return plain_form(DagFile::adopt(File::open_read(path), path),
-                    {budget, folder_of(config.output)});
-}
+// The whole DAG, in the plain layout.
+struct WholeDag {
+  // `format` is named in errors.
+  WholeDag(const Selection& selection, const ExportConfig& config, const char* format,
+           MemoryBudget* budget)
+      : converted(plain_form(selection.file, {budget, folder_of(config.output)})),
+        dag(converted ? *converted : selection.file, selection.grid.levels, budget) {
+    if (config.bounds)
+      fail_usage("--bounds: " + std::string(format) +
+                 " holds whole DAGs only: bake or import just that part, or export voxels (npz, "
+                 "vdb, ...)");
+  }
+  std::optional<DagFile> converted;
+  LevelDag dag;
+};
 
 }  // namespace
 
 uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const DagFile file = whole_file(*selection, config, "HashDAG", budget);
-  const LevelDag dag(file, selection->grid.levels, budget);
+  const WholeDag whole(*selection, config, "HashDAG", budget);
+  const LevelDag& dag = whole.dag;
   write_hashdag(dag, selection->grid, config.output);
   return dag.voxels();
 }
 
 uint64_t export_symvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const DagFile file = whole_file(*selection, config, "SymVox", budget);
-  const LevelDag dag(file, selection->grid.levels, budget);
+  const WholeDag whole(*selection, config, "SymVox", budget);
+  const LevelDag& dag = whole.dag;
   write_symvox(dag, selection->grid, config.output);
   return dag.voxels();
 }
 
 uint64_t export_transform_dag(Selection* selection, const ExportConfig& config,
                               MemoryBudget* budget) {
-  const DagFile file = whole_file(*selection, config, "the transform-DAG .svo", budget);
-  const LevelDag dag(file, selection->grid.levels, budget);
+  const WholeDag whole(*selection, config, "the transform-DAG .svo", budget);
+  const LevelDag& dag = whole.dag;
   write_transform_dag(dag, config.output);
   return dag.voxels();
 }
@@ -49,8 +53,8 @@ uint64_t export_octree(Selection* selection, const ExportConfig& config, MemoryB
   if (!config.output.ends_with(".octree"))
     fail_usage(config.output +
                ": the name must end in .octree (two more files are written beside it)");
-  const DagFile file = whole_file(*selection, config, "the .octree", budget);
-  const LevelDag dag(file, selection->grid.levels, budget);
+  const WholeDag whole(*selection, config, "the .octree", budget);
+  const LevelDag& dag = whole.dag;
   write_octree(dag, config.output);
   return dag.voxels();
 }

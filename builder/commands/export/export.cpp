@@ -9,6 +9,7 @@
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
 #include "io/json_text.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -112,7 +113,7 @@ std::vector<ExportFormat> export_formats() {
 int run(const ExportConfig& options) {
   const FormatRow& row = choose(options);
   reject_options_of_other_formats(row, options);
-  const DagFile file = DagFile::open(options.file);
+  const DagFile file = open_dag(options.file);
   Selection selection(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);

@@ -12,6 +12,8 @@
 #include "io/dag/occupied_bounds.h"
 #include "io/dag/symvox_header.h"
 #include "io/json_text.h"
+#include "io/pack/pack_format.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
@@ -96,7 +98,7 @@ void print_levels(const DagFile& file, const DagStats& stats, uint64_t memory) {
 }
 
 void info_dag(const InfoCommand& config) {
-  const DagFile file = DagFile::open(config.scene.paths.front());
+  const DagFile file = open_dag(config.scene.paths.front());
   const DagStats stats = compute_stats(file);
   if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
   const Header& h = file.header();
@@ -145,7 +147,7 @@ int run(const InfoCommand& config) {
   if (one && is_plan(first)) {
     reject_scene_options("plan");
     info_plan(config);
-  } else if (one && begins_with(kMagic, first)) {
+  } else if (one && (begins_with(kMagic, first) || begins_with(kPackedMagic, first))) {
     reject_scene_options(".svdag");
     info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "io/dag/compact_check.h"
+#include "io/pack/pack_format.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
@@ -21,6 +22,8 @@ void check_magic(const File& file, uint64_t size) {
   unsigned char magic[sizeof kMagic];
   if (size < sizeof magic) fail_input(file.path(), "is not a svdag file (it is too short)");
   file.read_at(0, std::as_writable_bytes(std::span(magic)));
+  if (std::memcmp(magic, kPackedMagic, sizeof magic) == 0)
+    fail_input(file.path(), "is packed: trace the result of svdag unpack");
   if (std::memcmp(magic, kMagic, sizeof magic) != 0)
     fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
 }

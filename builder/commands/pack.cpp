@@ -1,0 +1,59 @@
+// `svdag pack FILE -o OUT.pack` and `svdag unpack FILE.pack -o OUT.svdag`.
+#include "io/pack/pack.h"
+
+#include <cstdio>
+
+#include "builder/commands/commands.h"
+#include "builder/run/bake_output.h"
+#include "io/dag/plain_form.h"
+#include "io/pack/unpack.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+#include "streaming/file/file_names.h"
+
+namespace svdag {
+namespace {
+
+void reject_input(const std::string& file, const std::string& output) {
+  if (same_file(file, output))
+    fail_usage(output + " is also the input, which is never overwritten: choose another output");
+}
+
+}  // namespace
+
+int run(const PackCommand& config) {
+  const std::string& path = config.output_path;
+  reject_input(config.file, path);
+  if (!path.ends_with(".pack")) fail_usage(path + ": the output must end in .pack");
+  AtomicFile::check(path, config.output.no_clobber);
+  MemoryBudget budget(memory_or_default(config.memory));
+  const DagFile file = open_dag(config.file);
+  const std::optional<DagFile> converted = plain_form(file, {&budget, folder_of(path)});
+  const DagFile& plain = converted ? *converted : file;
+  ParallelExecutor executor(threads_or_all(config.threads));
+  const uint64_t bytes = pack(plain, path, config.level, &executor);
+  if (!config.output.quiet)
+    std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", path.c_str(),
+                format_bytes(bytes).c_str(), 100 * double(bytes) / double(plain.bytes().size()),
+                format_bytes(plain.bytes().size()).c_str(),
+                to_hex(plain.header().content_hash).c_str());
+  return int(ExitCode::kOk);
+}
+
+int run(const UnpackCommand& config) {
+  const std::string& path = config.output_path;
+  reject_input(config.file, path);
+  require_dag_name(path, false);
+  AtomicFile::check(path, config.output.no_clobber);
+  MemoryBudget budget(memory_or_default(config.memory));
+  ParallelExecutor executor(threads_or_all(config.threads));
+  const Header header = unpack_to(config.file, path, {&budget, folder_of(path)}, &executor);
+  if (!config.output.quiet)
+    std::printf("%s: %s\n  content hash %s\n", path.c_str(),
+                format_bytes(header.file_bytes).c_str(), to_hex(header.content_hash).c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

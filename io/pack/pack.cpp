@@ -1,0 +1,132 @@
+#include "io/pack/pack.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/dag/node_starts.h"
+#include "io/pack/node_streams.h"
+#include "io/pack/pack_format.h"
+#include "io/pack/zstd.h"
+#include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+// Appends the streams to a chunk: their u32 sizes before and after compression, then the frames.
+template <size_t count>
+std::vector<std::byte> chunk_of(const std::array<Stream, count>& streams, int level) {
+  std::vector<std::byte> chunk(2 * count * sizeof(uint32_t));
+  for (size_t i = 0; i < count; ++i) {
+    const size_t size = append_zstd(streams[i], level, &chunk);
+    const uint32_t sizes[2] = {uint32_t(streams[i].size()), uint32_t(size)};
+    std::memcpy(chunk.data() + i * sizeof sizes, sizes, sizeof sizes);
+  }
+  return chunk;
+}
+
+class Packer {
+ public:
+  Packer(const DagFile& plain, const std::string& path, int level, Executor* executor)
+      : dag_(plain.view()), header_(plain.header()), zstd_(level), executor_(executor), file_(path) {
+    SVDAG_ASSERT(plain.layout() == Layout::kPlain);
+  }
+
+  uint64_t run() {
+    file_.write_at(0, std::vector<std::byte>(sizeof(PackedHeader)));
+    const uint32_t bricks = dag_.brick_level();
+    write_level(bricks, header_.sections[bricks].nodes);
+    for (uint32_t level = bricks; level-- > 0;) write_level(level, header_.sections[level].nodes);
+    finish();
+    return file_.size();
+  }
+
+ private:
+  struct Chunk {
+    uint64_t begin;  // index of its first node
+    uint32_t nodes;
+    std::vector<std::byte> bytes;
+  };
+
+  void write_level(uint32_t level, uint64_t nodes) {
+    MemoryBudget budget;
+    const bool inner = level + 1 < dag_.brick_level();
+    RankBitmap below(&budget, "numbers of nodes");
+    if (inner) below = node_starts(dag_, level + 1, &budget);
+    const auto rank = [&](uint32_t index) { return inner ? below.rank(index) : index; };
+    uint64_t index = 0;
+    std::vector<Chunk> batch;
+    for (uint64_t done = 0; done < nodes;) {
+      check_interrupt();
+      batch.clear();
+      while (done < nodes && batch.size() < 4 * executor_->workers()) {
+        batch.push_back({index, uint32_t(std::min<uint64_t>(kChunkNodes, nodes - done)), {}});
+        done += batch.back().nodes;
+        if (level == dag_.brick_level()) {
+          index += batch.back().nodes;
+        } else {
+          for (uint32_t i = 0; i < batch.back().nodes; ++i) index = dag_next(dag_, level, index);
+        }
+      }
+      executor_->for_each(batch.size(), [&](size_t, size_t i) {
+        batch[i].bytes = level == dag_.brick_level() ? brick_chunk(batch[i])
+                                                     : node_chunk(level, batch[i], rank);
+      });
+      for (const Chunk& chunk : batch) append(chunk);
+    }
+  }
+
+  std::vector<std::byte> brick_chunk(const Chunk& chunk) const {
+    return chunk_of(streams_of_bricks({dag_.bricks + chunk.begin, chunk.nodes}), zstd_);
+  }
+
+  template <class Rank>
+  std::vector<std::byte> node_chunk(uint32_t level, const Chunk& chunk, const Rank& rank) const {
+    std::vector<NodeKey> nodes(chunk.nodes);
+    uint64_t index = chunk.begin;
+    for (NodeKey& node : nodes) {
+      dag_for_children(dag_, level, uint32_t(index),
+                       [&](unsigned c, uint32_t child) { node[c] = 1 + rank(child); });
+      index = dag_next(dag_, level, index);
+    }
+    return chunk_of(streams_of_nodes(nodes), zstd_);
+  }
+
+  void append(const Chunk& chunk) {
+    index_.push_back(
+        {file_.size(), checksum64(chunk.bytes), uint32_t(chunk.bytes.size()), chunk.nodes});
+    file_.append(chunk.bytes);
+  }
+
+  void finish() {
+    PackedHeader h{};
+    std::memcpy(h.magic, kPackedMagic, sizeof kPackedMagic);
+    h.version = kPackedVersion;
+    h.chunks = index_.size();
+    h.index_offset = file_.size();
+    const auto index = std::as_bytes(std::span(index_));
+    h.index_checksum = checksum64(index);
+    h.plain = header_;
+    const auto bytes = std::as_bytes(std::span(&h, 1));
+    h.checksum = checksum64(bytes.first(offsetof(PackedHeader, checksum)));
+    file_.append(index);
+    file_.write_at(0, bytes);
+    file_.commit();
+  }
+
+  const DagView& dag_;
+  const Header& header_;
+  int zstd_;
+  Executor* executor_;
+  AtomicFile file_;
+  std::vector<ChunkEntry> index_;
+};
+
+}  // namespace
+
+uint64_t pack(const DagFile& plain, const std::string& path, int level, Executor* executor) {
+  return Packer(plain, path, level, executor).run();
+}
+
+}  // namespace svdag

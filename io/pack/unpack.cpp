@@ -1,0 +1,243 @@
+#include "io/pack/unpack.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "io/dag/check.h"
+#include "io/dag/dag_writer.h"
+#include "io/pack/node_streams.h"
+#include "io/pack/pack_format.h"
+#include "io/pack/zstd.h"
+#include "streaming/file/checksum.h"
+#include "streaming/file/input_watch.h"
+#include "streaming/process/interrupt.h"
+
+namespace svdag {
+namespace {
+
+// The streams of a chunk; none if it does not hold exactly these streams, none of which exceeds its
+// limit.
+template <size_t count>
+std::optional<std::array<Stream, count>> streams_of(std::span<const std::byte> chunk,
+                                                    size_t nodes) {
+  std::array<Stream, count> streams;
+  size_t at = 2 * count * sizeof(uint32_t);
+  if (chunk.size() < at) return std::nullopt;
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t sizes[2];
+    std::memcpy(sizes, chunk.data() + i * sizeof sizes, sizeof sizes);
+    const size_t most = count == kBrickStreams ? nodes : max_stream_bytes(i, nodes);
+    if (sizes[0] > most || sizes[1] > chunk.size() - at) return std::nullopt;
+    streams[i].resize(sizes[0]);
+    if (!decode_zstd(chunk.subspan(at, sizes[1]), streams[i])) return std::nullopt;
+    at += sizes[1];
+  }
+  if (at != chunk.size()) return std::nullopt;
+  return streams;
+}
+
+class Unpacker {
+ public:
+  Unpacker(const std::string& path, const WorkRoom& room, Executor* executor)
+      : room_(room), executor_(executor), file_(File::open_read(path)) {
+    inputs_.add(file_);
+    read_header();
+    read_index();
+  }
+
+  const Header& plain() const { return header_.plain; }
+
+  // Writes all levels; the writer must be one for the grid and rule of plain().
+  void run(DagWriter* writer) {
+    const Header& h = header_.plain;
+    for (uint32_t level = h.levels - 1; level-- > 0;) {
+      writer->begin_level(int(level));
+      const uint64_t nodes = h.sections[level].nodes;
+      WorkArray<uint32_t> index_of(nodes, room_);
+      level + 2 == h.levels ? write_bricks(nodes, writer, &index_of)
+                            : write_nodes(level, nodes, writer, &index_of);
+      index_of_ = std::move(index_of);
+    }
+    require(next_chunk_ == index_.size(), "wrong number of chunks", header_.index_offset);
+    inputs_.check();
+  }
+  // Checks the finished file.
+  void require_same(const Header& header) const {
+    require(std::memcmp(&header, &header_.plain, sizeof header) == 0,
+            "the nodes do not match the content hash", offsetof(PackedHeader, plain));
+  }
+
+ private:
+  void require(bool condition, const char* sentence, uint64_t offset) const {
+    if (!condition) fail_input(file_.path(), std::string("damaged file: ") + sentence, offset);
+  }
+
+  void read_header() {
+    const size_t size = file_.read_some_at(0, std::as_writable_bytes(std::span(&header_, 1)));
+    require(size == sizeof header_, "it ends within its header", size);
+    if (header_.version != kPackedVersion)
+      fail_input(file_.path(), "has pack version " + std::to_string(header_.version) +
+                                   ", this program reads version " + std::to_string(kPackedVersion));
+    const auto bytes = std::as_bytes(std::span(&header_, 1));
+    require(checksum64(bytes.first(offsetof(PackedHeader, checksum))) == header_.checksum,
+            "the header does not match its checksum", offsetof(PackedHeader, checksum));
+    check_header(file_, header_.plain);
+    require(header_.padding == 0 && header_.plain.layout == uint32_t(Layout::kPlain),
+            "unknown header field", offsetof(PackedHeader, padding));
+  }
+
+  void read_index() {
+    const uint64_t size = file_.size();
+    require(header_.index_offset <= size && header_.chunks <= size / sizeof(ChunkEntry) &&
+                size - header_.index_offset == header_.chunks * sizeof(ChunkEntry),
+            "the index is not at the end", offsetof(PackedHeader, index_offset));
+    index_.resize(header_.chunks);
+    const auto bytes = std::as_writable_bytes(std::span(index_));
+    file_.read_at(header_.index_offset, bytes);
+    require(checksum64(bytes) == header_.index_checksum, "the index does not match its checksum",
+            header_.index_offset);
+    uint64_t end = sizeof(PackedHeader), nodes = 0;
+    for (const Section& section : header_.plain.sections) nodes += section.nodes;
+    for (size_t i = 0; i < index_.size(); ++i) {
+      const uint64_t at = header_.index_offset + i * sizeof(ChunkEntry);
+      require(index_[i].offset == end && index_[i].bytes <= header_.index_offset - end &&
+                  index_[i].nodes > 0 && index_[i].nodes <= kChunkNodes,
+              "an impossible entry of the index", at);
+      end += index_[i].bytes;
+      nodes -= index_[i].nodes;
+    }
+    require(nodes == 0, "the index and the header differ in the number of nodes",
+            header_.index_offset);
+    require(end == header_.index_offset, "bytes between the chunks and the index", end);
+  }
+
+  // Passes the keys of the chunks of a level to add(key), in order. `decode(bytes, nodes)` gives the
+  // keys of a chunk, or none.
+  template <class Key, class Decode, class Add>
+  void write_level(uint64_t nodes, const Decode& decode, const Add& add) {
+    std::vector<std::vector<Key>> batch(4 * executor_->workers());
+    Key last{};  // no key is zero
+    for (uint64_t done = 0; done < nodes;) {
+      check_interrupt();
+      size_t chunks = 0;
+      uint64_t with_these = done;
+      for (; chunks < batch.size() && with_these < nodes; ++chunks) {
+        const size_t i = next_chunk_ + chunks;
+        require(i < index_.size() && index_[i].nodes <= nodes - with_these,
+                "a level and the header differ in the number of nodes", header_.index_offset);
+        with_these += index_[i].nodes;
+      }
+      executor_->for_each(chunks, [&](size_t, size_t i) {
+        const ChunkEntry& entry = index_[next_chunk_ + i];
+        std::vector<std::byte> bytes(entry.bytes);
+        file_.read_at(entry.offset, bytes);
+        require(checksum64(bytes) == entry.checksum, "a chunk does not match its checksum",
+                entry.offset);
+        std::optional<std::vector<Key>> keys = decode(bytes, entry.nodes);
+        require(keys.has_value(), "a chunk does not hold nodes", entry.offset);
+        batch[i] = std::move(*keys);
+      });
+      for (size_t i = 0; i < chunks; ++i) {
+        for (const Key& key : batch[i]) {
+          require(last < key, "nodes are empty or do not ascend", index_[next_chunk_ + i].offset);
+          last = key;
+          add(key);
+        }
+      }
+      next_chunk_ += chunks;
+      done = with_these;
+    }
+  }
+
+  void write_bricks(uint64_t count, DagWriter* writer, WorkArray<uint32_t>* index_of) {
+    const auto decode = [](std::span<const std::byte> bytes, size_t bricks) {
+      const auto streams = streams_of<kBrickStreams>(bytes, bricks);
+      return streams ? bricks_of_streams(*streams, bricks) : std::nullopt;
+    };
+    uint64_t number = 0;
+    write_level<Brick>(count, decode,
+                       [&](Brick brick) { (*index_of)[number++] = writer->add_brick(brick); });
+  }
+
+  void write_nodes(uint32_t level, uint64_t count, DagWriter* writer,
+                   WorkArray<uint32_t>* index_of) {
+    const Header& h = header_.plain;
+    const auto decode = [&](std::span<const std::byte> bytes, size_t count_here) {
+      const auto streams = streams_of<kNodeStreams>(bytes, count_here);
+      std::optional<std::vector<NodeKey>> nodes;
+      if (streams) nodes = nodes_of_streams(*streams, count_here, h.sections[level + 1].nodes);
+      if (nodes) place(*nodes);
+      return nodes;
+    };
+    uint64_t number = 0;
+    write_level<NodeKey>(count, decode, [&](const NodeKey& node) {
+      (*index_of)[number++] = writer->add_node(node);
+    });
+  }
+
+  // Replaces ranks by indices, which keeps the order.
+  void place(std::span<NodeKey> nodes) const {
+    constexpr size_t kAhead = 24;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      if (i + kAhead < nodes.size()) {
+        for (const uint32_t child : nodes[i + kAhead])
+          if (child != 0) __builtin_prefetch(&index_of_[child - 1]);
+      }
+      for (uint32_t& child : nodes[i])
+        if (child != 0) child = 1 + index_of_[child - 1];
+    }
+  }
+
+  const WorkRoom& room_;
+  Executor* executor_;
+  File file_;
+  InputWatch inputs_;
+  PackedHeader header_;
+  std::vector<ChunkEntry> index_;
+  size_t next_chunk_ = 0;
+  WorkArray<uint32_t> index_of_;  // [rank]: in the plain layout, of the level below
+};
+
+}  // namespace
+
+bool is_packed(const std::string& path) {
+  try {
+    unsigned char magic[sizeof kPackedMagic];
+    const File file = File::open_read(path);
+    return file.read_some_at(0, std::as_writable_bytes(std::span(magic))) == sizeof magic &&
+           std::memcmp(magic, kPackedMagic, sizeof magic) == 0;
+  } catch (const Error&) {
+    return false;  // whoever opens it reports why
+  }
+}
+
+DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor) {
+  Unpacker unpacker(path, room, executor);
+  const Header& h = unpacker.plain();
+  DagWriter writer(room.folder + "/plain.svdag", grid_of(h), Rule(h.rule));
+  unpacker.run(&writer);
+  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, path);
+  unpacker.require_same(plain.header());
+  return plain;
+}
+
+Header unpack_to(const std::string& path, const std::string& output, const WorkRoom& room,
+                 Executor* executor) {
+  Unpacker unpacker(path, room, executor);
+  const Header& h = unpacker.plain();
+  DagWriter writer(output, grid_of(h), Rule(h.rule));
+  unpacker.run(&writer);
+  writer.finish(h.voxels, h.largest_snap,
+                [&](const Header& header) { unpacker.require_same(header); });
+  return writer.header();
+}
+
+DagFile open_dag(const std::string& path) {
+  if (!is_packed(path)) return DagFile::open(path);
+  MemoryBudget budget(memory_or_default(0));
+  ParallelExecutor executor(available_processors());
+  return unpack(path, {&budget, std::filesystem::temp_directory_path()}, &executor);
+}
+
+}  // namespace svdag

@@ -1,0 +1,197 @@
+// Tests that a packed file unpacks to the same bytes, and that no damaged one is accepted.
+#include "io/pack/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include "io/dag/dag_writer.h"
+#include "io/pack/node_streams.h"
+#include "io/pack/pack_format.h"
+#include "io/pack/unpack.h"
+#include "streaming/file/checksum.h"
+#include "tests/expect_error.h"
+#include "tests/temp_folder.h"
+
+namespace svdag {
+namespace {
+
+// Ascending keys whose neighbours are alike, like those of a level.
+std::vector<NodeKey> some_nodes(size_t count, uint32_t below, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<NodeKey> nodes;
+  NodeKey node{};
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t& child : node) {
+      switch (random() % 8) {
+        case 0: child = 0; break;
+        case 1: child = 1 + uint32_t(random() % below); break;
+        case 2: child = std::min(child + 1, below); break;
+        default: break;
+      }
+    }
+    if (node == NodeKey{}) node[7] = below;
+    nodes.push_back(node);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+class Pack : public ::testing::Test {
+ protected:
+  // A valid plain file; more than one chunk per level if `width` is large.
+  DagFile plain(int levels, size_t width) {
+    Grid grid;
+    grid.levels = levels;
+    grid.selection = grid.whole();
+    const std::string path = folder_.file("plain.svdag");
+    DagWriter writer(path, grid, Rule::kConservative);
+    std::vector<uint32_t> below;
+    writer.begin_level(levels - 2);
+    for (size_t i = 0; i < width; ++i) below.push_back(writer.add_brick(1 + 3 * i));
+    for (int level = levels - 3; level >= 0; --level) {
+      writer.begin_level(level);
+      const size_t count = level == 0 ? std::min<size_t>(1, width) : width;
+      const std::vector<NodeKey> nodes =
+          width == 0 ? std::vector<NodeKey>() : some_nodes(count, uint32_t(below.size()), 7);
+      std::vector<uint32_t> here;
+      for (NodeKey node : nodes) {
+        for (uint32_t& child : node) child = child == 0 ? 0 : 1 + below[child - 1];
+        here.push_back(writer.add_node(node));
+      }
+      below = std::move(here);
+    }
+    writer.finish(42, 0.25);
+    return DagFile::open(path);
+  }
+  std::string packed(const DagFile& plain, int level = 1, Executor* executor = nullptr) {
+    SequentialExecutor one;
+    pack(plain, folder_.file("a.pack"), level, executor != nullptr ? executor : &one);
+    return folder_.read("a.pack");
+  }
+  DagFile unpacked() { return unpack(folder_.file("a.pack"), room_, &executor_); }
+
+  const TempFolder folder_;
+  MemoryBudget budget_;
+  WorkRoom room_{&budget_, folder_.path()};
+  ParallelExecutor executor_{2};
+};
+
+TEST(NodeStreams, GiveBackTheNodes) {
+  for (const size_t count : {0, 1, 2, 1000, 16384}) {
+    const std::vector<NodeKey> nodes = some_nodes(count, 5000, count);
+    const auto again = nodes_of_streams(streams_of_nodes(nodes), nodes.size(), 5000);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(*again, nodes);
+  }
+}
+
+TEST(NodeStreams, OfAnyBytesGiveNodesInRangeOrNone) {
+  std::mt19937_64 random(3);
+  size_t accepted = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const std::vector<NodeKey> nodes = some_nodes(50, 200, uint64_t(round));
+    auto streams = streams_of_nodes(nodes);
+    for (int i = 0; i < 2; ++i) {
+      Stream& stream = streams[random() % streams.size()];
+      if (!stream.empty()) stream[random() % stream.size()] ^= uint8_t(1 << random() % 8);
+      if (random() % 16 == 0 && !stream.empty()) stream.pop_back();
+    }
+    const auto again = nodes_of_streams(streams, nodes.size(), 200);
+    accepted += again.has_value();
+    for (const NodeKey& node : again.value_or(std::vector<NodeKey>()))
+      for (const uint32_t child : node) ASSERT_LE(child, 200U);
+  }
+  EXPECT_GT(accepted, 50U);
+}
+
+TEST_F(Pack, UnpacksToTheSameBytes) {
+  for (const auto& [levels, width] :
+       std::vector<std::pair<int, size_t>>{{3, 0}, {3, 1}, {4, 20}, {7, 300}, {6, 40'000}}) {
+    const DagFile file = plain(levels, width);
+    const std::string bytes = packed(file);
+    EXPECT_TRUE(std::ranges::equal(unpacked().bytes(), file.bytes())) << levels;
+    EXPECT_EQ(packed(file, 1, &executor_), bytes) << "threads change the bytes";
+    const Header header = unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_,
+                                    &executor_);
+    EXPECT_TRUE(std::ranges::equal(DagFile::open(folder_.file("b.svdag")).bytes(), file.bytes()));
+    EXPECT_EQ(header.file_bytes, file.bytes().size());
+    EXPECT_TRUE(is_packed(folder_.file("a.pack")));
+    EXPECT_FALSE(is_packed(folder_.file("b.svdag")));
+    EXPECT_TRUE(std::ranges::equal(open_dag(folder_.file("a.pack")).bytes(), file.bytes()));
+  }
+}
+
+TEST_F(Pack, EveryFlippedBitIsFoundAndLeavesNoFile) {
+  const std::string good = packed(plain(4, 20));
+  for (size_t i = sizeof kPackedMagic; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = char(bad[i] ^ (1 << i % 8));
+    folder_.write("a.pack", bad);
+    EXPECT_SVDAG_ERROR(unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_, &executor_),
+                       ExitCode::kBadInput, "");
+  }
+  folder_.write("a.pack", good.substr(0, good.size() - 1));
+  EXPECT_SVDAG_ERROR(unpacked(), ExitCode::kBadInput, "the index is not at the end");
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("b.svdag")));
+}
+
+TEST_F(Pack, ADamagedChunkIsNamedByItsOffset) {
+  std::string bad = packed(plain(4, 20));
+  bad[sizeof(PackedHeader) + 100] ^= 1;
+  folder_.write("a.pack", bad);
+  EXPECT_SVDAG_ERROR(unpacked(), ExitCode::kBadInput,
+                     "a chunk does not match its checksum (at byte " +
+                         std::to_string(sizeof(PackedHeader)) + ")");
+}
+
+// Repairs all checksums, as a hostile writer would.
+void repair(std::string* bytes) {
+  PackedHeader h;
+  std::memcpy(&h, bytes->data(), sizeof h);
+  const auto part = [&](uint64_t begin, uint64_t size) {
+    return std::as_bytes(std::span(bytes->data() + begin, size));
+  };
+  for (uint64_t i = 0; i < h.chunks; ++i) {
+    const uint64_t at = h.index_offset + i * sizeof(ChunkEntry);
+    ChunkEntry entry;
+    if (at + sizeof entry > bytes->size()) return;
+    std::memcpy(&entry, bytes->data() + at, sizeof entry);
+    if (entry.offset > bytes->size() || entry.bytes > bytes->size() - entry.offset) continue;
+    entry.checksum = checksum64(part(entry.offset, entry.bytes));
+    std::memcpy(bytes->data() + at, &entry, sizeof entry);
+  }
+  if (h.index_offset <= bytes->size())
+    h.index_checksum = checksum64(part(h.index_offset, bytes->size() - h.index_offset));
+  h.plain.header_checksum =
+      checksum64(std::as_bytes(std::span(&h.plain, 1)).first(offsetof(Header, header_checksum)));
+  h.checksum = checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(PackedHeader, checksum)));
+  std::memcpy(bytes->data(), &h, sizeof h);
+}
+
+// A frame may hold the same streams in other bits.
+TEST_F(Pack, WithRepairedChecksumsAFlippedBitIsFoundOrChangesNothing) {
+  const DagFile file = plain(4, 20);
+  const std::string good = packed(file);
+  size_t found = 0;
+  for (size_t i = sizeof kPackedMagic; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = char(bad[i] ^ (1 << i % 8));
+    repair(&bad);
+    if (bad == good) continue;  // a checksum
+    folder_.write("a.pack", bad);
+    try {
+      EXPECT_TRUE(std::ranges::equal(unpacked().bytes(), file.bytes())) << "byte " << i;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      ++found;
+    }
+  }
+  EXPECT_GT(found, good.size() / 2);
+}
+
+}  // namespace
+}  // namespace svdag
