@@ -26,9 +26,21 @@ struct OptionWord {
   std::string name, value;  // value: including a "="
 };
 
+// Like App::get_option_no_throw(), which ends the program where memory is short: it is noexcept.
+const CLI::Option* find_option(const CLI::App& command, const std::string& name) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->check_name(name)) return option;
+  }
+  for (const CLI::App* each : command.get_subcommands({})) {
+    const bool is_group = each->get_name().empty();
+    if (const CLI::Option* option = is_group ? find_option(*each, name) : nullptr) return option;
+  }
+  return nullptr;
+}
+
 const CLI::Option* option_of(const CLI::App& command, const std::string& word) {
   if (word.size() < 2 || word[0] != '-' || word == "--") return nullptr;
-  return command.get_option_no_throw(OptionWord(word).name);
+  return find_option(command, OptionWord(word).name);
 }
 
 }  // namespace

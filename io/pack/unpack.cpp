@@ -75,6 +75,9 @@ class Unpacker {
 
   void read_header() {
     const size_t size = file_.read_some_at(0, std::as_writable_bytes(std::span(&header_, 1)));
+    if (size < sizeof kPackedMagic ||
+        std::memcmp(header_.magic, kPackedMagic, sizeof kPackedMagic) != 0)
+      fail_input(file_.path(), "is not a packed file");
     require(size == sizeof header_, "it ends within its header", size);
     if (header_.version != kPackedVersion)
       fail_input(file_.path(), "has pack version " + std::to_string(header_.version) +

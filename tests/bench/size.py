@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-size`: bytes of each layout, and rays per second through them; the tables of docs/performance.md, "Size".
+"""`make bench-size`: bytes of each layout and of packed files, and rays per second; the tables of docs/performance.md, "Size".
 
 The columns of other programs are recorded: SVDAG-Compression (`.ssvdag`, Villanueva et al. 2017) and the tools of
 transform-aware DAGs (`tdag16`, Molenaar and Eisemann 2025), given the same voxels, exported by `svdag export`.
@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -48,6 +49,23 @@ class Sizes:
         self.run("svdag", "convert", paths["plain"], "-o", paths["compact"], "--layout", "compact", "-q")
         return paths
 
+    def packed(self, plain):
+        """MB packed at the default level and at 19, and MB of plain per CPU second packed and unpacked, one thread."""
+        pack, again = self.folder / "a.pack", self.folder / "again.svdag"
+        self.run("svdag", "pack", plain, "-o", pack, "--level", "19", "-q")
+        smallest = megabytes(pack)
+        speeds = {"pack": 0, "unpack": 0}
+        for _ in range(3):
+            for command, source, target in (("pack", plain, pack), ("unpack", pack, again)):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                self.run("svdag", command, source, "-o", target, "-j", "1", "-q")
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+                speeds[command] = max(speeds[command], megabytes(plain) / seconds)
+        if again.read_bytes() != plain.read_bytes():
+            sys.exit(f"{plain}: unpacked to other bytes")
+        return megabytes(pack), smallest, speeds["pack"], speeds["unpack"]
+
     def rays(self, paths):
         """{workload: MRays/s of each path}, taken in turns; exits if the hits differ."""
         speeds = {}
@@ -86,13 +104,16 @@ def main():
                 peers.append([name, f"{resolution}³", f"{plain:.2f}", f"{compact:.2f}", f"{others[0]:.2f}", f"{others[1]:.2f}",
                               f"{compact / min(others):.3f}"])
             else:
-                large.append([name, f"{resolution}³", f"{plain:.1f}", f"{compact:.1f}", f"{compact / plain:.3f}"])
+                packed, smallest, packs, unpacks = sizes.packed(paths["plain"])
+                large.append([name, f"{resolution}³", f"{plain:.1f}", f"{compact:.1f}", f"{compact / plain:.3f}",
+                              f"{packed / plain:.3f}", f"{smallest / plain:.3f}", f"{packs:.0f}", f"{unpacks:.0f}"])
             if (name, resolution) in (("sponza", "16K"), ("sponza", "64K"), ("dragon", "8K")):
                 for workload, (a, b) in sizes.rays([paths["plain"], paths["compact"]]).items():
                     traced.append([name, f"{resolution}³", workload, f"{a:.2f}", f"{b:.2f}", f"{b / a:.2f}"])
             print(f"{name} {resolution}: {plain:.2f} {compact:.2f} MB", flush=True)
     fill(ROOT / "docs" / "performance.md", {
-        "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain"], large),
+        "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain", "packed / plain", "at level 19",
+                          "pack, MB/s", "unpack, MB/s"], large),
         "layouts and peers": table(["scene", "grid", "plain, MB", "compact, MB", ".ssvdag, MB", "tdag16, MB",
                                     "compact / smaller of them"], peers),
         "layouts traced": table(["scene", "grid", "rays", "plain, MRays/s", "compact, MRays/s", "ratio"], traced)})

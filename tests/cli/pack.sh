@@ -15,5 +15,5 @@ svdag pack city.svdag -o city.zst || echo "exit $?"
 svdag unpack city.svdag -o other.svdag || echo "exit $?"
 { head -c 2000 city.svdag.pack; printf X; tail -c +2002 city.svdag.pack; } > bad.pack
 svdag unpack bad.pack -o bad.svdag || echo "exit $?"
-ls bad.svdag 2>/dev/null
+test ! -e bad.svdag && echo "no output"
 head -c 3000 city.svdag.pack > short.pack; svdag unpack short.pack -o bad.svdag || echo "exit $?"
