@@ -54,10 +54,10 @@ class Unpacker {
     for (uint32_t level = h.levels - 1; level-- > 0;) {
       writer->begin_level(int(level));
       const uint64_t nodes = h.sections[level].nodes;
-      WorkArray<uint32_t> index_of(nodes, room_);
-      level + 2 == h.levels ? write_bricks(nodes, writer, &index_of)
-                            : write_nodes(level, nodes, writer, &index_of);
-      index_of_ = std::move(index_of);
+      WorkArray<uint32_t> placed(nodes + 1, room_);
+      level + 2 == h.levels ? write_bricks(nodes, writer, &placed)
+                            : write_nodes(level, nodes, writer, &placed);
+      placed_ = std::move(placed);
     }
     require(next_chunk_ == index_.size(), "wrong number of chunks", header_.index_offset);
     inputs_.check();
@@ -153,18 +153,18 @@ class Unpacker {
     }
   }
 
-  void write_bricks(uint64_t count, DagWriter* writer, WorkArray<uint32_t>* index_of) {
+  void write_bricks(uint64_t count, DagWriter* writer, WorkArray<uint32_t>* placed) {
     const auto decode = [](std::span<const std::byte> bytes, size_t bricks) {
       const auto streams = streams_of<kBrickStreams>(bytes, bricks);
       return streams ? bricks_of_streams(*streams, bricks) : std::nullopt;
     };
     uint64_t number = 0;
     write_level<Brick>(count, decode,
-                       [&](Brick brick) { (*index_of)[number++] = writer->add_brick(brick); });
+                       [&](Brick brick) { (*placed)[++number] = 1 + writer->add_brick(brick); });
   }
 
   void write_nodes(uint32_t level, uint64_t count, DagWriter* writer,
-                   WorkArray<uint32_t>* index_of) {
+                   WorkArray<uint32_t>* placed) {
     const Header& h = header_.plain;
     const auto decode = [&](std::span<const std::byte> bytes, size_t count_here) {
       const auto streams = streams_of<kNodeStreams>(bytes, count_here);
@@ -175,7 +175,7 @@ class Unpacker {
     };
     uint64_t number = 0;
     write_level<NodeKey>(count, decode, [&](const NodeKey& node) {
-      (*index_of)[number++] = writer->add_node(node);
+      (*placed)[++number] = 1 + writer->add_node(node);
     });
   }
 
@@ -184,11 +184,9 @@ class Unpacker {
     constexpr size_t kAhead = 24;
     for (size_t i = 0; i < nodes.size(); ++i) {
       if (i + kAhead < nodes.size()) {
-        for (const uint32_t child : nodes[i + kAhead])
-          if (child != 0) __builtin_prefetch(&index_of_[child - 1]);
+        for (const uint32_t child : nodes[i + kAhead]) __builtin_prefetch(&placed_[child]);
       }
-      for (uint32_t& child : nodes[i])
-        if (child != 0) child = 1 + index_of_[child - 1];
+      for (uint32_t& child : nodes[i]) child = placed_[child];
     }
   }
 
@@ -199,7 +197,8 @@ class Unpacker {
   PackedHeader header_;
   std::vector<ChunkEntry> index_;
   size_t next_chunk_ = 0;
-  WorkArray<uint32_t> index_of_;  // [rank]: in the plain layout, of the level below
+  // [1 + rank]: 1 + index in the plain layout, of the level below; [0]: 0.
+  WorkArray<uint32_t> placed_;
 };
 
 }  // namespace
