@@ -182,7 +182,8 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
   meter.end_phase(&report.seconds.bounds, &report.phase_peaks.bounds);
   // Opened before the work begins, so that an unwritable folder is reported at once.
-  const auto output = open_output(config.output, grid, report.rule, part, config.layout, workspace->room());
+  const auto output =
+      open_output(config.output, grid, report.rule, part, config.layout, workspace->room());
   std::unique_ptr<CellStore> store;
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 

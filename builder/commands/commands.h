@@ -165,10 +165,10 @@ struct HelpCommand {
   std::string subject;  // a command or a topic; empty: the program
 };
 
-using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand,
-                             MergeCommand, MergeStepCommand, PlanCommand, RunCommand, SubmitCommand,
-                             InfoCommand, QueryCommand, EditCommand, ConvertCommand, PackCommand,
-                             UnpackCommand>;
+using Command =
+    std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand, MergeCommand,
+                 MergeStepCommand, PlanCommand, RunCommand, SubmitCommand, InfoCommand,
+                 QueryCommand, EditCommand, ConvertCommand, PackCommand, UnpackCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);

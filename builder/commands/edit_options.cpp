@@ -62,8 +62,9 @@ void add_convert(CLI::App* program, Command* command) {
   app->get_option("--layout")->required();
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
-  takes_folder(app->add_option("--scratch", config->scratch,
-                               "Folder for data that does not fit in memory (default: that of OUT)"))
+  takes_folder(
+      app->add_option("--scratch", config->scratch,
+                      "Folder for data that does not fit in memory (default: that of OUT)"))
       ->type_name("DIR");
   add_quiet(app, &config->output);
   add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact"});

@@ -23,8 +23,8 @@ struct EditConfig {
   std::optional<int> level;               // --level: K, whose voxels are cubes of 2^(L-K); alone
   std::string output;
   Layout layout = Layout::kPlain;  // --layout
-  uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
-  std::string scratch;  // --scratch: the folder for scratch folders; empty: the output's
+  uint64_t memory = 0;             // --memory in bytes; 0: half of the machine
+  std::string scratch;             // --scratch: the folder for scratch folders; empty: the output's
 };
 
 // Errors: kUsage if the grids differ in place or rule, or --level is not 3 .. L; kBadInput.

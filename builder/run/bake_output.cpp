@@ -29,11 +29,10 @@ bool names_run(const std::string& path) {
 }
 
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const GridPart& part, Layout layout,
-                                        const WorkRoom& room) {
-  if (!names_run(path))
-    return std::make_unique<DagOutput>(path, grid, rule, layout, room);
-  if (layout != Layout::kPlain) fail_usage("--layout: a .run has no layout: choose it when merging");
+                                        const GridPart& part, Layout layout, const WorkRoom& room) {
+  if (!names_run(path)) return std::make_unique<DagOutput>(path, grid, rule, layout, room);
+  if (layout != Layout::kPlain)
+    fail_usage("--layout: a .run has no layout: choose it when merging");
   return std::make_unique<RunWriter>(path, grid, rule, part);
 }
 

@@ -62,7 +62,6 @@ bool names_run(const std::string& path);
 // Opens the output for `part`, a `.run` or a `.svdag` by its name. A `.svdag` holds the whole grid.
 // Error (kUsage) for a `.run` of another than the plain layout.
 std::unique_ptr<BakeOutput> open_output(const std::string& path, const Grid& grid, Rule rule,
-                                        const GridPart& part, Layout layout,
-                                        const WorkRoom& room);
+                                        const GridPart& part, Layout layout, const WorkRoom& room);
 
 }  // namespace svdag

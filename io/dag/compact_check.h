@@ -73,7 +73,8 @@ class CompactCheck {
       if ((level.mask(uint32_t(i)) != 0) != (i < section.nodes))
         return {{"impossible child mask", offset(level.lines + i / kLineNodes * 8)}};
     }
-    const auto* end = reinterpret_cast<const unsigned char*>(level.bases + 3 * compact_lines(section.nodes));
+    const auto* end =
+        reinterpret_cast<const unsigned char*>(level.bases + 3 * compact_lines(section.nodes));
     if (!is_zero(end, level.streams[0])) return {{"padding is not zero", offset(end)}};
     for (uint32_t s = 0; s < kClasses; ++s) {
       if (references[s] != e.references[s]) return {{"a wrong number of references", at}};

@@ -55,8 +55,8 @@ class ClassChoice {
 
   NodeClasses::Top top(uint64_t nodes) const {
     if (nodes == 0) return {};
-    const auto after = std::partition_point(
-        groups_.begin(), groups_.end(), [&](const Group& g) { return g.nodes_before < nodes; });
+    const auto after = std::partition_point(groups_.begin(), groups_.end(),
+                                            [&](const Group& g) { return g.nodes_before < nodes; });
     const Group& last = after[-1];
     const uint64_t ties = nodes - last.nodes_before;
     return {last.references, ties, last.references_before + ties * last.references};

@@ -12,16 +12,16 @@
 //
 // Nodes are numbered by class, and within a class (but for private ones) in content order, that is,
 // as in the plain layout. Node i is entry i % 32 of line i / 32, which has two bytes for it: m0 and
-// m1. Bits c of both are the state of child c, m0 + 2 m1: 0 absent, 1 to 3 its class. The base table
-// has the number of references to each class before each line, so that a reference is found by
-// counting bits in one line:
+// m1. Bits c of both are the state of child c, m0 + 2 m1: 0 absent, 1 to 3 its class. The base
+// table has the number of references to each class before each line, so that a reference is found
+// by counting bits in one line:
 //
 //   t  = base + number of references to the class before it in the line
 //   id = first number of the class + (private ? t : bits t w to (t + 1) w - 1 of the stream)
 //
-// Rejected, in percent of the plain file for sponza at 16K^3 (this: 43.0): pointers of the bits that
-// a level needs 57.6, private and shared nodes only 50.2, widths per line 49.1, whole bytes 45.3.
-// Mirrored subtrees (SSVDAG) would cost every step of a ray.
+// Rejected, in percent of the plain file for sponza at 16K^3 (this: 43.0): pointers of the bits
+// that a level needs 57.6, private and shared nodes only 50.2, widths per line 49.1, whole
+// bytes 45.3. Mirrored subtrees (SSVDAG) would cost every step of a ray.
 #pragma once
 
 #include "format.h"

@@ -309,7 +309,8 @@ bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoo
   if (writer.header().file_bytes != expected.size()) return false;
   std::vector<std::byte> block(kChecksumBlock);
   for (uint64_t at = 0; at < expected.size(); at += kChecksumBlock) {
-    const auto part = expected.subspan(at, std::min<uint64_t>(kChecksumBlock, expected.size() - at));
+    const auto part =
+        expected.subspan(at, std::min<uint64_t>(kChecksumBlock, expected.size() - at));
     const auto bytes = std::span(block).first(part.size());
     writer.file()->read_at(at, bytes);
     if (!std::equal(bytes.begin(), bytes.end(), part.begin())) return false;
@@ -325,8 +326,7 @@ std::vector<uint64_t> compact_section_bytes(const DagView& dag, const WorkRoom& 
   for (uint32_t level = 0; level < dag.brick_level(); ++level) {
     const LevelBelow below(dag, level, room);
     WorkArray<uint32_t> references(below.nodes(), room);
-    bytes[level] =
-        compact_bytes(classes_of(dag, level, nodes, below, &references).entry(), nodes);
+    bytes[level] = compact_bytes(classes_of(dag, level, nodes, below, &references).entry(), nodes);
     nodes = below.nodes();
   }
   bytes.back() = dag.brick_count * sizeof(uint64_t);

@@ -14,8 +14,8 @@ namespace svdag {
 class DagFile {
  public:
   // Error (kBadInput) with path and offset if the file violates docs/format.md: magic, version,
-  // sizes, checksums, references. Order and minimality are not checked (verify/integrity/integrity.h
-  // does).
+  // sizes, checksums, references. Order and minimality are not checked
+  // (verify/integrity/integrity.h does).
   static DagFile open(const std::string& path);
 
   // Maps a file that is known to be valid. Errors show `path`.

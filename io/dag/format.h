@@ -39,8 +39,8 @@ constexpr const char* rule_name(Rule rule) {
   return kRuleNames[size_t(rule)];
 }
 
-// One level. Inner levels (0 .. L-3): u32 words, or CompactEntry and what follows it; the brick level
-// (L-2): u64 bricks.
+// One level. Inner levels (0 .. L-3): u32 words, or CompactEntry and what follows it; the brick
+// level (L-2): u64 bricks.
 struct Section {
   uint64_t offset;  // from the start of the file
   uint64_t bytes;   // without padding

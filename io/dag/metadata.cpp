@@ -30,10 +30,9 @@ std::string metadata_of(const Header& h) {
           : "";
   const std::string layout = Layout(h.layout) == Layout::kPlain ? "" : ",\"layout\":\"compact\"";
   return "{\"format\":\"svdag\",\"version\":" + number(h.version) + layout +
-         ",\"levels\":" + number(h.levels) +
-         ",\"resolution\":" + number(1U << h.levels) + ",\"rule\":\"" + rule_name(Rule(h.rule)) +
-         "\",\"fraction_bits\":" + number(h.fraction) + ",\"grid\":{\"kind\":\"" +
-         kind_name(Grid::Kind(h.grid_kind)) +
+         ",\"levels\":" + number(h.levels) + ",\"resolution\":" + number(1U << h.levels) +
+         ",\"rule\":\"" + rule_name(Rule(h.rule)) + "\",\"fraction_bits\":" + number(h.fraction) +
+         ",\"grid\":{\"kind\":\"" + kind_name(Grid::Kind(h.grid_kind)) +
          "\",\"corner\":" + json_list({real(h.corner[0]), real(h.corner[1]), real(h.corner[2])}) +
          ",\"voxel_size\":" + real(h.voxel_size) +
          ",\"k0\":" + json_list({number(h.k0[0]), number(h.k0[1]), number(h.k0[2])}) +

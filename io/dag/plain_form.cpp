@@ -67,7 +67,9 @@ class PlainLevels {
     writer_->begin_level(int(dag_.brick_level()));
     sort<NumberedBrick>(
         dag_.brick_count, 2, BrickWord(),
-        [&](uint32_t number) { return NumberedBrick{dag_.bricks[number], number, 0}; },
+        [&](uint32_t number) {
+          return NumberedBrick{dag_.bricks[number], number, 0};
+        },
         [&](const NumberedBrick& b) { return writer_->add_brick(b.brick); });
   }
 

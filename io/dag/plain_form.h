@@ -11,8 +11,8 @@
 
 namespace svdag {
 
-// The plain form of a compact file; it has no name. None if the layout is plain already. Error (kBadInput)
-// if it does not have the content hash of the file.
+// The plain form of a compact file; it has no name. None if the layout is plain already. Error
+// (kBadInput) if it does not have the content hash of the file.
 std::optional<DagFile> plain_form(const DagFile& file, const WorkRoom& room);
 
 }  // namespace svdag

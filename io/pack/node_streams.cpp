@@ -20,9 +20,7 @@ class Context {
 
  private:
   static constexpr int kTableLog2 = 12;
-  size_t slot(unsigned c) const {
-    return (previous_ + c) * 2654435761U >> (32 - kTableLog2);
-  }
+  size_t slot(unsigned c) const { return (previous_ + c) * 2654435761U >> (32 - kTableLog2); }
 
   std::array<uint32_t, 8> last_{};
   std::vector<uint32_t> followers_ = std::vector<uint32_t>(size_t(1) << kTableLog2);

@@ -29,7 +29,11 @@ std::vector<std::byte> chunk_of(const std::array<Stream, count>& streams, int le
 class Packer {
  public:
   Packer(const DagFile& plain, const std::string& path, int level, Executor* executor)
-      : dag_(plain.view()), header_(plain.header()), zstd_(level), executor_(executor), file_(path) {
+      : dag_(plain.view()),
+        header_(plain.header()),
+        zstd_(level),
+        executor_(executor),
+        file_(path) {
     SVDAG_ASSERT(plain.layout() == Layout::kPlain);
   }
 
@@ -70,8 +74,8 @@ class Packer {
         }
       }
       executor_->for_each(batch.size(), [&](size_t, size_t i) {
-        batch[i].bytes = level == dag_.brick_level() ? brick_chunk(batch[i])
-                                                     : node_chunk(level, batch[i], rank);
+        batch[i].bytes =
+            level == dag_.brick_level() ? brick_chunk(batch[i]) : node_chunk(level, batch[i], rank);
       });
       for (const Chunk& chunk : batch) append(chunk);
     }

@@ -1,6 +1,6 @@
-// Packs a file for shipping: about 30 % of the plain file, in zstd frames that are checked one by one.
-// The same file and level give the same bytes with the same version of zstd; any version unpacks
-// them.
+// Packs a file for shipping: about 30 % of the plain file, in zstd frames that are checked one by
+// one. The same file and level give the same bytes with the same version of zstd; any version
+// unpacks them.
 #pragma once
 
 #include <cstdint>

@@ -81,7 +81,8 @@ class Unpacker {
     require(size == sizeof header_, "it ends within its header", size);
     if (header_.version != kPackedVersion)
       fail_input(file_.path(), "has pack version " + std::to_string(header_.version) +
-                                   ", this program reads version " + std::to_string(kPackedVersion));
+                                   ", this program reads version " +
+                                   std::to_string(kPackedVersion));
     const auto bytes = std::as_bytes(std::span(&header_, 1));
     require(checksum64(bytes.first(offsetof(PackedHeader, checksum))) == header_.checksum,
             "the header does not match its checksum", offsetof(PackedHeader, checksum));
@@ -115,8 +116,8 @@ class Unpacker {
     require(end == header_.index_offset, "bytes between the chunks and the index", end);
   }
 
-  // Passes the keys of the chunks of a level to add(key), in order. `decode(bytes, nodes)` gives the
-  // keys of a chunk, or none.
+  // Passes the keys of the chunks of a level to add(key), in order. `decode(bytes, nodes)` gives
+  // the keys of a chunk, or none.
   template <class Key, class Decode, class Add>
   void write_level(uint64_t nodes, const Decode& decode, const Add& add) {
     std::vector<std::vector<Key>> batch(4 * executor_->workers());
@@ -163,8 +164,7 @@ class Unpacker {
                        [&](Brick brick) { (*placed)[++number] = 1 + writer->add_brick(brick); });
   }
 
-  void write_nodes(uint32_t level, uint64_t count, DagWriter* writer,
-                   WorkArray<uint32_t>* placed) {
+  void write_nodes(uint32_t level, uint64_t count, DagWriter* writer, WorkArray<uint32_t>* placed) {
     const Header& h = header_.plain;
     const auto decode = [&](std::span<const std::byte> bytes, size_t count_here) {
       const auto streams = streams_of<kNodeStreams>(bytes, count_here);

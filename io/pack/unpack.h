@@ -1,7 +1,7 @@
 // Unpacks what io/pack/pack.h has packed, and opens files of either kind.
 //
-// Every chunk is checked before it is decoded, and decodes to no more than the index and the header say. The plain
-// file must have the size and the content hash of the header.
+// Every chunk is checked before it is decoded, and decodes to no more than the index and the header
+// say. The plain file must have the size and the content hash of the header.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace svdag {
 // Whether the file begins like a packed one. False for a file that cannot be read.
 bool is_packed(const std::string& path);
 
-// The plain file; it has no name and is in room.folder. Error (kBadInput), which names the chunk, if
-// the packed file is damaged.
+// The plain file; it has no name and is in room.folder. Error (kBadInput), which names the chunk,
+// if the packed file is damaged.
 DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor);
 
 // Writes the plain file to `output` and returns its header.

@@ -11,8 +11,7 @@ namespace svdag {
 size_t append_zstd(std::span<const unsigned char> bytes, int level, std::vector<std::byte>* out) {
   const size_t begin = out->size(), bound = ZSTD_compressBound(bytes.size());
   out->resize(begin + bound);
-  const size_t size =
-      ZSTD_compress(out->data() + begin, bound, bytes.data(), bytes.size(), level);
+  const size_t size = ZSTD_compress(out->data() + begin, bound, bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
     throw Error(ExitCode::kMemory, std::string("zstd: ") + ZSTD_getErrorName(size));
   out->resize(begin + size);

@@ -18,3 +18,4 @@ svdag info small.svdag --levels | tail -3
 svdag convert plain.svdag -o plain.svdag --layout compact || echo "exit $?"
 svdag convert plain.svdag -o other.svdag || echo "exit $?"
 svdag build city.ply -o a.run -r 64 --layout compact || echo "exit $?"
+svdag plan city.ply -q -o city.plan -r 64 --shards 1 && svdag merge city.plan --step final --layout compact || echo "exit $?"

@@ -1,52 +1,18 @@
 // Arbitrary bytes as a packed file: an Error, or the plain file of its header.
 #include "io/pack/unpack.h"
 
-#include <cstring>
-
-#include "io/pack/pack_format.h"
-#include "streaming/file/checksum.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
-
-namespace svdag {
-namespace {
-
-void repair(std::string* bytes) {
-  PackedHeader h;
-  if (bytes->size() < sizeof h) return;
-  std::memcpy(&h, bytes->data(), sizeof h);
-  const auto part = [&](uint64_t begin, uint64_t size) {
-    return std::as_bytes(std::span(bytes->data() + begin, size));
-  };
-  if (h.index_offset <= bytes->size()) {
-    for (uint64_t at = h.index_offset; bytes->size() - at >= sizeof(ChunkEntry);
-         at += sizeof(ChunkEntry)) {
-      ChunkEntry entry;
-      std::memcpy(&entry, bytes->data() + at, sizeof entry);
-      if (entry.offset > bytes->size() || entry.bytes > bytes->size() - entry.offset) continue;
-      entry.checksum = checksum64(part(entry.offset, entry.bytes));
-      std::memcpy(bytes->data() + at, &entry, sizeof entry);
-    }
-    h.index_checksum = checksum64(part(h.index_offset, bytes->size() - h.index_offset));
-  }
-  h.plain.header_checksum =
-      checksum64(std::as_bytes(std::span(&h.plain, 1)).first(offsetof(Header, header_checksum)));
-  h.checksum = checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(PackedHeader, checksum)));
-  std::memcpy(bytes->data(), &h, sizeof h);
-}
-
-}  // namespace
-}  // namespace svdag
+#include "tests/repair_packed.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace svdag;
   static OwnFolder folder;
   std::string bytes(reinterpret_cast<const char*>(data), size);
-  repair(&bytes);
+  repair_packed(&bytes);
   const MemoryFile memory(bytes);
   MemoryBudget budget(64 << 20);
   SequentialExecutor executor;
-  expect_only_errors(
-      [&] { unpack(memory.file().path(), {&budget, folder.path()}, &executor); });
+  expect_only_errors([&] { unpack(memory.file().path(), {&budget, folder.path()}, &executor); });
   return 0;
 }

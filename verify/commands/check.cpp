@@ -1,5 +1,5 @@
-#include "io/pack/unpack.h"
 #include "verify/commands/check.h"
+#include "io/pack/unpack.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -52,7 +52,8 @@ int run(const CheckConfig& config) {
   const DagFile file = open_dag(config.file);
   progress.phase("order and minimality", 0);
   MemoryBudget budget(memory_or_default(0));
-  const IntegrityReport report = inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
+  const IntegrityReport report =
+      inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
   progress.finish();
   if (config.common.json) {
     print_json(file, report);

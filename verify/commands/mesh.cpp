@@ -1,5 +1,5 @@
-#include "io/pack/unpack.h"
 #include "verify/commands/mesh.h"
+#include "io/pack/unpack.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-#include "io/pack/unpack.h"
 #include "verify/commands/render.h"
+#include "io/pack/unpack.h"
 
 #include <algorithm>
 #include <charconv>

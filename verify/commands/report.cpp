@@ -1,5 +1,5 @@
-#include "io/pack/unpack.h"
 #include "verify/commands/report.h"
+#include "io/pack/unpack.h"
 
 #include <cmath>
 #include <cstdio>
@@ -73,7 +73,8 @@ int run(const ReportConfig& config) {
   std::vector<ReportInput> json;
   for (const std::string& path : config.inputs) json.push_back({path, read_text(path)});
   MemoryBudget budget(memory_or_default(0));
-  const IntegrityReport integrity = inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
+  const IntegrityReport integrity =
+      inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
   const DagStats stats = compute_stats(file);
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
   const ReportPage page = report_html(json, file, stats, integrity, make_pictures(config, file));

@@ -1,5 +1,5 @@
-#include "io/pack/unpack.h"
 #include "verify/commands/trace.h"
+#include "io/pack/unpack.h"
 
 #include <bit>
 #include <cmath>

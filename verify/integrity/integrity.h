@@ -1,5 +1,5 @@
-// Proves that a valid file in the plain layout is *the* DAG of its voxels: canonical, minimal, and described correctly
-// by its header.
+// Proves that a valid file in the plain layout is *the* DAG of its voxels: canonical, minimal, and
+// described correctly by its header.
 //
 // DagFile::open proves that the bytes are unchanged and that all pointers are valid. This proves
 // the rest, in one pass per level from the bricks up, again without trusting a pointer:

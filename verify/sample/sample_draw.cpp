@@ -18,9 +18,8 @@ class BrickCounts {
       Level& l = levels_[level];
       l.bricks.resize(l.starts.count());
       for (uint64_t index = 0, node = 0; node < l.bricks.size(); ++node) {
-        dag_for_children(dag, level, uint32_t(index), [&](unsigned, uint32_t child) {
-          l.bricks[node] += of(level + 1, child);
-        });
+        dag_for_children(dag, level, uint32_t(index),
+                         [&](unsigned, uint32_t child) { l.bricks[node] += of(level + 1, child); });
         index = dag_next(dag, level, index);
       }
     }

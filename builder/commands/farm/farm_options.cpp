@@ -19,6 +19,8 @@ struct MergeOptions {
 Command command_of(const MergeOptions& options) {
   const auto& [merge, threads, output] = options.merge;
   if (options.step.empty()) return options.merge;
+  if (merge.layout != Layout::kPlain)
+    fail_usage("--layout: a plan makes plain files: convert its result with svdag convert");
   if (merge.runs.size() != 1)
     fail_usage("--step: takes one plan, " + std::to_string(merge.runs.size()) +
                " paths are given: name only the plan");

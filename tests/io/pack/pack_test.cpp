@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
+#include <filesystem>
 #include <random>
 
 #include "io/dag/dag_writer.h"
 #include "io/pack/node_streams.h"
 #include "io/pack/pack_format.h"
 #include "io/pack/unpack.h"
-#include "streaming/file/checksum.h"
 #include "tests/expect_error.h"
+#include "tests/repair_packed.h"
 #include "tests/temp_folder.h"
 
 namespace svdag {
@@ -26,10 +26,17 @@ std::vector<NodeKey> some_nodes(size_t count, uint32_t below, uint64_t seed) {
   for (size_t i = 0; i < count; ++i) {
     for (uint32_t& child : node) {
       switch (random() % 8) {
-        case 0: child = 0; break;
-        case 1: child = 1 + uint32_t(random() % below); break;
-        case 2: child = std::min(child + 1, below); break;
-        default: break;
+        case 0:
+          child = 0;
+          break;
+        case 1:
+          child = 1 + uint32_t(random() % below);
+          break;
+        case 2:
+          child = std::min(child + 1, below);
+          break;
+        default:
+          break;
       }
     }
     if (node == NodeKey{}) node[7] = below;
@@ -115,8 +122,8 @@ TEST_F(Pack, UnpacksToTheSameBytes) {
     const std::string bytes = packed(file);
     EXPECT_TRUE(std::ranges::equal(unpacked().bytes(), file.bytes())) << levels;
     EXPECT_EQ(packed(file, 1, &executor_), bytes) << "threads change the bytes";
-    const Header header = unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_,
-                                    &executor_);
+    const Header header =
+        unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_, &executor_);
     EXPECT_TRUE(std::ranges::equal(DagFile::open(folder_.file("b.svdag")).bytes(), file.bytes()));
     EXPECT_EQ(header.file_bytes, file.bytes().size());
     EXPECT_TRUE(is_packed(folder_.file("a.pack")));
@@ -131,8 +138,9 @@ TEST_F(Pack, EveryFlippedBitIsFoundAndLeavesNoFile) {
     std::string bad = good;
     bad[i] = char(bad[i] ^ (1 << i % 8));
     folder_.write("a.pack", bad);
-    EXPECT_SVDAG_ERROR(unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_, &executor_),
-                       ExitCode::kBadInput, "");
+    EXPECT_SVDAG_ERROR(
+        unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_, &executor_),
+        ExitCode::kBadInput, "");
   }
   folder_.write("a.pack", good.substr(0, good.size() - 1));
   EXPECT_SVDAG_ERROR(unpacked(), ExitCode::kBadInput, "the index is not at the end");
@@ -143,33 +151,9 @@ TEST_F(Pack, ADamagedChunkIsNamedByItsOffset) {
   std::string bad = packed(plain(4, 20));
   bad[sizeof(PackedHeader) + 100] ^= 1;
   folder_.write("a.pack", bad);
-  EXPECT_SVDAG_ERROR(unpacked(), ExitCode::kBadInput,
-                     "a chunk does not match its checksum (at byte " +
-                         std::to_string(sizeof(PackedHeader)) + ")");
-}
-
-// Repairs all checksums, as a hostile writer would.
-void repair(std::string* bytes) {
-  PackedHeader h;
-  std::memcpy(&h, bytes->data(), sizeof h);
-  const auto part = [&](uint64_t begin, uint64_t size) {
-    return std::as_bytes(std::span(bytes->data() + begin, size));
-  };
-  for (uint64_t i = 0; i < h.chunks; ++i) {
-    const uint64_t at = h.index_offset + i * sizeof(ChunkEntry);
-    ChunkEntry entry;
-    if (at + sizeof entry > bytes->size()) return;
-    std::memcpy(&entry, bytes->data() + at, sizeof entry);
-    if (entry.offset > bytes->size() || entry.bytes > bytes->size() - entry.offset) continue;
-    entry.checksum = checksum64(part(entry.offset, entry.bytes));
-    std::memcpy(bytes->data() + at, &entry, sizeof entry);
-  }
-  if (h.index_offset <= bytes->size())
-    h.index_checksum = checksum64(part(h.index_offset, bytes->size() - h.index_offset));
-  h.plain.header_checksum =
-      checksum64(std::as_bytes(std::span(&h.plain, 1)).first(offsetof(Header, header_checksum)));
-  h.checksum = checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(PackedHeader, checksum)));
-  std::memcpy(bytes->data(), &h, sizeof h);
+  EXPECT_SVDAG_ERROR(
+      unpacked(), ExitCode::kBadInput,
+      "a chunk does not match its checksum (at byte " + std::to_string(sizeof(PackedHeader)) + ")");
 }
 
 // A frame may hold the same streams in other bits.
@@ -180,7 +164,7 @@ TEST_F(Pack, WithRepairedChecksumsAFlippedBitIsFoundOrChangesNothing) {
   for (size_t i = sizeof kPackedMagic; i < good.size(); ++i) {
     std::string bad = good;
     bad[i] = char(bad[i] ^ (1 << i % 8));
-    repair(&bad);
+    repair_packed(&bad);
     if (bad == good) continue;  // a checksum
     folder_.write("a.pack", bad);
     try {

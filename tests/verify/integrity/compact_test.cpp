@@ -144,7 +144,9 @@ uint64_t least_bytes(std::vector<uint32_t> references, uint64_t nodes) {
   std::sort(references.rbegin(), references.rend());
   const size_t own = size_t(std::count(references.begin(), references.end(), 1));
   const size_t all = references.size();
-  const auto width = [](size_t count) { return count < 2 ? 0U : uint32_t(std::bit_width(count - 1)); };
+  const auto width = [](size_t count) {
+    return count < 2 ? 0U : uint32_t(std::bit_width(count - 1));
+  };
   uint64_t least = UINT64_MAX;
   for (const bool is_private : {true, false}) {
     const size_t listed = is_private ? all - own : all;

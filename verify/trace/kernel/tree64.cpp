@@ -35,7 +35,7 @@ Cells two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   std::fill_n(cells.child, 64, kNoChild);
   dag_for_children(dag, level, node, [&](uint32_t b, uint32_t child) {
     dag_for_children(dag, level + 1, child,
-                 [&](uint32_t c, uint32_t grandchild) { cells.child[8 * b + c] = grandchild; });
+                     [&](uint32_t c, uint32_t grandchild) { cells.child[8 * b + c] = grandchild; });
   });
   return cells;
 }
