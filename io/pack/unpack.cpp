@@ -210,7 +210,7 @@ bool is_packed(const std::string& path) {
     return file.read_some_at(0, std::as_writable_bytes(std::span(magic))) == sizeof magic &&
            std::memcmp(magic, kPackedMagic, sizeof magic) == 0;
   } catch (const Error&) {
-    return false;  // whoever opens it reports why
+    return false;  // opening it reports why
   }
 }
 
