@@ -72,6 +72,21 @@ void add_convert(CLI::App* program, Command* command) {
   app->callback([=] { *command = *config; });
 }
 
+namespace {
+
+// The options that svdag pack and unpack share.
+template <class Config>
+void add_pack_resources(CLI::App* app, Config* config) {
+  add_memory_budget(app, &config->memory);
+  from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
+          kMaxThreads)
+      ->type_name("N");
+  add_no_clobber(app, &config->output.no_clobber);
+  add_quiet(app, &config->output);
+}
+
+}  // namespace
+
 void add_pack(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("pack", "Compress a .svdag for shipping");
   auto config = std::make_shared<PackCommand>();
@@ -82,12 +97,7 @@ void add_pack(CLI::App* program, Command* command) {
   from_to(app->add_option("--level", config->level, "Level of zstd, 1 to 19 (default: 5)"), 1,
           kMaxPackLevel)
       ->type_name("N");
-  add_memory_budget(app, &config->memory);
-  from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
-          kMaxThreads)
-      ->type_name("N");
-  add_no_clobber(app, &config->output.no_clobber);
-  add_quiet(app, &config->output);
+  add_pack_resources(app, config.get());
   add_examples(app, {"svdag pack city.svdag -o city.svdag.pack"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
@@ -101,12 +111,7 @@ void add_unpack(CLI::App* program, Command* command) {
               {".svdag"})
       ->required()
       ->type_name("OUT");
-  add_memory_budget(app, &config->memory);
-  from_to(app->add_option("-j,--threads", config->threads, "Threads (default: all processors)"), 1,
-          kMaxThreads)
-      ->type_name("N");
-  add_no_clobber(app, &config->output.no_clobber);
-  add_quiet(app, &config->output);
+  add_pack_resources(app, config.get());
   add_examples(app, {"svdag unpack city.svdag.pack -o city.svdag"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });

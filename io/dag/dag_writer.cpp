@@ -150,6 +150,7 @@ void DagWriter::finish(uint64_t voxels, double largest_snap,
     if (check) check(header_);
     return file_.commit();
   }
+  SVDAG_ASSERT(!check);  // of plain files only
   const DagFile plain = finish_unnamed(voxels, largest_snap, path_);
   header_ = write_compact(plain, path_, *compact_);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 
 #include "io/dag/check.h"
 #include "io/dag/dag_writer.h"
@@ -239,7 +238,7 @@ DagFile open_dag(const std::string& path) {
   if (!is_packed(path)) return DagFile::open(path);
   MemoryBudget budget(memory_or_default(0));
   ParallelExecutor executor(available_processors());
-  return unpack(path, {&budget, std::filesystem::temp_directory_path()}, &executor);
+  return unpack(path, temporary_room(&budget), &executor);
 }
 
 }  // namespace svdag

@@ -3,15 +3,24 @@
 #include <sys/mman.h>
 
 #include <cerrno>
+#include <filesystem>
 
 #include "streaming/file/system_call.h"
 
 namespace svdag {
 
+WorkRoom temporary_room(MemoryBudget* budget) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) throw Error(ExitCode::kOutput, "TMPDIR does not name a folder: set it to one");
+  return {budget, folder.string()};
+}
+
 WorkMemory::WorkMemory(uint64_t bytes, const WorkRoom& room)
     : counted_(room.budget->reserve(0, "layout")) {
   if (bytes == 0) return;
-  if (counted_.try_resize(bytes)) {
+  const uint64_t half = room.budget->limit() / 2, used = room.budget->used();
+  if (used <= half && bytes <= half - used && counted_.try_resize(bytes)) {
     pages_ = HugePages(bytes);
     return;
   }

@@ -1,6 +1,7 @@
-// An array of fixed size, zeroed: in memory if the budget has room, else in an anonymous file that
-// is mapped, so that the system keeps in memory what is used. Access in order stays fast, random
-// access then waits for the disk. T must be trivial.
+// An array of fixed size, zeroed: in memory while no more than half of the budget is used, so that
+// sorts and bitmaps find the rest; else in an anonymous file that is mapped, so that the system
+// keeps in memory what is used. Access in order stays fast, random access then waits for the disk.
+// T must be trivial.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,9 @@ struct WorkRoom {
   MemoryBudget* budget = nullptr;
   std::string folder;  // for anonymous files
 };
+
+// A room in the folder for temporary files (TMPDIR). Error (kOutput) if there is none.
+WorkRoom temporary_room(MemoryBudget* budget);
 
 // The bytes of a WorkArray.
 class WorkMemory {

@@ -2,7 +2,6 @@
 #include "io/pack/unpack.h"
 
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
@@ -52,8 +51,7 @@ int run(const CheckConfig& config) {
   const DagFile file = open_dag(config.file);
   progress.phase("order and minimality", 0);
   MemoryBudget budget(memory_or_default(0));
-  const IntegrityReport report =
-      inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
+  const IntegrityReport report = inspect_file(file, temporary_room(&budget));
   progress.finish();
   if (config.common.json) {
     print_json(file, report);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -73,8 +72,7 @@ int run(const ReportConfig& config) {
   std::vector<ReportInput> json;
   for (const std::string& path : config.inputs) json.push_back({path, read_text(path)});
   MemoryBudget budget(memory_or_default(0));
-  const IntegrityReport integrity =
-      inspect_file(file, {&budget, std::filesystem::temp_directory_path()});
+  const IntegrityReport integrity = inspect_file(file, temporary_room(&budget));
   const DagStats stats = compute_stats(file);
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
   const ReportPage page = report_html(json, file, stats, integrity, make_pictures(config, file));

@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
@@ -76,7 +75,7 @@ Json dag_json(const DagFile& file, const DagStats& stats) {
 std::vector<uint64_t> bytes_otherwise(const DagFile& file, uint64_t memory) {
   MemoryBudget budget(memory_or_default(memory));
   if (file.layout() == Layout::kCompact) return plain_section_bytes(file.view());
-  const WorkRoom room{&budget, std::filesystem::temp_directory_path()};
+  const WorkRoom room = temporary_room(&budget);
   return compact_section_bytes(file.view(), room);
 }
 

@@ -98,6 +98,16 @@ TEST_F(Compact, HasTheSameBytesWithoutMemory) {
   EXPECT_TRUE(is_compact_form(b, a, room));
 }
 
+TEST_F(Compact, ConvertsBackWithinASmallBudget) {
+  const DagFile a = plain(8, voxels_of(8, 3));
+  const DagFile b = compact(a);
+  MemoryBudget small(4 << 20);
+  const WorkRoom room{&small, room_.folder};
+  EXPECT_TRUE(is_compact_form(b, a, room));
+  EXPECT_TRUE(std::ranges::equal(a.bytes(), plain_form(b, room)->bytes()));
+  EXPECT_LE(small.peak(), small.limit());
+}
+
 TEST_F(Compact, EveryFlippedBitIsFound) {
   const DagFile a = plain(4, voxels_of(4, 1));
   compact(a);
