@@ -43,6 +43,8 @@ struct BuildConfig {
   double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
   DescentConfig descent;              // --rule
   Layout layout = Layout::kPlain;     // --layout
+  LayerKind layers = LayerKind::kNone;  // --layers
+  bool with_union = true;               // --no-union
   std::optional<Box> bounds;          // --bounds, in world units
   std::optional<GridCube> cube;       // --cube, in world units; needs levels
   std::optional<Point> origin;        // --origin, in world units; needs voxel_size
@@ -87,7 +89,8 @@ struct BuildReport {
   std::string cache_write_error;     // why cells were not cached; empty if all were
   bool resumed = false;
   uint64_t voxels_kept = 0;  // of `voxels`, those baked before this process resumed
-  uint64_t voxels = 0;
+  uint64_t voxels = 0;       // of the union
+  LayerTable layers;         // without roots
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits, as `svdag info` prints it

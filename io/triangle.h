@@ -19,6 +19,7 @@ struct Triangle {
 // The normative geometry: everything after the snap is decided on these integers alone.
 struct LatticeTriangle {
   std::array<LatticePoint, 3> v;
+  uint32_t subject = 0;  // with layers: its layer (builder/octree/sub_dag_root.h)
   bool operator==(const LatticeTriangle&) const = default;
 };
 

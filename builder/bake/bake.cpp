@@ -1,5 +1,7 @@
 // The bake as a pipeline: every phase is a function that returns what the next one takes.
+#include <algorithm>
 #include <optional>
+#include <set>
 
 #include "builder/bake/bake_bins.h"
 #include "builder/bake/choose_grid.h"
@@ -76,6 +78,7 @@ SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const Gri
   split.workers = tools.executor->workers();
   split.triangle_bytes = tools.workspace->shares().triangles;
   split.scratch = tools.workspace->scratch();
+  split.layers = tools.config.layers;
   split.part = tools.config.part ? &part : nullptr;
   split.on_batch = [progress = tools.progress](uint64_t triangles) {
     progress->advance(triangles, triangles);
@@ -142,10 +145,19 @@ void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildRepo
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
                                    BakeOutput* output) {
   Workspace* const workspace = tools.workspace;
-  const MergeConfig config = share_for_merge(
+  MergeConfig config = share_for_merge(
       workspace->budget(), set->spilled ? workspace->scratch() : nullptr, tools.executor->workers(),
       4 * workspace->scratch()->block_bytes(), tools.progress);
+  config.with_union = tools.config.with_union;
   return merge(set->runs, std::move(set->roots), part, config, output, tools.executor);
+}
+
+// Without roots, which the output adds.
+LayerTable table_of(const SceneLayers& scene, const RunSet& set, bool with_union) {
+  LayerTable table{scene.kind(), with_union, 0, scene.layers()};
+  for (size_t i = 0; i < set.layer_voxels.size(); ++i)
+    table.layers[i].voxels = set.layer_voxels[i];
+  return table;
 }
 
 void report_resources(const Tools& tools, const BakeOutput& output, BuildReport* report) {
@@ -193,7 +205,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (saved && saved->split) {
     split = std::move(*saved->split);
   } else if (config.ready != nullptr) {
-    split = {config.ready->counts, nullptr, config.ready->bins};
+    split = {config.ready->counts, nullptr, config.ready->bins, SceneLayers()};
   } else {
     split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }
@@ -215,9 +227,11 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }
   report.voxels_kept = runs.set().voxels;
+  DescentConfig descent = config.descent;
+  descent.with_union = config.with_union;
   Voxelizer voxelizer(
       grid,
-      {config.descent, workspace->shares().table, config.checkpoint, workspace->scratch(), &done,
+      {descent, workspace->shares().table, config.checkpoint, workspace->scratch(), &done,
        store.get(), [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
       workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
@@ -230,6 +244,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   store.reset();
   RunSet set = runs.take_set();
   report.voxels = set.voxels;
+  report.layers = table_of(split.layers, set, config.with_union);
   report.runs = set.runs.size();
   meter.end_phase(&report.seconds.sort, &report.phase_peaks.sort);
 
@@ -238,7 +253,9 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   meter.end_phase(&report.seconds.merge, &report.phase_peaks.merge);
 
   phases.begin("write", kWriteShare);
-  output->finish(tops, report.voxels, report.split.largest_snap);
+  output->finish(tops, report.voxels, report.split.largest_snap, report.layers);
+  std::ranges::sort(report.layers.layers, {}, &Layer::name);
+  report.voxels = report.layers.default_voxels(report.voxels);
   checkpoint->discard();
   meter.end_phase(&report.seconds.write, &report.phase_peaks.write);
   progress->finish();
@@ -278,6 +295,19 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   }
 }
 
+void require_possible_layers(const BuildConfig& config) {
+  if (config.layers == LayerKind::kNone) return;
+  if (names_run(config.output))
+    fail_usage(config.output + ": a .run has no layers yet: bake to a .svdag");
+  if (config.layers != LayerKind::kFile) return;
+  std::set<std::string> names;
+  for (const std::string& path : config.scene.paths) {
+    const std::string name = path.substr(path.find_last_of('/') + 1);
+    if (!names.insert(name).second)
+      fail_usage("--layers file: two files of the scene are named " + name + ": rename one");
+  }
+}
+
 }  // namespace
 
 std::string description_hash_of(const BuildConfig& config) {
@@ -289,6 +319,7 @@ std::string description_hash_of(const BuildConfig& config) {
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
+  require_possible_layers(config);
   try {
     return bake_resumably(config, executor, progress);
   } catch (const InvalidScratch&) {

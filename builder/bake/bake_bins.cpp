@@ -1,7 +1,10 @@
 #include "builder/bake/bake_bins.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
+#include "builder/descend/dense_cube.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -46,7 +49,7 @@ bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const
   triangles.reserve(std::min<uint64_t>(batch, bin.triangles));
   for (; reader.read(batch, &triangles); triangles.clear()) {
     check_interrupt();
-    if (!visit(triangles)) return false;
+    if (!visit(&triangles)) return false;
   }
   return true;
 }
@@ -58,8 +61,8 @@ std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin
   const int cell_level = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
   auto tree = std::make_unique<CellTree>(grid_, bin.cube,
                                          std::min({cell_level, finest, grid_.levels - 2}), budget_);
-  const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
-    for (const LatticeTriangle& triangle : triangles) tree->add(triangle);
+  const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
+    for (const LatticeTriangle& triangle : *triangles) tree->add(triangle);
     return tree->bytes(split_.workers) <= split_.triangle_bytes;
   });
   if (!fits) return nullptr;
@@ -74,12 +77,30 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
   DenseCube cube(grid_, bin.cube, budget_);
   progress_->phase("voxelize a dense cube", bin.triangles);
-  read(file, bin, most, [&](const std::vector<LatticeTriangle>& triangles) {
-    cube.add(triangles, descent_, executor_);
-    progress_->advance(triangles.size());
-    return true;
+  std::set<Subject> subjects;
+  // Fills the bitmap with all triangles, or those of a layer.
+  const auto fill = [&](std::optional<Subject> only) {
+    cube.clear();
+    read(file, bin, most, [&](std::vector<LatticeTriangle>* triangles) {
+      if (only) {
+        std::erase_if(*triangles, [&](const LatticeTriangle& t) { return t.subject != *only; });
+      } else {
+        for (const LatticeTriangle& t : *triangles) subjects.insert(t.subject);
+        progress_->advance(triangles->size());
+      }
+      cube.add(*triangles, descent_, executor_);
+      return true;
+    });
+  };
+  fill({});
+  voxelizer_->bake(bin.cube, bin.range, [&](NodeTable* table, std::vector<SubjectDag>* dags) {
+    if (subjects.size() == 1) return dags->push_back({*subjects.begin(), cube.reduce(table)});
+    dags->push_back({kUnionSet, cube.reduce(table)});
+    for (const Subject subject : subjects) {
+      fill(subject);
+      dags->push_back({subject | kApart, cube.reduce(table)});
+    }
   });
-  voxelizer_->bake(cube, bin.range);
 }
 
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
@@ -91,8 +112,8 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
   while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
   SpillFile* transient = split_.scratch->transient();
   TriangleBins bins(grid_, bin.cube, depth, transient, split_.scratch);
-  read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>& triangles) {
-    for (const LatticeTriangle& triangle : triangles) bins.add(triangle);
+  read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
+    for (const LatticeTriangle& triangle : *triangles) bins.add(triangle);
     return true;
   });
   uint64_t at = bin.range.begin;

@@ -34,7 +34,7 @@ class BinBaker {
   void bake(SpillFile* file, const TriangleBin& bin);
 
  private:
-  // visit(triangles) for batch after batch, until it returns false; whether it never did.
+  // visit(&triangles) for batch after batch, until it returns false; whether it never did.
   template <class Visit>
   bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
   std::unique_ptr<CellTree> load(SpillFile* file, const TriangleBin& bin);

@@ -11,7 +11,7 @@ namespace {
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, which is that of a text of several
 // lines.
-constexpr uint32_t kLayout = 4;
+constexpr uint32_t kLayout = 5;
 
 // Writes a field in a form without padding or bool.
 struct PutField {
@@ -96,6 +96,7 @@ void check_run(const BakedRun& baked, int levels, const RecordReader& in) {
         brick ? baked.run.bricks.spilled->bytes / sizeof(Brick)
               : baked.run.nodes[size_t(root.level)].spilled->bytes / sizeof(NodeKey);
     in.require(root.rank < keys, "a root has no node");
+    in.require((root.subject & ~kApart) <= kMaxLayers, "a root is of no layer");
   }
 }
 
@@ -116,6 +117,7 @@ std::vector<SubDagRoot> get_roots(RecordReader* in) {
     in->get(&root.morton);
     in->get(&root.level);
     in->get(&root.rank);
+    in->get(&root.subject);
   }
   return roots;
 }
@@ -126,7 +128,32 @@ void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
     out->put(root.morton);
     out->put(root.level);
     out->put(root.rank);
+    out->put(root.subject);
   }
+}
+
+void put_layers(const SceneLayers& layers, RecordWriter* out) {
+  out->put(uint32_t(layers.kind()));
+  out->put(uint64_t(layers.layers().size()));
+  for (const Layer& layer : layers.layers()) {
+    out->put(layer.name);
+    out->put(layer.colour);
+  }
+}
+
+void get_layers(RecordReader* in, SceneLayers* layers) {
+  uint32_t kind = 0;
+  uint64_t count = 0;
+  in->get(&kind);
+  in->get(&count);
+  in->require(kind < std::size(kLayerKindNames) && count <= kMaxLayers, "impossible layers");
+  std::vector<Layer> read(count);
+  for (Layer& layer : read) {
+    in->get(&layer.name);
+    in->get(&layer.colour);
+  }
+  *layers = SceneLayers(LayerKind(kind));
+  layers->restore(std::move(read));
 }
 
 BakedRun get_run(RecordReader* in, int levels) {
@@ -139,6 +166,8 @@ BakedRun get_run(RecordReader* in, int levels) {
   for (auto& level : baked.run.nodes) level = get_level<NodeKey>(in);
   baked.roots = get_roots(in);
   in->get(&baked.voxels);
+  in->get(&baked.layer_voxels);
+  in->require(baked.layer_voxels.size() <= kMaxLayers, "more layers than there may be");
   in->get(&baked.finished);
   check_run(baked, levels, *in);
   return baked;
@@ -165,6 +194,7 @@ RecordWriter split_record(const SplitScene& split) {
   RecordWriter record;
   visit_count_fields(split.counts, PutField{&record});
   put_bins(split.bins, &record);
+  put_layers(split.layers, &record);
   return record;
 }
 
@@ -175,6 +205,7 @@ RecordWriter run_record(const BakedRun& baked) {
   for (const auto& level : baked.run.nodes) put_level(level, &record);
   put_roots(baked.roots, &record);
   record.put(baked.voxels);
+  record.put(baked.layer_voxels);
   record.put(baked.finished);
   return record;
 }
@@ -192,6 +223,7 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       saved.split.emplace();
       visit_count_fields(saved.split->counts, GetField{&in});
       saved.split->bins = get_bins(&in, saved.grid.levels);
+      get_layers(&in, &saved.split->layers);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {
       const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;

@@ -24,11 +24,15 @@ class Voxelizer::Worker {
   void end() { cursor_.reset(); }
   void bake(const Cube& cell) {
     const TriangleList& list = cursor_->list(cell);
-    if (config_.store == nullptr || !is_new(cell)) return descent_.run(cell, list);
+    if (config_.store == nullptr || !is_new(cell) || !is_of_one_layer(list))
+      return descent_.run(cell, list);
     const CellKey key = config_.store->key(cell, list);
-    if (!config_.store->take(key, cell)) bake_for_store(cell, list, key);
+    if (!config_.store->take(key, cell, subject_of(list))) bake_for_store(cell, list, key);
   }
-  void bake(const DenseCube& cube) { descent_.adopt(cube.cube(), cube.reduce(builder_.table())); }
+  NodeTable* table() { return builder_.table(); }
+  void adopt(const Cube& cube, std::vector<SubjectDag> dags) {
+    descent_.adopt(cube, std::move(dags));
+  }
   void note_empty(uint64_t begin, uint64_t end) { builder_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
   // Voxels set since the previous call; those of a run that was taken in between may be missing.
@@ -121,11 +125,14 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
   for (const auto& worker : workers_) worker->end();
 }
 
-void Voxelizer::bake(const DenseCube& cube, const MortonRange& range) {
+void Voxelizer::bake(const Cube& cube, const MortonRange& range,
+                     const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce) {
   ++cells_;
-  const MortonRange own = morton_range(cube.cube(), grid_.levels);
+  const MortonRange own = morton_range(cube, grid_.levels);
+  std::vector<SubjectDag> dags;
   workers_[0]->note_empty(range.begin, own.begin);
-  workers_[0]->bake(cube);
+  reduce(workers_[0]->table(), &dags);
+  workers_[0]->adopt(cube, std::move(dags));
   workers_[0]->note_empty(own.end, range.end);
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "builder/cache/cell_store.h"
-#include "builder/descend/dense_cube.h"
+#include "builder/descend/descend.h"
 #include "builder/reduce/baked_run.h"
 #include "builder/split/cell_tree.h"
 #include "builder/workspace/scratch.h"
@@ -45,8 +45,9 @@ class Voxelizer {
 
   // Bakes all cells of a sealed tree, which holds all triangles of `range`.
   void bake(const CellTree& tree, const MortonRange& range, Progress* progress);
-  // Adds a cube that was voxelized to a bitmap; the rest of `range` is empty.
-  void bake(const DenseCube& cube, const MortonRange& range);
+  // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is empty.
+  void bake(const Cube& cube, const MortonRange& range,
+            const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce);
   // Records that `range` is empty.
   void note_empty(const MortonRange& range);
   // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.

@@ -114,6 +114,7 @@ struct InfoCommand {
   SceneConfig scene;  // its paths: one .svdag, .run or plan, or the files of a scene
   bool json = false;
   bool levels = false;  // print a table of levels, or of the steps of a plan
+  bool layers = false;  // print a table of the layers of a .svdag
   bool parts = false;   // print the parts of a scene: objects, materials and files
   uint64_t memory = 0;  // bytes; 0: half of the machine
 };

@@ -5,6 +5,7 @@
 // cube until its triangles fit (a billion triangles in one voxel never do).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ class DenseCube {
   // Sets the voxels of `triangles`, which are distributed over the workers.
   void add(std::span<const LatticeTriangle> triangles, const DescentConfig& config,
            Executor* executor);
+  // Empties the bitmap.
+  void clear() { std::fill(bricks_.begin(), bricks_.end(), 0); }
   // Adds the nodes to `table`; the root is pending.
   SubDag reduce(NodeTable* table) const;
 

@@ -14,6 +14,17 @@ constexpr int64_t kLargestPatchSide = 64;             // voxels
 constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio (Knuth)
 constexpr int kPauseLog2 = 6;  // the builder may pause before each cube of 64^3 voxels
 
+// Calls visit(subject, triangles) for each layer of a list.
+template <class Visit>
+void for_each_layer(const TriangleList& list, const Visit& visit) {
+  for (auto begin = list.begin(); begin != list.end();) {
+    auto end = begin;
+    while (end != list.end() && end->triangle->triangle.subject == begin->triangle->triangle.subject) ++end;
+    visit(begin->triangle->triangle.subject | kApart, std::span(begin, end));
+    begin = end;
+  }
+}
+
 }  // namespace
 
 Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
@@ -26,6 +37,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* b
             config.memo_bytes),
       done_(done != nullptr && !done->empty() ? done : nullptr),
       lists_(size_t(grid.levels)),
+      dags_(size_t(grid.levels)),
       divided_(size_t(grid.levels)) {}
 
 void Descent::run(const Cube& cube, const TriangleList& list) {
@@ -36,12 +48,24 @@ void Descent::run(const Cube& cube, const TriangleList& list) {
   partly_done_ = done_ != nullptr &&
                  done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
   builder_->begin(cube);
-  update_memo(builder_->end(cube, node(cube, list)));
+  if (is_of_one_layer(list)) {
+    builder_->set_subject(subject_of(list));
+    return update_memo(builder_->end(cube, node(cube, list)));
+  }
+  SubjectDags dags;
+  node(cube, list, &dags);
+  end(cube, std::move(dags));
 }
 
-void Descent::adopt(const Cube& cube, const SubDag& dag) {
+void Descent::adopt(const Cube& cube, SubjectDags dags) {
   builder_->begin(cube);
-  update_memo(builder_->end(cube, dag));
+  end(cube, std::move(dags));
+}
+
+void Descent::end(const Cube& cube, SubjectDags dags) {
+  if (!config_.with_union)
+    std::erase_if(dags, [](const SubjectDag& dag) { return dag.subject == kUnionSet; });
+  update_memo(builder_->end(cube, dags));
 }
 
 void Descent::update_memo(SubDagBuilder::Pause pause) {
@@ -49,24 +73,41 @@ void Descent::update_memo(SubDagBuilder::Pause pause) {
   if (pause == SubDagBuilder::Pause::kEmptied) memo_.drop_contents();
 }
 
-SubDag Descent::node(const Cube& cube, const TriangleList& list) {
+Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list) const {
   if (list.empty() || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
-    return {};
-  bool as_roots = false;
-  if (partly_done_) {
-    const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
-    if (state == MortonSet::Coverage::kAll) return {};
-    as_roots = state == MortonSet::Coverage::kSome;
-  }
-  if (cube.level == table_->brick_level()) return brick(cube, list);
-  if (config_.plane_memo && !as_roots && list.size() <= kLargestPatch) {
+    return Need::kNothing;
+  if (!partly_done_) return Need::kAll;
+  const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
+  if (state == MortonSet::Coverage::kAll) return Need::kNothing;
+  return state == MortonSet::Coverage::kSome ? Need::kRest : Need::kAll;
+}
+
+void Descent::pause_at(const Cube& cube) {
+  if (cube.level != grid_.levels - kPauseLog2) return;
+  check_interrupt();
+  update_memo(builder_->pause(cube.level, morton_range(cube, grid_.levels).begin));
+}
+
+SubDag Descent::node(const Cube& cube, const TriangleList& list) {
+  const Need need = need_of(cube, list);
+  if (need == Need::kNothing) return {};
+  if (cube.level == table_->brick_level()) return brick(voxels_of(cube, list));
+  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch) {
     if (const auto known = find_in_memo(cube, list)) return *known;
   }
-  if (cube.level == grid_.levels - kPauseLog2) {
-    check_interrupt();
-    update_memo(builder_->pause(cube.level, morton_range(cube, grid_.levels).begin));
-  }
-  return divide(cube, list, as_roots);
+  pause_at(cube);
+  return divide(cube, list, need == Need::kRest);
+}
+
+void Descent::node(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
+  const Need need = need_of(cube, list);
+  if (need == Need::kNothing) return;
+  if (cube.level == table_->brick_level()) return bricks(cube, list, dags);
+  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
+      find_in_memo(cube, list, dags))
+    return;
+  pause_at(cube);
+  divide(cube, list, need == Need::kRest, dags);
 }
 
 SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots) {
@@ -77,6 +118,44 @@ SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots
   for (unsigned c = 0; c < 8; ++c)
     builder_->add_child(cube.level, c, node(cube.child(c), lists[c]));
   return builder_->close(cube.level);
+}
+
+void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots,
+                     SubjectDags* dags) {
+  ++divided_[size_t(cube.level)];
+  std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
+  divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
+  builder_->open(cube, as_roots);
+  SubjectDags& of_child = dags_[size_t(cube.level)];
+  for (unsigned c = 0; c < 8; ++c) {
+    of_child.clear();
+    if (is_of_one_layer(lists[c])) {
+      const Subject subject = subject_of(lists[c]);
+      builder_->set_subject(subject);
+      const SubDag dag = node(cube.child(c), lists[c]);
+      of_child = {{kUnionSet, dag}, {subject | kApart, dag}};
+    } else {
+      node(cube.child(c), lists[c], &of_child);
+    }
+    for (const auto& [subject, dag] : of_child) {
+      if (config_.with_union || subject != kUnionSet)
+        builder_->add_child(cube.level, c, subject, dag);
+    }
+  }
+  builder_->close(cube.level, dags);
+}
+
+// Whether the memo knows every subject's sub-DAG.
+bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
+  const auto of_all = find_in_memo(cube, list);
+  if (!of_all) return false;
+  dags->push_back({kUnionSet, *of_all});
+  for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
+    if (dags->empty()) return;
+    const auto known = find_in_memo(cube, TriangleList(of_layer.begin(), of_layer.end()));
+    known ? dags->push_back({subject, *known}) : dags->clear();
+  });
+  return !dags->empty();
 }
 
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list) {
@@ -123,15 +202,27 @@ const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleS
   return admitted_[slot].known;
 }
 
-SubDag Descent::brick(const Cube& cube, const TriangleList& list) {
+Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =
       config_.rule == Rule::kThin ? config_.kernels->thin : config_.kernels->conservative;
-  const Brick voxels =
-      kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+  return kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+}
+
+SubDag Descent::brick(Brick voxels) {
   if (voxels == 0) return {};
   return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
+}
+
+void Descent::bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
+  Brick of_all = 0;
+  for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
+    const Brick voxels = voxels_of(cube, of_layer);
+    of_all |= voxels;
+    dags->push_back({subject, brick(voxels)});
+  });
+  dags->push_back({kUnionSet, brick(of_all)});
 }
 
 Brick Descent::selected_voxels(const Cube& cube) const {

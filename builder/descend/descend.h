@@ -4,6 +4,13 @@
 // some that do not touch it. Empty space is never visited: a child without triangles ends the
 // descent. A cube that one triangle covers is answered by the plane memo without descending.
 // Only bricks decide voxels, and they decide exactly, so the result depends on the voxels alone.
+//
+// Layers (builder/octree/sub_dag_root.h): a cube that several layers touch is descended once, with
+// one list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it,
+// cubes that one layer touches are descended as without layers, and what they give is shared; so
+// layers cost only where they meet. A brick's voxels are the OR over its triangles, so the union's
+// brick is the OR of the layers' bricks. Rejected: the layers one after the other, and the union by
+// recursive OR of their nodes (the upper cubes are divided once for each layer).
 #pragma once
 
 #include <array>
@@ -34,6 +41,7 @@ struct DescentConfig {
   uint64_t memo_bytes = UINT64_MAX;  // of the memo, at most; nor more than 1/32 of the budget
   bool patches = true;               // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};        // for tests: without all of them voxels are wrong
+  bool with_union = true;            // also keep the union where several layers are
 
   OverlapConfig overlap() const { return {kernels, covering}; }
 };
@@ -46,8 +54,9 @@ class Descent {
 
   // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint.
   void run(const Cube& cube, const TriangleList& list);
-  // Adds `cube`, whose sub-DAG was reduced to the builder's table otherwise.
-  void adopt(const Cube& cube, const SubDag& dag);
+  // Adds `cube`, whose sub-DAGs were reduced to the builder's table otherwise.
+  using SubjectDags = std::vector<SubjectDag>;
+  void adopt(const Cube& cube, SubjectDags dags);
 
   const DecisionCounts& decisions() const { return decisions_; }
   const PlaneMemoCounts& memo() const { return memo_.counts(); }
@@ -61,13 +70,24 @@ class Descent {
     std::optional<PlaneMemo::AdmittedPlane> known;
   };
 
+  // What a cube needs: nothing, or to be descended, its children as roots since some are done.
+  enum class Need { kNothing, kAll, kRest };
+  Need need_of(const Cube& cube, const TriangleList& list) const;
+  void pause_at(const Cube& cube);
   SubDag node(const Cube& cube, const TriangleList& list);
   SubDag divide(const Cube& cube, const TriangleList& list, bool as_roots);
+  // The same for a list of several layers.
+  void node(const Cube& cube, const TriangleList& list, SubjectDags* dags);
+  void divide(const Cube& cube, const TriangleList& list, bool as_roots, SubjectDags* dags);
+  bool find_in_memo(const Cube& cube, const TriangleList& list, SubjectDags* dags);
+  void bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags);
+  void end(const Cube& cube, SubjectDags dags);
   void update_memo(SubDagBuilder::Pause pause);
   std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list);
   std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list);
   const std::optional<PlaneMemo::AdmittedPlane>& admitted(const TriangleSetup& triangle);
-  SubDag brick(const Cube& cube, const TriangleList& list);
+  Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list);
+  SubDag brick(Brick voxels);
   Brick selected_voxels(const Cube& cube) const;
 
   Grid grid_;
@@ -81,6 +101,7 @@ class Descent {
   const MortonSet* done_;                           // null: nothing
   bool partly_done_ = false;                        // a part of the cell being baked is in done_
   std::vector<std::array<TriangleList, 8>> lists_;  // [level], reused
+  std::vector<SubjectDags> dags_;                   // [level], reused
   std::vector<uint64_t> divided_;
   DecisionCounts decisions_;
 };

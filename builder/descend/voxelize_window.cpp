@@ -25,6 +25,7 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
   const LatticeBox closed = window.closed(grid.levels);
   for (const LatticeTriangle& triangle : triangles) {
     setups.push_back(make_setup(triangle));
+    setups.back().triangle.subject = kUnionSet;
     if (setups.back().box.meets(closed)) list.push_back({&setups.back(), setups.back().edges});
   }
   Descent(grid, config, &builder).run(window, list);

@@ -180,7 +180,7 @@ class Import {
 
   void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels) const {
     if (config_.inputs != nullptr) config_.inputs->check();
-    output->finish(roots, voxels, config_.largest_snap);
+    output->finish(roots, voxels, config_.largest_snap, {});
   }
 
   ImportReport describe(const Grid& grid, const DagOutput& output) const {

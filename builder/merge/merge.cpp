@@ -19,7 +19,7 @@ class Merger {
          const MergeConfig& config, BakeOutput* output, Executor* executor)
       : runs_(runs),
         config_(config),
-        top_(std::move(roots), part),
+        top_(std::move(roots), part, config.with_union),
         output_(output),
         executor_(executor) {}
 
@@ -203,7 +203,8 @@ MergeConfig share_for_merge(MemoryBudget* budget, Scratch* scratch, size_t worke
           shares.maps,
           shares.map_window,
           std::max<size_t>(2, shares.sources / source_bytes),
-          progress};
+          progress,
+          true};
 }
 
 std::vector<SubDagRoot> merge(std::span<Run> runs, std::vector<SubDagRoot> roots,

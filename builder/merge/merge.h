@@ -39,6 +39,7 @@ struct MergeConfig {
   uint64_t window_bytes = UINT64_MAX;  // of a spilled map that each worker loads at a time
   size_t max_sources = 2;              // spilled sources that may be open at once; at least 2
   Progress* progress = nullptr;        // null: not shown
+  bool with_union = true;              // false: the union has no root
 };
 
 // Shares of the budget for a merge by `workers` workers, where an open source takes `source_bytes`.

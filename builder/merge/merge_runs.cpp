@@ -139,7 +139,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   report.seconds.merge = seconds.lap();
   interval.move_to(0.98, 1);
   progress->phase("write", 0);
-  output->finish(tops, report.voxels, largest_snap);
+  output->finish(tops, report.voxels, largest_snap, {});
   progress->finish();
   report.seconds.write = seconds.lap();
   report.nodes = output->key_counts();

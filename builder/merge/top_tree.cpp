@@ -1,6 +1,7 @@
 #include "builder/merge/top_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "streaming/counts.h"
 
@@ -13,8 +14,15 @@ std::pair<int32_t, uint32_t> level_and_run(const SubDagRoot& root) {
 
 }  // namespace
 
-TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part)
+TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part, bool with_union)
     : roots_(std::move(roots)), part_(part) {
+  // From here on, a root is of one set.
+  for (size_t i = 0, count = roots_.size(); i < count; ++i) {
+    const Subject subject = std::exchange(roots_[i].subject, roots_[i].subject & ~kApart);
+    if (!has_layer(subject) || !has_union(subject) || !with_union) continue;
+    roots_.push_back(roots_[i]);
+    roots_.back().subject = kUnionSet;
+  }
   std::sort(roots_.begin(), roots_.end(), [](const SubDagRoot& a, const SubDagRoot& b) {
     return level_and_run(a) != level_and_run(b) ? level_and_run(a) < level_and_run(b)
                                                 : a.morton < b.morton;
@@ -36,8 +44,9 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
   std::vector<TopCube> parents;
   std::vector<NodeKey> keys;
   for (const TopCube& cube : cubes_) {
-    if (parents.empty() || parents.back().morton != cube.morton >> 3) {
-      parents.push_back({cube.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
+    if (parents.empty() || parents.back().subject != cube.subject ||
+        parents.back().morton != cube.morton >> 3) {
+      parents.push_back({cube.subject, cube.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
       keys.push_back({});
     }
     keys.back()[cube.morton & 7] = 1 + cube.index;
@@ -55,10 +64,12 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
 
 void TopTree::end_level(int level) {
   std::sort(cubes_.begin(), cubes_.end(),
-            [](const TopCube& a, const TopCube& b) { return a.morton < b.morton; });
+            [](const TopCube& a, const TopCube& b) {
+              return std::pair(a.subject, a.morton) < std::pair(b.subject, b.morton);
+            });
   std::erase_if(cubes_, [&](const TopCube& cube) {
     const bool top = part_.is_top(level, cube.morton);
-    if (top) tops_.push_back({cube.morton, level, 0, cube.index});
+    if (top) tops_.push_back({cube.morton, level, 0, cube.index, cube.subject});
     return top;
   });
 }

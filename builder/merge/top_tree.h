@@ -1,5 +1,6 @@
 // The octree above the cells, built upwards level by level during the merge, up to the tops of the
-// merged part (the root of the grid if the part is the whole grid).
+// merged part (the root of the grid if the part is the whole grid); one octree for each layer and the
+// union.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace svdag {
 class TopTree {
  public:
   // The roots are in `part`, which must outlive the tree.
-  TopTree(std::vector<SubDagRoot> roots, const GridPart& part);
+  // `with_union`: whether roots of a layer alone are roots of the union, too.
+  TopTree(std::vector<SubDagRoot> roots, const GridPart& part, bool with_union = true);
 
   // To be called after level `level` is merged, in this order: resolve_own() with the indices of
   // the nodes that sorted_nodes() returned; resolve_run() for each run with its map from rank to
@@ -26,7 +28,7 @@ class TopTree {
   template <class Map>
   void resolve_run(int level, uint32_t run, const Map& map) {
     for (auto [root, end] = roots_of(level, run); root != end; ++root)
-      if (map.holds(root->rank)) cubes_.push_back({root->morton, map[root->rank]});
+      if (map.holds(root->rank)) cubes_.push_back({root->subject, root->morton, map[root->rank]});
   }
   void end_level(int level);
 
@@ -38,6 +40,7 @@ class TopTree {
 
  private:
   struct TopCube {
+    Subject subject;  // one set
     uint64_t morton;  // of the cube at the current level
     uint32_t index;   // global index once resolved; before that, index in nodes_
   };
@@ -48,7 +51,7 @@ class TopTree {
   std::vector<SubDagRoot> roots_;  // sorted by level and run
   const GridPart& part_;
   std::vector<SubDagRoot> tops_;
-  std::vector<TopCube> cubes_;  // occupied cubes of the current level, ascending
+  std::vector<TopCube> cubes_;  // occupied cubes of the current level, by subject, ascending
   std::vector<NodeKey> nodes_;  // of the level being merged, ascending and unique
 };
 

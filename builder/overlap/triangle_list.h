@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "builder/octree/sub_dag_root.h"
 #include "builder/overlap/triangle_setup.h"
 
 namespace svdag {
@@ -15,5 +16,14 @@ struct ListedTriangle {
   EdgeMask edges;
 };
 using TriangleList = std::vector<ListedTriangle>;
+
+// Whether a list that is grouped by layer (all are, if the bake has layers) has one layer alone.
+inline bool is_of_one_layer(const TriangleList& list) {
+  return list.empty() || list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;
+}
+// The subject of a list of one layer.
+inline Subject subject_of(const TriangleList& list) {
+  return list.empty() ? kUnionSet : list.front().triangle->triangle.subject;
+}
 
 }  // namespace svdag

@@ -10,6 +10,9 @@ void RunSet::add(BakedRun baked) {
     roots.push_back(root);
   }
   voxels += baked.voxels;
+  if (baked.layer_voxels.size() > layer_voxels.size())
+    layer_voxels.resize(baked.layer_voxels.size());
+  for (size_t i = 0; i < baked.layer_voxels.size(); ++i) layer_voxels[i] += baked.layer_voxels[i];
   if (baked.run.bricks.spilled) {
     spilled = true;
     spilled_bytes += baked.run.bricks.spilled->bytes;

@@ -27,10 +27,20 @@ struct BakedCell {
   uint64_t voxels;
 };
 
+// Adds `voxels`, those of a sub-DAG, to what `subject` names.
+inline void count_voxels(Subject subject, uint64_t voxels, uint64_t* of_union,
+                         std::vector<uint64_t>* of_layers) {
+  if (has_union(subject)) *of_union += voxels;
+  if (!has_layer(subject)) return;
+  if (layer_of(subject) >= of_layers->size()) of_layers->resize(layer_of(subject) + 1);
+  (*of_layers)[layer_of(subject)] += voxels;
+}
+
 struct BakedRun {
   Run run;
   std::vector<SubDagRoot> roots;  // SubDagRoot::run is not set
-  uint64_t voxels = 0;
+  uint64_t voxels = 0;                 // of the union
+  std::vector<uint64_t> layer_voxels;  // [layer]; layers beyond the end have none
   std::vector<MortonRange> finished;  // parts of the grid that are completely in this run
   std::vector<BakedCell> cells;       // filled only if there is a cell store
 };
@@ -39,7 +49,8 @@ struct BakedRun {
 struct RunSet {
   std::vector<Run> runs;
   std::vector<SubDagRoot> roots;  // of all runs
-  uint64_t voxels = 0;
+  uint64_t voxels = 0;             // of the union
+  std::vector<uint64_t> layer_voxels;  // [layer]
   bool spilled = false;        // at least one run was spilled
   uint64_t spilled_bytes = 0;  // total size of the spilled runs
 

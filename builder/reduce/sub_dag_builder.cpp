@@ -30,13 +30,30 @@ void SubDagBuilder::begin(const Cube& cube) {
   finished_end_ = morton_range(cube, table_.levels()).begin;
 }
 
-SubDagBuilder::Pause SubDagBuilder::end(const Cube& cube, const SubDag& dag) {
+SubDagBuilder::Pause SubDagBuilder::end(const Cube& cube) {
   const uint64_t end = morton_range(cube, table_.levels()).end;
-  if (dag.root != 0) add_root(cube, dag.root);
-  voxels_ += dag.voxels;
   const Pause paused = pause(cube.level, end);
   append_range(&finished_, {finished_end_, end});
   return paused;
+}
+
+void SubDagBuilder::close(int level, std::vector<SubjectDag>* dags) {
+  OpenCube& cube = path_[size_t(level)];
+  if (cube.as_roots) make_roots(&cube);
+  auto& children = cube.of_layers;
+  std::stable_sort(children.begin(), children.end(),
+                   [](const auto& a, const auto& b) { return a.subject < b.subject; });
+  for (auto at = children.begin(); at != children.end();) {
+    const Subject subject = at->subject;
+    NodeKey key{};
+    uint64_t voxels = 0;
+    for (; at != children.end() && at->subject == subject; ++at) {
+      key[at->c] = at->root;
+      voxels += at->voxels;
+    }
+    dags->push_back({subject, {table_.add_node(level, key), voxels}});
+  }
+  children.clear();
 }
 
 bool SubDagBuilder::is_late() const {
@@ -69,6 +86,7 @@ void SubDagBuilder::reset() {
   roots_.clear();
   settled_roots_ = 0;
   voxels_ = 0;
+  layer_voxels_.clear();
   finished_.clear();
   emptied_ = Clock::now();
 }
@@ -77,6 +95,7 @@ void SubDagBuilder::flush(int level) {
   table_.flush();
   for (int k = first_level_; k < level; ++k) {
     for (uint32_t& child : path_[size_t(k)].children) child = table_.settled(k + 1, child);
+    for (auto& child : path_[size_t(k)].of_layers) child.root = table_.settled(k + 1, child.root);
   }
   for (; settled_roots_ < roots_.size(); ++settled_roots_) {
     SubDagRoot& root = roots_[settled_roots_];
@@ -85,11 +104,12 @@ void SubDagBuilder::flush(int level) {
 }
 
 void SubDagBuilder::make_roots(OpenCube* cube) {
-  for (unsigned c = 0; c < 8; ++c) {
-    if (cube->children[c] != 0) add_root(cube->cube.child(c), cube->children[c]);
-  }
+  for (unsigned c = 0; c < 8; ++c) add_root(cube->cube.child(c), subject_, cube->children[c]);
   cube->children.fill(0);
-  voxels_ += std::exchange(cube->voxels, 0);
+  count_voxels(subject_, std::exchange(cube->voxels, 0), &voxels_, &layer_voxels_);
+  for (const auto& child : cube->of_layers)
+    add_root(cube->cube.child(child.c), child.subject, child.root, child.voxels);
+  cube->of_layers.clear();
 }
 
 BakedRun SubDagBuilder::take_run(const SpillTarget* target) {
@@ -97,6 +117,7 @@ BakedRun SubDagBuilder::take_run(const SpillTarget* target) {
   BakedRun baked;
   baked.roots = std::move(roots_);
   baked.voxels = voxels_;
+  baked.layer_voxels = std::move(layer_voxels_);
   baked.finished = std::move(finished_);
   baked.run = freeze(&table_, baked.roots, target);
   reset();

@@ -6,6 +6,14 @@
 
 namespace svdag {
 
+void DagOutput::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
+                       LayerTable layers) {
+  for (const SubDagRoot& root : roots)
+    (has_layer(root.subject) ? layers.layers[layer_of(root.subject)].root : layers.union_root) =
+        root.rank;
+  writer_.finish(voxels, largest_snap, std::move(layers));
+}
+
 std::vector<uint64_t> DagOutput::key_counts() const {
   const Header& header = writer_.header();
   std::vector<uint64_t> keys;

@@ -21,8 +21,10 @@ class BakeOutput {
   virtual void begin_level(int level) = 0;
   virtual uint32_t add_brick(Brick brick) = 0;
   virtual uint32_t add_node(const NodeKey& children) = 0;
-  // Completes the file and gives it its name. `roots`: the non-empty tops of the part.
-  virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) = 0;
+  // Completes the file and gives it its name. `roots`: the non-empty tops of the part, of the union
+  // and of layer i of `layers`, by their subjects. The roots of `layers` need not be set.
+  virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
+                      LayerTable layers) = 0;
 
   // Of the finished file.
   virtual std::vector<uint64_t> key_counts() const = 0;  // per level; the last entry counts bricks
@@ -41,9 +43,8 @@ class DagOutput final : public BakeOutput {
   void begin_level(int level) override { writer_.begin_level(level); }
   uint32_t add_brick(Brick brick) override { return writer_.add_brick(brick); }
   uint32_t add_node(const NodeKey& children) override { return writer_.add_node(children); }
-  void finish(std::span<const SubDagRoot>, uint64_t voxels, double largest_snap) override {
-    writer_.finish(voxels, largest_snap);
-  }
+  void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
+              LayerTable layers) override;
   uint64_t voxels() const { return writer_.header().voxels; }
   std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }

@@ -98,7 +98,8 @@ void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
   header_.roots = sorted.size();
 }
 
-void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) {
+void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
+                       LayerTable) {
   SVDAG_ASSERT(level_ == 0);
   header_.voxels = voxels;
   header_.largest_snap = largest_snap;

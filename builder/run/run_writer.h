@@ -31,7 +31,8 @@ class RunWriter final : public BakeOutput {
   void begin_level(int level) override;
   uint32_t add_brick(Brick brick) override;
   uint32_t add_node(const NodeKey& children) override;
-  void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap) override;
+  void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
+              LayerTable layers) override;
 
   std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return header_.file_bytes; }

@@ -14,6 +14,11 @@ namespace {
 // levels below, most of which are in ever smaller cubes.
 constexpr uint64_t kPreparedBytes = sizeof(TriangleSetup) + 4 * sizeof(ListedTriangle);
 
+void group_by_layer(TriangleList* list) {
+  const auto subject = [](const ListedTriangle& entry) { return entry.triangle->triangle.subject; };
+  if (!std::ranges::is_sorted(*list, {}, subject)) std::ranges::stable_sort(*list, {}, subject);
+}
+
 }  // namespace
 
 struct CellTree::Node {
@@ -185,12 +190,13 @@ const CellCursor::CursorLevel& CellCursor::path_to(const Cube& cell) {
 void CellCursor::prepare(const CursorLevel& cell) {
   list_ = cell.list;
   setups_.clear();
-  if (cell.node == nullptr) return;
+  if (cell.node == nullptr) return group_by_layer(&list_);
   setups_.reserve(cell.node->triangles.size());  // list entries point into it
   for (const uint32_t i : cell.node->triangles) {
     setups_.push_back(make_setup(tree_.triangles_[i]));
     list_.push_back({&setups_.back(), setups_.back().edges});
   }
+  group_by_layer(&list_);
 }
 
 }  // namespace svdag

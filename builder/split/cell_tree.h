@@ -71,7 +71,7 @@ class CellCursor {
  public:
   CellCursor(const CellTree& tree, const OverlapConfig& config);
 
-  // The list of `cube`, a cell or a cube in one; valid until the next call.
+  // The list of `cube`, a cell or a cube in one, grouped by layer; valid until the next call.
   const TriangleList& list(const Cube& cube);
 
  private:

@@ -86,9 +86,13 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   SplitCounts& counts = result.counts;
   TriangleStore store(grid, config, counts, budget);
   double largest_move = 0;
+  result.layers = SceneLayers(config.layers);
+  const bool layered = config.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
+    const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
+      snapped.subject = subject;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
       const BoxPlacement placement = placement_of(snapped, grid, config.part);

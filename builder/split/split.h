@@ -10,6 +10,7 @@
 
 #include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
+#include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
 #include "io/scene/scene.h"
 #include "streaming/process/progress.h"
@@ -21,6 +22,7 @@ struct SplitConfig {
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // triangles are spilled above this CellTree::bytes()
   Scratch* scratch = nullptr;            // null: triangles are never spilled
+  LayerKind layers = LayerKind::kNone;   // what becomes a layer
   const GridPart* part = nullptr;        // triangles that miss it are dropped; null: the whole grid
   // Called once, when spilling begins: `read` triangles (dropped ones included) took `bytes` in
   // bins, and more will follow.
@@ -53,6 +55,7 @@ struct SplitScene {
   SplitCounts counts;
   std::unique_ptr<CellTree> tree;  // sealed; null if the triangles were spilled
   std::vector<TriangleBin> bins;   // in Morton order, in the scratch's `triangles`
+  SceneLayers layers;              // by the subjects of the triangles
 };
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,

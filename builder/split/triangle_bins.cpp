@@ -4,13 +4,14 @@
 #include <glm/common.hpp>
 
 #include "builder/overlap/overlap.h"
+#include "io/dag/format.h"
 #include "io/lattice.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
 
-constexpr size_t kMaxTriangleBytes = 90;  // nine numbers of 10 bytes
+constexpr size_t kMaxTriangleBytes = 100;  // ten numbers of 10 bytes
 
 uint8_t* put(int64_t value, uint8_t* out) {
   uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
@@ -79,6 +80,7 @@ void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
   for (int i = 1; i < 3; ++i) {
     for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
   }
+  end = put(triangle.subject, end);
   bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
   bytes_ += uint64_t(end - bytes);
   ++bin.triangles;
@@ -172,7 +174,9 @@ bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
       for (int a = 0; a < 3; ++a)
         t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
     }
-    if (!on_lattice(t)) reader_.fail_damaged();
+    const int64_t subject = read_number();
+    if (!on_lattice(t) || subject < 0 || subject > int64_t(kMaxLayers)) reader_.fail_damaged();
+    t.subject = uint32_t(subject);
   }
   return true;
 }

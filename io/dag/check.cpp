@@ -1,5 +1,6 @@
 #include "io/dag/check.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -50,8 +51,13 @@ void check_fields(const File& file, const Header& h) {
     require(std::isfinite(h.origin[a]) && (has_origin || h.origin[a] == 0), file,
             "impossible grid origin", offsetof(Header, origin));
   }
-  require(h.layout <= 1 && h.padding == 0 && h.version == version_of(Layout(h.layout)), file,
-          "impossible layout", offsetof(Header, layout));
+  require(h.layout <= 1 && h.padding == 0 && h.layer_kind < std::size(kLayerKindNames) &&
+              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind)),
+          file, "impossible layout", offsetof(Header, layout));
+  const bool layered = h.layer_kind != 0;
+  require(h.layer_count <= (layered ? kMaxLayers : 0) && h.has_union <= (layered ? 1 : 0) &&
+              h.padding2 == 0 && (layered || (h.layers_offset == 0 && h.layers_bytes == 0)),
+          file, "impossible layers", offsetof(Header, layers_offset));
   require(is_compact(h) || (h.table_hash[0] == 0 && h.table_hash[1] == 0), file,
           "unknown header field", offsetof(Header, table_hash));
   for (const unsigned char byte : h.reserved)
@@ -84,6 +90,8 @@ void check_layout(const File& file, const Header& h) {
     require((compact && !bricks) || (s.bytes % unit == 0 && s.bytes / unit <= kMaxWords), file,
             "impossible section size", field);
   }
+  if (h.layer_kind != 0)
+    expect_section(h.layers_offset, h.layers_bytes, offsetof(Header, layers_offset));
   expect_section(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
   expect_section(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
   const uint64_t payload = h.checksum_offset - sizeof(Header);
@@ -121,7 +129,8 @@ class StructureScan {
       const size_t n = size_t(std::min<uint64_t>(bytes.size(), region_end() - offset));
       if (in_section(offset)) {
         scan(offset, bytes.first(n));
-      } else if (offset < h_.metadata_offset || offset >= h_.metadata_offset + h_.metadata_bytes) {
+      } else if (!holds(h_.layers_offset, h_.layers_bytes, offset) &&
+                 !holds(h_.metadata_offset, h_.metadata_bytes, offset)) {
         for (size_t i = 0; i < n; ++i)
           require(bytes[i] == std::byte(0), file_, "padding is not zero", offset + i);
       }
@@ -132,9 +141,7 @@ class StructureScan {
   }
 
   void finish() const {
-    const Section& root = h_.sections[0];
-    const bool empty = h_.sections[h_.section_count - 1].nodes == 0;
-    require(root.nodes == (empty ? 0U : 1U), file_, "wrong number of roots", root.offset);
+    require(has_possible_roots(h_), file_, "wrong number of roots", h_.sections[0].offset);
   }
 
  private:
@@ -142,13 +149,17 @@ class StructureScan {
   bool in_section(uint64_t offset) const {
     return !done_ && offset >= section().offset && offset < section().offset + section().bytes;
   }
+  static bool holds(uint64_t begin, uint64_t bytes, uint64_t offset) {
+    return offset >= begin && offset - begin < bytes;
+  }
   // The end of the region (padding, section or rest) that contains the position.
   uint64_t region_end() const {
-    if (done_)
-      return position_ < h_.metadata_offset ? h_.metadata_offset
-             : position_ < h_.metadata_offset + h_.metadata_bytes
-                 ? h_.metadata_offset + h_.metadata_bytes
-                 : h_.checksum_offset;
+    if (done_) {
+      const uint64_t ends[] = {h_.layers_offset, h_.layers_offset + h_.layers_bytes,
+                               h_.metadata_offset, h_.metadata_offset + h_.metadata_bytes};
+      const auto end = std::upper_bound(std::begin(ends), std::end(ends), position_);
+      return end != std::end(ends) ? *end : h_.checksum_offset;
+    }
     return position_ < section().offset ? section().offset : section().offset + section().bytes;
   }
   void advance(uint64_t offset) {

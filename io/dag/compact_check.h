@@ -28,8 +28,7 @@ class CompactCheck {
 
   std::optional<StructureDefect> run() const {
     const uint64_t bricks = h_.sections[h_.levels - 2].nodes;
-    const Section& root = h_.sections[0];
-    if (root.nodes != (bricks == 0 ? 0U : 1U)) return {{"wrong number of roots", root.offset}};
+    if (!has_possible_roots(h_)) return {{"wrong number of roots", h_.sections[0].offset}};
     for (uint32_t level = 0; level + 2 < h_.levels; ++level) {
       if (const auto defect = check_level(h_.sections[level], h_.sections[level + 1].nodes))
         return defect;

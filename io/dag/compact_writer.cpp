@@ -121,15 +121,18 @@ NodeClasses classes_of(const DagView& dag, uint32_t level, uint64_t nodes, const
 class CompactWriter {
  public:
   CompactWriter(const DagFile& plain, const std::string& path, const WorkRoom& room)
-      : dag_(plain.view()), room_(room), file_(path), header_(plain.header()) {
+      : plain_(plain), dag_(plain.view()), room_(room), file_(path), header_(plain.header()) {
     SVDAG_ASSERT(dag_.layout == Layout::kPlain);
-    header_.version = version_of(Layout::kCompact);
+    header_.version = version_of(Layout::kCompact, LayerKind(header_.layer_kind));
     header_.layout = uint32_t(Layout::kCompact);
   }
 
   // Writes all of the file, which has no name yet.
   void run() {
-    order_ = WorkArray<uint32_t>(1, room_);  // the root
+    order_ = WorkArray<uint32_t>(header_.sections[0].nodes, room_);
+    uint32_t number = 0;
+    for (uint64_t i = 0; i < dag_.index_end[0]; i = dag_next(dag_, 0, i))
+      order_[number++] = uint32_t(i);
     for (uint32_t level = 0; level < dag_.brick_level(); ++level) {
       begin_section(level);
       if (!dag_.empty()) write_level(level);
@@ -250,6 +253,12 @@ class CompactWriter {
 
   // Writes everything after the sections, and the header.
   void finish() {
+    if (header_.layer_kind != 0) {
+      const auto layers = plain_.bytes().subspan(header_.layers_offset, header_.layers_bytes);
+      header_.layers_offset = padded(end_);
+      file_.write_at(header_.layers_offset, layers);
+      end_ = header_.layers_offset + header_.layers_bytes;
+    }
     const std::string json = metadata_of(header_);
     header_.metadata_offset = padded(end_);
     header_.metadata_bytes = json.size();
@@ -285,6 +294,7 @@ class CompactWriter {
     return checksums;
   }
 
+  const DagFile& plain_;
   const DagView& dag_;
   const WorkRoom& room_;
   AtomicFile file_;
@@ -322,7 +332,8 @@ std::vector<uint64_t> compact_section_bytes(const DagView& dag, const WorkRoom& 
   SVDAG_ASSERT(dag.layout == Layout::kPlain);
   std::vector<uint64_t> bytes(dag.brick_level() + 1);
   if (dag.empty()) return bytes;
-  uint64_t nodes = 1;
+  uint64_t nodes = 0;
+  for (uint64_t i = 0; i < dag.index_end[0]; i = dag_next(dag, 0, i)) ++nodes;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) {
     const LevelBelow below(dag, level, room);
     WorkArray<uint32_t> references(below.nodes(), room);

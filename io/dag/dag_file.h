@@ -4,8 +4,10 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/dag/dag_view.h"
+#include "io/dag/layer_table.h"
 #include "io/grid.h"
 #include "streaming/file/mapped_file.h"
 
@@ -29,16 +31,30 @@ class DagFile {
   std::span<const std::byte> bytes() const {
     return {static_cast<const std::byte*>(file_.data()), size_t(header().file_bytes)};
   }
+  // Empty in a file without layers.
+  const LayerTable& layers() const { return layers_; }
+  // The view of layer `layer` of the table; empty if it has no voxels. The file must outlive it.
+  DagView view_of(size_t layer) const;
   Grid grid() const;
   Rule rule() const { return Rule(header().rule); }
   std::string_view metadata() const;  // the JSON text
 
  private:
-  DagFile(MappedFile file, std::string path);
+  DagFile(MappedFile file, std::string path, LayerTable layers);
 
   std::string path_;
   MappedFile file_;
   DagView view_;
+  LayerTable layers_;
+  // With layers, level 0 as levels of a single node each. [number]: the node's index (plain), or
+  // its line and bases (compact).
+  struct RootLine {
+    alignas(8) unsigned char line[2 * kLineNodes] = {};
+    uint32_t bases[kClasses];
+  };
+  static RootLine root_line(const CompactLevel& level, uint32_t node);
+  std::vector<uint32_t> root_index_;
+  std::vector<RootLine> root_lines_;
 };
 
 // The grid that a header describes.

@@ -5,6 +5,9 @@
 // level L-2. A node is known by an index, which is private to the layout of the file; the root has
 // index 0. Children are in the next level only.
 //
+// A file with layers has further roots in level 0. The view of a layer (DagFile::view_of) has its
+// root at index 0 instead. So what index 0 reaches, not whole sections, are a view's voxels.
+//
 // Plain layout: a node is a word whose low 8 bits are the child mask, followed by one word per
 // present child, ascending: the child's index. The index of a node is that of its first word in the
 // section of its level, the index of a brick its number.

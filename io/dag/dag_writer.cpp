@@ -1,7 +1,9 @@
 #include "io/dag/dag_writer.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "io/dag/compact_writer.h"
 #include "io/dag/grid_fields.h"
@@ -20,7 +22,7 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
       level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kMagic, sizeof kMagic);
-  header_.version = version_of(Layout::kPlain);
+  header_.version = version_of(Layout::kPlain, LayerKind::kNone);
   header_.header_bytes = sizeof(Header);
   put_grid(grid, rule, &header_);
   header_.section_count = uint32_t(grid.levels - 1);
@@ -88,6 +90,17 @@ uint32_t DagWriter::add_brick(Brick brick) {
 }
 
 uint32_t DagWriter::add_node(const NodeKey& children) {
+  SVDAG_ASSERT(level_ + 2 < int(header_.levels));
+  if (level_ > 0) {
+    SVDAG_ASSERT(last_node_ < children);
+    last_node_ = children;
+    return append_node(children);
+  }
+  roots_.push_back(children);
+  return uint32_t(roots_.size() - 1);
+}
+
+uint32_t DagWriter::append_node(const NodeKey& children) {
   uint32_t words[9];
   uint32_t mask = 0, count = 1;
   for (unsigned c = 0; c < 8; ++c) {
@@ -96,8 +109,6 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
     words[count++] = children[c] - 1;
   }
   words[0] = mask;
-  SVDAG_ASSERT(last_node_ < children && level_ + 2 < int(header_.levels));
-  last_node_ = children;
   if (uint64_t(words_) + count > max_words_)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " needs more than 2^32 - 2 words, which the format "
@@ -109,11 +120,47 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
   return index;
 }
 
-void DagWriter::complete(uint64_t voxels, double largest_snap) {
+// Writes the roots, the default one first, the others ascending, and renumbers those of *layers.
+void DagWriter::write_roots(LayerTable* layers) {
+  SVDAG_ASSERT(!layers->empty() || roots_.size() <= 1);
+  std::sort(layers->layers.begin(), layers->layers.end(),
+            [](const Layer& a, const Layer& b) { return a.name < b.name; });
+  if (roots_.empty()) return;
+  std::vector<uint32_t> order(roots_.size()), number(roots_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::swap(order.front(), order[layers->default_root()]);
+  std::sort(order.begin() + 1, order.end(),
+            [this](uint32_t a, uint32_t b) { return roots_[a] < roots_[b]; });
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    append_node(roots_[order[i]]);
+  }
+  for (Layer& layer : layers->layers) {
+    if (layer.root != kNoRoot) layer.root = number[layer.root];
+  }
+}
+
+void DagWriter::write_layers(LayerTable layers) {
+  if (layers.empty()) return;
+  header_.version = version_of(Layout::kPlain, layers.kind);
+  header_.layer_kind = uint32_t(layers.kind);
+  header_.layer_count = uint32_t(layers.layers.size());
+  header_.has_union = layers.has_union;
+  header_.voxels = layers.default_voxels(header_.voxels);
+  align();
+  const std::vector<std::byte> bytes = encode_layers(layers);
+  header_.layers_offset = position();
+  header_.layers_bytes = bytes.size();
+  append(bytes.data(), bytes.size());
+}
+
+void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers) {
   SVDAG_ASSERT(level_ == 0);
+  write_roots(&layers);
   close_level();
   header_.voxels = voxels;
   header_.largest_snap = largest_snap;
+  write_layers(std::move(layers));
   align();
   const std::string json = metadata_of(header_);
   header_.metadata_offset = position();
@@ -138,20 +185,20 @@ void DagWriter::complete(uint64_t voxels, double largest_snap) {
 }
 
 DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap,
-                                  const std::string& shown_as) {
-  complete(voxels, largest_snap);
+                                  LayerTable layers, const std::string& shown_as) {
+  complete(voxels, largest_snap, std::move(layers));
   return DagFile::adopt(File::open_read(file_.open_name()), shown_as);
 }
 
-void DagWriter::finish(uint64_t voxels, double largest_snap,
+void DagWriter::finish(uint64_t voxels, double largest_snap, LayerTable layers,
                        const std::function<void(const Header&)>& check) {
   if (!compact_) {
-    complete(voxels, largest_snap);
+    complete(voxels, largest_snap, std::move(layers));
     if (check) check(header_);
     return file_.commit();
   }
   SVDAG_ASSERT(!check);  // of plain files only
-  const DagFile plain = finish_unnamed(voxels, largest_snap, path_);
+  const DagFile plain = finish_unnamed(voxels, largest_snap, std::move(layers), path_);
   header_ = write_compact(plain, path_, *compact_);
 }
 

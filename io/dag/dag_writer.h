@@ -12,6 +12,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/layer_table.h"
 #include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"
@@ -34,12 +35,17 @@ class DagWriter {
   // Appends a node to an inner level and returns the index of its first word. Nodes must ascend. A
   // full section is an Error (kOutput).
   uint32_t add_node(const NodeKey& children);
-  // Writes metadata, checksums and header, and renames the file to its name.
+  // The roots, that is, the nodes of level 0, may come in any order; add_node() numbers them.
+  //
+  // Writes metadata, checksums and header, and renames the file to its name. Without layers there
+  // is one root at most, and `voxels` is its number (with layers, the union's); roots of the table are what add_node()
+  // returned, its layers in any order.
   // `check` may throw: then the file gets no name.
-  void finish(uint64_t voxels, double largest_snap,
+  void finish(uint64_t voxels, double largest_snap, LayerTable layers = {},
               const std::function<void(const Header&)>& check = {});
   // The same, but the file gets no name and is in the plain layout; errors show `shown_as`.
-  DagFile finish_unnamed(uint64_t voxels, double largest_snap, const std::string& shown_as);
+  DagFile finish_unnamed(uint64_t voxels, double largest_snap, LayerTable layers,
+                         const std::string& shown_as);
 
   const Header& header() const { return header_; }
 
@@ -50,7 +56,10 @@ class DagWriter {
   uint64_t position() const { return sizeof(Header) + written_ + filled_; }
   void close_level();
 
-  void complete(uint64_t voxels, double largest_snap);
+  uint32_t append_node(const NodeKey& children);
+  void write_roots(LayerTable* layers);
+  void write_layers(LayerTable layers);
+  void complete(uint64_t voxels, double largest_snap, LayerTable layers);
 
   std::string path_;
   std::optional<WorkRoom> compact_;
@@ -61,6 +70,7 @@ class DagWriter {
   uint32_t words_ = 0;    // words (bricks) in it
   Brick last_brick_ = 0;  // the previous keys, to assert the order
   NodeKey last_node_{};
+  std::vector<NodeKey> roots_;    // level 0
   uint64_t written_ = 0;          // payload bytes in the file
   std::vector<std::byte> block_;  // kChecksumBlock bytes
   size_t filled_ = 0;             // of the block: payload bytes not yet written

@@ -1,9 +1,9 @@
 // The structures of the `.svdag` file format (docs/format.md).
 //
-//   header (1024 bytes) | level sections, 64-byte aligned | metadata (JSON) | checksum table | end
+//   header (1024 bytes) | level sections | layer table | metadata (JSON) | checksum table | end
 //
-// Version 1 is the plain layout, whose sections are ordered deepest first; version 2 is the compact
-// layout, whose sections are ordered root first.
+// All parts are 64-byte aligned. In the plain layout the sections are ordered deepest first, in the
+// compact layout root first. Version 1 is the plain layout without layers, version 2 all else.
 //
 // Little-endian. No dependencies: host and CUDA code include this file through dag_view.h.
 #pragma once
@@ -27,8 +27,18 @@ constexpr const char* layout_name(Layout layout) {
   return kLayoutNames[size_t(layout)];
 }
 
-constexpr uint32_t version_of(Layout layout) {
-  return layout == Layout::kPlain ? 1 : 2;
+// What a layer is in the scene.
+enum class LayerKind : uint32_t { kNone, kMaterial, kObject, kFile };
+
+constexpr const char* kLayerKindNames[] = {"none", "material", "object", "file"};
+constexpr uint32_t kMaxLayers = 65535;
+
+constexpr const char* layer_kind_name(LayerKind kind) {
+  return kLayerKindNames[size_t(kind)];
+}
+
+constexpr uint32_t version_of(Layout layout, LayerKind layers) {
+  return layout == Layout::kPlain && layers == LayerKind::kNone ? 1 : 2;
 }
 
 enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
@@ -75,9 +85,22 @@ struct Header {
   uint32_t layout;              // Layout
   uint32_t padding;             // zero
   uint64_t table_hash[2];       // compact: XXH3-128 of the checksum table; plain: zero
-  unsigned char reserved[224];  // zero
+  // The layers; zeros in a file without.
+  uint64_t layers_offset, layers_bytes;
+  uint32_t layer_count;
+  uint32_t layer_kind;          // LayerKind
+  uint32_t has_union;           // 1: the first root is that of all layers together
+  uint32_t padding2;            // zero
+  unsigned char reserved[192];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
+
+// Whether level 0 has as many nodes as an empty or another file may have.
+constexpr bool has_possible_roots(const Header& h) {
+  const uint64_t roots = h.sections[0].nodes;
+  if (h.sections[h.levels - 2].nodes == 0) return roots == 0;
+  return roots >= 1 && roots <= uint64_t(h.layer_count) + (h.layer_kind == 0 || h.has_union);
+}
 
 static_assert(sizeof(Section) == 24);
 static_assert(offsetof(Header, corner) == 32);
@@ -86,8 +109,20 @@ static_assert(offsetof(Header, sections) == 176);
 static_assert(offsetof(Header, content_hash) == 632);
 static_assert(offsetof(Header, transform) == 648);
 static_assert(offsetof(Header, layout) == 768);
+static_assert(offsetof(Header, layers_offset) == 792);
 static_assert(offsetof(Header, header_checksum) == 1016);
 static_assert(sizeof(Header) == 1024);
+
+// An entry of the layer table; the names follow the last one.
+struct StoredLayer {
+  uint64_t voxels;
+  uint32_t root;  // number of the node in level 0; 0xffffffff without voxels
+  uint32_t name_bytes;
+  uint8_t colour[3];  // sRGB
+  uint8_t reserved[5];
+};
+
+static_assert(sizeof(StoredLayer) == 24);
 
 // Compact layout: how the nodes of an inner level refer to those of the level below, which are
 // divided into the classes A, B and C (io/dag/compact_view.h). The section of a level consists of

@@ -75,6 +75,7 @@ class PlainLevels {
 
   void write_level(uint32_t level) {
     writer_->begin_level(int(level));
+    if (level == 0) return write_roots();
     const auto fill = [&](uint32_t number) {
       NumberedNode node{{}, number, {}};
       dag_for_children(dag_, level, number, [&](unsigned c, uint32_t child) {
@@ -84,6 +85,16 @@ class PlainLevels {
     };
     sort<NumberedNode>(dag_.index_end[level], 8, NodeWord(), fill,
                        [&](const NumberedNode& n) { return writer_->add_node(n.children); });
+  }
+
+  // In the order of the file, as the table numbers them.
+  void write_roots() {
+    for (uint32_t number = 0; number < dag_.index_end[0]; ++number) {
+      NodeKey root{};
+      dag_for_children(dag_, 0, number,
+                       [&](unsigned c, uint32_t child) { root[c] = 1 + index_of_[child]; });
+      writer_->add_node(root);
+    }
   }
 
   static constexpr uint64_t kMinSort = 4 * ExternalSortConfig::kMinBytesPerWorker;
@@ -103,7 +114,7 @@ std::optional<DagFile> plain_form(const DagFile& file, const WorkRoom& room) {
   DagWriter writer(room.folder + "/plain.svdag", file.grid(), file.rule());
   PlainLevels(file, room, &writer).run();
   const Header& h = file.header();
-  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, file.path());
+  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, file.layers(), file.path());
   if (!std::equal(h.content_hash, h.content_hash + 2, plain.header().content_hash))
     fail_input(file.path(), "damaged file: its nodes do not match its content hash",
                offsetof(Header, content_hash));

@@ -29,7 +29,8 @@ std::vector<std::byte> chunk_of(const std::array<Stream, count>& streams, int le
 class Packer {
  public:
   Packer(const DagFile& plain, const std::string& path, int level, Executor* executor)
-      : dag_(plain.view()),
+      : plain_(plain),
+        dag_(plain.view()),
         header_(plain.header()),
         zstd_(level),
         executor_(executor),
@@ -39,6 +40,7 @@ class Packer {
 
   uint64_t run() {
     file_.write_at(0, std::vector<std::byte>(sizeof(PackedHeader)));
+    file_.append(plain_.bytes().subspan(header_.layers_offset, header_.layers_bytes));
     const uint32_t bricks = dag_.brick_level();
     write_level(bricks, header_.sections[bricks].nodes);
     for (uint32_t level = bricks; level-- > 0;) write_level(level, header_.sections[level].nodes);
@@ -119,6 +121,7 @@ class Packer {
     file_.commit();
   }
 
+  const DagFile& plain_;
   const DagView& dag_;
   const Header& header_;
   int zstd_;

@@ -1,6 +1,6 @@
 // The structures of a packed file, `.svdag.pack` (docs/pack-format.md).
 //
-//   header | chunks, deepest level first | index
+//   header | layer table | chunks, deepest level first | index
 //
 // A chunk holds up to kChunkNodes successive nodes (or bricks) of one level of the plain layout, as
 // streams of bytes (io/pack/node_streams.h), each a zstd frame of its own. Chunks are independent.

@@ -42,10 +42,12 @@ class Unpacker {
       : room_(room), executor_(executor), file_(File::open_read(path)) {
     inputs_.add(file_);
     read_header();
+    read_layers();
     read_index();
   }
 
   const Header& plain() const { return header_.plain; }
+  const LayerTable& layers() const { return layers_; }
 
   // Writes all levels; the writer must be one for the grid and rule of plain().
   void run(DagWriter* writer) {
@@ -90,6 +92,16 @@ class Unpacker {
             "unknown header field", offsetof(PackedHeader, padding));
   }
 
+  void read_layers() {
+    const uint64_t bytes = header_.plain.layers_bytes;
+    require(bytes <= file_.size() - sizeof header_, "it ends within its layer table", file_.size());
+    std::vector<std::byte> table(bytes);
+    file_.read_at(sizeof header_, table);
+    auto layers = decode_layers(header_.plain, table);
+    require(layers.has_value(), "an impossible layer table", sizeof header_);
+    layers_ = std::move(*layers);
+  }
+
   void read_index() {
     const uint64_t size = file_.size();
     require(header_.index_offset <= size && header_.chunks <= size / sizeof(ChunkEntry) &&
@@ -100,7 +112,7 @@ class Unpacker {
     file_.read_at(header_.index_offset, bytes);
     require(checksum64(bytes) == header_.index_checksum, "the index does not match its checksum",
             header_.index_offset);
-    uint64_t end = sizeof(PackedHeader), nodes = 0;
+    uint64_t end = sizeof(PackedHeader) + header_.plain.layers_bytes, nodes = 0;
     for (const Section& section : header_.plain.sections) nodes += section.nodes;
     for (size_t i = 0; i < index_.size(); ++i) {
       const uint64_t at = header_.index_offset + i * sizeof(ChunkEntry);
@@ -118,7 +130,7 @@ class Unpacker {
   // Passes the keys of the chunks of a level to add(key), in order. `decode(bytes, nodes)` gives
   // the keys of a chunk, or none.
   template <class Key, class Decode, class Add>
-  void write_level(uint64_t nodes, const Decode& decode, const Add& add) {
+  void write_level(uint64_t nodes, bool ascending, const Decode& decode, const Add& add) {
     std::vector<std::vector<Key>> batch(4 * executor_->workers());
     Key last{};  // no key is zero
     for (uint64_t done = 0; done < nodes;) {
@@ -143,7 +155,8 @@ class Unpacker {
       });
       for (size_t i = 0; i < chunks; ++i) {
         for (const Key& key : batch[i]) {
-          require(last < key, "nodes are empty or do not ascend", index_[next_chunk_ + i].offset);
+          require(ascending ? last < key : Key{} < key, "nodes are empty or do not ascend",
+                  index_[next_chunk_ + i].offset);
           last = key;
           add(key);
         }
@@ -159,7 +172,7 @@ class Unpacker {
       return streams ? bricks_of_streams(*streams, bricks) : std::nullopt;
     };
     uint64_t number = 0;
-    write_level<Brick>(count, decode,
+    write_level<Brick>(count, true, decode,
                        [&](Brick brick) { (*placed)[++number] = 1 + writer->add_brick(brick); });
   }
 
@@ -173,7 +186,7 @@ class Unpacker {
       return nodes;
     };
     uint64_t number = 0;
-    write_level<NodeKey>(count, decode, [&](const NodeKey& node) {
+    write_level<NodeKey>(count, level > 0, decode, [&](const NodeKey& node) {
       (*placed)[++number] = 1 + writer->add_node(node);
     });
   }
@@ -194,6 +207,7 @@ class Unpacker {
   File file_;
   InputWatch inputs_;
   PackedHeader header_;
+  LayerTable layers_;
   std::vector<ChunkEntry> index_;
   size_t next_chunk_ = 0;
   // [1 + rank]: 1 + index in the plain layout, of the level below; [0]: 0.
@@ -218,7 +232,7 @@ DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor
   const Header& h = unpacker.plain();
   DagWriter writer(room.folder + "/plain.svdag", grid_of(h), Rule(h.rule));
   unpacker.run(&writer);
-  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, path);
+  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, unpacker.layers(), path);
   unpacker.require_same(plain.header());
   return plain;
 }
@@ -229,7 +243,7 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
   const Header& h = unpacker.plain();
   DagWriter writer(output, grid_of(h), Rule(h.rule));
   unpacker.run(&writer);
-  writer.finish(h.voxels, h.largest_snap,
+  writer.finish(h.voxels, h.largest_snap, unpacker.layers(),
                 [&](const Header& header) { unpacker.require_same(header); });
   return writer.header();
 }

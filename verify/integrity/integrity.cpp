@@ -10,6 +10,7 @@
 #include "io/dag/node_starts.h"
 #include "io/dag/plain_form.h"
 #include "io/grid.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -19,8 +20,9 @@ using Key = std::array<uint64_t, 8>;
 // Checks the levels one after the other, bricks first; `below_*` describes the level below.
 class Inspection {
  public:
-  Inspection(const Header& header, const DagView& dag, IntegrityReport* report)
-      : header_(header), dag_(dag), report_(report) {
+  Inspection(const Header& header, const DagView& dag, const LayerTable& layers,
+             IntegrityReport* report)
+      : header_(header), dag_(dag), layers_(layers), report_(report) {
     report_->nodes.assign(dag.brick_level() + 1, 0);
   }
 
@@ -28,8 +30,15 @@ class Inspection {
     check_bricks();
     for (uint32_t level = dag_.brick_level(); level-- > 0;) check_nodes(level);
     const uint64_t roots = report_->nodes[0];
-    if (roots != (dag_.brick_count == 0 ? 0U : 1U))
+    if (layers_.empty() && roots != (dag_.brick_count == 0 ? 0U : 1U))
       report_->defects.push_back("level 0 has " + std::to_string(roots) + " nodes instead of one");
+    for (const Layer& layer : layers_.layers) {
+      const uint64_t found = layer.root < below_voxels_.size() ? below_voxels_[layer.root] : 0;
+      if (found != layer.voxels)
+        report_->defects.push_back("layer \"" + printable(layer.name) + "\" has " +
+                                   std::to_string(found) + " voxels, its table says " +
+                                   std::to_string(layer.voxels));
+    }
     report_->voxels = below_voxels_.empty() ? 0 : below_voxels_[0];
     for (uint32_t level = 0; level <= dag_.brick_level(); ++level) {
       if (header_.sections[level].nodes != report_->nodes[level])
@@ -66,7 +75,7 @@ class Inspection {
     std::vector<uint64_t> voxels(starts.count());
     std::vector<uint64_t> used((below_voxels_.size() + 63) / 64);
     uint64_t unordered = 0, empty = 0, invalid = 0, node = 0;
-    Key last{};
+    Key last{}, first{};
     for (uint64_t w = 0; w < count; ++node) {
       const uint32_t mask = words[w];
       const uint64_t size = 1 + uint64_t(std::popcount(mask & 0xffU));
@@ -82,8 +91,10 @@ class Inspection {
         key[c] = uint64_t(*child) + 1;
         if (!visit_child(level, *child++, &voxels[node], &used)) ++invalid;
       }
-      if (!(last < key)) ++unordered;  // Key{} is the empty node, below every other
-      last = key;
+      // Key{} is the empty node, below every other. Of several roots, the first is in no order.
+      if (!(last < key) || (node > 0 && key == first)) ++unordered;
+      if (node > 0 || layers_.empty() || level > 0) last = key;
+      if (node == 0 && level == 0) first = key;
       w += size;
     }
     report_->nodes[level] = starts.count();
@@ -120,6 +131,7 @@ class Inspection {
 
   const Header& header_;
   const DagView& dag_;
+  const LayerTable& layers_;
   IntegrityReport* report_;
   std::vector<uint64_t> below_voxels_;  // per node of the level below
   MemoryBudget budget_;
@@ -221,9 +233,10 @@ void check_lattice(const Header& header, std::vector<std::string>* defects) {
 
 }  // namespace
 
-IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata) {
+IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata,
+                        const LayerTable& layers) {
   IntegrityReport report;
-  Inspection(header, dag, &report).run();
+  Inspection(header, dag, layers, &report).run();
   // Descending is only safe in a DAG whose pointers are valid.
   if (report.defects.empty() && header.bounded != 0 && OutsideSearch(dag).find(header))
     report.defects.push_back("a voxel outside the selection is set");
@@ -242,7 +255,7 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
 IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
   const std::optional<DagFile> converted = plain_form(file, room);
   const DagFile& plain = converted ? *converted : file;
-  IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata());
+  IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata(), plain.layers());
   if (converted && !is_compact_form(file, plain, room))
     report.defects.push_back("the bytes are not those of these nodes in the compact layout");
   return report;

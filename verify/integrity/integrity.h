@@ -30,7 +30,9 @@ struct IntegrityReport {
   bool sound() const { return defects.empty(); }
 };
 
-IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata);
+// `dag`: of a plain file.
+IntegrityReport inspect(const Header& header, const DagView& dag, std::string_view metadata,
+                        const LayerTable& layers = {});
 
 // The same for a file in any layout. A compact file is proved by its plain form, and by having the
 // bytes that this gives in the compact layout. Error (kBadInput) if it has no plain form.

@@ -35,6 +35,10 @@ json expected_metadata(const Header& h) {
                    {"nodes", nodes},
                    {"largest_snap", h.largest_snap}};
   if (Grid::Kind(h.grid_kind) == Grid::Kind::kOrigin) expected["grid"]["origin"] = h.origin;
+  if (h.layer_kind != 0)
+    expected["layers"] = {{"kind", layer_kind_name(LayerKind(h.layer_kind))},
+                          {"count", h.layer_count},
+                          {"union", h.has_union != 0}};
   if (has_transform(h)) expected["grid"]["transform"] = h.transform;
   return expected;
 }

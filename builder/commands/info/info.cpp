@@ -7,6 +7,7 @@
 #include "builder/commands/commands.h"
 #include "io/dag/compact_writer.h"
 #include "io/dag/dag_stats.h"
+#include "io/dag/layer_stats.h"
 #include "io/dag/metadata.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/dag/symvox_header.h"
@@ -16,6 +17,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -96,10 +98,54 @@ void print_levels(const DagFile& file, const DagStats& stats, uint64_t memory) {
               format_count(stats.unique_blocks).c_str(), "", "");
 }
 
+std::string colour_text(const Colour& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.r, colour.g, colour.b);
+  return text;
+}
+
+std::vector<LayerStats> stats_of_layers(const DagFile& file, uint64_t memory) {
+  MemoryBudget budget(memory_or_default(memory));
+  return layer_stats(file, temporary_room(&budget));
+}
+
+void print_layers(const DagFile& file, uint64_t memory) {
+  const std::vector<LayerStats> stats = stats_of_layers(file, memory);
+  std::printf("\n  %18s %14s %14s  colour   layer\n", "voxels", "nodes", "own nodes");
+  for (size_t i = 0; i < stats.size(); ++i) {
+    const Layer& layer = file.layers().layers[i];
+    std::printf("  %18s %14s %14s  %s  %s\n", format_count(layer.voxels).c_str(),
+                format_count(stats[i].nodes).c_str(), format_count(stats[i].own).c_str(),
+                colour_text(layer.colour).c_str(),
+                layer.name.empty() ? "(unnamed)" : printable(layer.name).c_str());
+  }
+}
+
+Json layers_json(const DagFile& file, uint64_t memory) {
+  const std::vector<LayerStats> stats = stats_of_layers(file, memory);
+  Json json = Json::array();
+  for (size_t i = 0; i < stats.size(); ++i) {
+    const Layer& layer = file.layers().layers[i];
+    json.push_back({{"name", layer.name},
+                    {"colour", colour_text(layer.colour)},
+                    {"voxels", layer.voxels},
+                    {"nodes", stats[i].nodes},
+                    {"own_nodes", stats[i].own}});
+  }
+  return json;
+}
+
 void info_dag(const InfoCommand& config) {
   const DagFile file = open_dag(config.scene.paths.front());
   const DagStats stats = compute_stats(file);
-  if (config.json) return void(std::printf("%s\n", json_text(dag_json(file, stats), 2).c_str()));
+  const LayerTable& layers = file.layers();
+  if (config.layers && layers.empty())
+    fail_usage("--layers: " + file.path() + " has no layers (svdag build --layers)");
+  if (config.json) {
+    Json json = dag_json(file, stats);
+    if (config.layers) json["layer_table"] = layers_json(file, config.memory);
+    return void(std::printf("%s\n", json_text(json, 2).c_str()));
+  }
   const Header& h = file.header();
   const Grid grid = file.grid();
   std::printf("%s: %s^3 voxels, rule %s%s\n", file.path().c_str(),
@@ -119,7 +165,12 @@ void info_dag(const InfoCommand& config) {
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
+  if (!layers.empty())
+    std::printf("  %s layers, one for each %s%s\n", format_count(layers.layers.size()).c_str(),
+                layer_kind_name(layers.kind),
+                layers.has_union ? "" : ", without their union: the voxels are those of the first");
   std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
+  if (config.layers) print_layers(file, config.memory);
   if (config.levels) print_levels(file, stats, config.memory);
 }
 
@@ -152,10 +203,12 @@ int run(const InfoCommand& config) {
   } else if (one && begins_with(kRunMagic, first)) {
     reject_scene_options("run");
     reject(config.levels, "--levels", "run");
+    reject(config.layers, "--layers", "run");
     info_run(config);
   } else {
     if (one && first.ends_with(".svdag")) reject_symvox(File::open_read(first));
     reject(config.levels, "--levels", "scene");
+    reject(config.layers, "--layers", "scene");
     info_scene(config);
   }
   return int(ExitCode::kOk);

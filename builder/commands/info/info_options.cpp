@@ -20,6 +20,8 @@ void add_info(CLI::App* program, Command* command) {
   app->add_flag("--json", config->json, "Print JSON");
   app->add_flag("--levels", config->levels,
                 "Print a table of the levels of a .svdag, or of the steps of a plan");
+  app->add_flag("--layers", config->layers,
+                "Print a table of the layers of a .svdag; own nodes are those of no other layer");
   app->add_flag("--parts", config->parts,
                 "Print the names of a scene's parts, for use with --include");
   add_scene_options(app, &config->scene);

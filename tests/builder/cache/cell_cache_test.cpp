@@ -170,11 +170,11 @@ TEST_F(Cache, APackThatCannotBeOpenedIsKept) {
   {
     CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
     const NoDescriptorLeft none;
-    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}));
+    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
   }
   EXPECT_EQ(packs(), before);
   CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
-  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}));
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
 }
 
 TEST_F(Cache, TheNumberOfOpenPacksIsLimited) {
@@ -191,7 +191,7 @@ TEST_F(Cache, TheNumberOfOpenPacksIsLimited) {
   std::set<fs::path> used;
   for (const fs::path& path : packs()) {
     for (const CellKey& key : keys_of(path)) {
-      if (cache.take(key, {3, {0, 0, 0}})) used.insert(path);
+      if (cache.take(key, {3, {0, 0, 0}}, kUnionSet)) used.insert(path);
     }
   }
   EXPECT_EQ(used.size(), 2U);
@@ -340,9 +340,9 @@ TEST_F(Cache, AKeyThatDiffersInOneByteIsNotFound) {
   for (size_t byte = 0; byte < sizeof key; ++byte) {
     CellKey other = key;
     reinterpret_cast<unsigned char*>(other.words.data())[byte] ^= 1;
-    EXPECT_FALSE(cache.take(other, {3, {0, 0, 0}}));
+    EXPECT_FALSE(cache.take(other, {3, {0, 0, 0}}, kUnionSet));
   }
-  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}));
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
 }
 
 }  // namespace

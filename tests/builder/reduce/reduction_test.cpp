@@ -182,7 +182,7 @@ TEST_P(Merge, OfRandomCellsInSeveralRunsIsTheMinimalDag) {
     MergeConfig config{&budget_, GetParam().spilled ? &scratch_ : nullptr, GetParam().map_bytes,
                        GetParam().window_bytes, GetParam().sources};
     merge(runs, roots, GridPart::whole(levels), config, &output, &executor);
-    output.finish({}, 0, 0);
+    output.finish({}, 0, 0, {});
     const DagFile file = DagFile::open(path);
     EXPECT_EQ(bricks_of(file.view()), cells.bricks) << seed;
     std::vector<uint64_t> nodes;

@@ -70,7 +70,7 @@ std::string reduce(int levels, uint64_t table_bytes, size_t* runs, const Fill& f
   config.max_sources = 4;
   SequentialExecutor executor;
   output.finish(merge(set.runs, set.roots, GridPart::whole(levels), config, &output, &executor),
-                set.voxels, 0);
+                set.voxels, 0, {});
   return folder.read("a.svdag");
 }
 

@@ -34,7 +34,7 @@ void write_small(const std::string& path) {
   EXPECT_EQ(writer.add_node({0, 1, 0, 0, 0, 0, 0, 0}), 0U);
   EXPECT_EQ(writer.add_node({0, 1, 0, 0, 2, 0, 0, 0}), 1U);
   writer.begin_level(0);
-  writer.finish(std::vector<SubDagRoot>{{4, 1, 0, 0}, {1, 1, 0, 1}}, 8, 0.125);
+  writer.finish(std::vector<SubDagRoot>{{4, 1, 0, 0}, {1, 1, 0, 1}}, 8, 0.125, {});
 }
 
 // Reads a run as a merge does.
@@ -87,7 +87,7 @@ TEST(RunFile, LevelsOfManyBlocksBeginAndEndWithinThem) {
   for (uint32_t i = 0; i < nodes; ++i) writer.add_node({i, 1, 0, 0, 0, 0, 0, bricks});
   writer.begin_level(0);
   writer.add_node({1, 0, nodes, 0, 0, 0, 0, 0});
-  writer.finish(std::vector<SubDagRoot>{{0, 0, 0, 0}}, 1, 0);
+  writer.finish(std::vector<SubDagRoot>{{0, 0, 0, 0}}, 1, 0, {});
   MemoryBudget budget;
   const RunFile run = RunFile::open(path, &budget);
   EXPECT_EQ(run.layout().blocks, 9U);

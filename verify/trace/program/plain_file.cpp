@@ -52,7 +52,9 @@ void check_header(const Header& h, const std::string& path) {
   if (h.version != 1 && h.version != 2)
     fail_input(path, "has format version " + std::to_string(h.version) +
                          ", this program reads versions 1 and 2");
-  require(h.layout <= 1 && h.version == version_of(Layout(h.layout)), path, "impossible layout");
+  require(h.layout <= 1 && h.layer_kind < std::size(kLayerKindNames) &&
+              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind)),
+          path, "impossible layout");
   require(h.header_bytes == sizeof(Header), path, "wrong header size");
   require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
           "the number of levels is not 3 to 20");
@@ -80,7 +82,8 @@ void check_bricks(const DagView& view, const std::string& path) {
 
 // From the deepest inner level up: each child pointer must be the index of a brick, or of the first
 // word of a node of the level below, as found in the previous iteration.
-void check_pointers(const DagView& view, const std::string& path) {
+void check_pointers(const Header& header, const DagView& view, const std::string& path) {
+  require(has_possible_roots(header), path, "wrong number of roots");
   std::vector<bool> below;
   for (uint32_t level = view.brick_level(); level-- > 0;) {
     const uint32_t* words = view.words[level];
@@ -99,7 +102,7 @@ void check_pointers(const DagView& view, const std::string& path) {
         require(valid, path, "a child pointer does not lead to a node");
       }
     }
-    require(level > 0 || nodes == (view.empty() ? 0U : 1U), path, "wrong number of roots");
+    require(level > 0 || nodes == header.sections[0].nodes, path, "wrong number of roots");
     below.swap(starts);
   }
 }
@@ -117,7 +120,7 @@ PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
   file.view = dag_view(file.words.data());
   if (file.view.layout == Layout::kPlain) {
     check_bricks(file.view, path);
-    check_pointers(file.view, path);
+    check_pointers(file.header(), file.view, path);
   }
   return file;
 }

@@ -1,0 +1,33 @@
+#include "builder/split/scene_layers.h"
+
+#include <algorithm>
+
+#include "streaming/error.h"
+
+namespace svdag {
+
+std::string_view SceneLayers::name_of(const TriangleBatch& batch) const {
+  if (kind_ == LayerKind::kMaterial) return batch.material;
+  return kind_ == LayerKind::kObject ? batch.mesh : batch.file;
+}
+
+uint32_t SceneLayers::layer_of(const TriangleBatch& batch) {
+  const std::string_view name = name_of(batch);
+  if (last_ >= layers_.size() || layers_[last_].name != name) {
+    const auto [found, is_new] =
+        numbers_.try_emplace(std::string(name), uint32_t(layers_.size()));
+    last_ = found->second;
+    if (is_new && layers_.size() == kMaxLayers)
+      fail_usage(std::string("--layers ") + layer_kind_name(kind_) + ": the scene has more than " +
+                 std::to_string(kMaxLayers) + " of these");
+    if (is_new) layers_.push_back({std::string(name), palette_colour(name)});
+  }
+  return last_;
+}
+
+void SceneLayers::restore(std::vector<Layer> layers) {
+  layers_ = std::move(layers);
+  for (uint32_t i = 0; i < layers_.size(); ++i) numbers_[layers_[i].name] = i;
+}
+
+}  // namespace svdag

@@ -1,0 +1,34 @@
+// The layers that a scene has, in the order in which its triangles arrive.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "io/dag/layer_table.h"
+#include "io/scene/mesh/mesh_reader.h"
+
+namespace svdag {
+
+class SceneLayers {
+ public:
+  explicit SceneLayers(LayerKind kind = LayerKind::kNone) : kind_(kind) {}
+
+  LayerKind kind() const { return kind_; }
+  // The number of the layer of a batch. More than kMaxLayers are an Error (kUsage).
+  uint32_t layer_of(const TriangleBatch& batch);
+  // [number]: name and colour.
+  const std::vector<Layer>& layers() const { return layers_; }
+  // Restores what layers() returned.
+  void restore(std::vector<Layer> layers);
+
+ private:
+  std::string_view name_of(const TriangleBatch& batch) const;
+
+  LayerKind kind_;
+  std::vector<Layer> layers_;
+  std::unordered_map<std::string, uint32_t> numbers_;  // by name
+  uint32_t last_ = 0;                                  // found last: batches of a layer follow one another
+};
+
+}  // namespace svdag

@@ -1,0 +1,89 @@
+#include "io/dag/layer_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "streaming/file/checksum.h"
+
+namespace svdag {
+
+Colour palette_colour(std::string_view name) {
+  constexpr double kHues = 64, kBright = 0.85, kPale = 0.45;
+  const double hue = 6 * double(checksum64(std::as_bytes(std::span(name))) % 64) / kHues;
+  const auto channel = [&](double offset) {
+    const double k = std::fmod(offset + hue, 6.0);
+    const double share = std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+    return uint8_t(std::lround(255 * kBright * (1 - (1 - kPale) * share)));
+  };
+  return {channel(5), channel(3), channel(1)};
+}
+
+uint32_t LayerTable::default_root() const {
+  if (has_union) return union_root;
+  for (const Layer& layer : layers) {
+    if (layer.root != kNoRoot) return layer.root;
+  }
+  return kNoRoot;
+}
+
+uint64_t LayerTable::default_voxels(uint64_t of_union) const {
+  if (has_union) return of_union;
+  for (const Layer& layer : layers) {
+    if (layer.voxels != 0) return layer.voxels;
+  }
+  return 0;
+}
+
+std::vector<std::byte> encode_layers(const LayerTable& table) {
+  std::vector<std::byte> bytes(table.layers.size() * sizeof(StoredLayer));
+  for (size_t i = 0; i < table.layers.size(); ++i) {
+    const Layer& layer = table.layers[i];
+    const StoredLayer stored{layer.voxels,
+                             layer.root,
+                             uint32_t(layer.name.size()),
+                             {layer.colour.r, layer.colour.g, layer.colour.b},
+                             {}};
+    std::memcpy(bytes.data() + i * sizeof stored, &stored, sizeof stored);
+  }
+  for (const Layer& layer : table.layers) {
+    const auto name = std::as_bytes(std::span(layer.name));
+    bytes.insert(bytes.end(), name.begin(), name.end());
+  }
+  return bytes;
+}
+
+std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes) {
+  if (!has_possible_roots(header)) return std::nullopt;
+  LayerTable table;
+  table.kind = LayerKind(header.layer_kind);
+  table.has_union = header.layer_count == 0 || header.has_union != 0;
+  if (header.layer_count > bytes.size() / sizeof(StoredLayer)) return std::nullopt;
+  const uint64_t roots = header.sections[0].nodes;
+  std::vector<bool> used(roots);
+  if (roots > 0 && table.has_union) used[0] = true;
+  std::span<const std::byte> names = bytes.subspan(header.layer_count * sizeof(StoredLayer));
+  for (uint32_t i = 0; i < header.layer_count; ++i) {
+    StoredLayer stored;
+    std::memcpy(&stored, bytes.data() + i * sizeof stored, sizeof stored);
+    const auto is_zero = [](uint8_t byte) { return byte == 0; };
+    const bool has_root = stored.root != kNoRoot;
+    if (stored.name_bytes > names.size() || (stored.voxels != 0) != has_root ||
+        (has_root && stored.root >= roots) || !std::ranges::all_of(stored.reserved, is_zero))
+      return std::nullopt;
+    if (has_root) used[stored.root] = true;
+    Layer& layer = table.layers.emplace_back();
+    layer.name.assign(reinterpret_cast<const char*>(names.data()), stored.name_bytes);
+    layer.colour = {stored.colour[0], stored.colour[1], stored.colour[2]};
+    layer.voxels = stored.voxels;
+    layer.root = stored.root;
+    names = names.subspan(stored.name_bytes);
+    if (i > 0 && table.layers[i - 1].name >= layer.name) return std::nullopt;
+  }
+  const bool in_order = table.default_root() == 0 || roots == 0;
+  const bool all_used = std::ranges::find(used, false) == used.end();
+  if (!names.empty() || !in_order || !all_used) return std::nullopt;
+  return table;
+}
+
+}  // namespace svdag

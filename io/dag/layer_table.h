@@ -1,0 +1,55 @@
+// The layers of a `.svdag` file (docs/format.md, "Layers"): named sets of voxels of the same grid,
+// each with a root of its own in level 0.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/dag/format.h"
+
+namespace svdag {
+
+// An sRGB colour, 8 bits a channel.
+struct Colour {
+  uint8_t r = 0, g = 0, b = 0;
+  auto operator<=>(const Colour&) const = default;
+};
+
+// The colour of a layer whose source has none: one of 64 hues, chosen by the name.
+Colour palette_colour(std::string_view name);
+
+constexpr uint32_t kNoRoot = 0xffffffffU;
+
+struct Layer {
+  std::string name;  // bytes as in the source; empty: what has no name there
+  Colour colour;
+  uint64_t voxels = 0;
+  uint32_t root = kNoRoot;  // number in level 0; kNoRoot if no voxel is set
+};
+
+struct LayerTable {
+  LayerKind kind = LayerKind::kNone;  // kNone: the file has no layers
+  bool has_union = true;              // level 0 begins with the root of the union
+  uint32_t union_root = 0;            // number in level 0, if there is one; 0 in a file
+  std::vector<Layer> layers;          // by name, ascending and unique
+
+  bool empty() const { return kind == LayerKind::kNone; }
+  // The root of what a program shows without other orders: the union's, or without it that of the
+  // first layer that has one; kNoRoot if nothing is set.
+  uint32_t default_root() const;
+  // Its voxels, if the union has `of_union`.
+  uint64_t default_voxels(uint64_t of_union) const;
+};
+
+std::vector<std::byte> encode_layers(const LayerTable& table);
+
+// The table that `header` describes and `bytes` hold; nothing if it is invalid: too many roots, a name twice or out
+// of order, a root that does not exist or that no layer has, a layer without voxels that has one.
+std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes);
+
+}  // namespace svdag

@@ -1,0 +1,193 @@
+// Layers: each is the bake of its triangles alone, the union is the bake without layers, and one
+// set of bytes holds them, whatever the machine does.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "builder/build.h"
+#include "io/dag/layer_alone.h"
+#include "io/dag/plain_form.h"
+#include "tests/builder/bakes.h"
+#include "tests/expect_error.h"
+#include "tests/soup.h"
+#include "tests/temp_folder.h"
+#include "verify/integrity/integrity.h"
+
+namespace svdag {
+namespace {
+
+constexpr uint64_t kMiB = 1 << 20;
+
+// The sections of a plain file: its nodes, without what its header says of the scene.
+std::string nodes_of(const DagFile& file) {
+  const Header& h = file.header();
+  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+class Layers : public ::testing::Test {
+ protected:
+  MemoryBudget budget_;
+  TempFolder folder_;
+  WorkRoom room_{&budget_, folder_.path()};
+  std::mt19937_64 random_;
+
+  uint64_t pick(uint64_t count) { return random_() % count; }
+  double unit() { return double(random_() >> 11) * 0x1p-53; }
+
+  std::vector<Triangle> some_triangles() {
+    switch (pick(5)) {
+      case 0:
+        return random_soup(1 + pick(2000), std::pow(10, -3 * unit()), random_());
+      case 1:
+        return boxes_and_quad(int(1 + pick(20)), random_());
+      case 2:
+        return bumpy_sphere(int(3 + pick(20)));
+      case 3: {  // a floor, often in the plane of another layer's
+        const double z = 0.25 * double(pick(4)), x = unit();
+        return {{{Point(0, x, z), Point(1, x, z), Point(0, 1, z)}},
+                {{Point(1, x, z), Point(1, 1, z), Point(0, 1, z)}}};
+      }
+      default:
+        return random_soup(1 + pick(10), 1, random_());
+    }
+  }
+
+  // A scene of some files, each a layer.
+  BuildConfig random_scene() {
+    BuildConfig config;
+    for (uint64_t i = 0, files = 1 + pick(6); i < files; ++i) {
+      const std::string path = folder_.file("part" + std::to_string((7 * i) % 6) + ".stl");
+      if (i > 0 && pick(6) == 0) {  // equal to another layer
+        std::filesystem::copy_file(config.scene.paths.front(), path,
+                                   std::filesystem::copy_options::overwrite_existing);
+      } else {
+        write_stl(path, some_triangles());
+      }
+      config.scene.paths.push_back(path);
+    }
+    config.output = folder_.file("layers.svdag");
+    config.levels = int(3 + pick(7));
+    config.cube = GridCube{Point(-0.1 - 1.2 * double(pick(2))), 1.2 + 1.4 * double(pick(2))};
+    config.descent.rule = pick(2) ? Rule::kConservative : Rule::kThin;
+    config.layers = LayerKind::kFile;
+    config.with_union = pick(4) != 0;
+    if (pick(4) == 0) config.layout = Layout::kCompact;
+    if (pick(3) == 0) config.cell_level = int(pick(uint64_t(config.levels - 1)));
+    if (pick(3) == 0) config.descent.plane_memo = config.descent.patches = false;
+    return config;
+  }
+
+  // What `config` bakes of some files without layers, plain.
+  std::string alone(BuildConfig config, const std::vector<std::string>& paths) {
+    config.scene.paths = paths;
+    config.output = folder_.file("alone.svdag");
+    config.layers = LayerKind::kNone;
+    config.with_union = true;
+    config.layout = Layout::kPlain;
+    bake(config);
+    return nodes_of(DagFile::open(config.output));
+  }
+
+  void check(const BuildConfig& config) {
+    const DagFile file = DagFile::open(config.output);
+    EXPECT_EQ(inspect_file(file, room_).defects, std::vector<std::string>());
+    const std::optional<DagFile> converted = plain_form(file, room_);
+    const DagFile& plain = converted ? *converted : file;
+    ASSERT_EQ(plain.layers().layers.size(), config.scene.paths.size());
+    if (config.with_union) {
+      EXPECT_EQ(nodes_of(layer_alone(plain, {}, room_)), alone(config, config.scene.paths));
+    }
+    for (size_t i = 0; i < plain.layers().layers.size(); ++i) {
+      const std::string path = folder_.file(plain.layers().layers[i].name);
+      EXPECT_EQ(nodes_of(layer_alone(plain, i, room_)), alone(config, {path})) << path;
+      // A view of the layer in the file's own layout has its voxels, too.
+      const DagView view = file.view_of(i);
+      const DagFile one = layer_alone(plain, i, room_);
+      for (int ray = 0; ray < 200; ++ray) {
+        const uint32_t x = uint32_t(pick(view.resolution())), y = uint32_t(pick(view.resolution())),
+                       z = uint32_t(pick(view.resolution()));
+        ASSERT_EQ(dag_voxel(view, x, y, z), dag_voxel(one.view(), x, y, z));
+      }
+    }
+  }
+};
+
+TEST_F(Layers, EachIsItsOwnBakeAndTheUnionIsThatOfAll) {
+  for (uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    random_.seed(seed);
+    const BuildConfig config = random_scene();
+    bake(config, 1 + pick(3));
+    check(config);
+  }
+}
+
+TEST_F(Layers, OrderThreadsMemoryAndCellsDoNotChangeTheBytes) {
+  uint64_t spilled = 0;
+  for (uint64_t seed = 100; seed < 115; ++seed) {
+    SCOPED_TRACE(seed);
+    random_.seed(seed);
+    BuildConfig config = random_scene();
+    write_stl(config.scene.paths.front(), random_soup(8000, 0.1, seed));
+    bake(config);
+    const std::string expected = read_bytes(config.output);
+    for (int bakes = 0; bakes < 6; ++bakes) {
+      std::shuffle(config.scene.paths.begin(), config.scene.paths.end(), random_);
+      config.memory = bakes % 2 == 0 ? 4 * kMiB : 0;
+      config.cell_level = pick(2) ? -1 : int(pick(uint64_t(config.levels - 1)));
+      spilled += bake(config, 1 + pick(3)).scratch.written;
+      ASSERT_EQ(read_bytes(config.output), expected);
+    }
+  }
+  EXPECT_GT(spilled, 0U);
+}
+
+TEST_F(Layers, ADenseCubeOfManyLayersBakesInLittleMemory) {
+  BuildConfig config;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Triangle> mesh = random_soup(40'000, 1e-7, uint64_t(i));
+    for (Triangle& t : mesh) {
+      for (Point& p : t.v) p = Point(0.437) + 1e-4 * p;
+    }
+    config.scene.paths.push_back(folder_.file("part" + std::to_string(i) + ".stl"));
+    write_stl(config.scene.paths.back(), mesh);
+  }
+  config.output = folder_.file("layers.svdag");
+  config.levels = 12;
+  config.cube = GridCube{Point(0), 1};
+  config.layers = LayerKind::kFile;
+  config.memory = 4 * kMiB;
+  EXPECT_LE(bake(config).peak_counted, config.memory);
+  check(config);
+}
+
+TEST_F(Layers, EqualLayersShareTheirRoot) {
+  BuildConfig config;
+  for (const char* name : {"a.stl", "b.stl"}) {
+    config.scene.paths.push_back(folder_.file(name));
+    write_stl(config.scene.paths.back(), bumpy_sphere(10));
+  }
+  config.output = folder_.file("layers.svdag");
+  config.levels = 6;
+  config.layers = LayerKind::kFile;
+  bake(config);
+  const DagFile file = DagFile::open(config.output);
+  EXPECT_EQ(file.header().sections[0].nodes, 1U);
+  EXPECT_EQ(file.layers().layers[0].root, file.layers().layers[1].root);
+}
+
+TEST_F(Layers, TwoFilesOfOneNameAreRefused) {
+  std::filesystem::create_directory(folder_.file("sub"));
+  BuildConfig config;
+  config.scene.paths = {folder_.file("a.stl"), folder_.file("sub/a.stl")};
+  for (const std::string& path : config.scene.paths) write_stl(path, bumpy_sphere(4));
+  config.output = folder_.file("layers.svdag");
+  config.levels = 4;
+  config.layers = LayerKind::kFile;
+  EXPECT_SVDAG_ERROR(bake(config), ExitCode::kUsage, "two files of the scene are named a.stl");
+}
+
+}  // namespace
+}  // namespace svdag
