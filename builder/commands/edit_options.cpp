@@ -50,7 +50,7 @@ void add_edit(CLI::App* program, Command* command) {
 }
 
 void add_convert(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("convert", "Write a .svdag in another layout");
+  CLI::App* app = program->add_subcommand("convert", "Write a .svdag in another layout, or one of its layers");
   auto config = std::make_shared<ConvertCommand>();
   takes_files(app->add_option("FILE", config->file, "The .svdag to convert"), {".svdag"})
       ->required();
@@ -59,7 +59,7 @@ void add_convert(CLI::App* program, Command* command) {
       ->required()
       ->type_name("OUT");
   add_layout(app, &config->layout);
-  app->get_option("--layout")->required();
+  add_layer(app, &config->layer);
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
   takes_folder(
@@ -67,7 +67,8 @@ void add_convert(CLI::App* program, Command* command) {
                       "Folder for data that does not fit in memory (default: that of OUT)"))
       ->type_name("DIR");
   add_quiet(app, &config->output);
-  add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact"});
+  add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact",
+                     "svdag convert city.svdag -o roofs.svdag --layer roof"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }

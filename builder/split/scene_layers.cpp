@@ -1,18 +1,11 @@
 #include "builder/split/scene_layers.h"
 
-#include <algorithm>
-
 #include "streaming/error.h"
 
 namespace svdag {
 
-std::string_view SceneLayers::name_of(const TriangleBatch& batch) const {
-  if (kind_ == LayerKind::kMaterial) return batch.material;
-  return kind_ == LayerKind::kObject ? batch.mesh : batch.file;
-}
-
 uint32_t SceneLayers::layer_of(const TriangleBatch& batch) {
-  const std::string_view name = name_of(batch);
+  const std::string_view name = part_name(batch, part_of(kind_));
   if (last_ >= layers_.size() || layers_[last_].name != name) {
     const auto [found, is_new] =
         numbers_.try_emplace(std::string(name), uint32_t(layers_.size()));

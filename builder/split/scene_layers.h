@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/dag/layer_table.h"
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/scene.h"
 
 namespace svdag {
 
@@ -23,8 +23,6 @@ class SceneLayers {
   void restore(std::vector<Layer> layers);
 
  private:
-  std::string_view name_of(const TriangleBatch& batch) const;
-
   LayerKind kind_;
   std::vector<Layer> layers_;
   std::unordered_map<std::string, uint32_t> numbers_;  // by name

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "streaming/file/checksum.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 
@@ -17,6 +18,10 @@ Colour palette_colour(std::string_view name) {
     return uint8_t(std::lround(255 * kBright * (1 - (1 - kPale) * share)));
   };
   return {channel(5), channel(3), channel(1)};
+}
+
+std::string shown_layer(const std::string& name) {
+  return name.empty() ? "(unnamed)" : printable(name);
 }
 
 uint32_t LayerTable::default_root() const {

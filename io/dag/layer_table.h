@@ -32,6 +32,9 @@ struct Layer {
   uint32_t root = kNoRoot;  // number in level 0; kNoRoot if no voxel is set
 };
 
+// A layer's name for people: "(unnamed)" for the empty name.
+std::string shown_layer(const std::string& name);
+
 struct LayerTable {
   LayerKind kind = LayerKind::kNone;  // kNone: the file has no layers
   bool has_union = true;              // level 0 begins with the root of the union

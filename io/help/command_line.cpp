@@ -273,6 +273,14 @@ void add_layout(CLI::App* command, Layout* layout) {
       ->type_name("LAYOUT");
 }
 
+void add_layer(CLI::App* command, std::optional<std::string>* layer) {
+  command
+      ->add_option_function<std::string>(
+          "--layer", [layer](const std::string& name) { *layer = name; },
+          "Only this layer (svdag info --layers lists them; '' is the unnamed one)")
+      ->type_name("NAME");
+}
+
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before) {
   std::string notes = before + (before.empty() ? "" : "\n\n");

@@ -5,6 +5,8 @@
 
 #include "io/dag/check.h"
 #include "io/dag/dag_writer.h"
+#include "io/dag/layer_alone.h"
+#include "io/dag/plain_form.h"
 #include "io/pack/node_streams.h"
 #include "io/pack/pack_format.h"
 #include "io/pack/zstd.h"
@@ -248,11 +250,15 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
   return writer.header();
 }
 
-DagFile open_dag(const std::string& path) {
-  if (!is_packed(path)) return DagFile::open(path);
+DagFile open_dag(const std::string& path, const std::optional<std::string>& layer) {
   MemoryBudget budget(memory_or_default(0));
+  const WorkRoom room = temporary_room(&budget);
   ParallelExecutor executor(available_processors());
-  return unpack(path, temporary_room(&budget), &executor);
+  DagFile file = is_packed(path) ? unpack(path, room, &executor) : DagFile::open(path);
+  if (!layer) return file;
+  const size_t number = layer_named(file.layers(), *layer);
+  const std::optional<DagFile> converted = plain_form(file, room);
+  return layer_alone(converted ? *converted : file, number, room);
 }
 
 }  // namespace svdag

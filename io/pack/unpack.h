@@ -4,6 +4,7 @@
 // say. The plain file must have the size and the content hash of the header.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "io/dag/dag_file.h"
@@ -23,7 +24,8 @@ DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor
 Header unpack_to(const std::string& path, const std::string& output, const WorkRoom& room,
                  Executor* executor);
 
-// Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a temporary file.
-DagFile open_dag(const std::string& path);
+// Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a temporary file. With
+// `layer`: that layer alone, which is written to a temporary file.
+DagFile open_dag(const std::string& path, const std::optional<std::string>& layer = {});
 
 }  // namespace svdag

@@ -41,15 +41,16 @@ std::string base_name(const std::string& path) {
 // A filter between a reader and the user's sink that rejects triangles with NaN or infinity.
 class FiniteFilter {
  public:
-  FiniteFilter(const std::string& path, bool skip, const TriangleSink& sink, SceneCounts* counts)
-      : path_(path), name_(base_name(path)), skip_(skip), sink_(sink), counts_(counts) {}
+  FiniteFilter(const std::string& path, const SceneConfig& config, const TriangleSink& sink,
+               SceneCounts* counts)
+      : path_(path), name_(base_name(path)), config_(config), sink_(sink), counts_(counts) {}
 
   void operator()(const TriangleBatch& batch) {
     check_interrupt();
     if (surely_finite(batch.triangles)) return pass(batch);
     const auto bad = std::find_if_not(batch.triangles.begin(), batch.triangles.end(), finite);
     if (bad == batch.triangles.end()) return pass(batch);
-    if (!skip_) refuse(batch, batch.first + size_t(bad - batch.triangles.begin()));
+    if (!config_.skip_invalid) refuse(batch, batch.first + size_t(bad - batch.triangles.begin()));
     kept_.clear();
     std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
     counts_->invalid += batch.triangles.size() - kept_.size();
@@ -59,14 +60,14 @@ class FiniteFilter {
   }
 
  private:
-  void pass(const TriangleBatch& batch) {
+  void pass(const TriangleBatch& unnamed) {
+    TriangleBatch batch = unnamed;
+    batch.file = name_;
+    if (config_.only && part_name(batch, config_.only->first) != config_.only->second) return;
     counts_->triangles += batch.triangles.size();
     if (batch.undeformed) counts_->undeformed += batch.triangles.size();
     counts_->quantisation = std::max(counts_->quantisation, batch.quantisation);
-    if (batch.triangles.empty()) return;
-    TriangleBatch named = batch;
-    named.file = name_;
-    sink_(named);
+    if (!batch.triangles.empty()) sink_(batch);
   }
   [[noreturn]] void refuse(const TriangleBatch& batch, uint64_t index) const {
     const std::string mesh = batch.mesh.empty() ? "" : " of \"" + std::string(batch.mesh) + "\"";
@@ -77,7 +78,7 @@ class FiniteFilter {
 
   const std::string& path_;
   std::string name_;
-  bool skip_;
+  const SceneConfig& config_;
   const TriangleSink& sink_;
   SceneCounts* counts_;
   std::vector<Triangle> kept_;
@@ -192,9 +193,10 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     if (names.excludes(PartKind::kFile, name)) continue;
     const File packed = File::open_read(path);
     const File& file = content_of(packed);
-    FiniteFilter filter(path, config_.skip_invalid, sink, &counts);
+    FiniteFilter filter(path, config_, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
     ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
+    if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       read_file(file, options, filtered);
     } else {

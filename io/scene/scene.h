@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/affine.h"
+#include "io/dag/format.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/input_watch.h"
 
@@ -26,6 +28,11 @@ enum class SceneFormat {
   k3ds
 };
 
+// The parts that are layers of this kind, which is not kNone.
+constexpr PartKind part_of(LayerKind kind) {
+  return PartKind(uint32_t(kind) - 1);  // the same order, after kNone
+}
+
 struct SceneConfig {
   std::vector<std::string> paths;  // at least one
   NameFilter names;                // --include, --exclude
@@ -35,6 +42,8 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
+  // For judges: if given, only the triangles of the part of this kind and name.
+  std::optional<std::pair<PartKind, std::string>> only = {};
 
   // From the coordinates of the files, transforms of glTF nodes included, to the world.
   Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }

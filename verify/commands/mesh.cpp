@@ -1,14 +1,17 @@
 #include "verify/commands/mesh.h"
 #include "io/pack/unpack.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/dag/dag_file.h"
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
+#include "streaming/printable.h"
 #include "verify/commands/judged_scene.h"
 #include "verify/report/statistics.h"
 #include "verify/sample/sample.h"
@@ -16,12 +19,22 @@
 namespace svdag {
 namespace {
 
+// A layer against the triangles of its name.
+struct JudgedLayer {
+  std::string name;
+  Comparison comparison;
+};
+
 struct Judgement : SceneFacts {
   Comparison comparison;
   bool sampled = false;
   SampleComparison sample;  // only if sampled
+  std::vector<JudgedLayer> layers;
 
-  bool ok() const { return grid.defects.empty() && comparison.agrees(); }
+  bool ok() const {
+    return grid.defects.empty() && comparison.agrees() &&
+           std::ranges::all_of(layers, [](const JudgedLayer& l) { return l.comparison.agrees(); });
+  }
 };
 
 std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t count,
@@ -49,21 +62,67 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
   judge_header(file, comparison.file_voxels, snapped, &result->grid);
 }
 
+// Compares the names of the layers with those of the scene; adds defects.
+void judge_names(const Scene& scene, const LayerTable& table, GridJudgement* grid) {
+  std::set<std::string> names;
+  scene.stream([&](const TriangleBatch& batch) {
+    names.emplace(part_name(batch, part_of(table.kind)));
+  });
+  for (const Layer& layer : table.layers) {
+    if (names.erase(layer.name) == 0)
+      grid->defects.push_back("the scene has nothing named \"" + printable(layer.name) +
+                              "\", which is a layer");
+  }
+  for (const std::string& name : names)
+    grid->defects.push_back("the file has no layer \"" + printable(name) + "\"");
+}
+
+Comparison judge_layer(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file,
+                       size_t layer, JudgedScene& judged, Executor& executor) {
+  const Layer& entry = file.layers().layers[layer];
+  SceneConfig only = judged.scene.config();
+  only.only = {part_of(file.layers().kind), entry.name};
+  const Scene scene(only, &judged.budget);
+  const DagView dag = file.view_of(layer);
+  if (config.sample) {
+    const uint64_t draws = 1 + *config.sample / file.layers().layers.size();
+    return compare_sample(scene, dag, file.grid(), draws, config.seed, choice, executor,
+                          judged.progress)
+        .comparison;
+  }
+  SnapCounts snapped;
+  const std::vector<LatticeTriangle> triangles = load(scene, file.grid(), 0, &snapped);
+  Comparison comparison =
+      compare_all(dag, file.grid(), triangles, choice, executor, judged.progress);
+  if (comparison.file_voxels != entry.voxels)
+    judged.facts.grid.defects.push_back("the table counts " + format_count(entry.voxels) +
+                                        " voxels of layer \"" + printable(entry.name) +
+                                        "\", the file has " + format_count(comparison.file_voxels));
+  return comparison;
+}
+
 Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file) {
   const Grid grid = file.grid();
   JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
-  Judgement result{judged.facts, {}, false, {}};
+  Judgement result{judged.facts, {}, false, {}, {}};
+  judged.facts.grid.defects.clear();
   ParallelExecutor executor(threads_or_all(config.common.threads));
   result.sampled = config.sample.has_value();
-  if (result.sampled) {
+  if (result.sampled && file.layers().has_union) {
     const auto held = judged.budget.reserve(*config.sample * kBytesOfDraw, "drawn bricks");
     result.sample = compare_sample(judged.scene, file.view(), grid, *config.sample, config.seed,
                                    choice, executor, judged.progress);
     result.comparison = result.sample.comparison;
     if (result.sample.untested && result.grid.defects.empty()) fail_untested();
-  } else {
+  } else if (file.layers().has_union) {
     compare_whole(judged, file, choice, executor, &result);
   }
+  if (!file.layers().empty()) judge_names(judged.scene, file.layers(), &judged.facts.grid);
+  for (size_t i = 0; i < file.layers().layers.size(); ++i)
+    result.layers.push_back({file.layers().layers[i].name,
+                             judge_layer(config, choice, file, i, judged, executor)});
+  for (std::string& defect : judged.facts.grid.defects)
+    result.grid.defects.push_back(std::move(defect));
   return result;
 }
 
@@ -104,6 +163,12 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
               format_count(c.judge_voxels).c_str());
   print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
   if (j.sampled) print_draws(j.sample);
+  for (const JudgedLayer& layer : j.layers)
+    std::printf("layer      %s: %s voxels judged, %s missing, %s extra\n",
+                shown_layer(layer.name).c_str(),
+                format_count(layer.comparison.judge_voxels).c_str(),
+                format_count(layer.comparison.missing).c_str(),
+                format_count(layer.comparison.extra).c_str());
   std::printf("%s\n", verdict(j));
 }
 
@@ -148,6 +213,12 @@ void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement&
                          {"extra", c.extra},
                          {"first_wrong", wrong}};
   if (j.sampled) json["sample"] = draws_json(j.sample);
+  for (const JudgedLayer& layer : j.layers)
+    json["layers"].push_back({{"name", layer.name},
+                              {"file_voxels", layer.comparison.file_voxels},
+                              {"judge_voxels", layer.comparison.judge_voxels},
+                              {"missing", layer.comparison.missing},
+                              {"extra", layer.comparison.extra}});
   std::printf("%s\n", json_text(json).c_str());
 }
 

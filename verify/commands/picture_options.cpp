@@ -45,9 +45,11 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
       ->type_name("X.png");
   suggests(command->add_option(
                "--mode", config->mode,
-               "primary, shadow, soft, ao, normal, depth, level or steps (default primary)"),
-           {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps"})
+               "primary, shadow, soft, ao, normal, depth, level, steps or colour (default: colour, "
+               "or primary without layers)"),
+           {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps", "colour"})
       ->type_name("MODE");
+  add_layer(command, &config->layer);
   command->add_option("--size", config->size, "Pixels, 1 to 16384 each way (default 1280x720)")
       ->type_name("WxH");
   command

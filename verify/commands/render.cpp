@@ -20,12 +20,12 @@ namespace {
 
 ShadeMode parse_mode(const std::string& mode) {
   constexpr const char* kNames[] = {"primary", "shadow", "soft",  "ao",
-                                    "normal",  "depth",  "level", "steps"};
+                                    "normal",  "depth",  "level", "steps", "colour"};
   for (int i = 0; i < int(std::size(kNames)); ++i) {
     if (mode == kNames[i]) return ShadeMode(i);
   }
   fail_usage("--mode: \"" + mode +
-             "\" is not primary, shadow, soft, ao, normal, depth, level or steps");
+             "\" is not primary, shadow, soft, ao, normal, depth, level, steps or colour");
 }
 
 // Converts the point (c[0], c[1], c[2]) from scene units to voxels.
@@ -145,6 +145,15 @@ VoxelBounds clipped_bounds(VoxelBounds box, const VoxelBox& voxels) {
   return shown;
 }
 
+// In linear light.
+Vec3 albedo_of(const Colour& colour) {
+  const auto linear = [](uint8_t channel) {
+    const double v = channel / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  return {{linear(colour.r), linear(colour.g), linear(colour.b)}};
+}
+
 // The output, or with --fly that of a frame: "fly_0007.png" for "fly.png" and frame 6.
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
@@ -181,8 +190,7 @@ int run(const RenderCommandConfig& config) {
   const size_t up = std::string("xyz").find(config.up);
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
-  const ShadeMode mode = parse_mode(config.mode);
-  picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
+  if (!config.mode.empty()) parse_mode(config.mode);
   for (int frame = 0; frame < frames; ++frame) {
     const std::string name = picture_name(config, frame);
     if (same_file(config.file, name))
@@ -191,7 +199,22 @@ int run(const RenderCommandConfig& config) {
     AtomicFile::check(name);
   }
 
-  const DagFile file = open_dag(config.file);
+  const DagFile file = open_dag(config.file, config.layer);
+  const bool layered = !file.layers().empty();
+  const std::string mode_name =
+      !config.mode.empty() ? config.mode : layered ? "colour" : "primary";
+  const ShadeMode mode = parse_mode(mode_name);
+  if (mode == ShadeMode::kColour && !layered)
+    fail_usage("--mode colour: " + file.path() + " has no layers (svdag build --layers)");
+  picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
+  std::optional<LayerIndex> layers;
+  std::vector<Vec3> albedos;
+  if (layered) {
+    layers.emplace(file);
+    picture.layers = layers->view();
+    for (const Layer& layer : file.layers().layers) albedos.push_back(albedo_of(layer.colour));
+    picture.albedos = albedos;
+  }
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
   const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);
@@ -218,7 +241,7 @@ int run(const RenderCommandConfig& config) {
     write_png(render(file.view(), tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)
       std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,
-                  config.mode.c_str());
+                  mode_name.c_str());
   }
   return int(ExitCode::kOk);
 }

@@ -147,12 +147,20 @@ class Tile {
       for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
         sum =
             sum + (section_[i] ? section_colour(shading_, surfels_[i])
-                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i])) *
+                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i],
+                                       albedo(hits_[i]))) *
                       grid_line(shading_, rays_[i], hits_[i]);
       const Vec3 colour = sum * (1.0 / n);
       const int x = left_ + p % width_, y = top_ + p / width_;
       shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);
     }
+  }
+
+  Vec3 albedo(const Hit& hit) const {
+    if (!hit.found || config_.albedos.empty() || !shading_.shows_layers()) return kClay;
+    const uint32_t layer =
+        layer_of_cube(dag_, config_.layers, hit.level, hit.voxel[0], hit.voxel[1], hit.voxel[2]);
+    return layer == kNoLayer ? kClay : config_.albedos[layer];
   }
 
   const DagView& dag_;

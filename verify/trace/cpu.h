@@ -1,6 +1,7 @@
 // Renders pictures on the processor, a row of tiles per task.
 #pragma once
 
+#include "io/dag/layer_index.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
 #include "verify/trace/clip.h"
@@ -16,6 +17,8 @@ struct RenderConfig {
   int supersample = 2;               // n x n rays per pixel
   bool beams = true;                 // false: every ray starts at the camera (same picture)
   std::optional<ClipBox> clip = {};  // the voxels that are shown; none: all
+  LayerIndexView layers = {};        // of the file, if it has layers; else without entries
+  std::span<const Vec3> albedos = {};  // [layer]: the part of light that it reflects
 };
 
 // Upper bound of the rays of a picture that have no cut: those that a 64-tree can trace.

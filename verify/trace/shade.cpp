@@ -6,7 +6,6 @@
 namespace svdag {
 namespace {
 
-const Vec3 kClay{{0.50, 0.46, 0.40}};
 const Vec3 kSun{{1.15, 1.06, 0.92}};
 const Vec3 kSky{{0.42, 0.50, 0.62}};
 const Vec3 kGround{{0.24, 0.21, 0.19}};
@@ -19,12 +18,12 @@ Vec3 background(const Shading& shading, const Vec3& direction) {
 
 // Lambert shading by a sun, of which the part `visibility` is visible, and by a sky that is bright
 // above and dim below.
-Vec3 clay(const Shading& shading, const Surfel& surfel, double visibility) {
+Vec3 lit(const Shading& shading, const Surfel& surfel, double visibility, const Vec3& albedo) {
   const Vec3 to_light = normalized(shading.light.centre - surfel.point);
   const double sun = visibility * std::max(0.0, dot(surfel.normal, to_light));
   const double sky = 0.5 + 0.5 * dot(surfel.normal, shading.up);
   const Vec3 light = kSun * sun + kSky * sky + kGround * (1 - sky);
-  return {{kClay[0] * light[0], kClay[1] * light[1], kClay[2] * light[2]}};
+  return {{albedo[0] * light[0], albedo[1] * light[1], albedo[2] * light[2]}};
 }
 
 // Interpolates between evenly spaced colours at v = 0 .. 1.
@@ -122,7 +121,7 @@ Vec3 section_colour(const Shading& shading, const Surfel& surfel) {
 }
 
 Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel,
-           double visibility) {
+           double visibility, const Vec3& albedo) {
   if (shading.mode == ShadeMode::kSteps) return heat(double(hit.steps) / shading.max_steps);
   if (!hit.found)
     return shading.mode == ShadeMode::kDepth ? Vec3{} : background(shading, ray.direction);
@@ -139,7 +138,7 @@ Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel&
     case ShadeMode::kAo:
       return Vec3{{0.85, 0.85, 0.85}} * visibility;
     default:
-      return clay(shading, surfel, visibility);
+      return lit(shading, surfel, visibility, albedo);
   }
 }
 

@@ -13,8 +13,9 @@ namespace svdag {
 // normal    directions as colours
 // depth     near white, far black
 // level     the level at which rays end that stop at cubes the size of a pixel
+// colour    as primary, each layer in its colour; shadow and soft show these, too
 // steps     number of traversal steps, from black over red and yellow to white
-enum class ShadeMode { kPrimary, kShadow, kSoft, kAo, kNormal, kDepth, kLevel, kSteps };
+enum class ShadeMode { kPrimary, kShadow, kSoft, kAo, kNormal, kDepth, kLevel, kSteps, kColour };
 
 // The parameters that all rays of a picture share.
 struct Shading {
@@ -30,8 +31,15 @@ struct Shading {
   bool grid_lines = false;  // draw the edges of near voxels
 
   // Whether colours are light, not data.
-  bool linear() const { return mode <= ShadeMode::kAo; }
+  bool linear() const { return mode <= ShadeMode::kAo || mode == ShadeMode::kColour; }
+  // Whether the layers of a file have their colours.
+  bool shows_layers() const {
+    return mode == ShadeMode::kColour || mode == ShadeMode::kShadow || mode == ShadeMode::kSoft;
+  }
 };
+
+// The part of light that surfaces without a colour reflect.
+constexpr Vec3 kClay{{0.50, 0.46, 0.40}};
 
 // The distances of `box`, and a light over the left shoulder of the camera. A camera that cannot
 // see that light, in a room for example, gets a lamp near it.
@@ -49,7 +57,8 @@ double grid_line(const Shading& shading, const Ray& ray, const Hit& hit);
 Vec3 section_colour(const Shading& shading, const Surfel& surfel);
 
 // `visibility`: the part of the light, or of the sky, that is visible from the surface (0 .. 1).
+// `albedo`: the part of light that the surface reflects.
 Vec3 shade(const Shading& shading, const Ray& ray, const Hit& hit, const Surfel& surfel,
-           double visibility);
+           double visibility, const Vec3& albedo = kClay);
 
 }  // namespace svdag

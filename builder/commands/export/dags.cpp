@@ -1,4 +1,5 @@
 #include "builder/commands/export/selection.h"
+#include "io/dag/layer_alone.h"
 #include "io/dag/plain_form.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
@@ -9,12 +10,19 @@
 namespace svdag {
 namespace {
 
+// The plain form of a file, of its first view alone; nothing if the file is that.
+std::optional<DagFile> without_layers(const DagFile& file, const WorkRoom& room) {
+  std::optional<DagFile> plain = plain_form(file, room);
+  if (file.layers().empty()) return plain;
+  return layer_alone(plain ? *plain : file, {}, room);
+}
+
 // The whole DAG, in the plain layout.
 struct WholeDag {
   // `format` is named in errors.
   WholeDag(const Selection& selection, const ExportConfig& config, const char* format,
            MemoryBudget* budget)
-      : converted(plain_form(selection.file, {budget, folder_of(config.output)})),
+      : converted(without_layers(selection.file, {budget, folder_of(config.output)})),
         dag(converted ? *converted : selection.file, selection.grid.levels, budget) {
     if (config.bounds)
       fail_usage("--bounds: " + std::string(format) +

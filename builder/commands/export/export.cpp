@@ -113,7 +113,7 @@ std::vector<ExportFormat> export_formats() {
 int run(const ExportConfig& options) {
   const FormatRow& row = choose(options);
   reject_options_of_other_formats(row, options);
-  const DagFile file = open_dag(options.file);
+  const DagFile file = open_dag(options.file, options.layer);
   Selection selection(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);

@@ -30,6 +30,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
          "--level", config->level,
          "Write the nodes of this level, from 3 on, as voxels (default: the voxels themselves)")
       ->type_name("K");
+  add_layer(app, &config->layer);
   app->add_option_function<std::string>(
          "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
          "Write only this box, in scene units")

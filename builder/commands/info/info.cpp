@@ -17,7 +17,6 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
-#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -117,7 +116,7 @@ void print_layers(const DagFile& file, uint64_t memory) {
     std::printf("  %18s %14s %14s  %s  %s\n", format_count(layer.voxels).c_str(),
                 format_count(stats[i].nodes).c_str(), format_count(stats[i].own).c_str(),
                 colour_text(layer.colour).c_str(),
-                layer.name.empty() ? "(unnamed)" : printable(layer.name).c_str());
+                shown_layer(layer.name).c_str());
   }
 }
 

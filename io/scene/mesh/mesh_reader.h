@@ -34,6 +34,12 @@ struct TriangleBatch {
   bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)
 };
 
+// The name of the part of this kind that a batch belongs to.
+inline std::string_view part_name(const TriangleBatch& batch, PartKind kind) {
+  if (kind == PartKind::kMaterial) return batch.material;
+  return kind == PartKind::kObject ? batch.mesh : batch.file;
+}
+
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
 class SpillFile;
