@@ -243,7 +243,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report_work(voxelizer.counts(), store.get(), &report);
   store.reset();
   RunSet set = runs.take_set();
-  report.voxels = set.voxels;
+  report.voxels = config.with_union ? set.voxels : 0;
   report.layers = table_of(split.layers, set, config.with_union);
   report.runs = set.runs.size();
   meter.end_phase(&report.seconds.sort, &report.phase_peaks.sort);
@@ -297,8 +297,6 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
 
 void require_possible_layers(const BuildConfig& config) {
   if (config.layers == LayerKind::kNone) return;
-  if (names_run(config.output))
-    fail_usage(config.output + ": a .run has no layers yet: bake to a .svdag");
   if (config.layers != LayerKind::kFile) return;
   std::set<std::string> names;
   for (const std::string& path : config.scene.paths) {

@@ -1,6 +1,7 @@
 #include "builder/merge/merge_runs.h"
 
 #include <algorithm>
+#include <map>
 
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
@@ -27,6 +28,8 @@ const char* difference(const RunFile& a, const RunFile& b) {
   if (g.levels != h.levels || g.origin != h.origin || g.k0 != h.k0)
     return "the grids cover different boxes";
   if (g.bounded != h.bounded || g.selection != h.selection) return "the bounds differ";
+  if (a.layers().kind != b.layers().kind || a.layers().has_union != b.layers().has_union)
+    return "--layers or --no-union differs";
   if (g.transform != h.transform) return "the transform of the scene differs";
   return nullptr;
 }
@@ -43,6 +46,38 @@ Run run_of(const RunFile& file) {
   run.nodes.resize(size_t(file.header().levels - 2));
   for (auto& level : run.nodes) level.file = &file;
   return run;
+}
+
+// The layers of all runs, with the sum of their voxels. Of the colours of a layer, the smallest.
+LayerTable joined_layers(const std::vector<RunFile>& runs) {
+  LayerTable table = runs.front().layers();
+  std::map<std::string, Layer> layers;
+  for (const RunFile& run : runs) {
+    for (const Layer& layer : run.layers().layers) {
+      const auto [at, is_new] = layers.try_emplace(layer.name, layer);
+      if (is_new) continue;
+      at->second.voxels += layer.voxels;
+      at->second.colour = std::min(at->second.colour, layer.colour);
+    }
+  }
+  table.layers.clear();
+  for (auto& [name, layer] : layers) table.layers.push_back(std::move(layer));
+  if (table.layers.size() > kMaxLayers)
+    fail_usage("the runs have more than " + std::to_string(kMaxLayers) + " layers together");
+  return table;
+}
+
+// The roots of a run, their layers numbered as in `table`.
+std::vector<SubDagRoot> numbered_roots(const RunFile& file, uint32_t run, const LayerTable& table) {
+  std::vector<SubDagRoot> roots = file.roots();
+  for (SubDagRoot& root : roots) {
+    root.run = run;
+    if (!has_layer(root.subject)) continue;
+    const std::string& name = file.layers().layers[layer_of(root.subject)].name;
+    const auto at = std::ranges::lower_bound(table.layers, name, {}, &Layer::name);
+    root.subject = subject_of(uint32_t(at - table.layers.begin())) | kApart;
+  }
+  return roots;
 }
 
 }  // namespace
@@ -119,11 +154,10 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   std::vector<Run> runs;
   std::vector<SubDagRoot> roots;
   double largest_snap = 0;
+  const LayerTable layers = joined_layers(files);
   for (const RunFile& file : files) {
-    for (SubDagRoot root : file.roots()) {
-      root.run = uint32_t(runs.size());
-      roots.push_back(root);
-    }
+    const auto own = numbered_roots(file, uint32_t(runs.size()), layers);
+    roots.insert(roots.end(), own.begin(), own.end());
     runs.push_back(run_of(file));
     report.voxels += file.header().voxels;
     report.runs_bytes += file.header().file_bytes;
@@ -139,7 +173,7 @@ MergeRunsReport merge_runs(const MergeRunsConfig& config, Executor* executor, Pr
   report.seconds.merge = seconds.lap();
   interval.move_to(0.98, 1);
   progress->phase("write", 0);
-  output->finish(tops, report.voxels, largest_snap, {});
+  output->finish(tops, report.voxels, largest_snap, layers);
   progress->finish();
   report.seconds.write = seconds.lap();
   report.nodes = output->key_counts();

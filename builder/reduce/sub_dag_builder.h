@@ -103,7 +103,7 @@ class SubDagBuilder {
 
   // Since the table was last emptied. The ranks of the roots are table numbers once settled.
   const std::vector<SubDagRoot>& roots() const { return roots_; }
-  uint64_t voxels() const { return voxels_; }  // of the roots, in the union
+  uint64_t voxels() const { return voxels_; }  // of the roots, in the union (for progress, if none)
   // Flushes the table. No cube may be open.
   void settle() { flush(0); }
   // Freezes the table, spilled to `target` if given, and starts an empty one.

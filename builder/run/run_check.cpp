@@ -94,10 +94,12 @@ class Check {
       require_reached(level + 1);
     }
     begin_marks(0, 0);
-    require(marks_.all() && run_.key_count(0) <= 1, kNotReached, offset_of(payload_.position()));
+    require(marks_.all(), kNotReached, offset_of(payload_.position()));
     skip_zeros(run_.layout().roots.begin);
     skip_checked(run_.layout().roots.end);
     skip_zeros(run_.layout().ranges.begin);
+    skip_checked(run_.layout().ranges.end);
+    skip_zeros(run_.layout().layers.begin);
     skip_checked(run_.layout().payload);
     const RunHeader& header = run_.header();
     require(content_hash_of(header, payload_.hasher()) ==

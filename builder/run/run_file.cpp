@@ -56,6 +56,11 @@ void check_counts(const File& file, const RunHeader& h) {
               offsetof(RunHeader, ranges));
   require_run(h.roots <= size / sizeof(StoredRoot), file, "impossible number of roots",
               offsetof(RunHeader, roots));
+  const bool layered = h.layer_kind != 0;
+  require_run(h.layers_bytes <= (layered ? size : 0) && h.layer_count <= (layered ? kMaxLayers : 0) &&
+                  h.layer_kind < std::size(kLayerKindNames) &&
+                  h.has_union <= (layered ? 1 : 0) && h.padding == 0,
+              file, "impossible layers", offsetof(RunHeader, layers_bytes));
   require_run(RunLayout(h).file_bytes == size, file, "the file size does not match the counts",
               offsetof(RunHeader, file_bytes));
   for (const unsigned char byte : h.reserved)
@@ -106,11 +111,24 @@ RunFile::RunFile(File file, const RunHeader& header, MemoryBudget* budget)
       header_(header),
       layout_(header),
       counted_(budget->reserve(
-          2 * layout_.ranges.bytes() + layout_.roots.bytes() + header.roots * sizeof(SubDagRoot),
+          2 * layout_.ranges.bytes() + layout_.roots.bytes() + header.roots * sizeof(SubDagRoot) +
+              2 * layout_.layers.bytes(),
           "parts and roots of runs")),
       part_({}, int(header.levels)) {
   read_part(budget);
   read_roots(budget);
+  read_layers(budget);
+}
+
+void RunFile::read_layers(MemoryBudget* budget) {
+  if (header_.layer_kind == 0) return;
+  const auto bytes = read_items<std::byte>(file_, header_, layout_.layers, budget);
+  auto layers = decode_entries(header_.layer_count, bytes);
+  const bool valid = layers && std::ranges::all_of(*layers, [](const Layer& layer) {
+                       return layer.root == kNoRoot;
+                     });
+  require_run(valid, file_, "an impossible layer table", offsetof(RunHeader, layers_bytes));
+  layers_ = {LayerKind(header_.layer_kind), header_.has_union != 0, 0, std::move(*layers)};
 }
 
 void RunFile::read_part(MemoryBudget* budget) {
@@ -130,16 +148,21 @@ void RunFile::read_part(MemoryBudget* budget) {
 }
 
 void RunFile::read_roots(MemoryBudget* budget) {
-  uint64_t end = 0;  // of the previous root, as a Morton code of voxels
+  // By position (a Morton code of voxels), then by set.
+  std::pair<uint64_t, uint32_t> next{0, header_.has_union != 0 || header_.layer_kind == 0 ? 0 : 1};
+  const uint32_t first_set = next.second;
   for (const StoredRoot& root : read_items<StoredRoot>(file_, header_, layout_.roots, budget)) {
-    require_run(root.level <= header_.levels - 2 && root.code >> 3 * root.level == 0 &&
-                    root.rank < header_.keys[root.level],
+    const uint32_t level = root.level_and_set & 0xff, set = root.level_and_set >> 8;
+    require_run(level <= header_.levels - 2 && root.code >> 3 * level == 0 &&
+                    root.rank < header_.keys[level] && set >= first_set &&
+                    set <= header_.layer_count,
                 file_, "impossible root", offsetof(RunHeader, roots));
-    const int shift = 3 * int(header_.levels - root.level);
-    require_run(root.code << shift >= end && part_.is_top(int(root.level), root.code), file_,
+    const int shift = 3 * int(header_.levels - level);
+    const uint64_t position = root.code << shift;
+    require_run(std::pair(position, set) >= next && part_.is_top(int(level), root.code), file_,
                 "a root is not a top of the part or not in order", offsetof(RunHeader, roots));
-    end = (root.code + 1) << shift;
-    roots_.push_back({root.code, int32_t(root.level), 0, root.rank});
+    next = {position, set + 1};
+    roots_.push_back({root.code, int32_t(level), 0, root.rank, set});
   }
 }
 

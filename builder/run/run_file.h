@@ -15,6 +15,7 @@
 #include "builder/octree/sub_dag_root.h"
 #include "builder/run/run_format.h"
 #include "io/dag/format.h"
+#include "io/dag/layer_table.h"
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/memory/memory_budget.h"
@@ -34,8 +35,10 @@ class RunFile {
   Grid grid() const;
   Rule rule() const { return Rule(header_.rule); }
   const GridPart& part() const { return part_; }
-  // In Morton order, with `run` = 0.
+  // In Morton order, with `run` = 0, each of one set.
   const std::vector<SubDagRoot>& roots() const { return roots_; }
+  // Empty in a run without layers; its layers have no roots.
+  const LayerTable& layers() const { return layers_; }
   uint64_t key_count(int level) const { return header_.keys[level]; }
   // Streams the keys of `level` as bytes. The run must outlive the source.
   std::unique_ptr<BlockSource> read(int level, MemoryBudget* budget) const;
@@ -44,6 +47,7 @@ class RunFile {
   RunFile(File file, const RunHeader& header, MemoryBudget* budget);
   void read_part(MemoryBudget* budget);
   void read_roots(MemoryBudget* budget);
+  void read_layers(MemoryBudget* budget);
 
   File file_;
   RunHeader header_;
@@ -51,6 +55,7 @@ class RunFile {
   MemoryBudget::Reservation counted_;  // part and roots
   GridPart part_;
   std::vector<SubDagRoot> roots_;
+  LayerTable layers_;
 };
 
 // Reads a section block by block, holding one block. The file is read in order, so the operating

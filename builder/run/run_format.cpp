@@ -17,6 +17,8 @@ RunLayout::RunLayout(const RunHeader& header) {
     levels[k] = add_section(header.keys[k] * (k + 2 == header.levels ? kBrickBytes : kNodeBytes));
   roots = add_section(header.roots * sizeof(StoredRoot));
   ranges = add_section(header.ranges * sizeof(StoredRange));
+  layers = add_section(header.layers_bytes);
+  if (header.layers_bytes == 0) layers = {payload = ranges.end, ranges.end};
   blocks = (payload + kRunPayload - 1) / kRunPayload;
   file_bytes = sizeof(RunHeader) + blocks * kSpillHeader + payload;
 }

@@ -3,7 +3,8 @@
 //   header (1024 bytes) | blocks (framed like scratch blocks: streaming/spill/spill_block.h)
 //
 // The concatenated payloads of the blocks are a sequence of sections, each of which begins at a
-// multiple of 64 bytes: the levels, bricks first, then the roots, then the ranges.
+// multiple of 64 bytes: the levels, bricks first, then the roots, the ranges and, if there are
+// layers, their table.
 #pragma once
 
 #include <cstddef>
@@ -51,13 +52,19 @@ struct RunHeader {
   uint64_t content_hash[2];     // XXH3-128 over the blocks' checksums and the header (hash and
                                 // checksum as 0)
   double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
-  unsigned char reserved[584];  // zero
+  // The layers; zeros in a run without.
+  uint64_t layers_bytes;
+  uint32_t layer_count;
+  uint32_t layer_kind;          // LayerKind
+  uint32_t has_union;           // 1: there are roots of the union
+  uint32_t padding;             // zero
+  unsigned char reserved[560];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 
 struct StoredRoot {
   uint64_t code;  // Morton code of the top, at its level
-  uint32_t level;
+  uint32_t level_and_set;  // level, and 256 times its set: 0 the union, 1 + i layer i
   uint32_t rank;
 };
 
@@ -85,7 +92,7 @@ struct RunLayout {
   explicit RunLayout(const RunHeader& header);
 
   RunSection levels[kRunLevels];  // [k] is level k
-  RunSection roots, ranges;
+  RunSection roots, ranges, layers;
   uint64_t payload = 0, blocks = 0, file_bytes = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "io/dag/grid_fields.h"
 #include "streaming/error.h"
@@ -14,6 +15,25 @@ std::vector<StoredRange> stored(const std::vector<MortonRange>& ranges) {
   std::vector<StoredRange> out;
   for (const MortonRange& range : ranges) out.push_back({range.begin, range.end});
   return out;
+}
+
+// Sorts the layers by name; returns the roots with the new numbers.
+std::vector<SubDagRoot> sort_layers(std::span<const SubDagRoot> roots, LayerTable* table) {
+  std::vector<uint32_t> order(table->layers.size()), number(table->layers.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](uint32_t i) { return table->layers[i].name; });
+  std::vector<Layer> sorted;
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    sorted.push_back(table->layers[order[i]]);
+    sorted.back().root = kNoRoot;
+  }
+  table->layers = std::move(sorted);
+  std::vector<SubDagRoot> renumbered(roots.begin(), roots.end());
+  for (SubDagRoot& root : renumbered) {
+    if (has_layer(root.subject)) root.subject = subject_of(number[layer_of(root.subject)]);
+  }
+  return renumbered;
 }
 
 }  // namespace
@@ -88,25 +108,41 @@ void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
   const auto position = [this](const SubDagRoot& root) {
     return root.morton << 3 * (part_.levels() - root.level);
   };
-  std::sort(sorted.begin(), sorted.end(),
-            [&](const SubDagRoot& a, const SubDagRoot& b) { return position(a) < position(b); });
+  std::sort(sorted.begin(), sorted.end(), [&](const SubDagRoot& a, const SubDagRoot& b) {
+    return std::pair(position(a), a.subject) < std::pair(position(b), b.subject);
+  });
   for (const SubDagRoot& root : sorted) {
     SVDAG_ASSERT(part_.is_top(root.level, root.morton));
-    const StoredRoot out = {root.morton, uint32_t(root.level), root.rank};
+    const StoredRoot out = {root.morton, uint32_t(root.level) | root.subject << 8, root.rank};
     append(&out, sizeof out);
   }
   header_.roots = sorted.size();
 }
 
+void RunWriter::append_layers(const LayerTable& layers) {
+  header_.layer_kind = uint32_t(layers.kind);
+  header_.layer_count = uint32_t(layers.layers.size());
+  header_.has_union = layers.has_union;
+  align();
+  const std::vector<std::byte> bytes = encode_layers(layers);
+  header_.layers_bytes = bytes.size();
+  for (size_t at = 0; at < bytes.size();) {
+    const size_t n = std::min<size_t>(bytes.size() - at, kRunPayload - filled_);
+    append(bytes.data() + at, n);
+    at += n;
+  }
+}
+
 void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
-                       LayerTable) {
+                       LayerTable layers) {
   SVDAG_ASSERT(level_ == 0);
   header_.voxels = voxels;
   header_.largest_snap = largest_snap;
   align();
-  append_roots(roots);
+  append_roots(sort_layers(roots, &layers));
   align();
   for (const StoredRange& range : stored(part_.ranges())) append(&range, sizeof range);
+  if (!layers.empty()) append_layers(layers);
   if (filled_ > 0) flush();
   header_.file_bytes = RunLayout(header_).file_bytes;
   const Hash128 hash = content_hash_of(header_, &hasher_);

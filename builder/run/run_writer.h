@@ -44,6 +44,7 @@ class RunWriter final : public BakeOutput {
   void align();
   void flush();
   void append_roots(std::span<const SubDagRoot> roots);
+  void append_layers(const LayerTable& layers);
 
   AtomicFile file_;
   GridPart part_;

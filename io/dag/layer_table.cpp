@@ -58,36 +58,45 @@ std::vector<std::byte> encode_layers(const LayerTable& table) {
   return bytes;
 }
 
-std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes) {
-  if (!has_possible_roots(header)) return std::nullopt;
-  LayerTable table;
-  table.kind = LayerKind(header.layer_kind);
-  table.has_union = header.layer_count == 0 || header.has_union != 0;
-  if (header.layer_count > bytes.size() / sizeof(StoredLayer)) return std::nullopt;
-  const uint64_t roots = header.sections[0].nodes;
-  std::vector<bool> used(roots);
-  if (roots > 0 && table.has_union) used[0] = true;
-  std::span<const std::byte> names = bytes.subspan(header.layer_count * sizeof(StoredLayer));
-  for (uint32_t i = 0; i < header.layer_count; ++i) {
+std::optional<std::vector<Layer>> decode_entries(uint32_t count, std::span<const std::byte> bytes) {
+  if (count > bytes.size() / sizeof(StoredLayer)) return std::nullopt;
+  std::vector<Layer> layers(count);
+  std::span<const std::byte> names = bytes.subspan(count * sizeof(StoredLayer));
+  for (uint32_t i = 0; i < count; ++i) {
     StoredLayer stored;
     std::memcpy(&stored, bytes.data() + i * sizeof stored, sizeof stored);
-    const auto is_zero = [](uint8_t byte) { return byte == 0; };
-    const bool has_root = stored.root != kNoRoot;
-    if (stored.name_bytes > names.size() || (stored.voxels != 0) != has_root ||
-        (has_root && stored.root >= roots) || !std::ranges::all_of(stored.reserved, is_zero))
+    const bool is_zero = std::ranges::all_of(stored.reserved, [](uint8_t b) { return b == 0; });
+    if (stored.name_bytes > names.size() || !is_zero ||
+        (stored.voxels == 0 && stored.root != kNoRoot))
       return std::nullopt;
-    if (has_root) used[stored.root] = true;
-    Layer& layer = table.layers.emplace_back();
+    Layer& layer = layers[i];
     layer.name.assign(reinterpret_cast<const char*>(names.data()), stored.name_bytes);
     layer.colour = {stored.colour[0], stored.colour[1], stored.colour[2]};
     layer.voxels = stored.voxels;
     layer.root = stored.root;
     names = names.subspan(stored.name_bytes);
-    if (i > 0 && table.layers[i - 1].name >= layer.name) return std::nullopt;
+    if (i > 0 && layers[i - 1].name >= layer.name) return std::nullopt;
   }
-  const bool in_order = table.default_root() == 0 || roots == 0;
+  if (!names.empty()) return std::nullopt;
+  return layers;
+}
+
+std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes) {
+  if (!has_possible_roots(header)) return std::nullopt;
+  auto layers = decode_entries(header.layer_count, bytes);
+  if (!layers) return std::nullopt;
+  LayerTable table{LayerKind(header.layer_kind), header.layer_kind == 0 || header.has_union != 0, 0,
+                   std::move(*layers)};
+  const uint64_t roots = header.sections[0].nodes;
+  std::vector<bool> used(roots);
+  if (roots > 0 && table.has_union) used[0] = true;
+  for (const Layer& layer : table.layers) {
+    if (layer.root == kNoRoot ? layer.voxels != 0 : layer.root >= roots) return std::nullopt;
+    if (layer.root != kNoRoot) used[layer.root] = true;
+  }
+  const bool in_order = roots == 0 || table.default_root() == 0;
   const bool all_used = std::ranges::find(used, false) == used.end();
-  if (!names.empty() || !in_order || !all_used) return std::nullopt;
+  if (!in_order || !all_used) return std::nullopt;
   return table;
 }
 

@@ -40,6 +40,8 @@ void print_json(const RunFile& run) {
   for (const MortonRange& range : run.part().ranges())
     json["ranges"].push_back({range.begin, range.end});
   for (uint32_t k = 0; k + 1 < h.levels; ++k) json["nodes"].push_back(h.keys[k]);
+  for (const Layer& layer : run.layers().layers)
+    json["layers"].push_back({{"name", layer.name}, {"voxels", layer.voxels}});
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
@@ -55,6 +57,11 @@ void print_text(const RunFile& run) {
               format_double(corner.x).c_str(), format_double(corner.y).c_str(),
               format_double(corner.z).c_str(),
               h.bounded ? ", restricted by --bounds or --cube" : "");
+  if (!run.layers().empty())
+    std::printf("  %s layers, one for each %s%s\n",
+                format_count(run.layers().layers.size()).c_str(),
+                layer_kind_name(run.layers().kind),
+                run.layers().has_union ? "" : ", without their union");
   std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
               format_count(nodes).c_str(), format_count(h.roots).c_str(),
               format_bytes(h.file_bytes).c_str());

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "builder/build.h"
+#include "builder/merge/merge_runs.h"
 #include "io/dag/layer_alone.h"
 #include "io/dag/plain_form.h"
 #include "tests/builder/bakes.h"
@@ -142,6 +143,41 @@ TEST_F(Layers, OrderThreadsMemoryAndCellsDoNotChangeTheBytes) {
     }
   }
   EXPECT_GT(spilled, 0U);
+}
+
+TEST_F(Layers, PartsMergeToTheSameBytesInAnyTree) {
+  for (uint64_t seed = 200; seed < 230; ++seed) {
+    SCOPED_TRACE(seed);
+    random_.seed(seed);
+    BuildConfig config = random_scene();
+    config.layout = Layout::kPlain;
+    bake(config);
+    const std::string expected = read_bytes(config.output);
+    const uint64_t parts = 2 + pick(4);
+    std::vector<std::string> runs;
+    for (uint64_t part = 1; part <= parts; ++part) {
+      config.output = folder_.file("part" + std::to_string(part) + ".run");
+      config.part = GridPart::share(part, parts);
+      if (config.part->level > config.levels - 2) break;
+      std::shuffle(config.scene.paths.begin(), config.scene.paths.end(), random_);
+      bake(config, 1 + pick(2));
+      runs.push_back(config.output);
+    }
+    if (runs.size() < parts) continue;
+    std::shuffle(runs.begin(), runs.end(), random_);
+    ParallelExecutor executor(2);
+    Progress progress;
+    MergeRunsConfig merge;
+    merge.runs = {runs[0], runs[1]};
+    merge.output = folder_.file("both.run");
+    merge_runs(merge, &executor, &progress);
+    runs.erase(runs.begin(), runs.begin() + 2);
+    runs.push_back(merge.output);
+    merge.runs = runs;
+    merge.output = folder_.file("all.svdag");
+    merge_runs(merge, &executor, &progress);
+    EXPECT_EQ(read_bytes(merge.output), expected);
+  }
 }
 
 TEST_F(Layers, ADenseCubeOfManyLayersBakesInLittleMemory) {
