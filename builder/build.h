@@ -29,6 +29,7 @@ struct ReadySplit {
   SplitCounts counts;
   std::vector<TriangleBin> bins;   // every bin that meets the grid part to bake
   SpillFile* triangles = nullptr;  // holds the streams of `bins`
+  SceneLayers layers = {};
 };
 
 // Default of --checkpoint, in seconds.

@@ -1,7 +1,6 @@
 // The bake as a pipeline: every phase is a function that returns what the next one takes.
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "builder/bake/bake_bins.h"
 #include "builder/bake/choose_grid.h"
@@ -205,7 +204,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (saved && saved->split) {
     split = std::move(*saved->split);
   } else if (config.ready != nullptr) {
-    split = {config.ready->counts, nullptr, config.ready->bins, SceneLayers()};
+    split = {config.ready->counts, nullptr, config.ready->bins, config.ready->layers};
   } else {
     split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }
@@ -295,17 +294,6 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   }
 }
 
-void require_possible_layers(const BuildConfig& config) {
-  if (config.layers == LayerKind::kNone) return;
-  if (config.layers != LayerKind::kFile) return;
-  std::set<std::string> names;
-  for (const std::string& path : config.scene.paths) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
-    if (!names.insert(name).second)
-      fail_usage("--layers file: two files of the scene are named " + name + ": rename one");
-  }
-}
-
 }  // namespace
 
 std::string description_hash_of(const BuildConfig& config) {
@@ -317,7 +305,6 @@ std::string description_hash_of(const BuildConfig& config) {
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
-  require_possible_layers(config);
   try {
     return bake_resumably(config, executor, progress);
   } catch (const InvalidScratch&) {

@@ -73,11 +73,11 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
   if (config.layout != Layout::kPlain) out << "layout: " << layout_name(config.layout) << '\n';
+  out << "algorithm: " << kAlgorithm << '\n';
+  out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
   if (config.layers != LayerKind::kNone)
     out << "layers: " << layer_kind_name(config.layers)
         << (config.with_union ? "" : ", without union") << '\n';
-  out << "algorithm: " << kAlgorithm << '\n';
-  out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
   if (config.cube) {
     out << "cube:";
     for (int a = 0; a < 3; ++a) out << ' ' << format_double(config.cube->min[a]);

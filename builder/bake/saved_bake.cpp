@@ -132,30 +132,6 @@ void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
   }
 }
 
-void put_layers(const SceneLayers& layers, RecordWriter* out) {
-  out->put(uint32_t(layers.kind()));
-  out->put(uint64_t(layers.layers().size()));
-  for (const Layer& layer : layers.layers()) {
-    out->put(layer.name);
-    out->put(layer.colour);
-  }
-}
-
-void get_layers(RecordReader* in, SceneLayers* layers) {
-  uint32_t kind = 0;
-  uint64_t count = 0;
-  in->get(&kind);
-  in->get(&count);
-  in->require(kind < std::size(kLayerKindNames) && count <= kMaxLayers, "impossible layers");
-  std::vector<Layer> read(count);
-  for (Layer& layer : read) {
-    in->get(&layer.name);
-    in->get(&layer.colour);
-  }
-  *layers = SceneLayers(LayerKind(kind));
-  layers->restore(std::move(read));
-}
-
 BakedRun get_run(RecordReader* in, int levels) {
   BakedRun baked;
   uint64_t nodes = 0;
@@ -223,7 +199,7 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       saved.split.emplace();
       visit_count_fields(saved.split->counts, GetField{&in});
       saved.split->bins = get_bins(&in, saved.grid.levels);
-      get_layers(&in, &saved.split->layers);
+      saved.split->layers = get_layers(&in);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {
       const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;

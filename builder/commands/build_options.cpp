@@ -1,6 +1,5 @@
 // The options of svdag build, on the command line and in the lists of --batch.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -71,25 +70,6 @@ void add_resume_options(CLI::App* app, BuildOptions* options) {
          "--checkpoint", [=](double s) { options->checkpoint = checked_seconds(s); },
          "Save work for --resume every SECONDS seconds (default: 30)")
       ->type_name("SECONDS");
-}
-
-void add_layer_options(CLI::App* app, BuildConfig* build) {
-  const auto read = [build](const std::string& name) {
-    const auto known = std::ranges::find(kLayerKindNames, name);
-    if (known == std::end(kLayerKindNames) || name == kLayerKindNames[0])
-      fail_usage("--layers: unknown kind \"" + name + "\": choose material, object or file");
-    build->layers = LayerKind(known - kLayerKindNames);
-  };
-  CLI::Option* layers =
-      suggests(app->add_option_function<std::string>(
-                   "--layers", read,
-                   "Also keep the voxels of each material, object or file, as layers"),
-               {"material", "object", "file"})
-          ->type_name("KIND");
-  CLI::Option* no_union = app->add_flag_callback(
-      "--no-union", [build] { build->with_union = false; },
-      "Keep the layers alone: for layers that are frames of an animation");
-  if (build->layers == LayerKind::kNone) no_union->needs(layers);
 }
 
 void add_cache_options(CLI::App* app, CellCacheConfig* config) {

@@ -40,6 +40,8 @@ void add_scene_options(CLI::App* app, SceneConfig* scene);
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch = "OUT.scratch",
                           const char* threads_text = "Threads (default: all processors)");
+// Adds --layers and --no-union.
+void add_layer_options(CLI::App* app, BuildConfig* build);
 // Adds the grid options of a bake; exactly one option of the returned group is required.
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build);
 

@@ -1,5 +1,6 @@
 // Options shared by several commands.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -84,6 +85,25 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
                                "Folder for data that does not fit in memory (default: " +
                                    std::string(own_scratch) + ")"))
       ->type_name("DIR");
+}
+
+void add_layer_options(CLI::App* app, BuildConfig* build) {
+  const auto read = [build](const std::string& name) {
+    const auto known = std::ranges::find(kLayerKindNames, name);
+    if (known == std::end(kLayerKindNames) || name == kLayerKindNames[0])
+      fail_usage("--layers: unknown kind \"" + name + "\": choose material, object or file");
+    build->layers = LayerKind(known - kLayerKindNames);
+  };
+  CLI::Option* layers =
+      suggests(app->add_option_function<std::string>(
+                   "--layers", read,
+                   "Also keep the voxels of each material, object or file, as layers"),
+               {"material", "object", "file"})
+          ->type_name("KIND");
+  CLI::Option* no_union = app->add_flag_callback(
+      "--no-union", [build] { build->with_union = false; },
+      "Keep the layers alone: for layers that are frames of an animation");
+  if (build->layers == LayerKind::kNone) no_union->needs(layers);
 }
 
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {

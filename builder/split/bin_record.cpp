@@ -58,4 +58,29 @@ std::vector<TriangleBin> get_bins(RecordReader* in, int levels) {
   return bins;
 }
 
+void put_layers(const SceneLayers& layers, RecordWriter* out) {
+  out->put(uint32_t(layers.kind()));
+  out->put(uint64_t(layers.layers().size()));
+  for (const Layer& layer : layers.layers()) {
+    out->put(layer.name);
+    out->put(layer.colour);
+  }
+}
+
+SceneLayers get_layers(RecordReader* in) {
+  uint32_t kind = 0;
+  uint64_t count = 0;
+  in->get(&kind);
+  in->get(&count);
+  in->require(kind < std::size(kLayerKindNames) && count <= kMaxLayers, "impossible layers");
+  std::vector<Layer> read(count);
+  for (Layer& layer : read) {
+    in->get(&layer.name);
+    in->get(&layer.colour);
+  }
+  SceneLayers layers{LayerKind(kind)};
+  layers.restore(std::move(read));
+  return layers;
+}
+
 }  // namespace svdag

@@ -1,8 +1,9 @@
-// Serializes triangle bins in records: for the journal of a bake and the index of a plan.
+// Serializes triangle bins and layers in records: for the journal of a bake and the index of a plan.
 #pragma once
 
 #include <vector>
 
+#include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
 #include "streaming/spill/record.h"
 
@@ -14,5 +15,9 @@ SpillStream get_stream(RecordReader* in);
 void put_bins(const std::vector<TriangleBin>& bins, RecordWriter* out);
 // Bins that are impossible in a grid with `levels` levels are an Error of the reader.
 std::vector<TriangleBin> get_bins(RecordReader* in, int levels);
+
+// Names and colours, in their order.
+void put_layers(const SceneLayers& layers, RecordWriter* out);
+SceneLayers get_layers(RecordReader* in);
 
 }  // namespace svdag

@@ -12,7 +12,8 @@ namespace svdag {
 
 class SceneLayers {
  public:
-  explicit SceneLayers(LayerKind kind = LayerKind::kNone) : kind_(kind) {}
+  SceneLayers() = default;
+  explicit SceneLayers(LayerKind kind) : kind_(kind) {}
 
   LayerKind kind() const { return kind_; }
   // The number of the layer of a batch. More than kMaxLayers are an Error (kUsage).
@@ -23,7 +24,7 @@ class SceneLayers {
   void restore(std::vector<Layer> layers);
 
  private:
-  LayerKind kind_;
+  LayerKind kind_ = LayerKind::kNone;
   std::vector<Layer> layers_;
   std::unordered_map<std::string, uint32_t> numbers_;  // by name
   uint32_t last_ = 0;                                  // found last: batches of a layer follow one another

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "builder/overlap/exact.h"
 #include "io/lattice.h"
+#include "streaming/error.h"
 
 namespace svdag {
 namespace {
@@ -77,10 +79,21 @@ class TriangleStore {
   std::optional<TriangleBins> bins_;
 };
 
+// A layer of a file has its name without the folder.
+void require_different_names(const std::vector<std::string>& paths) {
+  std::set<std::string> names;
+  for (const std::string& path : paths) {
+    const std::string name = path.substr(path.find_last_of('/') + 1);
+    if (!names.insert(name).second)
+      fail_usage("--layers file: two files of the scene are named " + name + ": rename one");
+  }
+}
+
 }  // namespace
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
                  MemoryBudget* budget) {
+  if (config.layers == LayerKind::kFile) require_different_names(scene.config().paths);
   const Lattice lattice(grid);
   SplitScene result;
   SplitCounts& counts = result.counts;

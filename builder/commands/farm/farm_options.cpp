@@ -89,6 +89,7 @@ void add_plan(CLI::App* program, Command* command) {
           2, 1000)
       ->type_name("N");
   add_grid_options(app, &plan->build);
+  add_layer_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
                        "PLAN/plan.scratch", "Threads of each shard (default: 1)");
   add_quiet(app, &config->output);

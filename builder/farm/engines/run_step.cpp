@@ -16,12 +16,15 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
   SpillFile triangles(File::open_read(plan.path(kPlanTriangles)), plan.block_bytes, 0,
                       ExitCode::kBadInput);
   const ReadySplit ready = {plan.description, plan.grid, plan.counts,
-                            bins_of(plan.bins, step.cells, plan.grid.levels), &triangles};
+                            bins_of(plan.bins, step.cells, plan.grid.levels), &triangles,
+                            plan.layers};
   BuildConfig build;
   build.ready = &ready;
   build.part = step.cells;
   build.output = output;
   build.descent.rule = plan.rule;
+  build.layers = plan.layers.kind();
+  build.with_union = plan.with_union;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
   // An unfinished bake in the plan's folder belongs to the plan; beside another output it may

@@ -57,12 +57,14 @@ struct Plan {
   Grid grid;
   Rule rule = Rule::kConservative;
   SplitCounts counts;
+  bool with_union = true;  // --no-union
   double one_bake_cpu = 0;      // seconds, predicted
   size_t cells = 0;             // number of non-empty cells
   std::vector<PlanStep> steps;  // shards first, in order; each merge after its inputs
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
+  SceneLayers layers;
 
   size_t shards() const;
   std::string path(const std::string& name) const { return folder + "/" + name; }

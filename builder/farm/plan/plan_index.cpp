@@ -21,6 +21,8 @@ std::string save_index(const Plan& plan) {
   RecordWriter record;
   record.put(uint64_t(plan.block_bytes));
   put_bins(plan.bins, &record);
+  put_layers(plan.layers, &record);
+  record.put(uint32_t(plan.with_union));
   AtomicFile file(plan.path(kIndex));
   file.append(record.bytes());
   file.commit();
@@ -39,6 +41,11 @@ void load_index(const std::string& hash, Plan* plan) {
   in.require(Scratch::is_block_size(block_bytes), "invalid block size");
   plan->block_bytes = size_t(block_bytes);
   plan->bins = get_bins(&in, plan->grid.levels);
+  plan->layers = get_layers(&in);
+  uint32_t with_union = 0;
+  in.get(&with_union);
+  in.require(with_union <= 1, "impossible layers");
+  plan->with_union = with_union == 1;
   in.finish();
 }
 

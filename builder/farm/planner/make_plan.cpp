@@ -128,9 +128,12 @@ void Planner::read_scene() {
   split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kMaxBinLevel);
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
+  split_config.layers = config_.build.layers;
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();
   plan_.counts = scene.counts;
+  plan_.layers = scene.layers;
+  plan_.with_union = config_.build.with_union;
   if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);
   progress_->phase("distribute triangles", 0);
   LeafConfig leaf;

@@ -15,7 +15,9 @@ constexpr size_t kBatch = 4096;  // triangles read at once
 
 // Rounds towards minus infinity. The error is less than a unit of the coarse lattice, far below a
 // voxel.
+// Without layers: those are not predicted.
 LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
+  triangle.subject = kUnionSet;
   for (LatticePoint& v : triangle.v) {
     for (int a = 0; a < 3; ++a) v[a] >>= shift;
   }

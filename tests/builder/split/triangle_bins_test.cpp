@@ -22,6 +22,7 @@ class TriangleBinsTest : public testing::Test {
         put(uint64_t(triangle.v[i][a]) - from, &writer);
       }
     }
+    put(triangle.subject, &writer);
     bin.triangles = 1;
     bin.stream = writer.finish();
     return bin;
@@ -79,6 +80,11 @@ TEST_F(TriangleBinsTest, VerticesThatTheSnapCannotProduceAreReportedAsDamage) {
   EXPECT_SVDAG_ERROR(read(bin_of({{zero, zero, -too_far}})), ExitCode::kOutput, "damaged");
   // Each is valid alone, but their difference overflows.
   EXPECT_SVDAG_ERROR(read(bin_of({{far, -far, zero}})), ExitCode::kOutput, "damaged");
+}
+
+TEST_F(TriangleBinsTest, ALayerThatCannotExistIsReportedAsDamage) {
+  EXPECT_EQ(read(bin_of({{}, kMaxLayers})).at(0).subject, kMaxLayers);
+  EXPECT_SVDAG_ERROR(read(bin_of({{}, kMaxLayers + 1})), ExitCode::kOutput, "damaged");
 }
 
 }  // namespace

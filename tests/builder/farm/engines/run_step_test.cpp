@@ -128,7 +128,7 @@ TEST_F(Steps, DiscardScratchOfAnotherPlan) {
 }
 
 std::string description_of(const Plan& plan, const PlanStep& shard) {
-  const ReadySplit ready{plan.description, plan.grid, {}, {}, nullptr};
+  const ReadySplit ready{plan.description, plan.grid, {}, {}, nullptr, {}};
   BuildConfig own;
   own.ready = &ready;
   own.part = shard.cells;
