@@ -93,6 +93,7 @@ void add_layer_options(CLI::App* app, BuildConfig* build) {
     if (known == std::end(kLayerKindNames) || name == kLayerKindNames[0])
       fail_usage("--layers: unknown kind \"" + name + "\": choose material, object or file");
     build->layers = LayerKind(known - kLayerKindNames);
+    build->scene.colours = build->layers == LayerKind::kMaterial;
   };
   CLI::Option* layers =
       suggests(app->add_option_function<std::string>(

@@ -13,13 +13,24 @@ uint32_t SceneLayers::layer_of(const TriangleBatch& batch) {
     if (is_new && layers_.size() == kMaxLayers)
       fail_usage(std::string("--layers ") + layer_kind_name(kind_) + ": the scene has more than " +
                  std::to_string(kMaxLayers) + " of these");
-    if (is_new) layers_.push_back({std::string(name), palette_colour(name)});
+    if (is_new) {
+      layers_.push_back({std::string(name), palette_colour(name)});
+      has_colour_.push_back(false);
+    }
+  }
+  // The smallest, since the order of the scene must not decide.
+  Colour& colour = layers_[last_].colour;
+  if (kind_ == LayerKind::kMaterial && batch.colour &&
+      (!has_colour_[last_] || *batch.colour < colour)) {
+    colour = *batch.colour;
+    has_colour_[last_] = true;
   }
   return last_;
 }
 
 void SceneLayers::restore(std::vector<Layer> layers) {
   layers_ = std::move(layers);
+  has_colour_.assign(layers_.size(), true);
   for (uint32_t i = 0; i < layers_.size(); ++i) numbers_[layers_[i].name] = i;
 }
 

@@ -10,7 +10,7 @@
 namespace svdag {
 
 Colour palette_colour(std::string_view name) {
-  constexpr double kHues = 64, kBright = 0.85, kPale = 0.45;
+  constexpr double kHues = 64, kBright = 0.85, kPale = 0.5;
   const double hue = 6 * double(checksum64(std::as_bytes(std::span(name))) % 64) / kHues;
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + hue, 6.0);

@@ -10,15 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "io/colour.h"
 #include "io/dag/format.h"
 
 namespace svdag {
-
-// An sRGB colour, 8 bits a channel.
-struct Colour {
-  uint8_t r = 0, g = 0, b = 0;
-  auto operator<=>(const Colour&) const = default;
-};
 
 // The colour of a layer whose source has none: one of 64 hues, chosen by the name.
 Colour palette_colour(std::string_view name);

@@ -9,6 +9,7 @@
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/readers/gzip.h"
+#include "io/scene/readers/mtl.h"
 #include "io/scene/readers/ply_header.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
@@ -195,7 +196,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File& file = content_of(packed);
     FiniteFilter filter(path, config_, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
-    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox};
+    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox,
+                        config_.colours};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       read_file(file, options, filtered);
@@ -250,7 +252,11 @@ void Scene::visit_files(const std::function<void(const File&)>& visit) const {
     if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
-    if (detect_format(file) != SceneFormat::kGltf) continue;
+    const SceneFormat format = detect_format(file);
+    if (format == SceneFormat::kObj && config_.colours) {
+      for (const std::string& mtl : mtl_paths(content_of(file))) visit(File::open_read(mtl));
+    }
+    if (format != SceneFormat::kGltf) continue;
     const GltfDocument document = load_gltf(content_of(file), budget_);
     for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
   }

@@ -42,6 +42,7 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
+  bool colours = false;  // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 
@@ -74,7 +75,8 @@ class Scene {
   // files that hold points alone.
   [[noreturn]] void fail_empty(const SceneCounts& counts) const;
 
-  // All files that determine the triangles: those of the scene, and the buffers that a .gltf names.
+  // All files that determine the triangles: those of the scene, and the buffers that a .gltf names;
+  // with `colours`, the .mtl files that an .obj names.
   void visit_files(const std::function<void(const File&)>& visit) const;
   // Records the state of all these files. Call before the scene is read.
   InputWatch watch() const;

@@ -28,6 +28,10 @@ class City : public Mesh {
     return {i & 4 ? high.x : low.x, i & 2 ? high.y : low.y, i & 1 ? high.z : low.z};
   }
 
+  std::string part(uint64_t i) const override {
+    return i < 12 ? "ground" : "house " + std::to_string(i / 12);
+  }
+
   Face face(uint64_t i) const override {
     const uint64_t base = i / 12 * 8;
     const uint8_t* corner = kBoxFaces[i % 12];

@@ -8,6 +8,8 @@
 #include "streaming/error.h"
 #include "streaming/process/program.h"
 #include "tests/scenes/kinds.h"
+#include "tests/scenes/moving.h"
+#include "tests/scenes/obj_writer.h"
 #include "tests/scenes/ply_writer.h"
 
 namespace {
@@ -19,6 +21,8 @@ struct Config {
   std::string triangles;
   std::string output;
   scenes::PlyOptions ply;
+  size_t frames = 0;   // of an animation; 0: a still scene
+  bool tenth = false;  // only a tenth of the surface moves
   bool quiet = false;
 };
 
@@ -35,11 +39,32 @@ uint64_t parse_triangles(const std::string& text) {
   return uint64_t(value * unit);
 }
 
+void write(const scenes::Mesh& mesh, const Config& config, const std::string& path) {
+  path.ends_with(".obj") ? scenes::write_obj(mesh, config.ply, path)
+                         : scenes::write_ply(mesh, config.ply, path);
+}
+
+// X_0001.ply, X_0002.ply, ...
+void write_frames(const scenes::Mesh& mesh, const Config& config) {
+  const size_t dot = config.output.find_last_of('.');
+  for (uint64_t i = 0; i < config.frames; ++i) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%04d", int(i) + 1);
+    const std::string path =
+        config.output.substr(0, dot) + number + config.output.substr(std::min(dot, config.output.size()));
+    write(scenes::MovingMesh(mesh, i, config.frames,
+                             config.tenth ? scenes::MovingPart::kTenth : scenes::MovingPart::kAll),
+          config, path);
+    if (!config.quiet) std::printf("%s: frame %d\n", path.c_str(), int(i) + 1);
+  }
+}
+
 void run(const Config& config) {
   if (!(std::abs(config.ply.yaw) <= 360)) fail_usage("--yaw: give -360 to 360 degrees");
   const auto mesh =
       scenes::make_scene(config.kind, parse_triangles(config.triangles), config.ply.seed);
-  scenes::write_ply(*mesh, config.ply, config.output);
+  if (config.frames > 0) return write_frames(*mesh, config);
+  write(*mesh, config, config.output);
   if (!config.quiet)
     std::printf("%s: %s triangles, %s vertices\n", config.output.c_str(),
                 format_count(mesh->faces()).c_str(), format_count(mesh->vertices()).c_str());
@@ -60,7 +85,16 @@ void declare(CLI::App& app, Config& config) {
   app.add_flag("--shuffle", config.ply.shuffle, "vertices and faces in random order");
   app.add_flag("--double", config.ply.double_precision, "64-bit coordinates");
   app.add_flag("-q,--quiet", config.quiet, "print nothing");
-  takes_files(app.add_option("-o,--output", config.output, "the PLY file to write"), {".ply"})
+  CLI::Option* frames =
+      from_to(app.add_option("--frames", config.frames,
+                             "N frames of the scene swaying, as X_0001.ply, X_0002.ply, ..."),
+              1, 9999)
+          ->type_name("N");
+  app.add_flag("--tenth", config.tenth, "only the top tenth of a scan's surface sways")
+      ->needs(frames);
+  takes_files(app.add_option("-o,--output", config.output,
+                             "the file to write: .ply, or .obj with names of the parts"),
+              {".ply", ".obj"})
       ->required()
       ->type_name("X.ply");
   app.set_version_flag("-V,--version", "svdag-scene " SVDAG_VERSION, "print the version and exit");
@@ -69,7 +103,7 @@ void declare(CLI::App& app, Config& config) {
 
 int parse_and_run(int argc, char** argv) {
   Config config;
-  CLI::App app("Makes a test scene as a binary PLY file, the same bytes on every machine",
+  CLI::App app("Makes a test scene as a PLY or OBJ file, the same bytes on every machine",
                "svdag-scene");
   declare(app, config);
   if (const auto exit_code = read_command_line(&app, argc, argv)) return *exit_code;

@@ -149,6 +149,7 @@ void Masonry::leaf(const Frame& f, double turn, double size) {
 }
 
 void Masonry::plant(const Frame& f, uint64_t seed) {
+  part("vase");
   turned(f, {{0, 0},
              {0.22, 0},
              {0.24, 0.05},
@@ -161,6 +162,7 @@ void Masonry::plant(const Frame& f, uint64_t seed) {
              {0.28, 0.74},
              {0.22, 0.68},
              {0, 0.66}});
+  part("leaves");
   const Frame top = f.moved(0, 0.66, 0);
   for (uint64_t i = 0; i < 18; ++i)
     leaf(top, double(i) * 0.381966 + 0.05 * uniform(seed, 2 * i),

@@ -37,6 +37,8 @@ struct Arch {
 
 class Masonry {
  public:
+  // The part that the patches from here on belong to.
+  void part(const char* name) { part_ = name; }
   std::vector<Patch> take() { return std::move(patches_); }
 
   // The box a0..a1, y0..y1, c0..c1.
@@ -59,12 +61,13 @@ class Masonry {
  private:
   void add(std::function<Point(double, double)> surface, double width, double height,
            uint32_t multiple_u = 1, uint32_t multiple_v = 1) {
-    patches_.push_back({std::move(surface), width, height, multiple_u, multiple_v});
+    patches_.push_back({std::move(surface), width, height, multiple_u, multiple_v, part_});
   }
   void arch_face(const Frame& f, const Arch& arch, double c);
   void leaf(const Frame& f, double turn, double size);
 
   std::vector<Patch> patches_;
+  const char* part_ = "stone";
 };
 
 }  // namespace svdag::scenes

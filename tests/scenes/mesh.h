@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "io/triangle.h"
 
@@ -23,6 +24,8 @@ class Mesh {
   virtual uint64_t faces() const = 0;
   virtual Point vertex(uint64_t i) const = 0;  // i < vertices()
   virtual Face face(uint64_t i) const = 0;     // i < faces(); three different vertices
+  // The part of the scene that face i belongs to, such as "roof".
+  virtual std::string part(uint64_t) const { return "surface"; }
 };
 
 // Face i of a grid of quads, `columns` quads in a row, vertices numbered row by row from 0. Each

@@ -52,10 +52,14 @@ Point PatchMesh::vertex(uint64_t i) const {
       double(at / (piece.columns + 1)) / piece.rows);
 }
 
-Face PatchMesh::face(uint64_t i) const {
-  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), i,
+size_t PatchMesh::piece_of(uint64_t face) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), face,
                                       [](uint64_t n, const Piece& p) { return n < p.first_face; });
-  const Piece& piece = *(after - 1);
+  return size_t(after - 1 - pieces_.begin());
+}
+
+Face PatchMesh::face(uint64_t i) const {
+  const Piece& piece = pieces_[piece_of(i)];
   Face f = quad_face(piece.columns, i - piece.first_face);
   for (uint64_t& v : f) v += piece.first_vertex;
   return f;

@@ -18,6 +18,7 @@ struct Patch {
   double width, height;  // metres along u and v
   // The divisions are multiples of these: 1 for what is flat, more for what is round.
   uint32_t multiple_u = 1, multiple_v = 1;
+  const char* part = "stone";
 };
 
 class PatchMesh : public Mesh {
@@ -30,12 +31,14 @@ class PatchMesh : public Mesh {
   uint64_t faces() const override { return pieces_.back().first_face; }
   Point vertex(uint64_t i) const override;
   Face face(uint64_t i) const override;
+  std::string part(uint64_t i) const override { return patches_[piece_of(i)].part; }
 
  private:
   struct Piece {
     uint64_t first_vertex, first_face;
     uint32_t columns, rows;
   };
+  size_t piece_of(uint64_t face) const;
   static std::vector<Piece> divide(const std::vector<Patch>& patches, double density);
 
   std::vector<Patch> patches_;

@@ -55,6 +55,11 @@ struct Rotation {
 
 }  // namespace
 
+Point placed(const Mesh& mesh, const PlyOptions& options, uint64_t i) {
+  const Rotation yaw{sin_turns(options.yaw / 360), cos_turns(options.yaw / 360)};
+  return quantised(yaw(mesh.vertex(i)));
+}
+
 void write_ply(const Mesh& mesh, const PlyOptions& options, const std::string& path) {
   if (mesh.vertices() > uint64_t(1) << 32)
     fail_usage("--triangles: the scene would have " + std::to_string(mesh.vertices()) +
@@ -64,10 +69,9 @@ void write_ply(const Mesh& mesh, const PlyOptions& options, const std::string& p
   Output out(&file);
   const Permutation vertex_order(mesh.vertices(), hash(options.seed, 1));
   const Permutation face_order(mesh.faces(), hash(options.seed, 2));
-  const Rotation yaw{sin_turns(options.yaw / 360), cos_turns(options.yaw / 360)};
 
   for (uint64_t i = 0; i < mesh.vertices(); ++i) {
-    const Point p = quantised(yaw(mesh.vertex(options.shuffle ? vertex_order.forward(i) : i)));
+    const Point p = placed(mesh, options, options.shuffle ? vertex_order.forward(i) : i);
     for (int a = 0; a < 3; ++a) {
       // + 0.0 turns -0 into 0.
       if (options.double_precision) {

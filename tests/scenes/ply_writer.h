@@ -15,6 +15,9 @@ struct PlyOptions {
   double yaw = 0;        // degrees, about the y axis through the origin
 };
 
+// The rounded position of vertex `i`, turned.
+Point placed(const Mesh& mesh, const PlyOptions& options, uint64_t i);
+
 // Replaces `path` atomically. A mesh of more than 2^32 vertices is an Error (kUsage).
 void write_ply(const Mesh& mesh, const PlyOptions& options, const std::string& path);
 

@@ -147,11 +147,7 @@ VoxelBounds clipped_bounds(VoxelBounds box, const VoxelBox& voxels) {
 
 // In linear light.
 Vec3 albedo_of(const Colour& colour) {
-  const auto linear = [](uint8_t channel) {
-    const double v = channel / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  return {{linear(colour.r), linear(colour.g), linear(colour.b)}};
+  return {{light_of(colour.r), light_of(colour.g), light_of(colour.b)}};
 }
 
 // The output, or with --fly that of a frame: "fly_0007.png" for "fly.png" and frame 6.

@@ -54,7 +54,7 @@ class GltfReader {
       if (mode < kTriangles || !attributes.has("POSITION")) continue;
       const std::string material = material_of(primitive);
       if (!wants_material(material, included)) continue;
-      out_.material(material);
+      out_.material(material, colour_of(primitive));
       InstanceStream instances(node, world, &buffers_);
       if (const KeptPrimitive* kept = kept_.find(value)) {
         draw(*kept, mode, std::move(instances));
@@ -71,6 +71,19 @@ class GltfReader {
     // Materials are not needed: a scene may lack them.
     if (index >= document_.root().array("materials").size()) return "";
     return document_.element("materials", index).text("name");
+  }
+
+  // The base colour of the material, without its texture.
+  std::optional<Colour> colour_of(const JsonObject& primitive) const {
+    if (!primitive.has("material")) return {};
+    const uint64_t index = primitive.count("material");
+    if (index >= document_.root().array("materials").size()) return {};
+    const JsonObject material = document_.element("materials", index);
+    if (!material.has("pbrMetallicRoughness")) return {};
+    std::array<double, 4> factor{1, 1, 1, 1};
+    if (!material.object("pbrMetallicRoughness").numbers("baseColorFactor", factor)) return {};
+    return Colour{colour_code_of_light(factor[0]), colour_code_of_light(factor[1]),
+                  colour_code_of_light(factor[2])};
   }
 
   // `included`: whether the node is.

@@ -18,14 +18,16 @@ void BatchWriter::mesh(std::string_view name, bool undeformed) {
   flush();
   mesh_ = name;
   material_.clear();
+  colour_.reset();
   undeformed_ = undeformed;
   first_ = 0;
 }
 
-void BatchWriter::material(std::string_view name) {
-  if (name == material_) return;
+void BatchWriter::material(std::string_view name, std::optional<Colour> colour) {
+  if (name == material_ && colour == colour_) return;
   flush();
   material_ = name;
+  colour_ = colour;
 }
 
 void BatchWriter::mirrored(bool mirrored) {
@@ -54,7 +56,7 @@ void BatchWriter::flush() {
   if (mirrored_) {
     for (size_t i = 0; i < size_; ++i) std::swap(batch_[i].v[1], batch_[i].v[2]);
   }
-  sink_({mesh_, material_, {}, first_, {batch_.get(), size_}, quantisation_, undeformed_});
+  sink_({mesh_, material_, colour_, {}, first_, {batch_.get(), size_}, quantisation_, undeformed_});
   first_ += size_;
   size_ = 0;
 }

@@ -11,11 +11,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/colour.h"
 #include "io/scene/mesh/name_filter.h"
 #include "io/triangle.h"
 #include "streaming/file/file.h"
@@ -27,6 +29,7 @@ namespace svdag {
 struct TriangleBatch {
   std::string_view mesh;      // glTF node or OBJ group, "" where the format has no names
   std::string_view material;  // "": none, or without a name
+  std::optional<Colour> colour = {};  // of the material, if the format tells
   std::string_view file;      // the name of the file, without its folder; set by Scene
   uint64_t first = 0;         // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
@@ -75,6 +78,8 @@ struct ReadOptions {
   MeshBox* box_alone = nullptr;
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
+  // The colours of materials are wanted, though they need further files.
+  bool colours = false;
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
@@ -107,7 +112,7 @@ class BatchWriter {
   // Of the triangles from here on: the name of their material, the quantisation step, and whether
   // they are given by the mirror image of a mesh, so that two corners must change places for the
   // outside to be outside.
-  void material(std::string_view name);
+  void material(std::string_view name, std::optional<Colour> colour = {});
   void quantisation(double step);
   void mirrored(bool mirrored);
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
@@ -128,6 +133,7 @@ class BatchWriter {
 
   const TriangleSink& sink_;
   std::string mesh_, material_;
+  std::optional<Colour> colour_;
   uint64_t first_ = 0;
   double quantisation_ = 0;
   bool undeformed_ = false;

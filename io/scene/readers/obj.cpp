@@ -7,12 +7,14 @@
 // included.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include "io/scene/mesh/corners.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/mtl.h"
 #include "io/scene/readers/obj_plain.h"
 #include "io/scene/readers/text_scan.h"
 
@@ -38,9 +40,11 @@ struct ObjPlace {
 template <class Corners>
 class ObjLines {
  public:
-  ObjLines(const File& file, const ReadOptions& options, const ObjPlace& from, Corners* positions,
+  ObjLines(const File& file, const ReadOptions& options,
+           const std::map<std::string, Colour>& colours, const ObjPlace& from, Corners* positions,
            BatchWriter* writer)
       : options_(options),
+        colours_(colours),
         stream_(file, from.offset),
         scanner_(&stream_, {'#', true}, from.line),
         at_(from),
@@ -181,10 +185,13 @@ class ObjLines {
     const std::string& mesh = names.front();
     if (mesh != at_.mesh) writer_.mesh(mesh);
     at_.mesh = mesh;
-    writer_.material(at_.material);
+    const auto colour = colours_.find(at_.material);
+    writer_.material(at_.material,
+                     colour != colours_.end() ? std::optional(colour->second) : std::nullopt);
   }
 
   const ReadOptions& options_;
+  const std::map<std::string, Colour>& colours_;
   ByteStream stream_;
   TextScanner scanner_;
   ObjPlace at_;
@@ -199,8 +206,10 @@ void read_obj(const File& file, const ReadOptions& options, const TriangleSink& 
   Positions positions(options, Positions::Precision::kDouble, file.size());
   BatchWriter writer(sink);
   ObjPlace from;
+  const std::map<std::string, Colour> colours =
+      options.colours ? read_mtl_colours(file) : std::map<std::string, Colour>();
   read_corners(&positions, writer, [&](auto& corners, BatchWriter& out) {
-    ObjLines lines(file, options, from, &corners, &out);
+    ObjLines lines(file, options, colours, from, &corners, &out);
     const ObjPlace end = lines.read();
     if constexpr (std::is_same_v<decltype(corners), Positions&>) from = end;
   });

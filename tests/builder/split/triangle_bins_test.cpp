@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/dag/format.h"
 #include "io/lattice.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
@@ -83,8 +84,11 @@ TEST_F(TriangleBinsTest, VerticesThatTheSnapCannotProduceAreReportedAsDamage) {
 }
 
 TEST_F(TriangleBinsTest, ALayerThatCannotExistIsReportedAsDamage) {
-  EXPECT_EQ(read(bin_of({{}, kMaxLayers})).at(0).subject, kMaxLayers);
-  EXPECT_SVDAG_ERROR(read(bin_of({{}, kMaxLayers + 1})), ExitCode::kOutput, "damaged");
+  LatticeTriangle triangle{};
+  triangle.subject = kMaxLayers;
+  EXPECT_EQ(read(bin_of(triangle)).at(0), triangle);
+  ++triangle.subject;
+  EXPECT_SVDAG_ERROR(read(bin_of(triangle)), ExitCode::kOutput, "damaged");
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#include "tests/scenes/moving.h"
+
+#include "tests/scenes/numbers.h"
+
+namespace svdag::scenes {
+namespace {
+
+constexpr double kExtent = 64;    // |y| of most kinds is less
+constexpr double kSway = 4;       // the largest move
+constexpr double kTop = 0.8 * 50;  // above it is a tenth of the surface of a sphere of radius 50
+
+}  // namespace
+
+Point MovingMesh::vertex(uint64_t i) const {
+  Point p = mesh_.vertex(i);
+  const double above = p.y - kTop;
+  if (moving_ == MovingPart::kTenth && above <= 0) return p;
+  const double share = moving_ == MovingPart::kAll ? 1 : above / (above + 2);
+  p.x += kSway * share * sin_turns(time_ + p.y / (4 * kExtent));
+  p.z += kSway * share * cos_turns(time_ + p.y / (4 * kExtent));
+  return p;
+}
+
+}  // namespace svdag::scenes
