@@ -10,12 +10,14 @@
 namespace svdag {
 
 Colour palette_colour(std::string_view name) {
-  constexpr double kHues = 64, kBright = 0.85, kPale = 0.5;
-  const double hue = 6 * double(checksum64(std::as_bytes(std::span(name))) % 64) / kHues;
+  constexpr uint64_t kHues = 48;
+  constexpr double kTones[3][2] = {{0.85, 0.5}, {0.62, 0.5}, {0.95, 0.72}};  // bright; pale
+  const uint64_t hash = checksum64(std::as_bytes(std::span(name)));
+  const double hue = 6 * double(hash % kHues) / double(kHues);
+  const auto& [bright, pale] = kTones[hash / kHues % 3];
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + hue, 6.0);
-    const double share = std::clamp(std::min(k, 4 - k), 0.0, 1.0);
-    return uint8_t(std::lround(255 * kBright * (1 - (1 - kPale) * share)));
+    return colour_code(bright * (1 - (1 - pale) * std::clamp(std::min(k, 4 - k), 0.0, 1.0)));
   };
   return {channel(5), channel(3), channel(1)};
 }

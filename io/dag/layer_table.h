@@ -15,7 +15,7 @@
 
 namespace svdag {
 
-// The colour of a layer whose source has none: one of 64 hues, chosen by the name.
+// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name.
 Colour palette_colour(std::string_view name);
 
 constexpr uint32_t kNoRoot = 0xffffffffU;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "io/dag/cube_walk.h"
+#include "io/formats/layer_labels.h"
 #include "io/voxel_source.h"
 #include "streaming/process/interrupt.h"
 
@@ -13,6 +14,7 @@ struct VoxelWindow {
   Grid grid;        // of the level; its selection is the window
   CubeWalk* walk;   // of the level
   uint64_t voxels;  // number set in the window
+  const LayerLabels* labels = nullptr;  // null: the file has no layers
 
   const VoxelBox& box() const { return grid.selection; }
 };

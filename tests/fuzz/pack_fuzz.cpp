@@ -21,7 +21,7 @@ void try_pack(const std::string& bytes) {
       const int levels = entry.rank == kNoNode ? 3 : std::max(3, int(entry.height));
       if (levels > kMaxLevels) continue;
       const Cube cube{entry.rank == kNoNode ? 1 : levels - int(entry.height), {}};
-      const BakedRun baked = pack.extract({{i, cube}}, levels, &budget, nullptr);
+      const BakedRun baked = pack.extract({{i, cube, kUnionSet}}, levels, &budget, nullptr);
       if ((entry.rank != kNoNode) != (baked.roots.size() == 1)) std::abort();
     }
   });

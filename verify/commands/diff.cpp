@@ -1,8 +1,10 @@
 #include "verify/commands/diff.h"
 #include "io/pack/unpack.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
@@ -114,13 +116,54 @@ void check_outputs(const DiffConfig& config) {
   parse_size(config.size);
 }
 
+struct DiffLayer {
+  std::string name;
+  DiffCounts counts;
+};
+
+// The layer `name`; empty if the file has none of that name.
+DagView view_of(const DagFile& file, const std::string& name) {
+  const std::vector<Layer>& layers = file.layers().layers;
+  const auto found = std::ranges::find(layers, name, &Layer::name);
+  if (found != layers.end()) return file.view_of(size_t(found - layers.begin()));
+  DagView none = file.view();
+  none.brick_count = 0;
+  return none;
+}
+
+// By name; nothing if one of the files has no layers.
+std::vector<DiffLayer> diff_layers(const DagFile& a, const DagFile& b) {
+  std::vector<DiffLayer> result;
+  if (a.layers().empty() || b.layers().empty()) return result;
+  std::set<std::string> names;
+  for (const DagFile* file : {&a, &b}) {
+    for (const Layer& layer : file->layers().layers) names.insert(layer.name);
+  }
+  for (const std::string& name : names) {
+    const DagView one = view_of(a, name), two = view_of(b, name);
+    result.push_back({name, DagDiff(one, two).count()});
+  }
+  return result;
+}
+
+bool same(const DiffCounts& counts, const std::vector<DiffLayer>& layers) {
+  return counts.same() &&
+         std::ranges::all_of(layers, [](const DiffLayer& l) { return l.counts.same(); });
+}
+
 void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
-                const ListedClusters& clusters, const std::vector<DifferingVoxel>& voxels) {
+                const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
+                const std::vector<DifferingVoxel>& voxels) {
   nlohmann::json json = {{"command", "diff"},       {"a", config.a},
-                         {"b", config.b},           {"same", counts.same()},
+                         {"b", config.b},           {"same", same(counts, layers)},
                          {"both", counts.both},     {"only_a", counts.only_a},
                          {"only_b", counts.only_b}, {"resolution", uint64_t(1) << diff.levels()},
                          {"pairs", counts.pairs}};
+  for (const DiffLayer& layer : layers)
+    json["layers"].push_back({{"name", layer.name},
+                              {"both", layer.counts.both},
+                              {"only_a", layer.counts.only_a},
+                              {"only_b", layer.counts.only_b}});
   json["clusters"] = clusters.total;
   json["largest_clusters"] = nlohmann::json::array();
   for (size_t i = 0; i < clusters.first.size(); ++i) {
@@ -136,13 +179,18 @@ void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts&
   std::printf("%s\n", json_text(json).c_str());
 }
 
-void print_text(const DagDiff& diff, const DiffCounts& counts, const ListedClusters& clusters,
+void print_text(const DagDiff& diff, const DiffCounts& counts,
+                const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
                 const std::vector<DifferingVoxel>& voxels) {
   std::printf("compared at %s^3, %s pairs of nodes\n",
               format_resolution(uint64_t(1) << diff.levels()).c_str(),
               format_count(counts.pairs).c_str());
   std::printf("both    %s voxels\nonly A  %s\nonly B  %s\n", format_count(counts.both).c_str(),
               format_count(counts.only_a).c_str(), format_count(counts.only_b).c_str());
+  for (const auto& [name, of_layer] : layers)
+    std::printf("layer %s: both %s, only A %s, only B %s\n", shown_layer(name).c_str(),
+                format_count(of_layer.both).c_str(), format_count(of_layer.only_a).c_str(),
+                format_count(of_layer.only_b).c_str());
   for (size_t i = 0; i < clusters.first.size(); ++i)
     std::printf("cluster %zu of %zu  %s voxels only A, %s only B, in %s to %s\n", i + 1,
                 clusters.total, format_count(clusters.first[i].only_a).c_str(),
@@ -153,7 +201,7 @@ void print_text(const DagDiff& diff, const DiffCounts& counts, const ListedClust
     std::printf("only %c  voxel (%lld, %lld, %lld)\n", o.in_a ? 'A' : 'B',
                 static_cast<long long>(o.voxel.x), static_cast<long long>(o.voxel.y),
                 static_cast<long long>(o.voxel.z));
-  std::printf(counts.same() ? "same\n" : "different\n");
+  std::printf(same(counts, layers) ? "same\n" : "different\n");
 }
 
 }  // namespace
@@ -163,7 +211,7 @@ int run(const DiffConfig& config) {
   check_outputs(config);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile a = open_dag(config.a), b = open_dag(config.b);
+  const DagFile a = open_dag(config.a, config.layer), b = open_dag(config.b, config.layer);
   if (!config.by_index) require_same_place(a, b);
   if (!config.render.empty() && a.view().levels != b.view().levels)
     fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");
@@ -175,15 +223,16 @@ int run(const DiffConfig& config) {
   if (!config.write_diff.empty())
     write_difference(&diff, counts, a.grid(), config.write_diff, config.write_most);
   if (!config.render.empty()) render_both(config, a, b, &progress);
+  const std::vector<DiffLayer> layers = diff_layers(a, b);
   const ListedClusters clusters = list_clusters(&diff, a.grid());
   const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();
   if (config.common.json) {
-    print_json(config, diff, counts, clusters, voxels);
+    print_json(config, diff, counts, layers, clusters, voxels);
   } else if (!config.common.quiet) {
-    print_text(diff, counts, clusters, voxels);
+    print_text(diff, counts, layers, clusters, voxels);
   }
-  return int(counts.same() ? ExitCode::kOk : ExitCode::kDiffers);
+  return int(same(counts, layers) ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
 }  // namespace svdag

@@ -8,6 +8,7 @@ namespace svdag {
 struct DiffConfig {
   CommonConfig common;
   std::string a, b;
+  std::optional<std::string> layer;  // compare only these layers
   uint64_t show = 10;             // differing voxels to list
   bool by_index = false;          // compare by voxel index, ignoring positions
   std::string write_diff;         // output: a PLY of the centres of differing voxels; empty: none

@@ -84,10 +84,15 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
       ->type_name("AXIS=V");
   command->add_flag("--grid-lines", config->grid_lines,
                     "Draw the edges of voxels that are several pixels large");
+  CLI::Option* fly =
+      command
+          ->add_option("--fly", config->fly,
+                       "Render N frames of a full turn, 1 to 9999, as X_0001.png, X_0002.png, ...")
+          ->type_name("N");
   command
-      ->add_option("--fly", config->fly,
-                   "Render N frames of a full turn, 1 to 9999, as X_0001.png, X_0002.png, ...")
-      ->type_name("N");
+      ->add_flag("--frames", config->frames,
+                 "Render each layer, in the order of svdag info --layers, as X_0001.png, ...")
+      ->excludes(fly);
   suggests(
       command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
       {"x", "y", "z"})

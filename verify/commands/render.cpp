@@ -150,10 +150,10 @@ Vec3 albedo_of(const Colour& colour) {
   return {{light_of(colour.r), light_of(colour.g), light_of(colour.b)}};
 }
 
-// The output, or with --fly that of a frame: "fly_0007.png" for "fly.png" and frame 6.
+// The output, or with --fly or --frames that of a frame: "fly_0007.png" for "fly.png" and frame 6.
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
-  if (!config.fly) return path;
+  if (!config.fly && !config.frames) return path;
   const size_t dot = path.rfind(".png");
   const bool has_ending = dot != std::string::npos && dot + 4 == path.size();
   char number[16];
@@ -181,12 +181,17 @@ int run(const RenderCommandConfig& config) {
   picture.supersample = config.supersample;
   if (picture.supersample < 1 || picture.supersample > 16)
     fail_usage("--supersample: give 1 to 16 rays across a pixel");
-  const int frames = config.fly.value_or(1);
-  if (frames < 1 || frames > 9999) fail_usage("--fly: give 1 to 9999 frames");
+  if (config.fly && (*config.fly < 1 || *config.fly > 9999))
+    fail_usage("--fly: give 1 to 9999 frames");
   const size_t up = std::string("xyz").find(config.up);
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   if (!config.mode.empty()) parse_mode(config.mode);
+  const DagFile file = open_dag(config.file, config.layer);
+  const bool layered = !file.layers().empty() && !config.frames;
+  if (config.frames && file.layers().empty())
+    fail_usage("--frames: " + file.path() + " has no layers (svdag build --layers)");
+  const int frames = config.frames ? int(file.layers().layers.size()) : config.fly.value_or(1);
   for (int frame = 0; frame < frames; ++frame) {
     const std::string name = picture_name(config, frame);
     if (same_file(config.file, name))
@@ -195,8 +200,6 @@ int run(const RenderCommandConfig& config) {
     AtomicFile::check(name);
   }
 
-  const DagFile file = open_dag(config.file, config.layer);
-  const bool layered = !file.layers().empty();
   const std::string mode_name =
       !config.mode.empty() ? config.mode : layered ? "colour" : "primary";
   const ShadeMode mode = parse_mode(mode_name);
@@ -224,17 +227,18 @@ int run(const RenderCommandConfig& config) {
   Progress progress(config.common.progress);
   Tree64 tree;
   for (int frame = 0; frame < frames; ++frame) {
+    const DagView dag = config.frames ? file.view_of(size_t(frame)) : file.view();
     const Camera camera = config.fly ? turned(first, box, int(up), frame, frames) : first;
-    Shading shading = make_shading(mode, file.view(), camera, int(up), box);
+    Shading shading = make_shading(mode, dag, camera, int(up), box);
     shading.light = light;
-    apply(config, file.view(), camera, box, picture.height, &shading);
-    if (frame == 0 && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
+    apply(config, dag, camera, box, picture.height, &shading);
+    if (frame == 0 && !config.frames && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
       tree = tree_if_it_pays(
           file.view(),
           uncut_rays(file.view(), shading, picture) * uint64_t(frames) / executor.workers(),
           default_memory_limit());
     const std::string name = picture_name(config, frame);
-    write_png(render(file.view(), tree.view(), camera, shading, picture, executor, progress), name);
+    write_png(render(dag, tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)
       std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,
                   mode_name.c_str());

@@ -33,6 +33,7 @@ struct RenderCommandConfig {
   std::string slice;              // "z=1.5": only voxels behind this plane, and the layer in it
   bool grid_lines = false;        // draw the edges of voxels that are several pixels large
   std::optional<int> fly;         // number of frames of a full turn; none: one picture
+  bool frames = false;            // a picture of each layer, in the order of the table
 };
 
 int run(const RenderCommandConfig& config);

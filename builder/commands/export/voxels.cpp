@@ -28,7 +28,10 @@ VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBu
 
 uint64_t export_window(Selection* selection, const ExportConfig& config, MemoryBudget* budget,
                        void (*write)(const VoxelWindow&, const std::string&)) {
-  const VoxelWindow window = window_of(selection, config, budget);
+  VoxelWindow window = window_of(selection, config, budget);
+  std::optional<LayerLabels> labels;
+  if (!selection->file.layers().empty())
+    window.labels = &labels.emplace(selection->file, selection->grid.levels);
   write(window, config.output);
   return window.voxels;
 }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <ranges>
 
 #include "io/formats/voxels/zip.h"
 #include "streaming/error.h"
@@ -262,6 +263,28 @@ class VoxelArrayChoice {
 
 }  // namespace
 
+namespace {
+
+void put_labels(const VoxelWindow& window, ZipWriter* zip) {
+  begin_array(zip, "label", "<u2", "(" + std::to_string(window.voxels) + ",)");
+  for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+    zip->put(uint16_t(window.labels->of(voxel)));
+  });
+  zip->end();
+  const std::vector<Layer>& layers = window.labels->layers();
+  begin_array(zip, "layer_colours", "<u4", "(" + std::to_string(layers.size()) + ",)");
+  for (const auto& [r, g, b] : layers | std::views::transform(&Layer::colour))
+    zip->put(uint32_t(r) << 16 | uint32_t(g) << 8 | b);
+  zip->end();
+  std::string names;
+  for (const Layer& layer : layers) names += layer.name + '\0';
+  begin_array(zip, "layer_names", "|u1", "(" + std::to_string(names.size()) + ",)");
+  zip->put(names);
+  zip->end();
+}
+
+}  // namespace
+
 void write_npz(const VoxelWindow& window, const std::string& path) {
   ZipWriter zip(path);
   begin_array(&zip, "coordinates", "<i4", "(" + std::to_string(window.voxels) + ", 3)");
@@ -280,6 +303,7 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   begin_array(&zip, "voxel_size", "<f8", "()");
   zip.put(window.grid.voxel_size);
   zip.end();
+  if (window.labels != nullptr) put_labels(window, &zip);
   zip.commit();
 }
 

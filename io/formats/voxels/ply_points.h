@@ -1,4 +1,5 @@
-// Writer of voxel centres as points of a PLY file: 3 x f64 world coordinates, little-endian.
+// Writer of voxel centres as points of a PLY file: 3 x f64 world coordinates, little-endian; with
+// layers, the colour of the voxel's layer (red, green, blue).
 #pragma once
 
 #include <string>

@@ -69,11 +69,20 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
   out->put(uint32_t(0));
   const uint64_t count = for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
     for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
-    out->put(uint8_t(1));
+    out->put(uint8_t(1 + (window.labels != nullptr ? window.labels->of(voxel) : 0)));
   });
   out->patch(count_at, uint32_t(count));  // at most 256^3
   chunk.end();
   return count;
+}
+
+void put_palette(const std::vector<Layer>& layers, Output* out) {
+  Chunk chunk("RGBA", out);
+  for (size_t i = 0; i < 256; ++i) {
+    const Colour colour = i < layers.size() ? layers[i].colour : Colour();
+    for (const uint8_t channel : {colour.r, colour.g, colour.b, uint8_t(255)}) out->put(channel);
+  }
+  chunk.end();
 }
 
 // The tiles that contain a voxel of the window.
@@ -106,6 +115,9 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
   if (window.voxels > kMaxVoxVoxels)
     fail_usage("vox holds at most " + format_count(kMaxVoxVoxels) + " voxels, this window has " +
                format_count(window.voxels) + ": export a coarser --level, or a part with --bounds");
+  if (window.labels != nullptr && window.labels->layers().size() > kMaxVoxLayers)
+    fail_usage("vox holds " + format_count(kMaxVoxLayers) + " colours, the file has " +
+               format_count(window.labels->layers().size()) + " layers: export one with --layer");
   const std::vector<LatticePoint> tiles = tiles_of(window);
   const int64_t side = std::min(kTile, window.grid.resolution());
   Output out(path);
@@ -138,6 +150,7 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
         &out);
     put_shape(3 + 2 * i, i, &out);
   }
+  if (window.labels != nullptr) put_palette(window.labels->layers(), &out);
   main.end_of_inner();
   out.commit();
 }

@@ -42,6 +42,7 @@ class Svdag:
         self.bricks = numpy.frombuffer(self.section(self.L - 2), "<u8")
         read = self.read_compact_nodes if self.compact else self.read_nodes
         self.levels = [read(k) for k in range(self.L - 2)]
+        self.read_layers()
         self.check_graph()
         self.check_metadata()
 
@@ -56,13 +57,18 @@ class Svdag:
         demand(xxhash.xxh3_64_intdigest(self.data[:1016]) == struct.unpack_from("<Q", self.data, 1016)[0],
                "header checksum")
         self.compact, zero = struct.unpack_from("<2I", self.data, 768)
-        demand(self.compact in (0, 1) and (self.version, size, zero) == (1 + self.compact, 1024, 0), "version, size or layout")
+        self.layers_at, self.layers_size, self.layer_count, self.layer_kind, self.has_union, zero_2 = \
+            struct.unpack_from("<2Q4I", self.data, 792)
+        version = 2 if self.compact or self.layer_kind else 1
+        demand(self.compact in (0, 1) and (self.version, size, zero) == (version, 1024, 0), "version, size or layout")
+        demand(self.layer_kind in (0, 1, 2, 3) and self.has_union in (0, 1) and zero_2 == 0, "layers")
+        demand(self.layer_kind or not any(self.data[792:824]), "layers of a file without")
         demand(3 <= self.L <= 20 and self.F == min(23, 39 - self.L), "L or F")
         demand(self.rule in (0, 1) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
         demand(count == self.L - 1, "number of sections")
         self.entries = [struct.unpack_from("<3Q", self.data, 176 + 24 * k) for k in range(19)]
         demand(not any(map(any, self.entries[self.L - 1:])), "unused entries")
-        demand(not any(self.data[648:744]) and not any(self.data[792:1016]), "reserved bytes")
+        demand(not any(self.data[648:744]) and not any(self.data[824:1016]), "reserved bytes")
         self.origin = list(struct.unpack_from("<3d", self.data, 744))
         demand(self.bounded or self.selection == [0, 0, 0] + [2**self.L] * 3, "selection")
         if self.kind != 0:
@@ -77,6 +83,8 @@ class Svdag:
     def check_layout(self):
         order = range(self.L - 1) if self.compact else range(self.L - 2, -1, -1)
         at, parts = 1024, [self.entries[k][:2] for k in order]
+        if self.layer_kind:
+            parts.append((self.layers_at, self.layers_size))
         for offset, size in parts + [(self.metadata_at, self.metadata_size), (self.table_at, self.table_size)]:
             demand(offset == aligned(at), "a section does not follow the previous one")
             demand(offset + size <= len(self.data), "a section ends beyond the end of the file")
@@ -178,6 +186,26 @@ class Svdag:
         for more, fewer in zip(classes, classes[1:]):
             demand(not more or not fewer or min(more) >= max(fewer), f"the most referenced nodes of level {level}")
 
+    def read_layers(self):
+        """self.layers: name, colour, voxels and root (a key of level 0, or None) of each."""
+        table = self.data[self.layers_at:self.layers_at + self.layers_size]
+        roots, self.layers, at = list(self.levels[0]), [], 24 * self.layer_count
+        demand(at <= len(table), "layer table")
+        for i in range(self.layer_count):
+            voxels, root, size, *colour = struct.unpack_from("<Q2I8B", table, 24 * i)
+            demand(not any(colour[3:]) and at + size <= len(table), "entry of the layer table")
+            demand((voxels == 0) == (root == 0xffffffff) and (voxels == 0 or root < len(roots)), "root of a layer")
+            self.layers.append((table[at:at + size], tuple(colour[:3]), voxels, roots[root] if voxels else None))
+            at += size
+        names = [layer[0] for layer in self.layers]
+        demand(at == len(table) and names == sorted(set(names)), "names of layers")
+        used = [layer[3] for layer in self.layers if layer[2]]
+        if self.layer_kind and not self.has_union:
+            demand(used[:1] == roots[:1], "the first root")
+        if self.layer_kind == 0 or self.has_union:
+            used += roots[:1]
+        demand(set(used) == set(roots), "a root that no layer has")
+
     def plain_form(self):
         """The bytes of a compact file in the plain layout."""
         sections, index = [], {}
@@ -187,14 +215,16 @@ class Svdag:
                 index = {i: n for n, (_, i) in enumerate(order)}
                 sections.append(b"".join(struct.pack("<Q", brick) for brick, _ in order))
                 continue
-            keys = sorted(([0 if c is None else 1 + index[c] for c in node], i) for i, node in self.levels[k].items())
+            keys = [([0 if c is None else 1 + index[c] for c in node], i) for i, node in self.levels[k].items()]
+            if k > 0:  # roots stay in their order
+                keys.sort()
             words, index = [], {}
             for key, i in keys:
                 index[i] = len(words)
                 words += [sum(1 << c for c in range(8) if key[c])] + [n - 1 for n in key if n]
             sections.append(struct.pack(f"<{len(words)}I", *words))
         header, body = bytearray(self.data[:1024]), bytearray()
-        struct.pack_into("<I", header, 8, 1)
+        struct.pack_into("<I", header, 8, 2 if self.layer_kind else 1)
         header[768:792] = bytes(24)
 
         def place(part):
@@ -205,7 +235,9 @@ class Svdag:
         for k, part in zip(range(self.L - 2, -1, -1), sections):
             struct.pack_into("<3Q", header, 176 + 24 * k, place(part), len(part), self.entries[k][2])
         text = self.data[self.metadata_at:self.metadata_at + self.metadata_size]
-        text = text.replace(b'"version":2,"layout":"compact"', b'"version":1')
+        text = text.replace(b'"version":2,"layout":"compact"', b'"version":2' if self.layer_kind else b'"version":1')
+        if self.layer_kind:
+            struct.pack_into("<Q", header, 792, place(self.data[self.layers_at:self.layers_at + self.layers_size]))
         at = place(text)
         place(b"")
         table = b"".join(struct.pack("<Q", xxhash.xxh3_64_intdigest(bytes(body[i:i + BLOCK]))) for i in range(0, len(body), BLOCK))
@@ -224,11 +256,13 @@ class Svdag:
             return
         demand(len(self.bricks) == self.entries[self.L - 2][2], "number of bricks")
         demand(bool(numpy.all(self.bricks != 0)) and bool(numpy.all(self.bricks[1:] > self.bricks[:-1])), "bricks")
-        demand(len(self.levels[0]) == (len(self.bricks) > 0), "number of roots")
+        demand(self.layer_kind or len(self.levels[0]) == (len(self.bricks) > 0), "number of roots")
         below = [*self.levels[1:], dict.fromkeys(range(len(self.bricks)))]
         for level, (nodes, targets) in enumerate(zip(self.levels, below)):
             keys = [[0 if child is None else 1 + child for child in node] for node in nodes.values()]
-            demand(all(a < b for a, b in zip(keys, keys[1:])), f"order of level {level}")
+            first = 1 if level == 0 else 0  # the first root is in no order
+            demand(all(a < b for a, b in zip(keys[first:], keys[first + 1:])), f"order of level {level}")
+            demand(len({tuple(key) for key in keys}) == len(keys), f"equal nodes of level {level}")
             used = {child for node in nodes.values() for child in node if child is not None}
             demand(used == set(targets), f"pointers of level {level}")
 
@@ -241,10 +275,14 @@ class Svdag:
                      "voxel_size": self.voxel_size, "k0": self.k0, "bounded": bool(self.bounded),
                      "selection": self.selection, **({"origin": self.origin} if self.kind == 2 else {})},
             "voxels": self.voxel_count, "nodes": [e[2] for e in self.entries[:self.L - 1]],
-            "largest_snap": self.largest_snap}, "metadata")
+            "largest_snap": self.largest_snap,
+            **({"layers": {"kind": ["", "object", "material", "file"][self.layer_kind], "count": self.layer_count,
+                           "union": bool(self.has_union)}} if self.layer_kind else {})}, "metadata")
 
-    def voxels(self):
-        """The set voxels as an array of (x, y, z), ascending."""
+    def voxels(self, layer=None):
+        """The set voxels as an array of (x, y, z), ascending: of the first root, or of layer `layer`."""
+        root, count = (next(iter(self.levels[0]), None), self.voxel_count) if layer is None else \
+            (self.layers[layer][3], self.layers[layer][2])
         found = []
 
         def descend(level, node, x, y, z):
@@ -259,9 +297,9 @@ class Svdag:
                 if child is not None:
                     descend(level + 1, child, 2 * x + (c >> 2), 2 * y + (c >> 1 & 1), 2 * z + (c & 1))
 
-        if len(self.bricks):
-            descend(0, 0, 0, 0, 0)
-        demand(len(found) == self.voxel_count, "number of voxels")
+        if root is not None:
+            descend(0, root, 0, 0, 0)
+        demand(len(found) == count, "number of voxels")
         low, high = self.selection[:3], self.selection[3:]
         demand(all(l <= a < h for v in found for l, a, h in zip(low, v, high)), "a voxel outside the selection")
         return numpy.array(sorted(found), "<u4").reshape(-1, 3)

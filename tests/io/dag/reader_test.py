@@ -52,6 +52,27 @@ class Reader(unittest.TestCase):
         empty = self.bake("city", 1200, "-r", "64", "--bounds=500,500,500,501,501,501", "--layout", "compact")
         self.assertEqual(self.expect_same_voxels(empty), 0)
 
+    def test_layers_are_those_of_separate_bakes(self):
+        cube = ["-r", "128", "--cube=-64,-64,-64,128"]
+        folder = self.bake("rectangle", 2, "-r", "8").parent
+        for kind, count in [("scan", 1000), ("city", 1200)]:
+            run("svdag-scene", kind, "-n", count, "-q", "-o", folder / f"{kind}.ply")
+        scenes = [folder / "scan.ply", folder / "city.ply"]
+        for layout in ("plain", "compact"):
+            for union in ([], ["--no-union"]):
+                dag = folder / "layers.svdag"
+                run("svdag", "build", *scenes, "-o", dag, *cube, "--layers", "file", "--layout", layout, *union)
+                file = read_svdag.Svdag(dag.read_bytes())
+                self.assertEqual([layer[0] for layer in file.layers], [b"city.ply", b"scan.ply"])
+                for number, scene in [(0, scenes[1]), (1, scenes[0])] + ([] if union else [(None, scenes)]):
+                    alone = folder / "alone.svdag"
+                    run("svdag", "build", *(scene if number is None else [scene]), "-o", alone, *cube)
+                    expected = read_svdag.Svdag(alone.read_bytes()).voxels()
+                    self.assertEqual(file.voxels(number).tolist(), expected.tolist())
+                if layout == "compact":
+                    run("svdag", "convert", dag, "-o", folder / "plain.svdag", "--layout", "plain")
+                    self.assertEqual(file.plain_form(), (folder / "plain.svdag").read_bytes())
+
     def test_bounds_and_empty_bounds(self):
         dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")
         self.assertGreater(self.expect_same_voxels(dag), 20)
