@@ -46,11 +46,11 @@ struct BuildConfig {
   Layout layout = Layout::kPlain;     // --layout
   LayerKind layers = LayerKind::kNone;  // --layers
   bool with_union = true;               // --no-union
-  std::optional<Box> bounds;          // --bounds, in world units
-  std::optional<GridCube> cube;       // --cube, in world units; needs levels
-  std::optional<Point> origin;        // --origin, in world units; needs voxel_size
-  uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
-  int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
+  std::optional<Box> bounds;            // --bounds, in world units
+  std::optional<GridCube> cube;         // --cube, in world units; needs levels
+  std::optional<Point> origin;          // --origin, in world units; needs voxel_size
+  uint64_t memory = 0;                  // --memory in bytes; 0: half of the machine
+  int cell_level = -1;                  // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   bool hash_files = false;  // --report: read the scene's files a second time to hash them
@@ -89,9 +89,9 @@ struct BuildReport {
   uint64_t cache_packs_skipped = 0;  // packs of the cache that did not fit in memory
   std::string cache_write_error;     // why cells were not cached; empty if all were
   bool resumed = false;
-  uint64_t voxels_kept = 0;  // of `voxels`, those baked before this process resumed
-  uint64_t voxels = 0;       // of the union
-  LayerTable layers;         // without roots
+  uint64_t voxels_kept = 0;     // of `voxels`, those baked before this process resumed
+  uint64_t voxels = 0;          // of the union
+  LayerTable layers;            // without roots
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits, as `svdag info` prints it

@@ -20,8 +20,7 @@ inline uint8_t colour_code(double srgb) {
 }
 // Of linear light (IEC 61966-2-1).
 inline uint8_t colour_code_of_light(double light) {
-  return colour_code(light <= 0.0031308 ? 12.92 * light
-                                        : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+  return colour_code(light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }
 // Linear light of a code.
 inline double light_of(uint8_t code) {

@@ -75,7 +75,7 @@ ALLOWED = {
     "verify/compare": STREAMING + ["io", "io/dag", "io/formats", "verify/judge", "verify/sample"],
     "verify/report": STREAMING + ["io", "io/dag", "verify/integrity"],
     "verify/trace/kernel": STREAMING + ["io/dag"],
-    "verify/trace": STREAMING + ["verify/trace/kernel"],
+    "verify/trace": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
     "verify/trace/judge": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
     "verify/trace/program": STREAMING + ["io", "io/dag", "io/help", "verify/trace/kernel", "verify/trace"],
     "verify/commands": STREAMING + ["io", "io/dag", "io/scene", "io/help", "io/pack"] + FORMATS + VERIFY + TRACE,

@@ -8,10 +8,12 @@ folder=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# bake SCENE GRID; render NAME SCENE OPTIONS...
+# bake SCENE GRID OPTIONS...; render NAME SCENE OPTIONS...
 bake() {
-  "$programs"/svdag-scene "$1" -q -o "$work"/"$1".ply
-  "$programs"/svdag build "$work"/"$1".ply -r "$2" -q -o "$work"/"$1".svdag
+  scene=$1 grid=$2
+  shift 2
+  "$programs"/svdag-scene "$scene" -q -o "$work"/"$scene".obj
+  "$programs"/svdag build "$work"/"$scene".obj -r "$grid" -q -o "$work"/"$scene".svdag "$@"
 }
 render() {
   name=$1 scene=$2
@@ -19,7 +21,7 @@ render() {
   "$programs"/svdag-verify render "$work"/"$scene".svdag -o "$folder"/"$name".png "$@" -q
 }
 
-bake atrium 8K
+bake atrium 8K --layers material
 inside=-10.5,2.2,1.8,6,3.4,-1.2,75
 light=2,7.5,0,0.5
 render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420

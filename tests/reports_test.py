@@ -20,6 +20,8 @@ svdag build city.ply -o city.svdag -r 64 --report report.json
 svdag build city.ply -o thin.svdag -r 64 --rule thin
 svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
+svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --report layers.json
+svdag build city.ply scan.ply -o layers.run -r 64 --layers file --part 1/2
 svdag build --batch list.json --keep-going --report list.report.json
 svdag build --batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
@@ -31,6 +33,10 @@ svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
 svdag info half.run
 svdag info city.ply --parts
+svdag info layers.svdag --layers
+svdag info layers.run
+svdag-verify mesh layers.svdag city.ply scan.ply
+svdag-verify diff layers.svdag layers.svdag
 svdag-verify check city.svdag
 svdag-verify mesh city.svdag city.ply --sample 1000
 svdag-verify mesh city.svdag scan.ply --judge openvdb
@@ -65,7 +71,7 @@ class Reports(unittest.TestCase):
 
             for line in BAKES.splitlines():
                 run(line + " -q")
-            texts = [(folder / name).read_text() for name in ("report.json", "list.report.json")]
+            texts = [(folder / name).read_text() for name in ("report.json", "layers.json", "list.report.json")]
             texts += [run(line + " --json") for line in QUERIES.splitlines()]
         printed = {key for text in texts for key in keys_of(json.loads(text))}
         rows = re.findall(r"^\| `.*", (ROOT / "docs" / "reports.md").read_text(), re.M)

@@ -154,8 +154,7 @@ std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPa
 // Without roots, which the output adds.
 LayerTable table_of(const SceneLayers& scene, const RunSet& set, bool with_union) {
   LayerTable table{scene.kind(), with_union, 0, scene.layers()};
-  for (size_t i = 0; i < set.layer_voxels.size(); ++i)
-    table.layers[i].voxels = set.layer_voxels[i];
+  for (size_t i = 0; i < set.layer_voxels.size(); ++i) table.layers[i].voxels = set.layer_voxels[i];
   return table;
 }
 

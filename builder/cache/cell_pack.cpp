@@ -177,8 +177,8 @@ BakedRun Pack::extract(std::vector<TakenCell> taken, int levels, MemoryBudget* b
     count_voxels(t.subject, entry.voxels, &baked.voxels, &baked.layer_voxels);
     if (entry.rank == kNoNode) continue;
     SVDAG_ASSERT(int(entry.height) == levels - t.cube.level);
-    baked.roots.push_back({morton(t.cube.coordinate), t.cube.level, 0, extraction.rank(entry),
-                           t.subject});
+    baked.roots.push_back(
+        {morton(t.cube.coordinate), t.cube.level, 0, extraction.rank(entry), t.subject});
   }
   return baked;
 }

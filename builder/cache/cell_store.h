@@ -21,8 +21,9 @@ class CellStore {
 
   // The key of `cube`; `list` holds all triangles that touch it.
   virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
-  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube` and `subject`: the caller then skips
-  // the descent, and the sub-DAG is part of a later run of load_taken(). Thread-safe.
+  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube` and `subject`: the
+  // caller then skips the descent, and the sub-DAG is part of a later run of load_taken().
+  // Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube, Subject subject) = 0;
   // Passes the load_taken cells to `use`, as runs. target(bytes) decides whether a run of up to
   // `bytes` bytes is spilled, and where to.

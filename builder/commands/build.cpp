@@ -18,6 +18,14 @@
 namespace svdag {
 namespace {
 
+// Null without layers.
+nlohmann::ordered_json layers_json(const LayerTable& table) {
+  nlohmann::ordered_json json;
+  for (const Layer& layer : table.layers)
+    json.push_back({{"name", layer.name}, {"voxels", layer.voxels}});
+  return json;
+}
+
 using Json = nlohmann::ordered_json;
 
 Json grid_json(const Grid& g) {
@@ -103,6 +111,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"cache_packs_ignored", r.cache_packs_skipped},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
+               {"layers", layers_json(r.layers)},
                {"file_bytes", r.file_bytes},
                {"bits_per_voxel", bits_per_voxel(r)},
                {"content_hash", r.content_hash},

@@ -6,6 +6,7 @@
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/counts.h"
+#include "streaming/error.h"
 
 namespace svdag {
 
@@ -50,7 +51,8 @@ void add_edit(CLI::App* program, Command* command) {
 }
 
 void add_convert(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("convert", "Write a .svdag in another layout, or one of its layers");
+  CLI::App* app =
+      program->add_subcommand("convert", "Write a .svdag in another layout, or one of its layers");
   auto config = std::make_shared<ConvertCommand>();
   takes_files(app->add_option("FILE", config->file, "The .svdag to convert"), {".svdag"})
       ->required();
@@ -70,7 +72,11 @@ void add_convert(CLI::App* program, Command* command) {
   add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact",
                      "svdag convert city.svdag -o roofs.svdag --layer roof"});
   app->preparse_callback([=](size_t) { *config = {}; });
-  app->callback([=] { *command = *config; });
+  app->callback([=] {
+    if (app->count("--layout") == 0 && !config->layer)
+      fail_usage("convert: give --layout, --layer or both");
+    *command = *config;
+  });
 }
 
 namespace {

@@ -96,10 +96,10 @@ void add_layer_options(CLI::App* app, BuildConfig* build) {
     build->scene.colours = build->layers == LayerKind::kMaterial;
   };
   CLI::Option* layers =
-      suggests(app->add_option_function<std::string>(
-                   "--layers", read,
-                   "Also keep the voxels of each material, object or file, as layers"),
-               {"material", "object", "file"})
+      suggests(
+          app->add_option_function<std::string>(
+              "--layers", read, "Also keep the voxels of each material, object or file, as layers"),
+          {"material", "object", "file"})
           ->type_name("KIND");
   CLI::Option* no_union = app->add_flag_callback(
       "--no-union", [build] { build->with_union = false; },

@@ -19,7 +19,9 @@ template <class Visit>
 void for_each_layer(const TriangleList& list, const Visit& visit) {
   for (auto begin = list.begin(); begin != list.end();) {
     auto end = begin;
-    while (end != list.end() && end->triangle->triangle.subject == begin->triangle->triangle.subject) ++end;
+    while (end != list.end() &&
+           end->triangle->triangle.subject == begin->triangle->triangle.subject)
+      ++end;
     visit(begin->triangle->triangle.subject | kApart, std::span(begin, end));
     begin = end;
   }
@@ -120,8 +122,7 @@ SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots
   return builder_->close(cube.level);
 }
 
-void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots,
-                     SubjectDags* dags) {
+void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots, SubjectDags* dags) {
   ++divided_[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);

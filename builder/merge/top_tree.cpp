@@ -46,7 +46,8 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
   for (const TopCube& cube : cubes_) {
     if (parents.empty() || parents.back().subject != cube.subject ||
         parents.back().morton != cube.morton >> 3) {
-      parents.push_back({cube.subject, cube.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
+      parents.push_back(
+          {cube.subject, cube.morton >> 3, as_u32(keys.size(), "cubes above the cells")});
       keys.push_back({});
     }
     keys.back()[cube.morton & 7] = 1 + cube.index;
@@ -63,10 +64,9 @@ const std::vector<NodeKey>& TopTree::sorted_nodes() {
 }
 
 void TopTree::end_level(int level) {
-  std::sort(cubes_.begin(), cubes_.end(),
-            [](const TopCube& a, const TopCube& b) {
-              return std::pair(a.subject, a.morton) < std::pair(b.subject, b.morton);
-            });
+  std::sort(cubes_.begin(), cubes_.end(), [](const TopCube& a, const TopCube& b) {
+    return std::pair(a.subject, a.morton) < std::pair(b.subject, b.morton);
+  });
   std::erase_if(cubes_, [&](const TopCube& cube) {
     const bool top = part_.is_top(level, cube.morton);
     if (top) tops_.push_back({cube.morton, level, 0, cube.index, cube.subject});

@@ -1,6 +1,6 @@
 // The octree above the cells, built upwards level by level during the merge, up to the tops of the
-// merged part (the root of the grid if the part is the whole grid); one octree for each layer and the
-// union.
+// merged part (the root of the grid if the part is the whole grid); one octree for each layer and
+// the union.
 #pragma once
 
 #include <cstdint>

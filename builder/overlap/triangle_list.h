@@ -19,7 +19,8 @@ using TriangleList = std::vector<ListedTriangle>;
 
 // Whether a list that is grouped by layer (all are, if the bake has layers) has one layer alone.
 inline bool is_of_one_layer(const TriangleList& list) {
-  return list.empty() || list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;
+  return list.empty() ||
+         list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;
 }
 // The subject of a list of one layer.
 inline Subject subject_of(const TriangleList& list) {

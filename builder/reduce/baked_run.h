@@ -38,21 +38,21 @@ inline void count_voxels(Subject subject, uint64_t voxels, uint64_t* of_union,
 
 struct BakedRun {
   Run run;
-  std::vector<SubDagRoot> roots;  // SubDagRoot::run is not set
+  std::vector<SubDagRoot> roots;       // SubDagRoot::run is not set
   uint64_t voxels = 0;                 // of the union
   std::vector<uint64_t> layer_voxels;  // [layer]; layers beyond the end have none
-  std::vector<MortonRange> finished;  // parts of the grid that are completely in this run
-  std::vector<BakedCell> cells;       // filled only if there is a cell store
+  std::vector<MortonRange> finished;   // parts of the grid that are completely in this run
+  std::vector<BakedCell> cells;        // filled only if there is a cell store
 };
 
 // The frozen runs of one bake or import, numbered for the merge.
 struct RunSet {
   std::vector<Run> runs;
-  std::vector<SubDagRoot> roots;  // of all runs
-  uint64_t voxels = 0;             // of the union
+  std::vector<SubDagRoot> roots;       // of all runs
+  uint64_t voxels = 0;                 // of the union
   std::vector<uint64_t> layer_voxels;  // [layer]
-  bool spilled = false;        // at least one run was spilled
-  uint64_t spilled_bytes = 0;  // total size of the spilled runs
+  bool spilled = false;                // at least one run was spilled
+  uint64_t spilled_bytes = 0;          // total size of the spilled runs
 
   void add(BakedRun baked);
 };

@@ -131,8 +131,7 @@ class SubDagBuilder {
   Pause end(const Cube& cube);
   void make_roots(OpenCube* cube);
   void add_root(const Cube& cube, Subject subject, uint32_t node) {
-    if (node != 0)
-      roots_.push_back({morton(cube.coordinate), cube.level, 0, node - 1, subject});
+    if (node != 0) roots_.push_back({morton(cube.coordinate), cube.level, 0, node - 1, subject});
   }
   void add_root(const Cube& cube, Subject subject, uint32_t node, uint64_t voxels) {
     add_root(cube, subject, node);
@@ -145,7 +144,7 @@ class SubDagBuilder {
   NodeTable table_;
   std::vector<OpenCube> path_;  // [level]
   Subject subject_ = kUnionSet;
-  int first_level_ = 0;         // level of the cube that was begun
+  int first_level_ = 0;  // level of the cube that was begun
   std::vector<SubDagRoot> roots_;
   size_t settled_roots_ = 0;  // roots_ before this index hold table numbers
   uint64_t voxels_ = 0;

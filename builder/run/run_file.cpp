@@ -57,9 +57,10 @@ void check_counts(const File& file, const RunHeader& h) {
   require_run(h.roots <= size / sizeof(StoredRoot), file, "impossible number of roots",
               offsetof(RunHeader, roots));
   const bool layered = h.layer_kind != 0;
-  require_run(h.layers_bytes <= (layered ? size : 0) && h.layer_count <= (layered ? kMaxLayers : 0) &&
-                  h.layer_kind < std::size(kLayerKindNames) &&
-                  h.has_union <= (layered ? 1 : 0) && h.padding == 0,
+  require_run(h.layers_bytes <= (layered ? size : 0) &&
+                  h.layer_count <= (layered ? kMaxLayers : 0) &&
+                  h.layer_kind < std::size(kLayerKindNames) && h.has_union <= (layered ? 1 : 0) &&
+                  h.padding == 0,
               file, "impossible layers", offsetof(RunHeader, layers_bytes));
   require_run(RunLayout(h).file_bytes == size, file, "the file size does not match the counts",
               offsetof(RunHeader, file_bytes));
@@ -110,10 +111,9 @@ RunFile::RunFile(File file, const RunHeader& header, MemoryBudget* budget)
     : file_(std::move(file)),
       header_(header),
       layout_(header),
-      counted_(budget->reserve(
-          2 * layout_.ranges.bytes() + layout_.roots.bytes() + header.roots * sizeof(SubDagRoot) +
-              2 * layout_.layers.bytes(),
-          "parts and roots of runs")),
+      counted_(budget->reserve(2 * layout_.ranges.bytes() + layout_.roots.bytes() +
+                                   header.roots * sizeof(SubDagRoot) + 2 * layout_.layers.bytes(),
+                               "parts and roots of runs")),
       part_({}, int(header.levels)) {
   read_part(budget);
   read_roots(budget);

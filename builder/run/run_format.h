@@ -49,9 +49,9 @@ struct RunHeader {
   uint64_t roots;       // number of non-empty tops of the part
   uint64_t keys[kRunLevels];  // [k]: number of keys of level k; 0 for unused levels
   uint64_t file_bytes;
-  uint64_t content_hash[2];     // XXH3-128 over the blocks' checksums and the header (hash and
-                                // checksum as 0)
-  double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
+  uint64_t content_hash[2];  // XXH3-128 over the blocks' checksums and the header (hash and
+                             // checksum as 0)
+  double transform[12];      // of the scene into the world, 3x4, row by row; zeros: the identity
   // The layers; zeros in a run without.
   uint64_t layers_bytes;
   uint32_t layer_count;
@@ -63,7 +63,7 @@ struct RunHeader {
 };
 
 struct StoredRoot {
-  uint64_t code;  // Morton code of the top, at its level
+  uint64_t code;           // Morton code of the top, at its level
   uint32_t level_and_set;  // level, and 256 times its set: 0 the union, 1 + i layer i
   uint32_t rank;
 };

@@ -1,4 +1,5 @@
-// Serializes triangle bins and layers in records: for the journal of a bake and the index of a plan.
+// Serializes triangle bins and layers in records: for the journal of a bake and the index of a
+// plan.
 #pragma once
 
 #include <vector>

@@ -7,8 +7,7 @@ namespace svdag {
 uint32_t SceneLayers::layer_of(const TriangleBatch& batch) {
   const std::string_view name = part_name(batch, part_of(kind_));
   if (last_ >= layers_.size() || layers_[last_].name != name) {
-    const auto [found, is_new] =
-        numbers_.try_emplace(std::string(name), uint32_t(layers_.size()));
+    const auto [found, is_new] = numbers_.try_emplace(std::string(name), uint32_t(layers_.size()));
     last_ = found->second;
     if (is_new && layers_.size() == kMaxLayers)
       fail_usage(std::string("--layers ") + layer_kind_name(kind_) + ": the scene has more than " +

@@ -26,9 +26,9 @@ class SceneLayers {
  private:
   LayerKind kind_ = LayerKind::kNone;
   std::vector<Layer> layers_;
-  std::vector<bool> has_colour_;  // from the scene
+  std::vector<bool> has_colour_;                       // from the scene
   std::unordered_map<std::string, uint32_t> numbers_;  // by name
-  uint32_t last_ = 0;                                  // found last: batches of a layer follow one another
+  uint32_t last_ = 0;  // found last: batches of a layer follow one another
 };
 
 }  // namespace svdag

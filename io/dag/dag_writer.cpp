@@ -184,8 +184,8 @@ void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers
   file_.write_at(0, bytes);
 }
 
-DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap,
-                                  LayerTable layers, const std::string& shown_as) {
+DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap, LayerTable layers,
+                                  const std::string& shown_as) {
   complete(voxels, largest_snap, std::move(layers));
   return DagFile::adopt(File::open_read(file_.open_name()), shown_as);
 }

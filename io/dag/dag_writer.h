@@ -38,9 +38,9 @@ class DagWriter {
   // The roots, that is, the nodes of level 0, may come in any order; add_node() numbers them.
   //
   // Writes metadata, checksums and header, and renames the file to its name. Without layers there
-  // is one root at most, and `voxels` is its number (with layers, the union's); roots of the table are what add_node()
-  // returned, its layers in any order.
-  // `check` may throw: then the file gets no name.
+  // is one root at most, and `voxels` is its number (with layers, the union's); roots of the table
+  // are what add_node() returned, its layers in any order. `check` may throw: then the file gets no
+  // name.
   void finish(uint64_t voxels, double largest_snap, LayerTable layers = {},
               const std::function<void(const Header&)>& check = {});
   // The same, but the file gets no name and is in the plain layout; errors show `shown_as`.

@@ -78,13 +78,13 @@ struct Header {
   uint64_t checksum_offset, checksum_bytes;
   uint64_t file_bytes;
   Section sections[kMaxSections];  // [k] is level k; unused sections are zero
-  uint64_t content_hash[2];     // XXH3-128 over the header (hash and checksum as 0) and the table,
-                                // of the plain layout
-  double transform[12];         // of the scene into the world, 3x4, row by row; zeros: the identity
-  double origin[3];             // kOrigin: world position of plane 0; else 0
-  uint32_t layout;              // Layout
-  uint32_t padding;             // zero
-  uint64_t table_hash[2];       // compact: XXH3-128 of the checksum table; plain: zero
+  uint64_t content_hash[2];  // XXH3-128 over the header (hash and checksum as 0) and the table,
+                             // of the plain layout
+  double transform[12];      // of the scene into the world, 3x4, row by row; zeros: the identity
+  double origin[3];          // kOrigin: world position of plane 0; else 0
+  uint32_t layout;           // Layout
+  uint32_t padding;          // zero
+  uint64_t table_hash[2];    // compact: XXH3-128 of the checksum table; plain: zero
   // The layers; zeros in a file without.
   uint64_t layers_offset, layers_bytes;
   uint32_t layer_count;

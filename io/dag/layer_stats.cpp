@@ -63,7 +63,8 @@ class Walk {
   const DagView& dag_;
   // [level - 1]
   std::vector<RankBitmap> starts_;
-  std::vector<WorkArray<uint32_t>> last_, owner_;  // [number]: tag of the last walk, of the only one
+  std::vector<WorkArray<uint32_t>> last_,
+      owner_;  // [number]: tag of the last walk, of the only one
   uint32_t tag_ = 0;
   uint64_t nodes_ = 0;
 };

@@ -50,8 +50,9 @@ std::vector<std::byte> encode_layers(const LayerTable& table);
 // or out of order, a layer without voxels that has a root.
 std::optional<std::vector<Layer>> decode_entries(uint32_t count, std::span<const std::byte> bytes);
 
-// The table that `header` describes and `bytes` hold; nothing if it is invalid: too many roots, invalid
-// entries, a root that does not exist or that no layer has, a layer without a root that has voxels.
+// The table that `header` describes and `bytes` hold; nothing if it is invalid: too many roots,
+// invalid entries, a root that does not exist or that no layer has, a layer without a root that has
+// voxels.
 std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes);
 
 }  // namespace svdag

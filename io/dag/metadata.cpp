@@ -29,12 +29,12 @@ std::string metadata_of(const Header& h) {
           ? ",\"origin\":" + json_list({real(h.origin[0]), real(h.origin[1]), real(h.origin[2])})
           : "";
   const std::string layout = Layout(h.layout) == Layout::kPlain ? "" : ",\"layout\":\"compact\"";
-  const std::string layers =
-      h.layer_kind == 0 ? ""
-                        : ",\"layers\":{\"kind\":\"" +
-                              std::string(layer_kind_name(LayerKind(h.layer_kind))) +
-                              "\",\"count\":" + number(h.layer_count) +
-                              ",\"union\":" + (h.has_union ? "true" : "false") + "}";
+  const std::string layers = h.layer_kind == 0
+                                 ? ""
+                                 : ",\"layers\":{\"kind\":\"" +
+                                       std::string(layer_kind_name(LayerKind(h.layer_kind))) +
+                                       "\",\"count\":" + number(h.layer_count) +
+                                       ",\"union\":" + (h.has_union ? "true" : "false") + "}";
   return "{\"format\":\"svdag\",\"version\":" + number(h.version) + layout +
          ",\"levels\":" + number(h.levels) + ",\"resolution\":" + number(1U << h.levels) +
          ",\"rule\":\"" + rule_name(Rule(h.rule)) + "\",\"fraction_bits\":" + number(h.fraction) +

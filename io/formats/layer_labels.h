@@ -1,4 +1,4 @@
-// The layer of each voxel of a window, for formats that can tell.
+// The layer of each exported voxel, for formats that store colours or labels (ply, npz, vox).
 #pragma once
 
 #include "io/dag/layer_index.h"

@@ -11,9 +11,9 @@
 namespace svdag {
 
 struct VoxelWindow {
-  Grid grid;        // of the level; its selection is the window
-  CubeWalk* walk;   // of the level
-  uint64_t voxels;  // number set in the window
+  Grid grid;                            // of the level; its selection is the window
+  CubeWalk* walk;                       // of the level
+  uint64_t voxels;                      // number set in the window
   const LayerLabels* labels = nullptr;  // null: the file has no layers
 
   const VoxelBox& box() const { return grid.selection; }

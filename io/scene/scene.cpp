@@ -196,8 +196,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File& file = content_of(packed);
     FiniteFilter filter(path, config_, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
-    ReadOptions options{&names, by_name, budget_, spill_, box_alone, config_.sandbox,
-                        config_.colours};
+    ReadOptions options{&names,    by_name,         budget_,        spill_,
+                        box_alone, config_.sandbox, config_.colours};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       read_file(file, options, filtered);

@@ -42,7 +42,7 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
-  bool colours = false;  // of materials are read, and the files that hold them
+  bool colours = false;            // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 

@@ -223,6 +223,18 @@ def main(programs, corpus):
             parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
             keep("plan", f"{kind}.plan", b"\n---\n".join(part.read_bytes().replace(str(folder).encode(), b"/work")
                                                      for part in parts))
+        layered = ["one.stl", "two.stl", "-r", "16", "--layers", "file"]
+        for union in ([], ["--no-union"]):
+            kind = "layers" + "".join(union)
+            svdag("build", *layered, *union, "-o", "a.svdag")
+            svdag("convert", "a.svdag", "-o", "compact.svdag", "--layout", "compact")
+            svdag("pack", "a.svdag", "-o", "a.pack")
+            keep("packed", f"{kind}.pack", (folder / "a.pack").read_bytes())
+            for reader in ("svdag", "plain_file"):
+                keep(reader, f"{kind}.svdag", (folder / "a.svdag").read_bytes())
+                keep(reader, f"compact_{kind}.svdag", (folder / "compact.svdag").read_bytes())
+            svdag("build", *layered, *union, "-o", "a.run", "--part", "2/3")
+            keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
         svdag("build", "two.stl", "-o", "a.svdag", "-r", "32", "--exclude", "<q>", "--allow-empty", "--report", "r.json")
         for name, data in reports((folder / "r.json").read_text()):
             keep("report", name, data)

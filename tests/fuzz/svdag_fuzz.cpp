@@ -7,6 +7,7 @@
 #include "io/dag/check.h"
 #include "io/dag/compact_check.h"
 #include "io/dag/dag_view.h"
+#include "io/dag/layer_table.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 #include "tests/repair_checksums.h"
@@ -46,6 +47,8 @@ void try_file(const std::string& bytes) {
   std::vector<uint64_t> aligned(bytes.size() / 8 + 1);
   std::memcpy(aligned.data(), bytes.data(), bytes.size());
   const Header& header = *reinterpret_cast<const Header*>(aligned.data());
+  decode_layers(header,
+                std::as_bytes(std::span(bytes)).subspan(header.layers_offset, header.layers_bytes));
   const bool compact = header.layout == uint32_t(Layout::kCompact);
   if (!compact || !CompactCheck(aligned.data()).run()) walk(dag_view(aligned.data()));
 }

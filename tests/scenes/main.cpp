@@ -50,8 +50,8 @@ void write_frames(const scenes::Mesh& mesh, const Config& config) {
   for (uint64_t i = 0; i < config.frames; ++i) {
     char number[16];
     std::snprintf(number, sizeof number, "_%04d", int(i) + 1);
-    const std::string path =
-        config.output.substr(0, dot) + number + config.output.substr(std::min(dot, config.output.size()));
+    const std::string path = config.output.substr(0, dot) + number +
+                             config.output.substr(std::min(dot, config.output.size()));
     write(scenes::MovingMesh(mesh, i, config.frames,
                              config.tenth ? scenes::MovingPart::kTenth : scenes::MovingPart::kAll),
           config, path);

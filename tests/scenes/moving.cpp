@@ -5,9 +5,9 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr double kExtent = 64;    // |y| of most kinds is less
-constexpr double kSway = 4;       // the largest move
-constexpr double kTop = 0.8 * 50;  // above it is a tenth of the surface of a sphere of radius 50
+constexpr double kExtent = 64;  // |y| of most kinds is less
+constexpr double kSway = 4;     // the largest move
+constexpr double kTop = 42.5;   // a tenth of the vertices of the default scan are above it
 
 }  // namespace
 

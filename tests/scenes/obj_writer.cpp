@@ -15,11 +15,11 @@ struct Paint {
   const char* part;
   const char* diffuse;  // red, green, blue, 0 .. 1, sRGB
 };
-constexpr Paint kPaints[] = {
-    {"stone", "0.80 0.74 0.62"},  {"plaster", "0.86 0.62 0.42"}, {"floor", "0.58 0.55 0.52"},
-    {"tile", "0.70 0.66 0.60"},   {"roof", "0.72 0.32 0.22"},    {"red cloth", "0.70 0.13 0.16"},
-    {"blue cloth", "0.16 0.30 0.62"}, {"vase", "0.66 0.40 0.24"}, {"leaves", "0.26 0.52 0.20"},
-    {"ground", "0.40 0.46 0.36"}};
+constexpr Paint kPaints[] = {{"stone", "0.80 0.74 0.62"},      {"plaster", "0.86 0.62 0.42"},
+                             {"floor", "0.58 0.55 0.52"},      {"tile", "0.70 0.66 0.60"},
+                             {"roof", "0.72 0.32 0.22"},       {"red cloth", "0.70 0.13 0.16"},
+                             {"blue cloth", "0.16 0.30 0.62"}, {"vase", "0.66 0.40 0.24"},
+                             {"leaves", "0.26 0.52 0.20"},     {"ground", "0.40 0.46 0.36"}};
 
 void append(AtomicFile* file, std::string* text, size_t most) {
   if (text->size() < most) return;

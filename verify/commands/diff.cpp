@@ -179,9 +179,8 @@ void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts&
   std::printf("%s\n", json_text(json).c_str());
 }
 
-void print_text(const DagDiff& diff, const DiffCounts& counts,
-                const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
-                const std::vector<DifferingVoxel>& voxels) {
+void print_text(const DagDiff& diff, const DiffCounts& counts, const std::vector<DiffLayer>& layers,
+                const ListedClusters& clusters, const std::vector<DifferingVoxel>& voxels) {
   std::printf("compared at %s^3, %s pairs of nodes\n",
               format_resolution(uint64_t(1) << diff.levels()).c_str(),
               format_count(counts.pairs).c_str());

@@ -9,8 +9,8 @@ struct DiffConfig {
   CommonConfig common;
   std::string a, b;
   std::optional<std::string> layer;  // compare only these layers
-  uint64_t show = 10;             // differing voxels to list
-  bool by_index = false;          // compare by voxel index, ignoring positions
+  uint64_t show = 10;                // differing voxels to list
+  bool by_index = false;             // compare by voxel index, ignoring positions
   std::string write_diff;         // output: a PLY of the centres of differing voxels; empty: none
   std::string render;             // output: a PNG; empty: none
   std::string size = "1280x720";  // of the PNG

@@ -65,9 +65,8 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
 // Compares the names of the layers with those of the scene; adds defects.
 void judge_names(const Scene& scene, const LayerTable& table, GridJudgement* grid) {
   std::set<std::string> names;
-  scene.stream([&](const TriangleBatch& batch) {
-    names.emplace(part_name(batch, part_of(table.kind)));
-  });
+  scene.stream(
+      [&](const TriangleBatch& batch) { names.emplace(part_name(batch, part_of(table.kind))); });
   for (const Layer& layer : table.layers) {
     if (names.erase(layer.name) == 0)
       grid->defects.push_back("the scene has nothing named \"" + printable(layer.name) +
@@ -119,8 +118,8 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   }
   if (!file.layers().empty()) judge_names(judged.scene, file.layers(), &judged.facts.grid);
   for (size_t i = 0; i < file.layers().layers.size(); ++i)
-    result.layers.push_back({file.layers().layers[i].name,
-                             judge_layer(config, choice, file, i, judged, executor)});
+    result.layers.push_back(
+        {file.layers().layers[i].name, judge_layer(config, choice, file, i, judged, executor)});
   for (std::string& defect : judged.facts.grid.defects)
     result.grid.defects.push_back(std::move(defect));
   return result;
@@ -162,7 +161,7 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
               format_count(c.judge_voxels).c_str());
   print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
-  if (j.sampled) print_draws(j.sample);
+  if (j.sampled && file.layers().has_union) print_draws(j.sample);
   for (const JudgedLayer& layer : j.layers)
     std::printf("layer      %s: %s voxels judged, %s missing, %s extra\n",
                 shown_layer(layer.name).c_str(),

@@ -19,8 +19,8 @@ namespace svdag {
 namespace {
 
 ShadeMode parse_mode(const std::string& mode) {
-  constexpr const char* kNames[] = {"primary", "shadow", "soft",  "ao",
-                                    "normal",  "depth",  "level", "steps", "colour"};
+  constexpr const char* kNames[] = {"primary", "shadow", "soft",  "ao",    "normal",
+                                    "depth",   "level",  "steps", "colour"};
   for (int i = 0; i < int(std::size(kNames)); ++i) {
     if (mode == kNames[i]) return ShadeMode(i);
   }
@@ -163,6 +163,18 @@ std::string picture_name(const RenderCommandConfig& config, int frame) {
 
 }  // namespace
 
+LayerColours::LayerColours(const DagFile& file) {
+  if (file.layers().empty()) return;
+  index_.emplace(file);
+  for (const Layer& layer : file.layers().layers) albedos_.push_back(albedo_of(layer.colour));
+}
+
+void LayerColours::show_in(RenderConfig* picture) const {
+  if (!index_) return;
+  picture->layers = index_->view();
+  picture->albedos = albedos_;
+}
+
 RenderConfig parse_size(const std::string& size) {
   RenderConfig config;
   const char* end = size.data() + size.size();
@@ -200,20 +212,13 @@ int run(const RenderCommandConfig& config) {
     AtomicFile::check(name);
   }
 
-  const std::string mode_name =
-      !config.mode.empty() ? config.mode : layered ? "colour" : "primary";
+  const std::string mode_name = !config.mode.empty() ? config.mode : layered ? "colour" : "primary";
   const ShadeMode mode = parse_mode(mode_name);
   if (mode == ShadeMode::kColour && !layered)
     fail_usage("--mode colour: " + file.path() + " has no layers (svdag build --layers)");
   picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
-  std::optional<LayerIndex> layers;
-  std::vector<Vec3> albedos;
-  if (layered) {
-    layers.emplace(file);
-    picture.layers = layers->view();
-    for (const Layer& layer : file.layers().layers) albedos.push_back(albedo_of(layer.colour));
-    picture.albedos = albedos;
-  }
+  const LayerColours colours(file);
+  if (layered) colours.show_in(&picture);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
   const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);
@@ -232,7 +237,8 @@ int run(const RenderCommandConfig& config) {
     Shading shading = make_shading(mode, dag, camera, int(up), box);
     shading.light = light;
     apply(config, dag, camera, box, picture.height, &shading);
-    if (frame == 0 && !config.frames && mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
+    if (frame == 0 && !config.frames &&
+        mode != ShadeMode::kSteps)  // shows the steps of the DAG's traversal
       tree = tree_if_it_pays(
           file.view(),
           uncut_rays(file.view(), shading, picture) * uint64_t(frames) / executor.workers(),

@@ -15,7 +15,7 @@ struct RenderCommandConfig {
   CommonConfig common;
   std::string file;
   std::string output;
-  std::string mode;  // a ShadeMode; empty: colour, or primary without layers
+  std::string mode;                  // a ShadeMode; empty: colour, or primary without layers
   std::optional<std::string> layer;  // only this one
   std::string size = "1280x720";
   std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in scene units; empty: the preset
@@ -37,6 +37,19 @@ struct RenderCommandConfig {
 };
 
 int run(const RenderCommandConfig& config);
+
+// The colours of a file's layers, for pictures.
+class LayerColours {
+ public:
+  // `file` must outlive this. Without layers there is nothing to show.
+  explicit LayerColours(const DagFile& file);
+  // Shows them in a picture; this must outlive its rendering.
+  void show_in(RenderConfig* picture) const;
+
+ private:
+  std::optional<LayerIndex> index_;
+  std::vector<Vec3> albedos_;
+};
 
 // Parses "1280x720" into a RenderConfig. Error: kUsage.
 RenderConfig parse_size(const std::string& size);

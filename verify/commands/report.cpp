@@ -36,6 +36,8 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   if (dag.empty()) return pictures;
   RenderConfig picture = parse_size(config.size);
   picture.supersample = 3;  // without moire on fine walls
+  const LayerColours colours(file);
+  colours.show_in(&picture);
   const int up = int(std::string("xyz").find(config.up));
   const VoxelBounds box = framing_bounds(dag);
   const double aspect = double(picture.width) / picture.height;

@@ -1,7 +1,9 @@
 #include "verify/report/report_html.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "io/dag/occupied_bounds.h"
 #include "io/json_number.h"
@@ -58,6 +60,7 @@ class Page {
     if (baked()) warnings();
     if (stats_.voxels == 0) box("note", "No voxel is set.");
     show(pictures);
+    if (!file_.layers().empty()) legend();
     contents();
     if (baked()) accuracy();
     levels();
@@ -264,6 +267,23 @@ class Page {
     out_ += "<h2>Levels</h2>\n<div class=\"plots\">\n" + plot_lines("Nodes per level", lines) +
             plot_columns("Bytes per level", bytes) + "</div>\n";
     level_table();
+  }
+
+  // The layers with most voxels, in their colours.
+  void legend() {
+    constexpr size_t kMost = 50;
+    std::vector<Layer> layers = file_.layers().layers;
+    std::ranges::stable_sort(layers, std::ranges::greater(), &Layer::voxels);
+    begin_facts("Layers");
+    for (const Layer& layer : std::span(layers).first(std::min(layers.size(), kMost))) {
+      const auto& [r, g, b] = layer.colour;
+      row("<span style=\"background:rgb(" + std::to_string(r) + "," + std::to_string(g) + "," +
+              std::to_string(b) + ")\">&emsp;</span> " + escaped(shown_layer(layer.name)),
+          format_count(layer.voxels) + " voxels");
+    }
+    end_table();
+    if (layers.size() > kMost)
+      out_ += "<p class=\"dim\">And " + format_count(layers.size() - kMost) + " more.</p>\n";
   }
 
   void level_table() {

@@ -145,11 +145,10 @@ class Tile {
     for (int p = 0; p < width_ * height_; ++p) {
       Vec3 sum{};
       for (size_t i = size_t(p * n); i < size_t(p * n + n); ++i)
-        sum =
-            sum + (section_[i] ? section_colour(shading_, surfels_[i])
-                               : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i],
-                                       albedo(hits_[i]))) *
-                      grid_line(shading_, rays_[i], hits_[i]);
+        sum = sum + (section_[i] ? section_colour(shading_, surfels_[i])
+                                 : shade(shading_, rays_[i], hits_[i], surfels_[i], visibility_[i],
+                                         albedo(hits_[i]))) *
+                        grid_line(shading_, rays_[i], hits_[i]);
       const Vec3 colour = sum * (1.0 / n);
       const int x = left_ + p % width_, y = top_ + p / width_;
       shading_.linear() ? image->set(x, y, colour) : image->set_raw(x, y, colour);

@@ -14,10 +14,10 @@ namespace svdag {
 struct RenderConfig {
   int width = 1280;
   int height = 720;
-  int supersample = 2;               // n x n rays per pixel
-  bool beams = true;                 // false: every ray starts at the camera (same picture)
-  std::optional<ClipBox> clip = {};  // the voxels that are shown; none: all
-  LayerIndexView layers = {};        // of the file, if it has layers; else without entries
+  int supersample = 2;                 // n x n rays per pixel
+  bool beams = true;                   // false: every ray starts at the camera (same picture)
+  std::optional<ClipBox> clip = {};    // the voxels that are shown; none: all
+  LayerIndexView layers = {};          // of the file, if it has layers; else without entries
   std::span<const Vec3> albedos = {};  // [layer]: the part of light that it reflects
 };
 

@@ -115,8 +115,7 @@ void print_layers(const DagFile& file, uint64_t memory) {
     const Layer& layer = file.layers().layers[i];
     std::printf("  %18s %14s %14s  %s  %s\n", format_count(layer.voxels).c_str(),
                 format_count(stats[i].nodes).c_str(), format_count(stats[i].own).c_str(),
-                colour_text(layer.colour).c_str(),
-                shown_layer(layer.name).c_str());
+                colour_text(layer.colour).c_str(), shown_layer(layer.name).c_str());
   }
 }
 

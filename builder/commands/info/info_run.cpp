@@ -58,10 +58,9 @@ void print_text(const RunFile& run) {
               format_double(corner.z).c_str(),
               h.bounded ? ", restricted by --bounds or --cube" : "");
   if (!run.layers().empty())
-    std::printf("  %s layers, one for each %s%s\n",
-                format_count(run.layers().layers.size()).c_str(),
-                layer_kind_name(run.layers().kind),
-                run.layers().has_union ? "" : ", without their union");
+    std::printf(
+        "  %s layers, one for each %s%s\n", format_count(run.layers().layers.size()).c_str(),
+        layer_kind_name(run.layers().kind), run.layers().has_union ? "" : ", without their union");
   std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
               format_count(nodes).c_str(), format_count(h.roots).c_str(),
               format_bytes(h.file_bytes).c_str());

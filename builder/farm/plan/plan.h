@@ -57,7 +57,7 @@ struct Plan {
   Grid grid;
   Rule rule = Rule::kConservative;
   SplitCounts counts;
-  bool with_union = true;  // --no-union
+  bool with_union = true;       // --no-union
   double one_bake_cpu = 0;      // seconds, predicted
   size_t cells = 0;             // number of non-empty cells
   std::vector<PlanStep> steps;  // shards first, in order; each merge after its inputs

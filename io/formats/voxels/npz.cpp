@@ -261,15 +261,10 @@ class VoxelArrayChoice {
   std::string unread_;  // the first array of an unsupported type
 };
 
-}  // namespace
-
-namespace {
-
 void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   begin_array(zip, "label", "<u2", "(" + std::to_string(window.voxels) + ",)");
-  for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
-    zip->put(uint16_t(window.labels->of(voxel)));
-  });
+  for_each_voxel(window.walk, window.box(),
+                 [&](const Voxel& voxel) { zip->put(uint16_t(window.labels->of(voxel))); });
   zip->end();
   const std::vector<Layer>& layers = window.labels->layers();
   begin_array(zip, "layer_colours", "<u4", "(" + std::to_string(layers.size()) + ",)");

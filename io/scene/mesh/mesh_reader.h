@@ -27,11 +27,11 @@ namespace svdag {
 
 // Consecutive triangles of one mesh; valid during the call only.
 struct TriangleBatch {
-  std::string_view mesh;      // glTF node or OBJ group, "" where the format has no names
-  std::string_view material;  // "": none, or without a name
+  std::string_view mesh;              // glTF node or OBJ group, "" where the format has no names
+  std::string_view material;          // "": none, or without a name
   std::optional<Colour> colour = {};  // of the material, if the format tells
-  std::string_view file;      // the name of the file, without its folder; set by Scene
-  uint64_t first = 0;         // number, within the mesh, of the first triangle of this batch
+  std::string_view file;              // the name of the file, without its folder; set by Scene
+  uint64_t first = 0;  // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
   double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
   bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""`make bench-layers`: what layers and frames cost in bytes and time; the tables of docs/performance.md, "Layers"."""
+import argparse
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+
+from bench import fill
+from bench_tables import table
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+FRAMES = 100
+
+
+class Layers:
+    def __init__(self, programs, folder):
+        self.programs, self.folder = programs, pathlib.Path(folder)
+
+    def run(self, program, *words):
+        """(output, CPU seconds)."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([self.programs / program, *map(str, words)], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{program} {words}: {done.stderr}")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return done.stdout, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    def objects(self, name, scene, resolution):
+        """A row: bytes and CPU of the union alone and with a layer for each object, and what pictures cost; best of 3."""
+        union, layered = self.folder / "union.svdag", self.folder / "layers.svdag"
+        seconds = {"union": [], "layers": [], "plain": [], "colour": [], "open": []}
+        for _ in range(3):
+            seconds["union"].append(self.run("svdag", "build", scene, "-o", union, "-r", resolution, "-q")[1])
+            seconds["layers"].append(self.run("svdag", "build", scene, "-o", layered, "-r", resolution, "-q", "--layers", "object")[1])
+            picture = ["render", layered, "-o", self.folder / "a.png", "-q", "-j", "1", "--preset", "inside", "--size"]
+            seconds["open"].append(self.run("svdag-verify", *picture, "8x8", "--mode", "colour")[1])
+            for mode, key in (("primary", "plain"), ("colour", "colour")):
+                seconds[key].append(self.run("svdag-verify", *picture, "1280x720", "--mode", mode)[1])
+        best = {key: min(values) for key, values in seconds.items()}
+        count = json.loads(self.run("svdag", "info", layered, "--json")[0])["layers"]["count"]
+        a, b = union.stat().st_size, layered.stat().st_size
+        return [name, f"{resolution}³", f"{count:,}", f"{a / 1e6:.2f}", f"{b / 1e6:.2f}", f"{b / a:.3f}", f"{best['layers'] / best['union']:.2f}",
+                f"{best['open']:.2f}", f"{(best['plain'] - best['open']) / (best['colour'] - best['open']):.2f}"]
+
+    def frames(self, what, *words):
+        """A row: bytes of one file with a layer for each frame, beside a file for each."""
+        pieces = self.folder / what.replace(" ", "-")
+        pieces.mkdir()
+        self.run("svdag-scene", "scan", "-n", "100K", "--frames", FRAMES, *words, "-q", "-o", pieces / "f.ply")
+        files, both, one = sorted(pieces.glob("f_*.ply")), self.folder / "frames.svdag", self.folder / "one.svdag"
+        seconds = self.run("svdag", "build", *files, "-o", both, "-r", "2K", "-q", "--layers", "file", "--no-union")[1]
+        grid = json.loads(self.run("svdag", "info", both, "--json")[0])["grid"]
+        cube = ",".join(repr(v) for v in [*grid["corner"], 2048 * grid["voxel_size"]])
+        total = cpu = 0
+        for file in files:
+            cpu += self.run("svdag", "build", file, "-o", one, "-r", "2K", "-q", f"--cube={cube}")[1]
+            total += one.stat().st_size
+        size = both.stat().st_size
+        return [what, FRAMES, f"{total / 1e6:.1f}", f"{size / 1e6:.1f}", f"{size / total:.3f}", f"{seconds / cpu:.2f}"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
+    options = parser.parse_args()
+    if "SVDAG_SCENES" not in os.environ:
+        sys.exit("SVDAG_SCENES is not set: there are no scenes to measure")
+    with tempfile.TemporaryDirectory(prefix="svdag-layers-") as folder:
+        layers = Layers(options.programs.resolve(), folder)
+        sponza, city = pathlib.Path(os.environ["SVDAG_SCENES"], "crytek_sponza.glb"), pathlib.Path(folder, "city.obj")
+        layers.run("svdag-scene", "city", "-n", "120K", "-q", "-o", city)
+        objects = [layers.objects(*row) for row in
+                   [("sponza", sponza, r) for r in ("4K", "8K", "16K", "32K", "64K")] + [("city", city, "4K")]]
+        frames = [layers.frames("all of a scan moves"), layers.frames("a tenth of it moves", "--tenth")]
+    fill(ROOT / "docs" / "performance.md", {
+        "layers": table(["scene", "grid", "layers", "union alone, MB", "with layers, MB", "ratio", "CPU of the bake, ratio",
+                         "opened, s", "rays per second, ratio"], objects),
+        "frames": table(["scene", "frames", "a file each, MB", "one file, MB", "ratio", "CPU, ratio"], frames)})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
