@@ -60,7 +60,7 @@ class Layers:
             cpu += self.run("svdag", "build", file, "-o", one, "-r", "2K", "-q", f"--cube={cube}")[1]
             total += one.stat().st_size
         size = both.stat().st_size
-        return [what, FRAMES, f"{total / 1e6:.1f}", f"{size / 1e6:.1f}", f"{size / total:.3f}", f"{seconds / cpu:.2f}"]
+        return [what, str(FRAMES), f"{total / 1e6:.1f}", f"{size / 1e6:.1f}", f"{size / total:.3f}", f"{seconds / cpu:.2f}"]
 
 
 def main():

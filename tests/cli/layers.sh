@@ -8,7 +8,7 @@ svdag merge 2.run 3.run -q -o 23.run && svdag info 23.run | grep layers
 svdag merge 23.run 1.run -q -o merged.svdag && cmp a.svdag merged.svdag
 svdag plan atrium.obj -o a.plan -r 256 --layers material --shards 2 -q && svdag run a.plan -q && cmp a.svdag a.plan/*.svdag
 for i in 1 2; do svdag build atrium.obj -o cached.svdag -r 256 --layers material -q --cache cells && cmp a.svdag cached.svdag; done
-svdag convert a.svdag -q -o compact.svdag --layout compact && svdag convert compact.svdag -q -o b.svdag && cmp a.svdag b.svdag
+svdag convert a.svdag -q -o compact.svdag --layout compact && svdag convert compact.svdag -q -o b.svdag --layout plain && cmp a.svdag b.svdag
 svdag pack compact.svdag -q -o a.pack && svdag unpack a.pack -q -o b.svdag && cmp a.svdag b.svdag
 for file in a.svdag compact.svdag a.pack; do svdag-verify check $file | tail -1; done
 svdag-verify mesh compact.svdag atrium.obj | grep -c "0 missing, 0 extra"
