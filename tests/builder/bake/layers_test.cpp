@@ -2,7 +2,6 @@
 // set of bytes holds them, whatever the machine does.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
@@ -11,7 +10,6 @@
 #include "builder/merge/merge_runs.h"
 #include "io/dag/layer_alone.h"
 #include "io/dag/plain_form.h"
-#include "streaming/process/interrupt.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
@@ -147,41 +145,6 @@ TEST_F(Layers, OrderThreadsMemoryAndCellsDoNotChangeTheBytes) {
     }
   }
   EXPECT_GT(spilled, 0U);
-}
-
-TEST_F(Layers, ABakeThatIsStoppedIsResumedToTheSameBytes) {
-  random_.seed(300);
-  BuildConfig config;
-  for (int i = 0; i < 3; ++i) {
-    config.scene.paths.push_back(folder_.file("part" + std::to_string(i) + ".stl"));
-    write_stl(config.scene.paths.back(), random_soup(8000, 0.1, uint64_t(i)));
-  }
-  config.output = folder_.file("layers.svdag");
-  config.levels = 8;
-  config.layers = LayerKind::kFile;
-  bake(config);
-  const std::string expected = read_bytes(config.output);
-  config.unfinished = Unfinished::kResume;
-  config.checkpoint = 0.01;
-  int stopped = 0, resumed = 0;
-  for (int bakes = 0; bakes < 300 && (stopped < 8 || resumed < 4); ++bakes) {
-    config.memory = (4 + pick(4)) * kMiB;
-    std::atomic<int> tasks = int(pick(100));
-    try {
-      ParallelExecutor stopping(1 + pick(2), [&](size_t) {
-        if (tasks-- == 0) pretend_interrupt(2);
-      });
-      resumed += bake(config, &stopping).resumed;
-    } catch (const Interrupted&) {
-      ++stopped;
-      pretend_interrupt(0);
-      continue;
-    }
-    pretend_interrupt(0);
-    ASSERT_EQ(read_bytes(config.output), expected);
-  }
-  EXPECT_GE(stopped, 8);
-  EXPECT_GE(resumed, 4);
 }
 
 TEST_F(Layers, PartsMergeToTheSameBytesInAnyTree) {
