@@ -277,7 +277,7 @@ void add_layer(CLI::App* command, std::optional<std::string>* layer) {
   command
       ->add_option_function<std::string>(
           "--layer", [layer](const std::string& name) { *layer = name; },
-          "Only this layer (svdag info --layers lists them; '' is the unnamed one)")
+          "Only this layer (svdag info --layers lists them)")
       ->type_name("NAME");
 }
 

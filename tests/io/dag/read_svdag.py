@@ -2,7 +2,7 @@
 """A reader of `.svdag` files, written from docs/format.md alone.
 
 It checks everything that the page guarantees (sizes, checksums, content hash, masks, pointers, order,
-minimality, counts, metadata) and lists the set voxels. It keeps all of them in memory: for small grids.
+minimality, counts, layers, metadata) and lists the set voxels. It keeps all of them in memory: for small grids.
 
     read_svdag.py FILE             one line: resolution, voxels, SHA-256 of the sorted voxel list
     read_svdag.py FILE --voxels    the list itself, "x y z" per line, ascending
@@ -11,6 +11,7 @@ import hashlib
 import json
 import struct
 import sys
+import typing
 
 import numpy
 import xxhash
@@ -21,6 +22,13 @@ HEADER = struct.Struct("<8s6I4d3q8IQd5Q")
 
 class InvalidFile(Exception):
     pass
+
+
+class Layer(typing.NamedTuple):
+    name: bytes
+    colour: tuple  # red, green, blue
+    voxels: int
+    root: int | None  # key of level 0
 
 
 def demand(condition, sentence):
@@ -45,6 +53,7 @@ class Svdag:
         self.read_layers()
         self.check_graph()
         self.check_metadata()
+        self.check_layer_voxels()
 
     def read_header(self):
         fields = HEADER.unpack_from(self.data)
@@ -187,19 +196,19 @@ class Svdag:
             demand(not more or not fewer or min(more) >= max(fewer), f"the most referenced nodes of level {level}")
 
     def read_layers(self):
-        """self.layers: name, colour, voxels and root (a key of level 0, or None) of each."""
+        """self.layers, in the order of the table."""
         table = self.data[self.layers_at:self.layers_at + self.layers_size]
         roots, self.layers, at = list(self.levels[0]), [], 24 * self.layer_count
-        demand(at <= len(table), "layer table")
+        demand(at <= len(table) and self.layer_count <= 65535, "layer table")
         for i in range(self.layer_count):
             voxels, root, size, *colour = struct.unpack_from("<Q2I8B", table, 24 * i)
             demand(not any(colour[3:]) and at + size <= len(table), "entry of the layer table")
             demand((voxels == 0) == (root == 0xffffffff) and (voxels == 0 or root < len(roots)), "root of a layer")
-            self.layers.append((table[at:at + size], tuple(colour[:3]), voxels, roots[root] if voxels else None))
+            self.layers.append(Layer(table[at:at + size], tuple(colour[:3]), voxels, roots[root] if voxels else None))
             at += size
-        names = [layer[0] for layer in self.layers]
+        names = [layer.name for layer in self.layers]
         demand(at == len(table) and names == sorted(set(names)), "names of layers")
-        used = [layer[3] for layer in self.layers if layer[2]]
+        used = [layer.root for layer in self.layers if layer.voxels]
         if self.layer_kind and not self.has_union:
             demand(used[:1] == roots[:1], "the first root")
         if self.layer_kind == 0 or self.has_union:
@@ -279,10 +288,17 @@ class Svdag:
             **({"layers": {"kind": ["", "object", "material", "file"][self.layer_kind], "count": self.layer_count,
                            "union": bool(self.has_union)}} if self.layer_kind else {})}, "metadata")
 
+    def check_layer_voxels(self):
+        """Each layer's number of voxels and selection; the union is that of the layers."""
+        found = [self.voxels(i) for i in range(len(self.layers))]
+        if self.layer_kind and self.has_union:
+            together = {tuple(voxel) for voxels in found for voxel in voxels.tolist()}
+            demand({tuple(voxel) for voxel in self.voxels().tolist()} == together, "the union is not that of the layers")
+
     def voxels(self, layer=None):
-        """The set voxels as an array of (x, y, z), ascending: of the first root, or of layer `layer`."""
+        """The set voxels as an array of (x, y, z), ascending: of the first root, or of self.layers[layer]."""
         root, count = (next(iter(self.levels[0]), None), self.voxel_count) if layer is None else \
-            (self.layers[layer][3], self.layers[layer][2])
+            (self.layers[layer].root, self.layers[layer].voxels)
         found = []
 
         def descend(level, node, x, y, z):

@@ -2,12 +2,14 @@
 """Tests that the C++ reader and the Python reader, written from docs/format.md, find the same voxels."""
 import pathlib
 import random
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import read_svdag
+import xxhash
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
 
@@ -17,6 +19,18 @@ def run(program, *arguments):
     if done.returncode != 0:
         raise AssertionError(f"{program} {arguments}: {done.stderr}")
     return done.stdout
+
+
+def repaired(data):
+    """A plain file of one block with the hashes that its bytes need."""
+    data = bytearray(data)
+    table_at, = struct.unpack_from("<Q", data, 152)
+    struct.pack_into("<Q", data, table_at, xxhash.xxh3_64_intdigest(bytes(data[1024:table_at])))
+    header = bytes(data[:632]) + bytes(16) + bytes(data[648:1016]) + bytes(8)
+    digest = xxhash.xxh3_128_intdigest(header + data[table_at:])
+    struct.pack_into("<2Q", data, 632, digest & (2**64 - 1), digest >> 64)
+    struct.pack_into("<Q", data, 1016, xxhash.xxh3_64_intdigest(bytes(data[:1016])))
+    return bytes(data)
 
 
 class Reader(unittest.TestCase):
@@ -52,26 +66,83 @@ class Reader(unittest.TestCase):
         empty = self.bake("city", 1200, "-r", "64", "--bounds=500,500,500,501,501,501", "--layout", "compact")
         self.assertEqual(self.expect_same_voxels(empty), 0)
 
+    def expect_layers_of_separate_bakes(self, kind, scenes, names, *grid):
+        """The union and each layer have the voxels of separate bakes, in each layout, with and without union."""
+        def bake(*options):
+            dag = scenes[0].with_name("baked.svdag")
+            run("svdag", "build", *scenes, "-o", dag, "-q", *grid, *options)
+            return read_svdag.Svdag(dag.read_bytes())
+
+        alone = {name: bake("--include", f"{kind}:{name}").voxels().tolist() for name in names}
+        for union in ([], ["--no-union"]):
+            plain, compact = (bake("--layers", kind, "--layout", layout, *union) for layout in ("plain", "compact"))
+            self.assertEqual(compact.plain_form(), plain.data)
+            for file in (plain, compact):
+                self.assertEqual([layer.name.decode() for layer in file.layers], names)
+                for number, layer in enumerate(file.layers):
+                    self.assertEqual(file.voxels(number).tolist(), alone[names[number]], layer.name)
+                first = next(alone[name] for name in names if alone[name]) if union else bake().voxels().tolist()
+                self.assertEqual(file.voxels().tolist(), first)
+
     def test_layers_are_those_of_separate_bakes(self):
-        cube = ["-r", "128", "--cube=-64,-64,-64,128"]
         folder = self.bake("rectangle", 2, "-r", "8").parent
         for kind, count in [("scan", 1000), ("city", 1200)]:
             run("svdag-scene", kind, "-n", count, "-q", "-o", folder / f"{kind}.ply")
         scenes = [folder / "scan.ply", folder / "city.ply"]
-        for layout in ("plain", "compact"):
-            for union in ([], ["--no-union"]):
-                dag = folder / "layers.svdag"
-                run("svdag", "build", *scenes, "-o", dag, *cube, "--layers", "file", "--layout", layout, *union)
-                file = read_svdag.Svdag(dag.read_bytes())
-                self.assertEqual([layer[0] for layer in file.layers], [b"city.ply", b"scan.ply"])
-                for number, scene in [(0, scenes[1]), (1, scenes[0])] + ([] if union else [(None, scenes)]):
-                    alone = folder / "alone.svdag"
-                    run("svdag", "build", *(scene if number is None else [scene]), "-o", alone, *cube)
-                    expected = read_svdag.Svdag(alone.read_bytes()).voxels()
-                    self.assertEqual(file.voxels(number).tolist(), expected.tolist())
-                if layout == "compact":
-                    run("svdag", "convert", dag, "-o", folder / "plain.svdag", "--layout", "plain")
-                    self.assertEqual(file.plain_form(), (folder / "plain.svdag").read_bytes())
+        for rule in ("conservative", "thin"):
+            self.expect_layers_of_separate_bakes("file", scenes, ["city.ply", "scan.ply"], "-r", "128",
+                                                 "--cube=-64,-64,-64,128", "--rule", rule)
+        atrium = folder / "atrium.obj"
+        run("svdag-scene", "atrium", "-n", "90K", "-q", "-o", atrium)
+        names = ["blue cloth", "floor", "leaves", "plaster", "red cloth", "roof", "stone", "tile", "vase"]
+        for kind in ("object", "material"):
+            # The cube has five of these; the first is not one of them.
+            self.expect_layers_of_separate_bakes(kind, [atrium], names, "-r", "64", "--cube=-13,-1,-6,4")
+
+    def test_both_readers_reject_impossible_layer_tables(self):
+        folder = self.bake("rectangle", 2, "-r", "8").parent
+        for name, corners in [("a", "000 700 070"), ("b", "000 070 007"), ("c", "900 970 907")]:  # c is outside of the cube
+            (folder / f"{name}.obj").write_text("".join(f"v {' '.join(corner)}\n" for corner in corners.split()) + "f 1 2 3\n")
+        voxels, root, size, reserved = 0, 8, 12, 19  # in an entry
+        names = 3 * 24
+        edits = {  # (offset in the layer table, value) of each byte
+            "names in another order": [(names, ord("z"))], "equal names": [(names, ord("b"))],
+            "a name beyond the table": [(48 + size, 6)], "bytes after the names": [(48 + size, 4)],
+            "reserved": [(reserved, 1)], "a root that does not exist": [(24 + root, 9)],
+            "a root without voxels": [(48 + root, 0)], "voxels without a root": [(48 + voxels, 1)],
+        }
+        header_edits = {"fewer layers": (808, 2), "more layers": (808, 4), "no kind": (812, 0), "an unknown kind": (812, 4),
+                        "an unknown union": (816, 2), "padding": (820, 1), "reserved": (824, 1), "version": (8, 1)}
+        for union in ([], ["--no-union"]):
+            dag = folder / "layers.svdag"
+            run("svdag", "build", *(folder / f"{name}.obj" for name in "abc"), "-o", dag, "-r", "8", "--cube=0,0,0,8",
+                "--layers", "file", *union)
+            good = dag.read_bytes()
+            self.assertEqual(repaired(good), good)
+            file = read_svdag.Svdag(good)
+            self.assertEqual([layer.voxels > 0 for layer in file.layers], [True, True, False])
+            table = file.layers_at
+            cases = {what: [(table + at, value) for at, value in pairs] for what, pairs in edits.items()}
+            cases.update((f"header: {what}", [pair]) for what, pair in header_edits.items())
+            roots = [good[table + 24 * i + root] for i in (0, 1)]
+            cases["a root that no layer has"] = [(table + 24 + root, roots[0])]
+            if union:
+                cases["another first root"] = [(table + root, roots[1]), (table + 24 + root, roots[0])]
+            recoloured = bytearray(good)
+            recoloured[table + 16] ^= 1
+            dag.write_bytes(repaired(recoloured))
+            self.assertGreater(self.expect_same_voxels(dag), 20)
+            for what, pairs in cases.items():
+                with self.subTest(what, union=not union):
+                    damaged = bytearray(good)
+                    for at, value in pairs:
+                        damaged[at] = value
+                    damaged = repaired(damaged)
+                    with self.assertRaises(read_svdag.InvalidFile):
+                        read_svdag.Svdag(damaged)
+                    dag.write_bytes(damaged)
+                    with self.assertRaises(AssertionError):
+                        run("tests/dump_voxels", dag)
 
     def test_bounds_and_empty_bounds(self):
         dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")
