@@ -74,6 +74,7 @@ SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const Gri
   SplitConfig split;
   split.cell_level =
       choose_cell_level(tools.config, chosen.grid, tools.workspace->budget()->limit());
+  split.rule = tools.config.descent.rule;
   split.workers = tools.executor->workers();
   split.triangle_bytes = tools.workspace->shares().triangles;
   split.scratch = tools.workspace->scratch();
@@ -109,7 +110,8 @@ void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, S
               const MortonSet& done, Voxelizer* voxelizer) {
   Workspace* const workspace = tools.workspace;
   if (split->tree) {
-    voxelizer->bake(*split->tree, morton_range(Cube(), grid.levels), tools.progress);
+    voxelizer->bake(*split->tree, split->windings.get(), morton_range(Cube(), grid.levels),
+                    tools.progress);
     split->tree.reset();  // the sort needs the memory
     return;
   }
@@ -117,7 +119,13 @@ void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, S
                  tools.executor, tools.progress);
   SpillFile* const file = tools.config.ready != nullptr ? tools.config.ready->triangles
                                                         : workspace->scratch()->triangles();
-  for_each_bin(split->bins, tools.progress, [&](const TriangleBin& bin) { baker.bake(file, bin); });
+  uint64_t at = 0;
+  for_each_bin(split->bins, tools.progress, [&](const TriangleBin& bin) {
+    voxelizer->bake_untouched({at, bin.range.begin}, split->windings.get());
+    baker.bake(file, bin, split->windings.get());
+    at = bin.range.end;
+  });
+  voxelizer->bake_untouched({at, uint64_t(1) << 3 * grid.levels}, split->windings.get());
 }
 
 // What no cell of this bake needs to visit: cells outside the part, and runs that are saved.
@@ -203,7 +211,8 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (saved && saved->split) {
     split = std::move(*saved->split);
   } else if (config.ready != nullptr) {
-    split = {config.ready->counts, nullptr, config.ready->bins, config.ready->layers};
+    split = {config.ready->counts, nullptr, config.ready->bins, config.ready->layers,
+             config.ready->windings};
   } else {
     split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }

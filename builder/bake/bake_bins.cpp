@@ -28,18 +28,27 @@ BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConf
       executor_(executor),
       progress_(progress) {}
 
-void BinBaker::bake(SpillFile* file, const TriangleBin& bin) {
-  if (done_ != nullptr && done_->coverage(bin.range) == MortonSet::Coverage::kAll) return;
+void BinBaker::bake(SpillFile* file, const TriangleBin& all, const WindingGrid* windings) {
+  if (done_ != nullptr && done_->coverage(all.range) == MortonSet::Coverage::kAll) return;
+  TriangleBin bin = all;
+  // Winding numbers are known where the bin begins, not where its voxels do.
+  if (windings != nullptr) bin.cube = cube_of(bin.range, grid_.levels);
   const MortonRange own = morton_range(bin.cube, grid_.levels);
   const MortonSet::Coverage done =
       done_ != nullptr ? done_->coverage(own) : MortonSet::Coverage::kNone;
-  if (done == MortonSet::Coverage::kAll) return voxelizer_->note_empty(bin.range);
-  if (const auto tree = load(file, bin)) return voxelizer_->bake(*tree, bin.range, progress_);
+  if (done == MortonSet::Coverage::kAll) return voxelizer_->bake_untouched(bin.range, windings);
+  if (bake_tree(file, bin, windings)) return;
   // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
   if (done == MortonSet::Coverage::kNone &&
-      grid_.levels - bin.cube.level <= DenseCube::kMaxSideLog2)
-    return bake_dense(file, bin);
-  bake_parts(file, bin);
+      grid_.levels - bin.cube.level <= DenseCube::max_side_log2(descent_.rule))
+    return bake_dense(file, bin, windings);
+  bake_parts(file, bin, windings);
+}
+
+std::unique_ptr<WindingGrid> BinBaker::finer(const WindingGrid* known, const Cube& cube,
+                                             int level) {
+  if (known == nullptr || level <= known->level()) return nullptr;
+  return std::make_unique<WindingGrid>(grid_.levels, cube, level, budget_);
 }
 
 template <class Visit>
@@ -54,28 +63,34 @@ bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const
   return true;
 }
 
-// The bin as a tree; null if that is too much.
-std::unique_ptr<CellTree> BinBaker::load(SpillFile* file, const TriangleBin& bin) {
-  if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return nullptr;
+// Bakes the bin as a tree; false if that is too much.
+bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
+  if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return false;
   const int finest = std::max(grid_.levels - kSmallestCellLog2, bin.cube.level);
-  const int cell_level = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
-  auto tree = std::make_unique<CellTree>(grid_, bin.cube,
-                                         std::min({cell_level, finest, grid_.levels - 2}), budget_);
+  const int wanted = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
+  const int cell_level = std::min({wanted, finest, grid_.levels - 2});
+  CellTree tree(grid_, bin.cube, cell_level, budget_);
+  const auto own = finer(windings, bin.cube, cell_level);
   const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
-    for (const LatticeTriangle& triangle : *triangles) tree->add(triangle);
-    return tree->bytes(split_.workers) <= split_.triangle_bytes;
+    for (const LatticeTriangle& triangle : *triangles) {
+      tree.add(triangle);
+      if (own) own->add(triangle);
+    }
+    return tree.bytes(split_.workers) <= split_.triangle_bytes;
   });
-  if (!fits) return nullptr;
-  tree->seal();
-  return tree;
+  if (!fits) return false;
+  tree.seal();
+  if (own) own->finish(windings->at(bin.cube));
+  voxelizer_->bake(tree, own ? own.get() : windings, bin.range, progress_);
+  return true;
 }
 
-void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
+void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
   constexpr uint64_t kPerTriangle =
       sizeof(LatticeTriangle) + sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
   const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
-  DenseCube cube(grid_, bin.cube, budget_);
+  DenseCube cube(grid_, bin.cube, descent_, budget_);
   progress_->phase("voxelize a dense cube", bin.triangles);
   std::set<Subject> subjects;
   // Fills the bitmap with all triangles, or those of a layer.
@@ -88,12 +103,13 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
         for (const LatticeTriangle& t : *triangles) subjects.insert(t.subject);
         progress_->advance(triangles->size());
       }
-      cube.add(*triangles, descent_, executor_);
+      cube.add(*triangles, executor_);
       return true;
     });
   };
   fill({});
-  voxelizer_->bake(bin.cube, bin.range, [&](NodeTable* table, std::vector<SubjectDag>* dags) {
+  if (windings != nullptr) cube.fill(windings->at(bin.cube));
+  voxelizer_->bake(bin.cube, windings, bin.range, [&](NodeTable* table, std::vector<SubjectDag>* dags) {
     if (subjects.size() == 1) return dags->push_back({*subjects.begin(), cube.reduce(table)});
     dags->push_back({kUnionSet, cube.reduce(table)});
     for (const Subject subject : subjects) {
@@ -103,7 +119,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin) {
   });
 }
 
-void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
+void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
   // A surface in 4^depth parts of as many: deep enough that most fit.
   const uint64_t fitting = split_.triangle_bytes / (2 * sizeof(LatticeTriangle));
   const int most =
@@ -112,18 +128,24 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin) {
   while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
   SpillFile* transient = split_.scratch->transient();
   TriangleBins bins(grid_, bin.cube, depth, transient, split_.scratch);
+  const auto own = finer(windings, bin.cube, bin.cube.level + depth);
   read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
-    for (const LatticeTriangle& triangle : *triangles) bins.add(triangle);
+    for (const LatticeTriangle& triangle : *triangles) {
+      bins.add(triangle);
+      if (own) own->add(triangle);
+    }
     return true;
   });
+  if (own) own->finish(windings->at(bin.cube));
+  const WindingGrid* const of_parts = own ? own.get() : windings;
   uint64_t at = bin.range.begin;
   for_each_bin(bins.finish(), progress_, [&](const TriangleBin& part) {
-    voxelizer_->note_empty({at, part.range.begin});
-    bake(transient, part);
+    voxelizer_->bake_untouched({at, part.range.begin}, of_parts);
+    bake(transient, part, of_parts);
     transient->free(part.stream);
     at = part.range.end;
   });
-  voxelizer_->note_empty({at, bin.range.end});
+  voxelizer_->bake_untouched({at, bin.range.end}, of_parts);
 }
 
 }  // namespace svdag

@@ -30,16 +30,20 @@ class BinBaker {
            const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
            Progress* progress);
 
-  // `file` holds the bin.
-  void bake(SpillFile* file, const TriangleBin& bin);
+  // `file` holds the bin. `windings`: of the cubes of a level, that of the bin or a finer one, for
+  // the solid rules; else null.
+  void bake(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
 
  private:
   // visit(&triangles) for batch after batch, until it returns false; whether it never did.
   template <class Visit>
   bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
-  std::unique_ptr<CellTree> load(SpillFile* file, const TriangleBin& bin);
-  void bake_dense(SpillFile* file, const TriangleBin& bin);
-  void bake_parts(SpillFile* file, const TriangleBin& bin);
+  // The winding numbers of the cubes of `level` in the bin; null if `known` has that level. The
+  // bin's triangles are to be added.
+  std::unique_ptr<WindingGrid> finer(const WindingGrid* known, const Cube& cube, int level);
+  bool bake_tree(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
+  void bake_dense(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
+  void bake_parts(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
 
   const Grid& grid_;
   const SplitConfig& split_;

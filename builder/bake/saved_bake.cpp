@@ -11,7 +11,7 @@ namespace {
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, which is that of a text of several
 // lines.
-constexpr uint32_t kLayout = 5;
+constexpr uint32_t kLayout = 6;
 
 // Writes a field in a form without padding or bool.
 struct PutField {
@@ -171,6 +171,7 @@ RecordWriter split_record(const SplitScene& split) {
   visit_count_fields(split.counts, PutField{&record});
   put_bins(split.bins, &record);
   put_layers(split.layers, &record);
+  put_windings(split.windings.get(), &record);
   return record;
 }
 
@@ -200,6 +201,7 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       visit_count_fields(saved.split->counts, GetField{&in});
       saved.split->bins = get_bins(&in, saved.grid.levels);
       saved.split->layers = get_layers(&in);
+      saved.split->windings = get_windings(&in, saved.grid.levels);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {
       const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "builder/descend/self_test.h"
+#include "builder/overlap/crossing.h"
 
 namespace svdag {
 namespace {
@@ -22,18 +23,30 @@ class Voxelizer::Worker {
 
   void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent.overlap()); }
   void end() { cursor_.reset(); }
-  void bake(const Cube& cell) {
+  void bake(const Cube& cell, const WindingGrid* windings) {
+    const int32_t winding = winding_at(cell, windings);
     const TriangleList& list = cursor_->list(cell);
     if (config_.store == nullptr || !is_new(cell) || !is_of_one_layer(list))
-      return descent_.run(cell, list);
-    const CellKey key = config_.store->key(cell, list);
-    if (!config_.store->take(key, cell, subject_of(list))) bake_for_store(cell, list, key);
+      return descent_.run(cell, list, winding);
+    const CellKey key = config_.store->key(cell, list, winding);
+    if (!config_.store->take(key, cell, subject_of(list)))
+      bake_for_store(cell, list, winding, key);
+  }
+  void bake_untouched(const MortonRange& range, const WindingGrid* windings) {
+    if (windings == nullptr) return builder_.note_empty(range);
+    for_each_cube(range, builder_.levels(), [&](const Cube& cube) {
+      if (!is_done(morton_range(cube, builder_.levels())))
+        descent_.run(cube, {}, windings->at(cube));
+    });
+  }
+  bool is_done(const MortonRange& range) const {
+    return config_.done != nullptr &&
+           config_.done->coverage(range) == MortonSet::Coverage::kAll;
   }
   NodeTable* table() { return builder_.table(); }
   void adopt(const Cube& cube, std::vector<SubjectDag> dags) {
     descent_.adopt(cube, std::move(dags));
   }
-  void note_empty(uint64_t begin, uint64_t end) { builder_.note_empty({begin, end}); }
   const Descent& descent() const { return descent_; }
   // Voxels set since the previous call; those of a run that was taken in between may be missing.
   uint64_t new_voxels() {
@@ -60,11 +73,24 @@ class Voxelizer::Worker {
                                           cell, builder_.levels())) == MortonSet::Coverage::kNone;
   }
 
+  // Cubes in heavy cells are smaller than those of `windings`.
+  int32_t winding_at(const Cube& cube, const WindingGrid* windings) {
+    if (windings == nullptr) return 0;
+    const Cube known = ancestor(cube, std::min(cube.level, windings->level()));
+    const int fraction = fraction_bits(builder_.levels());
+    return windings->at(known) +
+           (known == cube ? 0
+                          : crossings(cursor_->list(known),
+                                      first_centre(known.corner(builder_.levels()), fraction),
+                                      first_centre(cube.corner(builder_.levels()), fraction)));
+  }
+
   // A cell in whose middle the table was emptied is in two runs, and useless to others.
-  void bake_for_store(const Cube& cell, const TriangleList& list, const CellKey& key) {
+  void bake_for_store(const Cube& cell, const TriangleList& list, int32_t winding,
+                      const CellKey& key) {
     const size_t first = builder_.roots().size(), runs = runs_;
     const uint64_t voxels = builder_.voxels();
-    descent_.run(cell, list);
+    descent_.run(cell, list, winding);
     if (runs_ != runs) return;
     const size_t added = builder_.roots().size() - first;
     if (added == 0) return cells_.push_back({key, BakedCell::kNoRoot, 0});
@@ -102,7 +128,8 @@ Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budg
 
 Voxelizer::~Voxelizer() = default;
 
-void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* progress) {
+void Voxelizer::bake(const CellTree& tree, const WindingGrid* windings, const MortonRange& range,
+                     Progress* progress) {
   const uint64_t share = tree.triangles() / (kTasksPerWorker * workers_.size());
   const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kMinDividedCell));
   std::vector<MortonRange> ranges;
@@ -113,31 +140,31 @@ void Voxelizer::bake(const CellTree& tree, const MortonRange& range, Progress* p
   progress->phase("voxelize", cells.size(), "voxels");
   cells_ += cells.size();
   for (const auto& worker : workers_) worker->begin(tree);
-  if (cells.empty()) workers_[0]->note_empty(range.begin, range.end);
+  if (cells.empty()) workers_[0]->bake_untouched(range, windings);
   executor_->for_each(cells.size(), [&](size_t w, size_t i) {
     Worker& worker = *workers_[w];
-    if (i == 0) worker.note_empty(range.begin, ranges[0].begin);
-    if (config_.done == nullptr || config_.done->coverage(ranges[i]) != MortonSet::Coverage::kAll)
-      worker.bake(cells[i]);
-    worker.note_empty(ranges[i].end, i + 1 < cells.size() ? ranges[i + 1].begin : range.end);
+    if (i == 0) worker.bake_untouched({range.begin, ranges[0].begin}, windings);
+    if (!worker.is_done(ranges[i])) worker.bake(cells[i], windings);
+    const uint64_t next = i + 1 < cells.size() ? ranges[i + 1].begin : range.end;
+    worker.bake_untouched({ranges[i].end, next}, windings);
     progress->advance(1, worker.new_voxels());
   });
   for (const auto& worker : workers_) worker->end();
 }
 
-void Voxelizer::bake(const Cube& cube, const MortonRange& range,
+void Voxelizer::bake(const Cube& cube, const WindingGrid* windings, const MortonRange& range,
                      const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce) {
   ++cells_;
   const MortonRange own = morton_range(cube, grid_.levels);
   std::vector<SubjectDag> dags;
-  workers_[0]->note_empty(range.begin, own.begin);
+  workers_[0]->bake_untouched({range.begin, own.begin}, windings);
   reduce(workers_[0]->table(), &dags);
   workers_[0]->adopt(cube, std::move(dags));
-  workers_[0]->note_empty(own.end, range.end);
+  workers_[0]->bake_untouched({own.end, range.end}, windings);
 }
 
-void Voxelizer::note_empty(const MortonRange& range) {
-  workers_[0]->note_empty(range.begin, range.end);
+void Voxelizer::bake_untouched(const MortonRange& range, const WindingGrid* windings) {
+  workers_[0]->bake_untouched(range, windings);
 }
 
 std::vector<BakedRun> Voxelizer::finish(bool spill) {

@@ -13,6 +13,7 @@
 
 #include "builder/cache/cell_store.h"
 #include "builder/descend/descend.h"
+#include "builder/descend/winding_grid.h"
 #include "builder/reduce/baked_run.h"
 #include "builder/split/cell_tree.h"
 #include "builder/workspace/scratch.h"
@@ -43,13 +44,15 @@ class Voxelizer {
   Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget, Executor* executor);
   ~Voxelizer();
 
-  // Bakes all cells of a sealed tree, which holds all triangles of `range`.
-  void bake(const CellTree& tree, const MortonRange& range, Progress* progress);
-  // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is empty.
-  void bake(const Cube& cube, const MortonRange& range,
+  // Bakes all cells of a sealed tree, which holds all triangles of `range`. `windings`: of the
+  // cells, for the solid rules; else null.
+  void bake(const CellTree& tree, const WindingGrid* windings, const MortonRange& range,
+            Progress* progress);
+  // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is untouched.
+  void bake(const Cube& cube, const WindingGrid* windings, const MortonRange& range,
             const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce);
-  // Records that `range` is empty.
-  void note_empty(const MortonRange& range);
+  // Bakes a range that no triangle touches: it is empty, or inside of a solid.
+  void bake_untouched(const MortonRange& range, const WindingGrid* windings);
   // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.
   std::vector<BakedRun> finish(bool spill);
 

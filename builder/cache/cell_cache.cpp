@@ -123,8 +123,8 @@ void CellCache::make_index() {
   addresses_.erase(std::unique(addresses_.begin(), addresses_.end(), same), addresses_.end());
 }
 
-CellKey CellCache::key(const Cube& cube, const TriangleList& list) const {
-  return cell_key(grid_, rule_, cube, list);
+CellKey CellCache::key(const Cube& cube, const TriangleList& list, int32_t winding) const {
+  return cell_key(grid_, rule_, cube, list, winding);
 }
 
 void CellCache::discard(const std::string& name) const {

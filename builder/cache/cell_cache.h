@@ -39,7 +39,7 @@ class CellCache final : public CellStore {
   // Removes packs until the folder is within its limits.
   ~CellCache() override;
 
-  CellKey key(const Cube& cube, const TriangleList& list) const override;
+  CellKey key(const Cube& cube, const TriangleList& list, int32_t winding) const override;
   bool take(const CellKey& key, const Cube& cube, Subject subject) override;
   void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                   const std::function<void(BakedRun)>& use) override;

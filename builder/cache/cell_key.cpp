@@ -3,6 +3,7 @@
 #include <sodium/crypto_generichash.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace svdag {
@@ -22,9 +23,20 @@ void put_selection(const Grid& grid, const Cube& cube, std::vector<int64_t>* tex
   }
 }
 
+// Rotates the vertices, which keeps the orientation, so that the smallest is the first.
+void put_first_vertex_first(Words* words) {
+  const auto vertex = [&](size_t i) { return std::span(*words).subspan(3 * i, 3); };
+  size_t first = 0;
+  for (size_t i = 1; i < 3; ++i) {
+    if (std::ranges::lexicographical_compare(vertex(i), vertex(first))) first = i;
+  }
+  std::rotate(words->begin(), words->begin() + 3 * int(first), words->end());
+}
+
 }  // namespace
 
-CellKey cell_key(const Grid& grid, Rule rule, const Cube& cube, const TriangleList& list) {
+CellKey cell_key(const Grid& grid, Rule rule, const Cube& cube, const TriangleList& list,
+                 int32_t winding) {
   const LatticePoint corner = cube.corner(grid.levels);
   std::vector<Words> triangles;
   triangles.reserve(list.size());
@@ -32,12 +44,14 @@ CellKey cell_key(const Grid& grid, Rule rule, const Cube& cube, const TriangleLi
     Words& words = triangles.emplace_back();
     for (size_t i = 0; i < 9; ++i)
       words[i] = entry.triangle->triangle.v[i / 3][int(i % 3)] - corner[int(i % 3)];
+    if (is_solid(rule)) put_first_vertex_first(&words);
   }
   std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  if (!is_solid(rule)) triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
 
   std::vector<int64_t> text = {kVersion, int64_t(rule), grid.fraction(), grid.levels - cube.level};
   put_selection(grid, cube, &text);
+  if (is_solid(rule)) text.push_back(winding);
   text.push_back(int64_t(triangles.size()));
   for (const Words& words : triangles) text.insert(text.end(), words.begin(), words.end());
 

@@ -19,8 +19,9 @@ class CellStore {
  public:
   virtual ~CellStore() = default;
 
-  // The key of `cube`; `list` holds all triangles that touch it.
-  virtual CellKey key(const Cube& cube, const TriangleList& list) const = 0;
+  // The key of `cube`; `list` holds all triangles that touch it, `winding` is 0 unless the rule is
+  // solid.
+  virtual CellKey key(const Cube& cube, const TriangleList& list, int32_t winding) const = 0;
   // Returns true if the sub-DAG of `key` is stored, and takes it for `cube` and `subject`: the
   // caller then skips the descent, and the sub-DAG is part of a later run of load_taken().
   // Thread-safe.

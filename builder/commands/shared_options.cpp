@@ -16,7 +16,15 @@ namespace {
 
 Rule parse_rule(const std::string& name) {
   if (const auto rule = rule_named(name)) return *rule;
-  fail_usage("--rule: unknown rule \"" + name + "\": choose conservative or thin");
+  fail_usage("--rule: unknown rule \"" + name + "\": choose conservative, thin or solid");
+}
+
+// Which winding numbers a solid rule counts as inside.
+Rule parse_inside(const std::string& name, Rule rule) {
+  if (!is_solid(rule)) fail_usage("--inside: only --rule solid has an inside");
+  if (name == "nonzero") return Rule::kSolid;
+  if (name == "odd") return Rule::kSolidOdd;
+  fail_usage("--inside: unknown kind \"" + name + "\": choose nonzero or odd");
 }
 
 double checked_scale(double scale) {
@@ -149,9 +157,20 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   suggests(app->add_option_function<std::string>(
                "--rule", [build](const std::string& s) { build->descent.rule = parse_rule(s); },
                "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
-               "often 1.05 (walls) to 1.9 (curved surfaces) times fewer voxels"),
-           {"conservative", "thin"})
+               "often 1.05 (walls) to 1.9 (curved surfaces) times fewer voxels; solid: "
+               "conservative, and the inside of closed surfaces"),
+           {"conservative", "thin", "solid"})
       ->type_name("RULE");
+  // After --rule, since options are applied in the order of their definition.
+  suggests(app->add_option_function<std::string>(
+               "--inside",
+               [build](const std::string& s) {
+                 build->descent.rule = parse_inside(s, build->descent.rule);
+               },
+               "With --rule solid, inside is where the surface winds around: nonzero (default), or "
+               "odd, for surfaces without consistent orientation"),
+           {"nonzero", "odd"})
+      ->type_name("KIND");
   add_scene_options(app, &build->scene);
   return grid;
 }

@@ -7,28 +7,51 @@
 
 namespace svdag {
 
-DenseCube::DenseCube(const Grid& grid, const Cube& cube, MemoryBudget* budget)
-    : grid_(grid), cube_(cube), budget_(budget) {
+DenseCube::DenseCube(const Grid& grid, const Cube& cube, const DescentConfig& config,
+                     MemoryBudget* budget)
+    : grid_(grid), cube_(cube), rule_(config.rule), surface_(config), budget_(budget) {
   const int log2 = grid.levels - cube.level - 2;  // of the side in bricks
-  SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= kMaxSideLog2);
+  SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= max_side_log2(config.rule));
   const uint64_t bricks = uint64_t(1) << (3 * log2);
   reservation_ = budget->reserve(bricks * sizeof(Brick), "voxels of a dense cube");
   bricks_.assign(bricks, 0);
+  if (!is_solid(config.rule)) return;
+  surface_.rule = Rule::kConservative;
+  windings_.emplace(grid.levels, cube, grid.levels, budget);
 }
 
-void DenseCube::add(std::span<const LatticeTriangle> triangles, const DescentConfig& config,
-                    Executor* executor) {
+void DenseCube::add(std::span<const LatticeTriangle> triangles, Executor* executor) {
   const size_t parts = executor->workers();
   const uint64_t first = morton(cube_.coordinate) * bricks_.size();
   executor->for_each(parts, [&](size_t, size_t i) {
     const size_t begin = triangles.size() * i / parts, end = triangles.size() * (i + 1) / parts;
+    const auto share = triangles.subspan(begin, end - begin);
     voxelize_window(
-        grid_, config, cube_, triangles.subspan(begin, end - begin),
+        grid_, surface_, cube_, share,
         [&](const LatticePoint& at, Brick brick) {
           std::atomic_ref(bricks_[morton(at) - first]).fetch_or(brick, std::memory_order_relaxed);
         },
         budget_);
+    if (!windings_) return;
+    for (const LatticeTriangle& triangle : share) windings_->add(triangle);
   });
+}
+
+void DenseCube::fill(int32_t winding) {
+  if (!windings_) return;
+  windings_->finish(winding);
+  const uint64_t first = morton(cube_.coordinate) * bricks_.size();
+  for (size_t i = 0; i < bricks_.size(); ++i) {
+    const LatticePoint corner = unmorton(first + i) * int64_t(kBrickSide);
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      const auto [x, y, z] = brick_voxel(bit);
+      const LatticePoint voxel = corner + LatticePoint(x, y, z);
+      const bool selected =
+          !grid_.bounded || grid_.selection.holds({voxel, voxel + int64_t(1)});
+      if (selected && is_inside(rule_, windings_->at({grid_.levels, voxel})))
+        bricks_[i] |= Brick(1) << bit;
+    }
+  }
 }
 
 SubDag DenseCube::reduce(NodeTable* table) const {

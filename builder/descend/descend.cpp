@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "builder/overlap/crossing.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -35,14 +36,15 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* b
       config_(config),
       builder_(builder),
       table_(builder->table()),
-      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table_,
+      full_(table_),
+      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table_, &full_,
             config.memo_bytes),
       done_(done != nullptr && !done->empty() ? done : nullptr),
       lists_(size_t(grid.levels)),
       dags_(size_t(grid.levels)),
       divided_(size_t(grid.levels)) {}
 
-void Descent::run(const Cube& cube, const TriangleList& list) {
+void Descent::run(const Cube& cube, const TriangleList& list, int32_t winding) {
   check_interrupt();
   admitted_.fill({});  // its addresses may belong to other triangles by now
   memo_.forget();
@@ -52,7 +54,7 @@ void Descent::run(const Cube& cube, const TriangleList& list) {
   builder_->begin(cube);
   if (is_of_one_layer(list)) {
     builder_->set_subject(subject_of(list));
-    return update_memo(builder_->end(cube, node(cube, list)));
+    return update_memo(builder_->end(cube, node(cube, list, winding)));
   }
   SubjectDags dags;
   node(cube, list, &dags);
@@ -71,12 +73,19 @@ void Descent::end(const Cube& cube, SubjectDags dags) {
 }
 
 void Descent::update_memo(SubDagBuilder::Pause pause) {
-  if (pause == SubDagBuilder::Pause::kFlushed) memo_.settle();
-  if (pause == SubDagBuilder::Pause::kEmptied) memo_.drop_contents();
+  if (pause == SubDagBuilder::Pause::kFlushed) {
+    memo_.settle();
+    full_.settle();
+  } else if (pause == SubDagBuilder::Pause::kEmptied) {
+    memo_.drop_contents();
+    full_.drop();
+  }
 }
 
-Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list) const {
-  if (list.empty() || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
+Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list,
+                               int32_t winding) const {
+  if ((list.empty() && !is_inside(config_.rule, winding)) ||
+      (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
     return Need::kNothing;
   if (!partly_done_) return Need::kAll;
   const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
@@ -90,19 +99,37 @@ void Descent::pause_at(const Cube& cube) {
   update_memo(builder_->pause(cube.level, morton_range(cube, grid_.levels).begin));
 }
 
-SubDag Descent::node(const Cube& cube, const TriangleList& list) {
-  const Need need = need_of(cube, list);
+SubDag Descent::node(const Cube& cube, const TriangleList& list, int32_t winding) {
+  const Need need = need_of(cube, list, winding);
   if (need == Need::kNothing) return {};
-  if (cube.level == table_->brick_level()) return brick(voxels_of(cube, list));
+  if (list.empty()) return full(cube, winding, need);
+  if (cube.level == table_->brick_level()) return brick(voxels_of(cube, list, winding));
   if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch) {
-    if (const auto known = find_in_memo(cube, list)) return *known;
+    if (const auto known = find_in_memo(cube, list, winding)) return *known;
   }
   pause_at(cube);
-  return divide(cube, list, need == Need::kRest);
+  return divide(cube, list, winding, need == Need::kRest);
+}
+
+// A cube without triangles, inside of the solid.
+SubDag Descent::full(const Cube& cube, int32_t winding, Need need) {
+  const bool whole = !grid_.bounded || grid_.selection.holds(cube.voxels(grid_.levels));
+  if (need == Need::kRest) return divide(cube, {}, winding, true);
+  if (whole) return full_.sub_dag(cube.level);
+  const VoxelBox all = cube.voxels(grid_.levels);
+  const LatticePoint side =
+      glm::min(all.max, grid_.selection.max) - glm::max(all.min, grid_.selection.min);
+  uint32_t* const known = full_.cut(cube, grid_.selection);
+  if (*known == 0) {
+    const SubDag dag = cube.level == table_->brick_level() ? brick(selected_voxels(cube))
+                                                           : divide(cube, {}, winding, false);
+    *known = dag.root;
+  }
+  return {*known, uint64_t(side.x) * uint64_t(side.y) * uint64_t(side.z)};
 }
 
 void Descent::node(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
-  const Need need = need_of(cube, list);
+  const Need need = need_of(cube, list, 0);
   if (need == Need::kNothing) return;
   if (cube.level == table_->brick_level()) return bricks(cube, list, dags);
   if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
@@ -112,13 +139,20 @@ void Descent::node(const Cube& cube, const TriangleList& list, SubjectDags* dags
   divide(cube, list, need == Need::kRest, dags);
 }
 
-SubDag Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots) {
+SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t winding,
+                       bool as_roots) {
   ++divided_[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
+  int32_t windings[8] = {};
+  if (is_solid(config_.rule)) {
+    windings_of_children(list, cube.corner(grid_.levels),
+                         int64_t(1) << cube.side_log2(grid_.levels), grid_.fraction(), winding,
+                         windings);
+  }
   builder_->open(cube, as_roots);
   for (unsigned c = 0; c < 8; ++c)
-    builder_->add_child(cube.level, c, node(cube.child(c), lists[c]));
+    builder_->add_child(cube.level, c, node(cube.child(c), lists[c], windings[c]));
   return builder_->close(cube.level);
 }
 
@@ -133,7 +167,7 @@ void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots, 
     if (is_of_one_layer(lists[c])) {
       const Subject subject = subject_of(lists[c]);
       builder_->set_subject(subject);
-      const SubDag dag = node(cube.child(c), lists[c]);
+      const SubDag dag = node(cube.child(c), lists[c], 0);
       of_child = {{kUnionSet, dag}, {subject | kApart, dag}};
     } else {
       node(cube.child(c), lists[c], &of_child);
@@ -148,27 +182,51 @@ void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots, 
 
 // Whether the memo knows every subject's sub-DAG.
 bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
-  const auto of_all = find_in_memo(cube, list);
+  const auto of_all = find_in_memo(cube, list, 0);
   if (!of_all) return false;
   dags->push_back({kUnionSet, *of_all});
   for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
     if (dags->empty()) return;
-    const auto known = find_in_memo(cube, TriangleList(of_layer.begin(), of_layer.end()));
+    const auto known = find_in_memo(cube, TriangleList(of_layer.begin(), of_layer.end()), 0);
     known ? dags->push_back({subject, *known}) : dags->clear();
   });
   return !dags->empty();
 }
 
-std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list) {
+std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list,
+                                            int32_t winding) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
-  if (list.size() > 1) return config_.patches ? find_patch(cube, list) : std::nullopt;
+  if (list.size() > 1)
+    return config_.patches ? find_patch(cube, list, winding) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
   const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(*list[0].triangle);
   if (!known || cube.level < known->min_query_level) return std::nullopt;
-  return memo_.find(*known, cube);
+  const auto range = offsets_in_column(known->plane, cube.corner(grid_.levels),
+                                       int64_t(1) << cube.side_log2(grid_.levels));
+  if (!range) return std::nullopt;
+  std::optional<Witness> witness;
+  return memo_.find(*known, cube, *range, filled_sides(cube, list, known->plane, winding),
+                    &witness);
 }
 
-std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& list) {
+// Which sides of the plane are inside of the solid, by the winding numbers of the cube's extreme
+// voxels along the plane's normal.
+FilledSides Descent::filled_sides(const Cube& cube, const TriangleList& list,
+                                  const LatticePlane& plane, int32_t winding) const {
+  if (!is_solid(config_.rule)) return 0;
+  const int64_t step = (int64_t(1) << cube.side_log2(grid_.levels)) -
+                       (int64_t(1) << grid_.fraction());  // between first and last centre
+  const LatticePoint first = first_centre(cube.corner(grid_.levels), grid_.fraction());
+  LatticePoint low = first, high = first;
+  for (int a = 0; a < 3; ++a) (plane.n[a] < 0 ? low : high)[a] += step;
+  const int32_t at_low = winding + crossings(list, first, low);
+  const int32_t at_high = winding + crossings(list, first, high);
+  return (is_inside(config_.rule, at_low) ? kLowSide : 0) |
+         (is_inside(config_.rule, at_high) ? kHighSide : 0);
+}
+
+std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& list,
+                                          int32_t winding) {
   const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
   if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
   const auto covering = std::find_if(list.begin(), list.end(), [](const ListedTriangle& entry) {
@@ -184,10 +242,11 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   if (!known) return std::nullopt;
   const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
   if (!range) return std::nullopt;
-  Witness witness;
-  const auto dag = memo_.find(*known, cube, *range, &witness);
-  if (!dag || dag->root == 0 || covered || !config_.patch.witness) return dag;
-  if (!covers_witness(list, known->plane, corner, grid_.fraction(), voxels, witness))
+  std::optional<Witness> witness;
+  const auto dag = memo_.find(*known, cube, *range,
+                              filled_sides(cube, list, known->plane, winding), &witness);
+  if (!dag || !witness || covered || !config_.patch.witness) return dag;
+  if (!covers_witness(list, known->plane, corner, grid_.fraction(), voxels, *witness))
     return std::nullopt;
   return dag;
 }
@@ -203,12 +262,22 @@ const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleS
   return admitted_[slot].known;
 }
 
-Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list) {
+Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
+                         int32_t winding) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =
       config_.rule == Rule::kThin ? config_.kernels->thin : config_.kernels->conservative;
-  return kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+  if (!is_solid(config_.rule))
+    return kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+  const Brick touched =
+      kernel(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &decisions_);
+  Brick voxels = touched;
+  for_each_untouched(list, corner, grid_.fraction(), winding, touched,
+                     [&](Brick component, int32_t at) {
+                       if (is_inside(config_.rule, at)) voxels |= component;
+                     });
+  return voxels & wanted;
 }
 
 SubDag Descent::brick(Brick voxels) {
@@ -219,7 +288,7 @@ SubDag Descent::brick(Brick voxels) {
 void Descent::bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
   Brick of_all = 0;
   for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
-    const Brick voxels = voxels_of(cube, of_layer);
+    const Brick voxels = voxels_of(cube, of_layer, 0);
     of_all |= voxels;
     dags->push_back({subject, brick(voxels)});
   });

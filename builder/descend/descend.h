@@ -5,6 +5,10 @@
 // descent. A cube that one triangle covers is answered by the plane memo without descending.
 // Only bricks decide voxels, and they decide exactly, so the result depends on the voxels alone.
 //
+// Solid rules: the descent also knows the winding number at each cube's first voxel centre
+// (builder/overlap/crossing.h). Triangles of the cube change it on the way to its children and
+// through its bricks; a cube without triangles is empty or a full node.
+//
 // Layers (builder/octree/sub_dag_root.h): a cube that several layers touch is descended once, with
 // one list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it,
 // cubes that one layer touches are descended as without layers, and what they give is shared; so
@@ -52,8 +56,9 @@ class Descent {
   Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
           const MortonSet* done = nullptr);
 
-  // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint.
-  void run(const Cube& cube, const TriangleList& list);
+  // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint. The
+  // solid rules need the winding number at its first_centre().
+  void run(const Cube& cube, const TriangleList& list, int32_t winding = 0);
   // Adds `cube`, whose sub-DAGs were reduced to the builder's table otherwise.
   using SubjectDags = std::vector<SubjectDag>;
   void adopt(const Cube& cube, SubjectDags dags);
@@ -72,10 +77,11 @@ class Descent {
 
   // What a cube needs: nothing, or to be descended, its children as roots since some are done.
   enum class Need { kNothing, kAll, kRest };
-  Need need_of(const Cube& cube, const TriangleList& list) const;
+  Need need_of(const Cube& cube, const TriangleList& list, int32_t winding) const;
   void pause_at(const Cube& cube);
-  SubDag node(const Cube& cube, const TriangleList& list);
-  SubDag divide(const Cube& cube, const TriangleList& list, bool as_roots);
+  SubDag node(const Cube& cube, const TriangleList& list, int32_t winding);
+  SubDag divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots);
+  SubDag full(const Cube& cube, int32_t winding, Need need);
   // The same for a list of several layers.
   void node(const Cube& cube, const TriangleList& list, SubjectDags* dags);
   void divide(const Cube& cube, const TriangleList& list, bool as_roots, SubjectDags* dags);
@@ -83,10 +89,12 @@ class Descent {
   void bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags);
   void end(const Cube& cube, SubjectDags dags);
   void update_memo(SubDagBuilder::Pause pause);
-  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list);
-  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list);
+  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list, int32_t winding);
+  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list, int32_t winding);
+  FilledSides filled_sides(const Cube& cube, const TriangleList& list, const LatticePlane& plane,
+                           int32_t winding) const;
   const std::optional<PlaneMemo::AdmittedPlane>& admitted(const TriangleSetup& triangle);
-  Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list);
+  Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding);
   SubDag brick(Brick voxels);
   Brick selected_voxels(const Cube& cube) const;
 
@@ -94,6 +102,7 @@ class Descent {
   DescentConfig config_;
   SubDagBuilder* builder_;
   NodeTable* table_;  // of the builder
+  FullNodes full_;
   PlaneMemo memo_;
   std::array<Admitted, 64> admitted_;  // direct-mapped, see admitted()
   double cell_side_ = 0;               // of the cell being baked, in voxels

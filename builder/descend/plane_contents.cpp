@@ -18,6 +18,8 @@ constexpr double kMinFirst = -4.0 * kVoxel, kMaxFirst = 24.0 * kVoxel;
 constexpr double kMaxWidth = kVoxel / 16.0;  // of a range of offsets
 constexpr uint64_t kMaxBytes = 4 << 20;      // stays in the cache
 constexpr uint64_t kMinBytes = 1 << 15;
+constexpr int32_t kBeyondBrick = 13 * kVoxel;  // more than the heights of a brick that is crossed
+constexpr uint16_t kNoSmallWitness = UINT16_MAX;
 
 // Bit 8 * outer + inner of a brick's voxel (io/brick.h) is the sum of these, over the axes.
 constexpr uint8_t kBrickBit[3][4] = {{0, 4, 32, 36}, {0, 2, 16, 18}, {0, 1, 8, 9}};
@@ -96,7 +98,8 @@ PlaneHeights PlaneContents::heights_of(const int64_t n[3]) const {
 }
 
 std::optional<PlaneContents::Query> PlaneContents::query(const PlaneHeights& p,
-                                                         const OffsetRange& range) const {
+                                                         const OffsetRange& range,
+                                                         FilledSides sides) const {
   const double height = double(range.low - p.zero) * p.scale;
   const double width = double(range.high - range.low) * p.scale;
   if (sets_.empty() || height < kMinFirst || height > kMaxFirst || width > kMaxWidth)
@@ -108,8 +111,9 @@ std::optional<PlaneContents::Query> PlaneContents::query(const PlaneHeights& p,
   Query q;
   q.rows = h.rows;
   const uint32_t floor = uint32_t(std::clamp(first >> kHeightBits, -1, 8) + 1);
-  q.rest = h.last | floor << 16 | p.orientation << 20 | 1U << 31;
+  q.rest = h.last | floor << 16 | p.orientation << 20 | sides << 25 | 1U << 31;
   q.first = first;
+  q.sides = sides;
   q.low = range.low - int64_t(__int128(down) * p.unit >> kHeightBits);
   q.high = range.low + int64_t(__int128(up) * p.unit >> kHeightBits);
   q.set = uint32_t(mix(q.rows, uint64_t(q.rest) << 32 | q.rest)) & uint32_t(sets_.size() - 1);
@@ -122,14 +126,15 @@ PlaneAnswer PlaneContents::find(const PlaneHeights& plane, const Query& q,
   Set& set = sets_[q.set];
   const auto answer = [&](int way) -> PlaneAnswer {
     const uint32_t w = set.witness[way];
-    return {q.low, q.high, set.node[way], set.voxels[way], pack_voxel(w & 7, w >> 3 & 7, w >> 6)};
+    return {q.low, q.high, set.node[way], set.voxels[way],
+            w == kNoSmallWitness ? kNoWitness : pack_voxel(w & 7, w >> 3 & 7, w >> 6)};
   };
   for (int way = 0; way < kWays; ++way) {
     if (set.rows[way] != q.rows || set.rest[way] != q.rest) continue;
     ++counts->hits;
     return answer(way);
   }
-  const Content content = compute(plane, q.first, counts);
+  const Content content = compute(plane, q, counts);
   for (int way = kWays - 1; way > 0; --way) {
     set.rows[way] = set.rows[way - 1];
     set.rest[way] = set.rest[way - 1];
@@ -146,10 +151,13 @@ PlaneAnswer PlaneContents::find(const PlaneHeights& plane, const Query& q,
   return answer(0);
 }
 
-// The voxels of the brick whose height over (0, 0) is `first`.
-Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first) const {
+// The voxels of the brick whose height over (0, 0) is `first`, with those of the filled sides. A
+// side is filled by moving the heights that bound the plane's own voxels out of the brick.
+Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first, FilledSides sides) const {
   const Axes axes(p.orientation);
-  const int32_t drop = rule_ == Rule::kThin ? 0 : p.step_u + p.step_v;
+  int32_t drop = rule_ == Rule::kThin ? 0 : p.step_u + p.step_v;
+  if ((sides & kLowSide) != 0) drop += kBeyondBrick;
+  if ((sides & kHighSide) != 0) first += kBeyondBrick, drop += kBeyondBrick;
   BrickLayers layers = kernels_->layers(first, p.step_u, p.step_v, drop);
   const std::array<Brick, 16>& rows = kRows[axes.v][axes.flip(axes.v) != 0];
   Brick voxels = 0;
@@ -162,23 +170,30 @@ Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first) const {
   return voxels;
 }
 
-PlaneContents::Content PlaneContents::compute(const PlaneHeights& p, int32_t first,
+PlaneContents::Content PlaneContents::compute(const PlaneHeights& p, const Query& query,
                                               PlaneMemoCounts* counts) {
   const Axes axes(p.orientation);
-  Content out{0, 0, 0};
+  Content out{0, 0, kNoSmallWitness};
   NodeKey key{};
   for (unsigned c = 0; c < 8; ++c) {  // of the reflected cube
     const int32_t i = int32_t(c >> (2 - axes.u) & 1), j = int32_t(c >> (2 - axes.v) & 1);
     const int32_t k = int32_t(c >> (2 - axes.w) & 1);
-    const int32_t height = first - 4 * (i * p.step_u + j * p.step_v + k * kVoxel);
-    if (height < 0 || height - 4 * (p.step_u + p.step_v) >= 4 * kVoxel) continue;
-    const Brick voxels = brick_voxels(p, height);
-    if (voxels == 0) continue;
+    const int32_t height = query.first - 4 * (i * p.step_u + j * p.step_v + k * kVoxel);
     const unsigned child = c ^ axes.reflected;
+    const bool above = height < 0, below = height - 4 * (p.step_u + p.step_v) >= 4 * kVoxel;
+    Brick voxels = 0, crossed = 0;
+    if (above || below) {
+      if ((query.sides & (above ? kHighSide : kLowSide)) != 0) voxels = ~Brick(0);
+    } else {
+      crossed = brick_voxels(p, height, 0);
+      voxels = query.sides == 0 ? crossed : brick_voxels(p, height, query.sides);
+    }
+    if (voxels == 0) continue;
     key[child] = table_->add_brick(voxels);
     ++counts->computed;
     out.voxels += uint32_t(std::popcount(voxels));
-    const uint8_t* at = kBrickTables.coordinate[std::countr_zero(voxels)];
+    if (crossed == 0) continue;
+    const uint8_t* at = kBrickTables.coordinate[std::countr_zero(crossed)];
     out.witness = (at[0] + (child >> 2 & 1) * 4U) | (at[1] + (child >> 1 & 1) * 4U) << 3 |
                   (at[2] + (child & 1) * 4U) << 6;
   }

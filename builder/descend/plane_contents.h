@@ -27,6 +27,9 @@
 // offsets with the same content follows from the smallest and largest fraction. Everything else,
 // all ties included, is left to the plane memo.
 //
+// Solid rules: the inside of the plane's sides (FilledSides) belongs to the key. Column (i, j) also
+// holds all below floor h(i+1, j+1), all above floor h(i, j), or both.
+//
 // Rejected: contents for planes that the memo does not admit (small triangles: their contents
 // rarely repeat), larger tables (they leave the CPU cache).
 #pragma once
@@ -61,6 +64,10 @@ inline uint64_t mix(uint64_t a, uint64_t b) noexcept {
   return uint64_t(product) ^ uint64_t(product >> 64);
 }
 
+// The sides of a plane that are inside of a solid, as a mask. The low side has the smaller n . x.
+using FilledSides = uint32_t;
+constexpr FilledSides kLowSide = 1, kHighSide = 2;
+
 // A set voxel of a cube, relative to the cube's corner, in one word; for cubes of up to 1024^3.
 constexpr uint32_t pack_voxel(uint32_t x, uint32_t y, uint32_t z) noexcept {
   return x | y << 10 | z << 20;
@@ -71,8 +78,9 @@ struct PlaneAnswer {
   int64_t low, high;
   uint32_t node;  // 1 + handle; 0: empty
   uint32_t voxels;
-  uint32_t witness;  // a set voxel, see pack_voxel()
+  uint32_t witness;  // a voxel that the plane sets, see pack_voxel(); kNoWitness: it sets none
 };
+constexpr uint32_t kNoWitness = UINT32_MAX;
 
 // A plane, prepared for queries.
 struct PlaneHeights {
@@ -91,6 +99,7 @@ class PlaneContents {
     uint32_t rest;
     int32_t first;  // h(0, 0)
     int64_t low, high;
+    FilledSides sides;
     uint32_t set;
   };
 
@@ -107,7 +116,8 @@ class PlaneContents {
 
   PlaneHeights heights_of(const int64_t n[3]) const;
   // Computes the key and prefetches its set. None if a height is, or may be, an integer.
-  std::optional<Query> query(const PlaneHeights& plane, const OffsetRange& range) const;
+  std::optional<Query> query(const PlaneHeights& plane, const OffsetRange& range,
+                             FilledSides sides) const;
   // Returns the content, after computing it if it is not cached.
   PlaneAnswer find(const PlaneHeights& plane, const Query& query, PlaneMemoCounts* counts);
 
@@ -124,14 +134,14 @@ class PlaneContents {
     uint32_t rest[kWays];  // 0: free
     uint32_t node[kWays];
     uint16_t voxels[kWays];
-    uint16_t witness[kWays];  // 3 bits per axis
+    uint16_t witness[kWays];  // 3 bits per axis, or all bits: none
   };
   struct Content {
     uint32_t node, voxels, witness;
   };
 
-  Content compute(const PlaneHeights& plane, int32_t first, PlaneMemoCounts* counts);
-  Brick brick_voxels(const PlaneHeights& plane, int32_t first) const;
+  Content compute(const PlaneHeights& plane, const Query& query, PlaneMemoCounts* counts);
+  Brick brick_voxels(const PlaneHeights& plane, int32_t first, FilledSides sides) const;
 
   int levels_;
   Rule rule_;

@@ -15,6 +15,7 @@ constexpr int kMaxExactSideLog2 = 32;    // in lattice units: up to here offsets
 constexpr int kMaxRoundedSideLog2 = 6;   // in voxels: beyond it most ranges straddle
 constexpr double kMinWidth = 8;          // voxels: smaller triangles cover no cube worth a query
 constexpr double kMinBrickRepeats = 16;  // bricks per content, times `repeats`, to admit a plane
+constexpr int kMaxSolidSideLog2 = 10;    // in voxels: up to here voxel counts fit 32 bits
 constexpr int64_t kBucketSpan = 3;       // neighbouring buckets per side that also get an entry
 constexpr int kMaxTableLog2 = 19;        // of the number of entries
 constexpr size_t kCacheLine = 64;        // bytes; a set fills two lines
@@ -28,12 +29,13 @@ uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
 }  // namespace
 
 PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
-                     NodeTable* table, uint64_t bytes)
+                     NodeTable* table, FullNodes* full, uint64_t bytes)
     : levels_(levels),
       rule_(rule),
       kernels_(kernels),
       repeats_(repeats),
       table_(table),
+      full_(full),
       tables_(size_t(levels - 3)),
       contents_(levels, rule, kernels, table),
       normal_slots_(1024),
@@ -71,7 +73,8 @@ std::optional<PlaneMemo::AdmittedPlane> PlaneMemo::admit(const TriangleSetup& t,
 // The first level that can be queried. Offsets of exact planes fit 63 bits from here on; of others
 // most ranges straddle a critical value in larger cubes, unless these form few clusters.
 int PlaneMemo::first_level(const LatticePlane& plane) const {
-  const int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
+  int exact = std::max(0, levels_ - (kMaxExactSideLog2 - fraction_bits(levels_)));
+  if (is_solid(rule_)) exact = std::max(exact, levels_ - kMaxSolidSideLog2);
   if (plane.exact) return exact;
   int level = std::max(exact, levels_ - kMaxRoundedSideLog2);
   while (level > exact && contents(plane.n, level - 1).dimensions == 1) --level;
@@ -176,70 +179,86 @@ PlaneBrick PlaneMemo::make_plane_brick(const Plane& p) const {
   return brick;
 }
 
-std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cube) {
-  const int64_t side = int64_t(1) << cube.side_log2(levels_);
-  const auto range = offsets_in_column(known.plane, cube.corner(levels_), side);
-  if (!range) return std::nullopt;
-  Witness witness;
-  return find(known, cube, *range, &witness);
-}
-
 std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cube,
-                                      const OffsetRange& range, Witness* witness) {
+                                      const OffsetRange& range, FilledSides sides,
+                                      std::optional<Witness>* witness) {
   ++counts_.queries;
   min_stored_level_ = known.min_stored_level;
   PlaneAnswer answer;
-  if (!find_node(known.number, cube.level, range, &answer)) return std::nullopt;
+  if (!find_node(known.number, cube.level, range, sides, &answer)) return std::nullopt;
   ++counts_.answered;
-  *witness = {answer.witness & 1023, answer.witness >> 10 & 1023, answer.witness >> 20};
+  witness->reset();
+  if (const uint32_t w = answer.witness; w != kNoWitness)
+    *witness = Witness{{w & 1023, w >> 10 & 1023, w >> 20}};
   return SubDag{answer.node, answer.voxels};
 }
 
-bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out) {
+// The sides on which a cube at the plane has voxels: its extreme voxel there is clear of the plane
+// for all offsets. In a range that straddles this, the extreme voxel is neither clear nor set.
+FilledSides PlaneMemo::sides_with_voxels(const Plane& p, int level,
+                                         const OffsetRange& range) const {
+  const int side_log2 = levels_ - level + fraction_bits(levels_);
+  const int64_t voxel = (p.positive - p.negative) << fraction_bits(levels_);
+  return (range.low > (p.negative << side_log2) + voxel ? kLowSide : 0) |
+         (range.high < (p.positive << side_log2) - voxel ? kHighSide : 0);
+}
+
+bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
+                          PlaneAnswer* out) {
+  if (sides != 0) {
+    if (sides == (kLowSide | kHighSide)) {
+      const SubDag full = full_->sub_dag(level);
+      *out = {-kFarOffset, kFarOffset, full.root, uint32_t(full.voxels), kNoWitness};
+      return true;
+    }
+    sides &= sides_with_voxels(planes_[number], level, range);
+  }
   if (level == contents_.level()) {
-    const auto query = contents_.query(planes_[number].heights, range);
-    if (!query) return compute(number, level, range, out);
+    const auto query = contents_.query(planes_[number].heights, range, sides);
+    if (!query) return compute(number, level, range, sides, out);
     *out = contents_.find(planes_[number].heights, *query, &counts_);
     return true;
   }
   if (level < min_stored_level_ || level > contents_.level())
-    return compute(number, level, range, out);
+    return compute(number, level, range, sides, out);
   LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) {
     grow(&table);
-    if (table.entries.empty()) return compute(number, level, range, out);
+    if (table.entries.empty()) return compute(number, level, range, sides, out);
   }
   const int log2 = planes_[number].bucket_log2[size_t(level)];
   const int64_t bucket = range.low >> log2;
-  const MemoEntry* set = set_of(&table, tag_of(number, bucket));
+  const uint32_t key = 4 * number + sides;
+  const MemoEntry* set = set_of(&table, tag_of(key, bucket));
   for (size_t way = 0; way < kWays; ++way) {
     const MemoEntry& e = set[way];
-    if (e.plane == number + 1 && e.low <= range.low && range.high <= e.high) {
+    if (e.plane == key + 1 && e.low <= range.low && range.high <= e.high) {
       ++counts_.hits;
       *out = {e.low, e.high, e.node, e.voxels, e.witness};
       return true;
     }
   }
-  if (!compute(number, level, range, out)) return false;
+  if (!compute(number, level, range, sides, out)) return false;
   // Store it in every bucket that the interval meets, near the queried one.
   const int64_t first = std::max(out->low >> log2, bucket - kBucketSpan);
   const int64_t last = std::min(out->high >> log2, bucket + kBucketSpan);
-  for (int64_t b = first; b <= last; ++b) put(&table, tag_of(number, b), number, *out);
+  for (int64_t b = first; b <= last; ++b) put(&table, tag_of(key, b), key, *out);
   return true;
 }
 
-void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset) {
+void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset, FilledSides sides) {
   if (level < min_stored_level_ || level >= contents_.level()) return;
   LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) return;
   const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
-  const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(number, bucket)));
+  const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(4 * number + sides, bucket)));
   __builtin_prefetch(set);
   __builtin_prefetch(set + 64);
 }
 
-bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out) {
-  if (level == levels_ - 2) return compute_brick(planes_[number], range, out);
+bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
+                        PlaneAnswer* out) {
+  if (level == levels_ - 2) return compute_brick(planes_[number], range, sides, out);
   const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
                            planes_[number].n[2] << half_log2};
@@ -247,25 +266,34 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Pl
   // Beyond these offsets the plane misses a child.
   const int64_t low = planes_[number].negative << half_log2;
   const int64_t high = planes_[number].positive << half_log2;
-  *out = {-kFarOffset, kFarOffset, 0, 0, 0};
+  *out = {-kFarOffset, kFarOffset, 0, 0, kNoWitness};
   const uint32_t half = uint32_t(1) << (levels_ - level - 1);  // in voxels
   int64_t shift[8];
   std::optional<PlaneContents::Query> queries[8];
   const bool by_content = level + 1 == contents_.level();
   unsigned met = 0;
+  const auto fill = [&](unsigned c) {
+    const SubDag full = full_->sub_dag(level + 1);
+    key[c] = full.root;
+    out->voxels += uint32_t(full.voxels);
+  };
   for (unsigned c = 0; c < 8; ++c) {
     shift[c] = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
     if (range.high - shift[c] < low) {
       out->high = std::min(out->high, low - 1 + shift[c]);
+      if ((sides & kHighSide) != 0) fill(c);
     } else if (range.low - shift[c] > high) {
       out->low = std::max(out->low, high + 1 + shift[c]);
+      if ((sides & kLowSide) != 0) fill(c);
     } else {
       met |= 1U << c;
       const OffsetRange child{range.low - shift[c], range.high - shift[c]};
       if (by_content) {
-        queries[c] = contents_.query(planes_[number].heights, child);
+        const FilledSides filled =
+            sides == 0 ? 0 : sides & sides_with_voxels(planes_[number], level + 1, child);
+        queries[c] = contents_.query(planes_[number].heights, child, filled);
       } else {
-        prefetch(number, level + 1, child.low);
+        prefetch(number, level + 1, child.low, sides);
       }
     }
   }
@@ -274,7 +302,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Pl
     PlaneAnswer child;
     if (queries[c]) {
       child = contents_.find(planes_[number].heights, *queries[c], &counts_);
-    } else if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]},
+    } else if (!find_node(number, level + 1, {range.low - shift[c], range.high - shift[c]}, sides,
                           &child)) {
       return false;
     }
@@ -283,6 +311,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Pl
     if (child.node == 0) continue;
     key[c] = child.node;
     out->voxels += child.voxels;
+    if (child.witness == kNoWitness) continue;
     out->witness =
         child.witness + pack_voxel((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
   }
@@ -292,15 +321,20 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Pl
   return true;
 }
 
-bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, PlaneAnswer* out) {
+bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, FilledSides sides,
+                              PlaneAnswer* out) {
   const PlaneVoxels found = kernels_->plane(plane.brick, range.low, range.high);
   if (found.straddles) return false;
-  *out = {found.low, found.high, 0, uint32_t(std::popcount(found.voxels)), 0};
-  if (found.voxels == 0) return true;
+  Brick voxels = found.voxels;
+  if ((sides & kHighSide) != 0) voxels |= found.above;
+  if ((sides & kLowSide) != 0) voxels |= ~(found.voxels | found.above);
+  *out = {found.low, found.high, 0, uint32_t(std::popcount(voxels)), kNoWitness};
+  if (voxels == 0) return true;
   ++counts_.computed;
+  out->node = table_->add_brick(voxels);
+  if (found.voxels == 0) return true;
   const uint8_t* at = kBrickTables.coordinate[std::countr_zero(found.voxels)];
   out->witness = pack_voxel(at[0], at[1], at[2]);
-  out->node = table_->add_brick(found.voxels);
   return true;
 }
 
@@ -308,7 +342,7 @@ PlaneMemo::MemoEntry* PlaneMemo::set_of(LevelTable* table, uint32_t tag) {
   return &table->entries[(tag & table->mask) * kWays];
 }
 
-void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const PlaneAnswer& answer) {
+void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t key, const PlaneAnswer& answer) {
   if (2 * table->used > table->entries.size()) grow(table);
   MemoEntry* set = set_of(table, tag);
   size_t way = 0;
@@ -318,7 +352,7 @@ void PlaneMemo::put(LevelTable* table, uint32_t tag, uint32_t plane, const Plane
   } else {
     ++table->used;
   }
-  set[way] = {answer.low, answer.high, answer.node, answer.voxels, answer.witness, plane + 1};
+  set[way] = {answer.low, answer.high, answer.node, answer.voxels, answer.witness, key + 1};
   if (answer.node > kPending)
     table->unsettled.push_back(uint32_t(set + way - table->entries.data()));
 }

@@ -16,6 +16,13 @@
 // graph over the column, and if it missed a voxel with l <= g <= h throughout, it would pass above
 // (or below) the voxel's corner of largest (smallest) n_q . x, where g would be beyond h (l).
 //
+// Solid rules: the untouched voxels of the cube are on two sides of the plane, and each side is
+// inside or outside as a whole: a voxel above all offsets of the range is connected through such
+// voxels to the cube's extreme voxel along n_q, and so is one below to the opposite extreme voxel.
+// So the content depends on two more bits, FilledSides, and entries are stored for each. A side
+// without voxels counts as not filled, so that equal contents have equal keys. Rejected: the jump
+// of the winding number at one column (a patch may have holes outside of the cube).
+//
 // Entries are stored per plane for cubes of at least 16^3 voxels; below, planes share the contents
 // of cubes of 8^3 voxels (builder/descend/plane_contents.h), and what that cache cannot answer is
 // computed.
@@ -34,6 +41,7 @@
 #include <span>
 #include <vector>
 
+#include "builder/descend/full_nodes.h"
 #include "builder/descend/plane_contents.h"
 #include "builder/octree/octree_cube.h"
 #include "builder/overlap/kernels/kernels.h"
@@ -54,8 +62,9 @@ class PlaneMemo {
  public:
   // Entries are stored where a plane meets at least `repeats` cubes per content; 0: all are. Takes
   // at most `bytes` and 1/32 of the memory budget of `table`, and works without any memory.
+  // `full` is of the same table.
   PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats, NodeTable* table,
-            uint64_t bytes = UINT64_MAX);
+            FullNodes* full, uint64_t bytes = UINT64_MAX);
 
   // An admitted triangle's plane.
   struct AdmittedPlane {
@@ -70,13 +79,12 @@ class PlaneMemo {
   // Discards all planes if they have exceeded the memory.
   void forget();
 
-  // The sub-DAG of a cube (min_query_level <= level <= brick level) that the triangle covers; none
-  // if the cube's range straddles a critical value.
-  std::optional<SubDag> find(const AdmittedPlane& known, const Cube& cube);
-  // The same for several triangles whose offsets are in `range`, provided that they have no border
-  // in the cube (builder/descend/patch.h). *witness is a set voxel, if the cube is not empty.
+  // The sub-DAG of a cube (min_query_level <= level <= brick level) of which triangles whose
+  // offsets are in `range` cover all that the plane meets; none if the range straddles a critical
+  // value. `sides` is 0 but for the solid rules. *witness is a voxel that the plane sets, if there
+  // is any.
   std::optional<SubDag> find(const AdmittedPlane& known, const Cube& cube, const OffsetRange& range,
-                             Witness* witness);
+                             FilledSides sides, std::optional<Witness>* witness);
   // Replaces pending handles; must be called after each flush of the table.
   void settle();
   // Discards all entries but keeps the planes; must be called when the table is emptied.
@@ -90,7 +98,7 @@ class PlaneMemo {
     uint32_t node;
     uint32_t voxels;
     uint32_t witness;
-    uint32_t plane;  // 1 + plane number; 0: free
+    uint32_t plane;  // 1 + 4 * plane number + filled sides; 0: free
   };
   // The entries of one level.
   struct LevelTable {
@@ -126,12 +134,16 @@ class PlaneMemo {
   int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
   PlaneBrick make_plane_brick(const Plane& plane) const;
-  bool find_node(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out);
-  void prefetch(uint32_t number, int level, int64_t offset);
-  bool compute(uint32_t number, int level, const OffsetRange& range, PlaneAnswer* out);
-  bool compute_brick(const Plane& plane, const OffsetRange& range, PlaneAnswer* out);
+  FilledSides sides_with_voxels(const Plane& plane, int level, const OffsetRange& range) const;
+  bool find_node(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
+                 PlaneAnswer* out);
+  void prefetch(uint32_t number, int level, int64_t offset, FilledSides sides);
+  bool compute(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
+               PlaneAnswer* out);
+  bool compute_brick(const Plane& plane, const OffsetRange& range, FilledSides sides,
+                     PlaneAnswer* out);
   static MemoEntry* set_of(LevelTable* table, uint32_t tag);
-  void put(LevelTable* table, uint32_t tag, uint32_t plane, const PlaneAnswer& answer);
+  void put(LevelTable* table, uint32_t tag, uint32_t key, const PlaneAnswer& answer);
   // Reserves `bytes` more; false if the budget does not allow it.
   bool charge(uint64_t bytes);
   void grow(LevelTable* table);
@@ -141,6 +153,7 @@ class PlaneMemo {
   const Kernels* kernels_;
   double repeats_;
   NodeTable* table_;
+  FullNodes* full_;
   int min_stored_level_ = 0;        // of the current query
   std::vector<LevelTable> tables_;  // [level], of cubes of at least 16^3 voxels
   PlaneContents contents_;          // the cubes of 8^3 voxels

@@ -1,5 +1,6 @@
 #include "builder/descend/voxelize_window.h"
 
+#include "builder/descend/winding_grid.h"
 #include "builder/overlap/overlap.h"
 
 namespace svdag {
@@ -28,7 +29,12 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
     setups.back().triangle.subject = kUnionSet;
     if (setups.back().box.meets(closed)) list.push_back({&setups.back(), setups.back().edges});
   }
-  Descent(grid, config, &builder).run(window, list);
+  WindingGrid windings(grid.levels, window, window.level, &unlimited);
+  if (is_solid(config.rule)) {
+    for (const LatticeTriangle& triangle : triangles) windings.add_with_ray(triangle);
+  }
+  windings.finish();
+  Descent(grid, config, &builder).run(window, list, windings.at(window));
   builder.settle();
   if (builder.roots().empty()) return 0;
   emit(*builder.table(), window, 1 + builder.roots().front().rank, sink);

@@ -1,6 +1,8 @@
 // Morton codes: the order of voxels and cubes in which every octree cube is one range.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -41,6 +43,24 @@ inline MortonRange morton_range(const Cube& cube, int levels) noexcept {
   const int shift = 3 * (levels - cube.level);
   const uint64_t code = morton(cube.coordinate);
   return {code << shift, (code + 1) << shift};
+}
+
+// The cube of which `range` holds the voxels.
+inline Cube cube_of(const MortonRange& range, int levels) noexcept {
+  int level = levels;
+  while (range.end - range.begin > uint64_t(1) << 3 * (levels - level)) --level;
+  return {level, unmorton(range.begin >> 3 * (levels - level))};
+}
+
+// Calls visit(cube) for the largest cubes that `range` consists of, in Morton order.
+template <class Visit>
+void for_each_cube(const MortonRange& range, int levels, const Visit& visit) {
+  for (uint64_t at = range.begin; at < range.end;) {
+    int log2 = at == 0 ? levels : std::min(levels, std::countr_zero(at) / 3);
+    while (uint64_t(1) << 3 * log2 > range.end - at) --log2;
+    visit(Cube{levels - log2, unmorton(at >> 3 * log2)});
+    at += uint64_t(1) << 3 * log2;
+  }
 }
 
 // Appends `range`, joined to the last range if it begins where that ends.

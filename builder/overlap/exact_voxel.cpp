@@ -35,8 +35,13 @@ bool column_centre_holds(const TriangleSetup& t, int k, const LatticePoint& corn
   LatticePoint x = corner;
   x[u] += int64_t(2 * (column >> 2) + 1) << (fraction - 1);
   x[v] += int64_t(2 * (column & 3) + 1) << (fraction - 1);
+  return edge_holds_at(t, k, x);
+}
+
+bool edge_holds_at(const TriangleSetup& t, int k, const LatticePoint& x) noexcept {
   // One of the coefficients is nonzero: an edge that is a point in the projection belongs to a
   // projection of zero area, whose edge functions are off.
+  const int u = (k / 3 + 1) % 3, v = (k / 3 + 2) % 3;
   const int sign = exact_edge_sign(t, k, x);
   if (sign != 0) return sign > 0;
   const double by_u = t.edge_u[k], by_v = t.edge_v[k];

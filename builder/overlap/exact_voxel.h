@@ -16,6 +16,8 @@ bool voxel_meets_plane(const TriangleSetup& t, const LatticePoint& corner, int f
 // Thin: is edge function k positive at the centre of the column, shifted symbolically?
 bool column_centre_holds(const TriangleSetup& t, int k, const LatticePoint& corner, int fraction,
                          unsigned column) noexcept;
+// Thin: is edge function k, which has an area, positive at x, shifted symbolically?
+bool edge_holds_at(const TriangleSetup& t, int k, const LatticePoint& x) noexcept;
 // Thin: is n . (x - v0) positive at x, shifted symbolically?
 bool is_above_plane(const TriangleSetup& t, const LatticePoint& x) noexcept;
 // Thin: the same for the lower or upper end x of the centre segment of voxel `bit` along axis w.

@@ -83,4 +83,15 @@ SceneLayers get_layers(RecordReader* in) {
   return layers;
 }
 
+void put_windings(const WindingGrid* windings, RecordWriter* out) {
+  out->put(windings != nullptr ? windings->values() : std::vector<int32_t>());
+}
+
+std::shared_ptr<const WindingGrid> get_windings(RecordReader* in, int levels) {
+  std::vector<int32_t> values;
+  in->get(&values);
+  in->require(WindingGrid::are_of_grid(levels, values), "impossible number of windings");
+  return WindingGrid::of_grid(levels, std::move(values));
+}
+
 }  // namespace svdag

@@ -1,9 +1,10 @@
-// Serializes triangle bins and layers in records: for the journal of a bake and the index of a
+// Serializes triangle bins, layers and winding numbers in records: for the journal of a bake and the index of a
 // plan.
 #pragma once
 
 #include <vector>
 
+#include "builder/descend/winding_grid.h"
 #include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
 #include "streaming/spill/record.h"
@@ -20,5 +21,9 @@ std::vector<TriangleBin> get_bins(RecordReader* in, int levels);
 // Names and colours, in their order.
 void put_layers(const SceneLayers& layers, RecordWriter* out);
 SceneLayers get_layers(RecordReader* in);
+
+// The winding numbers of the cells of a grid; null: none.
+void put_windings(const WindingGrid* windings, RecordWriter* out);
+std::shared_ptr<const WindingGrid> get_windings(RecordReader* in, int levels);
 
 }  // namespace svdag

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "builder/overlap/exact.h"
+#include "builder/split/open_edges.h"
 #include "io/lattice.h"
+#include "io/scene/boundary_chain.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -89,6 +91,17 @@ void require_different_names(const std::vector<std::string>& paths) {
   }
 }
 
+// Error (kBadInput) unless the rule is defined for the surface.
+void require_closed(const Scene& scene, const Grid& grid, Rule rule, const BoundaryChain& chain) {
+  if (rule == Rule::kSolid ? chain.is_closed() : chain.is_closed_mod_2()) return;
+  throw Error(ExitCode::kBadInput,
+              describe(find_open_edges(scene, grid)) +
+                  (chain.is_closed_mod_2()
+                       ? ": it is closed, but its triangles are not oriented alike: give --inside "
+                         "odd"
+                       : ": bake its surface with --rule conservative, or repair it"));
+}
+
 }  // namespace
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
@@ -100,6 +113,13 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   TriangleStore store(grid, config, counts, budget);
   double largest_move = 0;
   result.layers = SceneLayers(config.layers);
+  std::shared_ptr<WindingGrid> windings;
+  if (is_solid(config.rule)) {
+    windings = std::make_shared<WindingGrid>(grid.levels, Cube(),
+                                             WindingGrid::level_of_grid(grid.levels), budget);
+  }
+  BoundaryChain chain;
+  const LatticeBox whole = grid.closed(grid.whole());
   const bool layered = config.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
@@ -111,7 +131,14 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       const BoxPlacement placement = placement_of(snapped, grid, config.part);
       counts.outside += placement == BoxPlacement::kOutside;
       counts.clipped += placement == BoxPlacement::kClipped;
-      if (placement == BoxPlacement::kOutside) continue;
+      if (windings) {
+        windings->add_with_ray(snapped);
+        chain.add(snapped);
+      }
+      if (placement == BoxPlacement::kOutside) {
+        if (windings && box_of(snapped).meets(whole)) store.add(snapped);
+        continue;
+      }
       counts.degenerate += has_zero_area(snapped);
       largest_move = std::max(largest_move, move);
       store.add(snapped);
@@ -119,6 +146,9 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     if (config.on_batch) config.on_batch(batch.triangles.size());
   });
   store.finish(&result);
+  if (is_solid(config.rule)) require_closed(scene, grid, config.rule, chain);
+  if (windings) windings->finish();
+  result.windings = std::move(windings);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());
   return result;
 }

@@ -2,12 +2,17 @@
 //
 // The triangles are held in one CellTree as long as they fit in their share of memory. When they
 // exceed it, all triangles, earlier and later ones, go to bins (builder/split/triangle_bins.h).
+//
+// Solid rules: every triangle also counts for the winding numbers of the cells, and must be part of
+// a closed surface. All triangles that meet the grid are kept, since a cube that the selection cuts
+// has its reference point outside.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "builder/descend/winding_grid.h"
 #include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
 #include "builder/split/scene_layers.h"
@@ -19,6 +24,7 @@ namespace svdag {
 
 struct SplitConfig {
   int cell_level = 0;
+  Rule rule = Rule::kConservative;
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // triangles are spilled above this CellTree::bytes()
   Scratch* scratch = nullptr;            // null: triangles are never spilled
@@ -56,6 +62,7 @@ struct SplitScene {
   std::unique_ptr<CellTree> tree;  // sealed; null if the triangles were spilled
   std::vector<TriangleBin> bins;   // in Morton order, in the scratch's `triangles`
   SceneLayers layers;              // by the subjects of the triangles
+  std::shared_ptr<const WindingGrid> windings;  // of the grid; null unless the rule is solid
 };
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,

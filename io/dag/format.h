@@ -41,12 +41,21 @@ constexpr uint32_t version_of(Layout layout, LayerKind layers) {
   return layout == Layout::kPlain && layers == LayerKind::kNone ? 1 : 2;
 }
 
-enum class Rule : uint32_t { kConservative = 0, kThin = 1 };
+// Which voxels are set (docs/accuracy.md). The two solid rules differ in what is inside: points
+// whose winding number is not zero, or is odd.
+enum class Rule : uint32_t { kConservative = 0, kThin = 1, kSolid = 2, kSolidOdd = 3 };
 
-constexpr const char* kRuleNames[] = {"conservative", "thin"};
+constexpr const char* kRuleNames[] = {"conservative", "thin", "solid", "solid-odd"};
 
 constexpr const char* rule_name(Rule rule) {
   return kRuleNames[size_t(rule)];
+}
+constexpr bool is_solid(Rule rule) {
+  return rule == Rule::kSolid || rule == Rule::kSolidOdd;
+}
+// Whether a solid rule sets the untouched voxels of this winding number.
+constexpr bool is_inside(Rule rule, int32_t winding) {
+  return rule == Rule::kSolid ? winding != 0 : rule == Rule::kSolidOdd && (winding & 1) != 0;
 }
 
 // One level. Inner levels (0 .. L-3): u32 words, or CompactEntry and what follows it; the brick

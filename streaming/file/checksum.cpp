@@ -14,6 +14,11 @@ std::string to_hex(const Hash128& hash) {
   return text;
 }
 
+Hash128 hash128(std::span<const std::byte> bytes, uint64_t seed) {
+  const XXH128_hash_t hash = XXH3_128bits_withSeed(bytes.data(), bytes.size(), seed);
+  return {hash.low64, hash.high64};
+}
+
 uint64_t checksum64(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }

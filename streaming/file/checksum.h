@@ -22,6 +22,9 @@ inline std::string to_hex(const uint64_t (&hash)[2]) {
 // XXH3-64, seed 0.
 uint64_t checksum64(std::span<const std::byte> bytes);
 
+// XXH3-128.
+Hash128 hash128(std::span<const std::byte> bytes, uint64_t seed);
+
 // XXH3-128, seed 0, of the concatenation of byte ranges.
 class Hasher128 {
  public:

@@ -17,7 +17,8 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
                       ExitCode::kBadInput);
   const ReadySplit ready = {plan.description, plan.grid,
                             plan.counts,      bins_of(plan.bins, step.cells, plan.grid.levels),
-                            &triangles,       plan.layers};
+                            &triangles,       plan.layers,
+                            plan.windings};
   BuildConfig build;
   build.ready = &ready;
   build.part = step.cells;

@@ -29,14 +29,6 @@ class LeafBinner {
   std::vector<TriangleBin> take_leaves() { return std::move(leaves_); }
 
  private:
-  // The level of the cube that the bin was made for. bin.cube may be a smaller cube within it.
-  int level_of(const TriangleBin& bin) const {
-    int level = grid_.levels;
-    while (level > 0 && bin.range.end - bin.range.begin > uint64_t(1) << 3 * (grid_.levels - level))
-      --level;
-    return level;
-  }
-
   // Only as deep as needed for light bins, if a surface has triangles in 4^depth of the cubes.
   TriangleBins bins_below(const Cube& cube, uint64_t triangles) const {
     const int max_depth =
@@ -55,9 +47,9 @@ class LeafBinner {
   }
 
   void divide_or_copy(SpillFile* from, const TriangleBin& bin) {
-    const int level = level_of(bin);
-    if (bin.triangles <= config_.light || level >= config_.max_level) return copy(from, bin);
-    const Cube made_for = ancestor(bin.cube, level);
+    const Cube made_for = cube_of(bin.range, grid_.levels);  // bin.cube may be smaller
+    if (bin.triangles <= config_.light || made_for.level >= config_.max_level)
+      return copy(from, bin);
     std::vector<TriangleBin> parts;
     {
       TriangleBins bins = bins_below(made_for, bin.triangles);

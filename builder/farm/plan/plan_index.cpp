@@ -22,6 +22,7 @@ std::string save_index(const Plan& plan) {
   record.put(uint64_t(plan.block_bytes));
   put_bins(plan.bins, &record);
   put_layers(plan.layers, &record);
+  put_windings(plan.windings.get(), &record);
   record.put(uint32_t(plan.with_union));
   AtomicFile file(plan.path(kIndex));
   file.append(record.bytes());
@@ -42,6 +43,8 @@ void load_index(const std::string& hash, Plan* plan) {
   plan->block_bytes = size_t(block_bytes);
   plan->bins = get_bins(&in, plan->grid.levels);
   plan->layers = get_layers(&in);
+  plan->windings = get_windings(&in, plan->grid.levels);
+  in.require((plan->windings != nullptr) == is_solid(plan->rule), "winding numbers, or none");
   uint32_t with_union = 0;
   in.get(&with_union);
   in.require(with_union <= 1, "impossible layers");

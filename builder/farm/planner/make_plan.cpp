@@ -128,11 +128,13 @@ void Planner::read_scene() {
   split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kMaxBinLevel);
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
+  split_config.rule = plan_.rule;
   split_config.layers = config_.build.layers;
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();
   plan_.counts = scene.counts;
   plan_.layers = scene.layers;
+  plan_.windings = scene.windings;
   plan_.with_union = config_.build.with_union;
   if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);
   progress_->phase("distribute triangles", 0);
@@ -160,6 +162,7 @@ void Planner::describe_inputs() {
 void Planner::survey() {
   progress_->phase("survey", 0);
   pilot_config_.descent = config_.build.descent;
+  if (is_solid(plan_.rule)) pilot_config_.descent.rule = Rule::kConservative;  // inside: few nodes
   pilot_config_.shards = config_.shards;
   pilot_config_.table_bytes = workspace_.shares().pilot_table;
   pilot_config_.triangle_bytes = workspace_.shares().triangles;

@@ -79,7 +79,8 @@ TEST(PlaneMemo, ComputesAboutOneNodePerNodeOfTheResult) {
   MemoryBudget budget;
   NodeTable table(kLevels, &budget);
   const TriangleSetup t = make_setup(covering(random, middle, false, false));
-  PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table);
+  FullNodes full(&table);
+  PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table, &full);
   const auto known = memo.admit(t, 4096);
   ASSERT_TRUE(known.has_value());
   uint64_t voxels = 0;
@@ -98,7 +99,8 @@ TEST(PlaneMemo, ComputesAboutOneNodePerNodeOfTheResult) {
 TEST(PlaneMemo, AdmitsATessellatedWallOnceItsTrianglesRepeat) {
   MemoryBudget budget;
   NodeTable table(kLevels, &budget);
-  PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table);
+  FullNodes full(&table);
+  PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table, &full);
   const int64_t voxel = int64_t(1) << fraction_bits(kLevels);
   int rejected = 0;
   for (int i = 0; i < 1000; ++i) {  // triangles of 20 voxels on one tilted plane

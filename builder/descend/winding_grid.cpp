@@ -1,0 +1,123 @@
+#include "builder/descend/winding_grid.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "builder/overlap/crossing.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr int kMaxSideLog2 = 6;
+
+}  // namespace
+
+int WindingGrid::level_of_grid(int levels) {
+  return std::min(levels - 2, kMaxSideLog2);
+}
+
+WindingGrid::WindingGrid(int levels, const Cube& root, int level, MemoryBudget* budget)
+    : levels_(levels),
+      level_(level),
+      side_log2_(level - root.level),
+      first_cube_(root.coordinate << int64_t(level - root.level)),
+      first_(first_centre(root.corner(levels), fraction_bits(levels))),
+      side_(int64_t(1) << Cube{level, {}}.side_log2(levels)) {
+  SVDAG_ASSERT(side_log2_ >= 0 && side_log2_ <= kMaxSideLog2);
+  const size_t points = size_t(1) << 3 * side_log2_;
+  if (budget != nullptr)
+    reservation_ = budget->reserve(points * sizeof(int32_t), "winding numbers");
+  steps_.assign(points, 0);
+}
+
+void WindingGrid::add(const LatticeTriangle& triangle) {
+  // The points in the triangle's box: low .. high on each axis; at most one axis may have none.
+  const LatticeBox box = box_of(triangle);
+  int64_t low[3], high[3];
+  int empty = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int log2 = Cube{level_, {}}.side_log2(levels_);
+    low[a] = std::max<int64_t>(0, -((first_[a] - box.min[a]) >> log2));
+    high[a] = std::min((int64_t(1) << side_log2_) - 1, (box.max[a] - first_[a]) >> log2);
+    empty += low[a] > high[a];
+  }
+  if (empty > 1) return;
+  const TriangleSetup setup = make_setup(triangle);
+  for (int w = 0; w < 3; ++w) {
+    const int u = (w + 1) % 3, v = (w + 2) % 3;
+    if (setup.normal[w] == 0 || low[u] > high[u] || low[v] > high[v]) continue;
+    // Lines along y are those with z = 0, lines along x those with y = z = 0.
+    if ((w < 2 && low[2] > 0) || (w < 1 && low[1] > 0)) continue;
+    const int64_t last[3] = {high[0], w < 1 ? 0 : high[1], w < 2 ? 0 : high[2]};
+    add_along(setup, w, low, last);
+  }
+}
+
+// The lines along w through the points low .. high on the other axes.
+void WindingGrid::add_along(const TriangleSetup& t, int w, const int64_t low[3],
+                            const int64_t high[3]) {
+  const int u = (w + 1) % 3, v = (w + 2) % 3;
+  const int64_t last = (int64_t(1) << side_log2_) - 1;
+  LatticePoint at;
+  for (at[u] = low[u]; at[u] <= high[u]; ++at[u]) {
+    for (at[v] = low[v]; at[v] <= high[v]; ++at[v]) {
+      const auto point = [&](int64_t k) {
+        LatticePoint p;
+        p[u] = first_[u] + at[u] * side_;
+        p[v] = first_[v] + at[v] * side_;
+        p[w] = first_[w] + k * side_;
+        return p;
+      };
+      if (!is_above_triangle(t, t.edges, w, point(0))) continue;
+      const bool front = is_in_front(t, point(0));
+      if (is_in_front(t, point(last)) == front) continue;
+      int64_t same = 0, other = last;  // on the two sides of the plane
+      while (other - same > 1) {
+        const int64_t middle = (same + other) / 2;
+        (is_in_front(t, point(middle)) == front ? same : other) = middle;
+      }
+      at[w] = other;
+      std::atomic_ref(steps_[index(at)]).fetch_add(front ? 1 : -1, std::memory_order_relaxed);
+    }
+  }
+}
+
+void WindingGrid::add_with_ray(const LatticeTriangle& triangle) {
+  const LatticeBox box = box_of(triangle);
+  if (box.min.x <= first_.x && first_.x <= box.max.x && box.min.y <= first_.y &&
+      first_.y <= box.max.y && box.min.z <= first_.z) {
+    const TriangleSetup t = make_setup(triangle);
+    if (is_above_triangle(t, t.edges, 2, first_))
+      ray_ += int32_t(t.normal[2] < 0) - int32_t(is_in_front(t, first_));
+  }
+  add(triangle);
+}
+
+void WindingGrid::finish(int32_t first) {
+  const size_t n = size_t(1) << side_log2_;
+  steps_[0] = first;
+  for (size_t i = 0; i < n; ++i) {
+    if (i > 0) steps_[i * n * n] += steps_[(i - 1) * n * n];
+    for (size_t j = 0; j < n; ++j) {
+      int32_t* const line = &steps_[(i * n + j) * n];
+      if (j > 0) *line += *(line - n);
+      for (size_t k = 1; k < n; ++k) line[k] += line[k - 1];
+    }
+  }
+}
+
+bool WindingGrid::are_of_grid(int levels, const std::vector<int32_t>& values) {
+  return values.empty() || values.size() == size_t(1) << 3 * level_of_grid(levels);
+}
+
+std::shared_ptr<const WindingGrid> WindingGrid::of_grid(int levels, std::vector<int32_t> values) {
+  SVDAG_ASSERT(are_of_grid(levels, values));
+  if (values.empty()) return nullptr;
+  const auto grid =
+      std::make_shared<WindingGrid>(levels, Cube(), level_of_grid(levels), nullptr);
+  grid->steps_ = std::move(values);
+  return grid;
+}
+
+}  // namespace svdag
