@@ -117,7 +117,7 @@ class PlaneContents {
   PlaneHeights heights_of(const int64_t n[3]) const;
   // Computes the key and prefetches its set. None if a height is, or may be, an integer.
   std::optional<Query> query(const PlaneHeights& plane, const OffsetRange& range,
-                             FilledSides sides) const;
+                             FilledSides sides = 0) const;
   // Returns the content, after computing it if it is not cached.
   PlaneAnswer find(const PlaneHeights& plane, const Query& query, PlaneMemoCounts* counts);
 

@@ -185,12 +185,14 @@ std::optional<SubDag> PlaneMemo::find(const AdmittedPlane& known, const Cube& cu
   ++counts_.queries;
   min_stored_level_ = known.min_stored_level;
   PlaneAnswer answer;
-  if (!find_node(known.number, cube.level, range, sides, &answer)) return std::nullopt;
+  // If both sides are filled, all is, but only if no voxel is between two offsets of the range.
+  const bool full = sides == (kLowSide | kHighSide);
+  if (!find_node(known.number, cube.level, range, full ? 0 : sides, &answer)) return std::nullopt;
   ++counts_.answered;
   witness->reset();
   if (const uint32_t w = answer.witness; w != kNoWitness)
     *witness = Witness{{w & 1023, w >> 10 & 1023, w >> 20}};
-  return SubDag{answer.node, answer.voxels};
+  return full ? full_->sub_dag(cube.level) : SubDag{answer.node, answer.voxels};
 }
 
 // The sides on which a cube at the plane has voxels: its extreme voxel there is clear of the plane
@@ -205,14 +207,7 @@ FilledSides PlaneMemo::sides_with_voxels(const Plane& p, int level,
 
 bool PlaneMemo::find_node(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
                           PlaneAnswer* out) {
-  if (sides != 0) {
-    if (sides == (kLowSide | kHighSide)) {
-      const SubDag full = full_->sub_dag(level);
-      *out = {-kFarOffset, kFarOffset, full.root, uint32_t(full.voxels), kNoWitness};
-      return true;
-    }
-    sides &= sides_with_voxels(planes_[number], level, range);
-  }
+  if (sides != 0) sides &= sides_with_voxels(planes_[number], level, range);
   if (level == contents_.level()) {
     const auto query = contents_.query(planes_[number].heights, range, sides);
     if (!query) return compute(number, level, range, sides, out);

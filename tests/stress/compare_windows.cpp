@@ -4,6 +4,7 @@
 
 #include "tests/stress/centre_lines.h"
 #include "tests/stress/paths.h"
+#include "verify/judge/centre_lines.h"
 #include "verify/judge/clip_judge.h"
 
 namespace svdag {
@@ -34,7 +35,8 @@ VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
   Grid grid = spot.grid;
   // The parity of the region's corner is a random choice, so small triangles are tested in both
   // ways.
-  const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0;
+  const bool whole = all_small(spot, triangles) && (spot.region.min.x & 1) == 0 &&
+                     !is_solid(config.rule);  // a start cube inside may have any number of bricks
   if (!whole) {
     grid.bounded = true;
     grid.selection = spot.region;
@@ -49,16 +51,39 @@ VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
 
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles) {
   VoxelRegion region(spot.region);
+  const LatticePoint sides = spot.region.max - spot.region.min;
+  const auto place = [&](const LatticePoint& voxel) {
+    const LatticePoint p = voxel - spot.region.min;
+    return size_t((p.x * sides.y + p.y) * sides.z + p.z);
+  };
+  std::vector<int32_t> windings(is_solid(rule) ? place(spot.region.max) : 0);  // changes along z
   Clipper clipper;
   for (const LatticeTriangle& t : triangles) {
     if (rule == Rule::kThin) {
       add_thin_voxels(t, spot.grid.fraction(), &region);
       continue;
     }
+    if (is_solid(rule)) {
+      winding_changes(t, spot.grid.fraction(), spot.region,
+                      [&](const LatticePoint& voxel, int change) {
+                        windings[place(voxel)] += change;
+                      });
+    }
     clipper.run(t, spot.grid.fraction(), spot.region, [&](const CellRun& run) {
       LatticePoint voxel = run.first;
       for (int64_t i = 0; i < run.count; ++i, ++voxel[run.axis]) region.set(voxel);
     });
+  }
+  if (!is_solid(rule)) return region;
+  LatticePoint at = spot.region.min;
+  for (; at.x < spot.region.max.x; ++at.x) {
+    for (at.y = spot.region.min.y; at.y < spot.region.max.y; ++at.y) {
+      int32_t winding = 0;
+      for (at.z = spot.region.min.z; at.z < spot.region.max.z; ++at.z) {
+        winding += windings[place(at)];
+        if (is_inside(rule, winding)) region.set(at);
+      }
+    }
   }
   return region;
 }

@@ -26,7 +26,8 @@ struct Tally {
 VoxelRegion voxelized(const Spot& spot, const DescentConfig& config,
                       std::span<const LatticeTriangle> triangles, uint64_t* outside = nullptr);
 // The region as the judge sets it: conservative by clipping (verify/judge/clip_judge.h), thin by
-// the crossings of centre lines (tests/stress/centre_lines.h).
+// the crossings of centre lines (tests/stress/centre_lines.h), solid by winding numbers
+// (verify/judge/centre_lines.h).
 VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle> triangles);
 
 // Compares the voxelizer in its default configuration with the judge, and also one of its other

@@ -40,6 +40,15 @@ range_families();  // coordinates up to the bit limits of the exact tests, and b
 std::vector<Family> patch_families();  // several triangles that are nearly one plane
 std::vector<Family> all_families();
 
+// A solid of which `soup` is a part: each triangle becomes a tetrahedron with the vertex `apex`.
+inline Soup closed_up(const Soup& soup, const LatticePoint& apex) {
+  Soup closed = soup;
+  for (const LatticeTriangle& t : soup) {
+    for (size_t i = 0; i < 3; ++i) closed.push_back({{t.v[(i + 1) % 3], t.v[i], apex}});
+  }
+  return closed;
+}
+
 // The triangle with two given vertices whose centroid is `at`.
 inline LatticeTriangle around_centroid(const LatticePoint& at, const LatticePoint& a,
                                        const LatticePoint& b) {

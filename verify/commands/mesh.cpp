@@ -37,13 +37,16 @@ struct Judgement : SceneFacts {
   }
 };
 
-std::vector<LatticeTriangle> load(const Scene& scene, const Grid& grid, uint64_t count,
+std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint64_t count,
                                   SnapCounts* snapped) {
   std::vector<LatticeTriangle> triangles;
   triangles.reserve(count);
-  *snapped = stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    triangles.insert(triangles.end(), batch.begin(), batch.end());
-  });
+  *snapped = stream_snapped(
+      scene, file.grid(),
+      [&](std::span<const LatticeTriangle> batch) {
+        triangles.insert(triangles.end(), batch.begin(), batch.end());
+      },
+      is_solid(file.rule()));
   return triangles;
 }
 
@@ -56,7 +59,7 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
       judged.budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
   judged.progress.phase("reading the scene", 0);
   SnapCounts snapped;
-  const std::vector<LatticeTriangle> triangles = load(judged.scene, file.grid(), count, &snapped);
+  const std::vector<LatticeTriangle> triangles = load(judged.scene, file, count, &snapped);
   Comparison& comparison = result->comparison;
   comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
   judge_header(file, comparison.file_voxels, snapped, &result->grid);
@@ -90,7 +93,7 @@ Comparison judge_layer(const MeshConfig& config, const JudgeChoice& choice, cons
         .comparison;
   }
   SnapCounts snapped;
-  const std::vector<LatticeTriangle> triangles = load(scene, file.grid(), 0, &snapped);
+  const std::vector<LatticeTriangle> triangles = load(scene, file, 0, &snapped);
   Comparison comparison =
       compare_all(dag, file.grid(), triangles, choice, executor, judged.progress);
   if (comparison.file_voxels != entry.voxels)

@@ -2,7 +2,7 @@
 
 #include "streaming/error.h"
 #include "verify/judge/judge_cgal.h"
-#include "verify/judge/thin.h"
+#include "verify/judge/centre_lines.h"
 
 namespace svdag {
 namespace {
@@ -57,7 +57,10 @@ const char* name_of(JudgeChoice::Kind kind) {
 }
 
 const char* description_of(JudgeChoice::Kind kind, Rule rule) {
-  if (kind == JudgeChoice::Kind::kCgal) return "CGAL's exact kernel";
+  if (kind == JudgeChoice::Kind::kCgal)
+    return is_solid(rule) ? "CGAL's exact kernel, winding numbers along lines of centres"
+                          : "CGAL's exact kernel";
+  if (is_solid(rule)) return "exact clipping, winding numbers along lines of centres";
   return rule == Rule::kThin ? "exact lines of centres" : "exact clipping";
 }
 

@@ -1,12 +1,13 @@
 // The interface of the two judges that decide which voxels a triangle sets.
 //
 //   integer   clips the triangle by columns of cells, or enumerates its lines of centres, in
-//             integers (clip_judge.h, thin.h)
+//             integers (clip_judge.h, centre_lines.h)
 //   cgal      tests one cell after the other with CGAL's exact kernel (judge_cgal.h)
 //
 // They share neither arithmetic nor method, except for the box of cells that they test
-// (touched_cells.h), so each detects errors of the other. Both judge both rules
-// (docs/accuracy.md). A judge reuses scratch memory: one per thread.
+// (touched_cells.h), so each detects errors of the other. Both judge every rule
+// (docs/accuracy.md); of the solid rules they judge the touched voxels, and winding numbers decide
+// the others (sample/solid.h). A judge reuses scratch memory: one per thread.
 #pragma once
 
 #include <memory>

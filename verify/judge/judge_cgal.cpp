@@ -58,7 +58,7 @@ class CgalJudge final : public Judge {
 
   void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
               const Sink& sink) override {
-    if (rule_ == Rule::kConservative) return cells(triangle, fraction, window, sink);
+    if (rule_ != Rule::kThin) return cells(triangle, fraction, window, sink);
     // A shifted centre segment is in its closed voxel except for d. As e tends to 0 the crossing
     // persists, so a triangle that crosses it meets the closed voxel.
     cells(triangle, fraction, window, [&](const CellRun& voxel) {

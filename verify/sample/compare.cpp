@@ -4,6 +4,7 @@
 #include <bit>
 #include <memory>
 
+#include "verify/sample/solid.h"
 #include "verify/sample/tile.h"
 
 namespace svdag {
@@ -83,18 +84,21 @@ void collect_nodes(const DagView& dag, uint32_t tile_level, uint32_t level, uint
   }
 }
 
-// Merges the two sorted lists: one entry per tile that occurs in either.
+// Merges the three sorted lists: one entry per tile that occurs in any.
 std::vector<TileWork> merge_tile_lists(std::span<const TileTriangle> triangles,
-                                       std::span<const TileNode> nodes) {
+                                       std::span<const TileNode> nodes,
+                                       std::span<const uint64_t> inside) {
   std::vector<TileWork> work;
-  size_t t = 0, n = 0;
-  while (t < triangles.size() || n < nodes.size()) {
+  size_t t = 0, n = 0, i = 0;
+  while (t < triangles.size() || n < nodes.size() || i < inside.size()) {
     const uint64_t from_triangle = t < triangles.size() ? triangles[t].tile : UINT64_MAX;
     const uint64_t from_node = n < nodes.size() ? nodes[n].tile : UINT64_MAX;
-    TileWork tile{std::min(from_triangle, from_node), kNoChild, t, t};
+    const uint64_t from_inside = i < inside.size() ? inside[i] : UINT64_MAX;
+    TileWork tile{std::min({from_triangle, from_node, from_inside}), kNoChild, t, t};
     while (t < triangles.size() && triangles[t].tile == tile.tile) ++t;
     tile.end = t;
     if (from_node == tile.tile) tile.node = nodes[n++].node;
+    if (from_inside == tile.tile) ++i;
     work.push_back(tile);
   }
   return work;
@@ -104,8 +108,13 @@ std::vector<TileWork> merge_tile_lists(std::span<const TileTriangle> triangles,
 class TileComparison {
  public:
   TileComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
-                 std::span<const TileTriangle> lists, Judge& judge)
-      : dag_(dag), grid_(grid), triangles_(triangles), lists_(lists), judge_(judge) {}
+                 std::span<const TileTriangle> lists, const SolidColumns& solid, Judge& judge)
+      : dag_(dag),
+        grid_(grid),
+        triangles_(triangles),
+        lists_(lists),
+        solid_(solid),
+        judge_(judge) {}
 
   void compare(const TileWork& work, Comparison* result) {
     const int levels = tile_levels(grid_.levels);
@@ -113,6 +122,7 @@ class TileComparison {
     own_->clear();
     file_->clear();
     voxelize(work, corner, int64_t(1) << levels);
+    solid_.fill(corner, int64_t(1) << levels, own_.get());
     if (work.node != kNoChild)
       fill_tile(dag_, dag_.levels - uint32_t(levels), work.node, 0, file_.get());
     for (uint64_t code = 0; code < uint64_t(1) << (3 * (levels - 2)); ++code) {
@@ -139,6 +149,7 @@ class TileComparison {
   const Grid& grid_;
   std::span<const LatticeTriangle> triangles_;
   std::span<const TileTriangle> lists_;
+  const SolidColumns& solid_;
   Judge& judge_;
   std::unique_ptr<Tile> own_ = std::make_unique<Tile>();
   std::unique_ptr<Tile> file_ = std::make_unique<Tile>();
@@ -183,12 +194,13 @@ Comparison compare_all(const DagView& dag, const Grid& grid,
   std::vector<TileNode> nodes;
   const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
   if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
-  const std::vector<TileWork> work = merge_tile_lists(lists, nodes);
+  const SolidColumns solid(grid, choice.rule, triangles);
+  const std::vector<TileWork> work = merge_tile_lists(lists, nodes, solid.tiles());
 
   progress.phase("comparing", work.size());
   std::vector<TileComparison> comparisons;
   for (size_t i = 0; i < executor.workers(); ++i)
-    comparisons.emplace_back(dag, grid, triangles, lists, *judges[i]);
+    comparisons.emplace_back(dag, grid, triangles, lists, solid, *judges[i]);
   std::vector<Comparison> parts(chunks(work.size(), kTileChunk));
   executor.for_each(parts.size(), [&](size_t worker, size_t chunk) {
     const size_t end = std::min(work.size(), (chunk + 1) * kTileChunk);

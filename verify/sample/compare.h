@@ -3,7 +3,7 @@
 // The grid is divided into tiles. A tile is visited iff a triangle meets its closed cube or the DAG
 // has a node for it; all other tiles are empty on both sides. The same judge finds the triangles of
 // a tile, with the tile as the cell: a triangle that touches a voxel touches its tile, so none is
-// missed.
+// missed. With a solid rule, tiles that the judge finds inside are visited as well.
 #pragma once
 
 #include <cstdint>

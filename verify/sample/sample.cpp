@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <optional>
 
 #include "verify/judge/touched_cells.h"
+#include "verify/sample/solid.h"
 
 namespace svdag {
 namespace {
@@ -100,13 +102,17 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
 
   BrickSample sample(grid, std::move(codes));
+  std::optional<SolidBricks> solid;
+  if (is_solid(choice.rule)) solid.emplace(grid, sample.codes());
   std::vector<LatticeTriangle> gathered;
   const auto flush = [&] {
     executor.for_each((gathered.size() + kTaskTriangles - 1) / kTaskTriangles,
                       [&](size_t worker, size_t task) {
                         const size_t end = std::min(gathered.size(), (task + 1) * kTaskTriangles);
-                        for (size_t i = task * kTaskTriangles; i < end; ++i)
+                        for (size_t i = task * kTaskTriangles; i < end; ++i) {
                           sample.add(gathered[i], *judges[worker]);
+                          if (solid) solid->add(gathered[i]);
+                        }
                       });
     progress.advance(gathered.size());
     gathered.clear();
@@ -115,9 +121,11 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
     gathered.insert(gathered.end(), batch.begin(), batch.end());
     if (gathered.size() >= kBatchTriangles) flush();
-  });
+  }, solid.has_value());
   flush();
   progress.finish();
+  for (size_t i = 0; solid && i < sample.codes().size(); ++i)
+    sample.set(i, solid->inside(choice.rule, i));
   SampleComparison result;
   result.comparison = sample.compare(dag);
   result.file = {draw.file.size(), sample.count_wrong(dag, draw.file)};

@@ -55,6 +55,9 @@ class BrickSample {
 
   // Adds the voxels that a triangle sets. Calls may run concurrently if each has its own judge.
   void add(const LatticeTriangle& triangle, Judge& judge);
+  // Sets further voxels, of brick `index`.
+  void set(size_t index, Brick voxels) { bricks_[index] |= voxels; }
+  const std::vector<uint64_t>& codes() const { return codes_; }
   Comparison compare(const DagView& dag) const;
   // The number of these draws that gave a wrong brick. All must be in the sample.
   uint64_t count_wrong(const DagView& dag, const std::vector<uint64_t>& draws) const;

@@ -27,7 +27,8 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 
 }  // namespace
 
-SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink) {
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
+                          bool outside) {
   const Lattice lattice(grid);
   const LatticeBox whole = grid.closed(grid.whole()), selection = grid.closed(grid.selection);
   SnapCounts counts;
@@ -40,11 +41,9 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
       for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &move);
       const LatticeBox box = box_of(q);
       if (box.meets(selection)) counts.largest_move = std::max(counts.largest_move, move);
-      if (whole.meets(box)) {
-        snapped.push_back(q);
-      } else {
-        ++counts.outside;
-      }
+      const bool meets = whole.meets(box);
+      counts.outside += !meets;
+      if (meets || outside) snapped.push_back(q);
     }
     if (!snapped.empty()) sink(snapped);
   });

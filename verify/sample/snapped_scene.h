@@ -19,8 +19,10 @@ struct SnapCounts {
 
 using SnappedSink = std::function<void(std::span<const LatticeTriangle>)>;
 
-// Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches.
-SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink);
+// Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; with
+// `outside`, as winding numbers need it, all triangles.
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
+                          bool outside = false);
 
 // The result of comparing the file's grid with the scene's bounds.
 struct GridJudgement {

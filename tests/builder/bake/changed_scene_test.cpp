@@ -26,7 +26,7 @@ class ActingStore final : public CellStore {
  public:
   explicit ActingStore(Action action) : action_(std::move(action)) {}
 
-  CellKey key(const Cube&, const TriangleList&) const override {
+  CellKey key(const Cube&, const TriangleList&, int32_t) const override {
     std::call_once(once_, action_);
     return {};
   }

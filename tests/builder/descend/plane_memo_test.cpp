@@ -86,7 +86,10 @@ TEST(PlaneMemo, ComputesAboutOneNodePerNodeOfTheResult) {
   uint64_t voxels = 0;
   for (int64_t i = 0; i < 64 * 64 * 64; ++i) {
     const Cube cube{kLevels - 6, {i >> 12, i >> 6 & 63, i & 63}};
-    if (const auto dag = memo.find(*known, cube)) voxels += dag->voxels;
+    std::optional<Witness> witness;
+    const auto range = offsets_in_column(known->plane, cube.corner(kLevels),
+                                         int64_t(1) << cube.side_log2(kLevels));
+    if (const auto dag = memo.find(*known, cube, *range, 0, &witness)) voxels += dag->voxels;
   }
   table.flush();
   uint64_t unique = 0;

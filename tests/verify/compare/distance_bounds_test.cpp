@@ -10,7 +10,7 @@
 #include "tests/voxel_sets.h"
 #include "verify/compare/centre_distance.h"
 #include "verify/judge/judge_vdb.h"
-#include "verify/judge/thin.h"
+#include "verify/judge/centre_lines.h"
 #include "verify/sample/window_triangles.h"
 
 namespace svdag {

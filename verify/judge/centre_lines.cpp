@@ -1,4 +1,4 @@
-#include "verify/judge/thin.h"
+#include "verify/judge/centre_lines.h"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -9,13 +9,20 @@ namespace {
 
 using Int256 = boost::multiprecision::int256_t;
 
-// Intersects one triangle with the lines of centres, one axis at a time.
-template <class Int>
+// Intersects one triangle with the lines of centres of an axis. visit(voxel, up) is called for each
+// line that crosses it, with the coordinate on the axis that is floor((height - offset) / S), and
+// with the side that the normal points to.
+template <class Int, class Visit>
 class CentreLines {
  public:
-  CentreLines(const LatticeTriangle& t, int shift, const VoxelBox& window,
-              const Clipper::Sink& sink)
-      : t_(t), shift_(shift), half_(int64_t(1) << shift >> 1), window_(window), sink_(sink) {
+  CentreLines(const LatticeTriangle& t, int shift, int64_t offset, const VoxelBox& window,
+              const Visit& visit)
+      : t_(t),
+        shift_(shift),
+        half_(int64_t(1) << shift >> 1),
+        offset_(offset),
+        window_(window),
+        visit_(visit) {
     const LatticePoint a = t.v[1] - t.v[0], b = t.v[2] - t.v[0];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -23,10 +30,9 @@ class CentreLines {
     }
   }
 
-  void run() {
-    for (w_ = 0; w_ < 3; ++w_) {
-      if (normal_[w_] != 0) along_axis();
-    }
+  void run(int axis) {
+    w_ = axis;
+    if (normal_[w_] != 0) along_axis();
   }
 
  private:
@@ -71,17 +77,15 @@ class CentreLines {
     const LatticePoint& p = t_.v[0];
     Division<Int> at(-(n_[u_] * (centre(begin) - p[u_]) + n_[v_] * (centre(m) - p[v_])), n_[w_]);
     for (int64_t j = begin; j < end; ++j) {
-      const Rounded height = at.plus(p[w_]);
+      const Rounded height = at.plus(p[w_] - offset_);
       int64_t k = height.floor >> shift_;
       const bool on_plane = height.floor == height.ceil && k << shift_ == height.floor;
       if (on_plane && !up_) --k;
-      if (k >= window_.min[w_] && k < window_.max[w_]) {
-        CellRun run{LatticePoint(0), w_, 1};
-        run.first[u_] = j;
-        run.first[v_] = m;
-        run.first[w_] = k;
-        sink_(run);
-      }
+      LatticePoint voxel;
+      voxel[u_] = j;
+      voxel[v_] = m;
+      voxel[w_] = k;
+      visit_(voxel, normal_[w_] > 0);
       at.quotient += step_.quotient;
       at.remainder += step_.remainder;
       if (at.remainder >= n_[w_]) {
@@ -94,24 +98,45 @@ class CentreLines {
   const LatticeTriangle& t_;
   int shift_;
   int64_t half_;
+  int64_t offset_;
   VoxelBox window_;
-  const Clipper::Sink& sink_;
+  const Visit& visit_;
   std::array<Int, 3> normal_, n_;  // n_: the normal or its opposite, with n_w > 0
   int u_ = 0, v_ = 0, w_ = 0;
   bool up_ = false;  // true if d moves a height on a voxel plane upwards
   Division<Int> step_{0, 1};
 };
 
+template <class Visit>
+void visit_lines(const LatticeTriangle& triangle, int shift, int64_t offset, int axis,
+                 const VoxelBox& window, const Visit& visit) {
+  if (fits_int128(triangle)) {
+    CentreLines<Int128, Visit>(triangle, shift, offset, window, visit).run(axis);
+  } else {
+    CentreLines<Int256, Visit>(triangle, shift, offset, window, visit).run(axis);
+  }
+}
+
 }  // namespace
 
 void thin_voxels(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
                  const Clipper::Sink& sink) {
   if (window.empty()) return;
-  if (fits_int128(triangle)) {
-    CentreLines<Int128>(triangle, shift, window, sink).run();
-  } else {
-    CentreLines<Int256>(triangle, shift, window, sink).run();
+  for (int w = 0; w < 3; ++w) {
+    visit_lines(triangle, shift, 0, w, window, [&](const LatticePoint& voxel, bool) {
+      if (voxel[w] >= window.min[w] && voxel[w] < window.max[w]) sink({voxel, w, 1});
+    });
   }
+}
+
+void winding_changes(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
+                     const WindingSink& sink) {
+  if (window.empty()) return;
+  const int64_t half = int64_t(1) << shift >> 1;
+  visit_lines(triangle, shift, half, 2, window, [&](LatticePoint voxel, bool up) {
+    voxel.z = std::max(voxel.z + 1, window.min.z);  // the first centre above the crossing
+    if (voxel.z < window.max.z) sink(voxel, up ? -1 : 1);
+  });
 }
 
 }  // namespace svdag

@@ -1,5 +1,5 @@
 // Tests of the judge of the rule thin: against the rule's definition, and the rule's properties.
-#include "verify/judge/thin.h"
+#include "verify/judge/centre_lines.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,5 +1,5 @@
-// The judge's own voxelizer for the rule thin: intersects lines of centres with the triangle, in
-// integers.
+// The judge's own voxelizer for the rule thin, and its winding numbers for the rules solid:
+// intersects lines of centres with the triangle, in integers.
 //
 // Definition (docs/accuracy.md, rule thin): voxel k has the centre c = (k + 1/2) * S, S = 2^shift.
 // With all centres shifted by the symbolic d = (e, e^2, e^3), e > 0 smaller than any number that
@@ -26,6 +26,17 @@
 #include "verify/judge/clip_judge.h"
 
 namespace svdag {
+
+// Rules solid: the winding number at the centre of an untouched voxel is summed up along its line of
+// centres, which comes from outside of the scene along z. A crossing between the centres k and
+// k + 1 counts for k + 1 and above.
+using WindingSink = std::function<void(const LatticePoint& voxel, int change)>;
+
+// Calls sink(voxel, change) for each line of centres along z in `window` that the triangle crosses:
+// from `voxel` upwards, the winding numbers in the window change. Triangles below the window count;
+// all triangles of a closed surface together give the winding numbers.
+void winding_changes(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
+                     const WindingSink& sink);
 
 // Passes every voxel of `window` that the triangle sets to `sink`, at most once per axis.
 void thin_voxels(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
