@@ -1,6 +1,7 @@
 #include "builder/overlap/crossing.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "builder/overlap/exact_voxel.h"
@@ -52,53 +53,89 @@ bool is_in_front(const TriangleSetup& t, const LatticePoint& x) noexcept {
   return is_above_plane(t, x);
 }
 
-int crossing(const ListedTriangle& entry, int w, const LatticePoint& from,
-             const LatticePoint& to) noexcept {
-  const TriangleSetup& t = *entry.triangle;
-  const int u = (w + 1) % 3, v = (w + 2) % 3;
-  if (!spans(t, u, from[u]) || !spans(t, v, from[v]) ||
-      std::max(from[w], to[w]) < t.box.min[w] || std::min(from[w], to[w]) > t.box.max[w] ||
-      !is_above_triangle(t, entry.edges, w, from))
-    return 0;
-  return int(is_in_front(t, from)) - int(is_in_front(t, to));
-}
-
 int crossings(std::span<const ListedTriangle> list, const LatticePoint& from,
               const LatticePoint& to) noexcept {
+  // The corners of the path.
+  const LatticePoint at[4] = {from, {to.x, from.y, from.z}, {to.x, to.y, from.z}, to};
   int sum = 0;
-  LatticePoint at = from;
-  for (int w = 0; w < 3; ++w) {
-    if (from[w] == to[w]) continue;
-    LatticePoint next = at;
-    next[w] = to[w];
-    for (const ListedTriangle& entry : list) sum += crossing(entry, w, at, next);
-    at = next;
+  for (const ListedTriangle& entry : list) {
+    const TriangleSetup& t = *entry.triangle;
+    bool front = is_in_front(t, from);
+    for (int w = 0; w < 3; ++w) {
+      if (from[w] == to[w]) continue;
+      const bool next = is_in_front(t, at[w + 1]);
+      const int u = (w + 1) % 3, v = (w + 2) % 3;
+      if (next != front && spans(t, u, at[w][u]) && spans(t, v, at[w][v]) &&
+          is_above_triangle(t, entry.edges, w, at[w]))
+        sum += front ? 1 : -1;
+      front = next;
+    }
   }
   return sum;
 }
+
+namespace {
+
+// Bit c: whether the point first + half * (c >> 2 & 1, c >> 1 & 1, c & 1) is in front of the plane.
+unsigned fronts_of_children(const TriangleSetup& t, const LatticePoint& first,
+                            int64_t half) noexcept {
+  const LatticePoint& a = t.triangle.v[0];
+  const double r[3] = {double(first.x - a.x), double(first.y - a.y), double(first.z - a.z)};
+  const double at_first = (t.normal[0] * r[0] + t.normal[1] * r[1]) + t.normal[2] * r[2];
+  const double h = double(half);
+  const double step[3] = {t.normal[0] * h, t.normal[1] * h, t.normal[2] * h};
+  // As error_at() of a point that is half a side farther; the steps add 3 roundings more.
+  const double error =
+      error_at(std::max({std::abs(r[0]), std::abs(r[1]), std::abs(r[2])}) + h);
+  unsigned fronts = 0, unsure = 0;
+  for (unsigned c = 0; c < 8; ++c) {
+    const double value = at_first + (((c & 4) != 0 ? step[0] : 0) + ((c & 2) != 0 ? step[1] : 0) +
+                                     ((c & 1) != 0 ? step[2] : 0));
+    fronts |= unsigned(value > error) << c;
+    unsure |= unsigned(std::abs(value) <= error) << c;
+  }
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const unsigned c = unsigned(std::countr_zero(unsure));
+    const LatticePoint x =
+        first + LatticePoint((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
+    fronts |= unsigned(is_above_plane(t, x)) << c;
+  }
+  return fronts;
+}
+
+}  // namespace
 
 void windings_of_children(std::span<const ListedTriangle> list, const LatticePoint& corner,
                           int64_t side, int fraction, int32_t winding, int32_t out[8]) noexcept {
   const LatticePoint first = first_centre(corner, fraction);
   const int64_t half = side / 2;
-  // step[c]: the change from the child without c's lowest set axis, z before y before x.
+  // step[c]: along the segment to child c from the child without c's lowest set axis, z before y
+  // before x.
   int32_t step[8] = {};
   for (const ListedTriangle& entry : list) {
-    const LatticeBox& box = entry.triangle->box;
+    const TriangleSetup& t = *entry.triangle;
+    const LatticeBox& box = t.box;
     unsigned in[3];  // bit i: the box contains coordinate first + i half
     for (int a = 0; a < 3; ++a) {
       in[a] = unsigned(box.min[a] <= first[a] && first[a] <= box.max[a]) |
               unsigned(box.min[a] <= first[a] + half && first[a] + half <= box.max[a]) << 1;
     }
-    // At most one of the three coordinates of a crossed segment is outside of the box.
-    if ((in[0] == 0) + (in[1] == 0) + (in[2] == 0) > 1) continue;
-    for (unsigned c = 1; c < 8; ++c) {
+    // The segments whose line passes through the box, by the child that they lead to.
+    unsigned crossed = (in[0] & 1) * ((in[1] & 1) << 1 | (in[1] & 2) << 2) |
+                       (in[0] >> 1) * ((in[1] & 1) << 5 | (in[1] & 2) << 6) |
+                       (in[2] & 1) * ((in[0] & 1) << 2 | (in[0] & 2) << 5 | (in[1] & 1) << 4);
+    if (crossed == 0) continue;
+    const unsigned fronts = fronts_of_children(t, first, half);
+    // Of these, those whose ends are on different sides of the plane.
+    const unsigned along_z = (fronts ^ fronts << 1) & 0b10101010;
+    const unsigned along_y = (fronts ^ fronts << 2) & 0b01000100;
+    const unsigned along_x = (fronts ^ fronts << 4) & 0b00010000;
+    for (crossed &= along_x | along_y | along_z; crossed != 0; crossed &= crossed - 1) {
+      const unsigned c = unsigned(std::countr_zero(crossed));
       const int w = (c & 1) != 0 ? 2 : ((c & 2) != 0 ? 1 : 0);
-      const LatticePoint to = first + LatticePoint((c >> 2 & 1) * half, (c >> 1 & 1) * half,
-                                                   (c & 1) * half);
-      LatticePoint from = to;
-      from[w] -= half;
-      step[c] += crossing(entry, w, from, to);
+      const LatticePoint to =
+          first + LatticePoint((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
+      if (is_above_triangle(t, entry.edges, w, to)) step[c] += (fronts >> c & 1) != 0 ? -1 : 1;
     }
   }
   out[0] = winding;
@@ -124,7 +161,7 @@ Brick connected_voxels(Brick seed, Brick voxels) noexcept {
               odd >> axis.inner | (even & ~axis.first) >> (axis.outer - axis.inner);
     }
     next &= voxels;
-    if (next == reached) return reached;
+    if (next == reached || next == voxels) return next;
     reached = next;
   }
 }

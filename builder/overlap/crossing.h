@@ -36,12 +36,8 @@ bool is_above_triangle(const TriangleSetup& t, EdgeMask edges, int w,
 // Whether x is on the front side of the plane of a triangle that has an area.
 bool is_in_front(const TriangleSetup& t, const LatticePoint& x) noexcept;
 
-// The winding number at `to` minus that at `from`, as far as the entry's triangle changes it. The
-// points differ on axis w alone; both are in the cube of which `entry` is a list entry.
-int crossing(const ListedTriangle& entry, int w, const LatticePoint& from,
-             const LatticePoint& to) noexcept;
-
-// The same for a list, along up to three segments, in the order x, y, z of axes.
+// The winding number at `to` minus that at `from`, points of the cube of which `list` is the list:
+// the crossings along up to three segments, in the order x, y, z.
 int crossings(std::span<const ListedTriangle> list, const LatticePoint& from,
               const LatticePoint& to) noexcept;
 

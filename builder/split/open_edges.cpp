@@ -51,7 +51,7 @@ OpenEdges find_open_edges(const Scene& scene, const Grid& grid) {
               });
   OpenEdges open;
   open.closed_mod_2 = all.is_closed_mod_2();
-  std::map<BoundaryChain::Sum, OpenEnd> ends;
+  std::map<HashSum::Hash, OpenEnd> ends;
   std::vector<std::string> parts;
   uint64_t order = 0;
   stream_ends(scene, grid,

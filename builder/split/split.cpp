@@ -91,9 +91,24 @@ void require_different_names(const std::vector<std::string>& paths) {
   }
 }
 
+BoundaryChain boundary_chain(const Scene& scene, const Grid& grid) {
+  const Lattice lattice(grid);
+  BoundaryChain chain;
+  scene.stream([&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles)
+      chain.add(LatticeTriangle{{lattice.snap(t.v[0]), lattice.snap(t.v[1]), lattice.snap(t.v[2])}});
+  });
+  return chain;
+}
+
 // Error (kBadInput) unless the rule is defined for the surface.
-void require_closed(const Scene& scene, const Grid& grid, Rule rule, const BoundaryChain& chain) {
-  if (rule == Rule::kSolid ? chain.is_closed() : chain.is_closed_mod_2()) return;
+void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeSum& edges) {
+  const auto is_closed = [rule](const auto& sum) {
+    return rule == Rule::kSolid ? sum.is_closed() : sum.is_closed_mod_2();
+  };
+  if (is_closed(edges)) return;
+  const BoundaryChain chain = boundary_chain(scene, grid);
+  if (is_closed(chain)) return;
   throw Error(ExitCode::kBadInput,
               describe(find_open_edges(scene, grid)) +
                   (chain.is_closed_mod_2()
@@ -118,7 +133,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     windings = std::make_shared<WindingGrid>(grid.levels, Cube(),
                                              WindingGrid::level_of_grid(grid.levels), budget);
   }
-  BoundaryChain chain;
+  EdgeSum edges;
   const LatticeBox whole = grid.closed(grid.whole());
   const bool layered = config.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
@@ -133,7 +148,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       counts.clipped += placement == BoxPlacement::kClipped;
       if (windings) {
         windings->add_with_ray(snapped);
-        chain.add(snapped);
+        edges.add(snapped);
       }
       if (placement == BoxPlacement::kOutside) {
         if (windings && box_of(snapped).meets(whole)) store.add(snapped);
@@ -146,7 +161,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     if (config.on_batch) config.on_batch(batch.triangles.size());
   });
   store.finish(&result);
-  if (is_solid(config.rule)) require_closed(scene, grid, config.rule, chain);
+  if (is_solid(config.rule)) require_closed(scene, grid, config.rule, edges);
   if (windings) windings->finish();
   result.windings = std::move(windings);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());

@@ -10,6 +10,11 @@
 // key: a point and a direction determine the line. The sum is 0 for closed surfaces, and otherwise
 // not, but for a probability of 2^-128 a scene. Edges of zero length add nothing, and neither do
 // the edges of a triangle of zero area, together. Modulo 2, directions do not matter.
+//
+// Most closed scenes have no T-junctions, and primitive directions take a greatest common divisor
+// for each edge. EdgeSum is cheaper: each directed edge adds or takes away the hash of its two
+// ends, so it vanishes if edges match each other one by one. The chain decides only where it does
+// not.
 // Rejected: a table of all edges (the largest scenes do not fit), and a fixed key (a scene could be
 // made to look closed).
 #pragma once
@@ -21,28 +26,54 @@
 
 namespace svdag {
 
+// A sum of 128-bit hashes, and their sum modulo 2.
+class HashSum {
+ public:
+  using Hash = std::array<uint64_t, 2>;
+
+  void add(const Hash& hash, bool positive) {
+    for (size_t i = 0; i < 2; ++i) {
+      sum_[i] += positive ? hash[i] : -hash[i];
+      parity_[i] ^= hash[i];
+    }
+  }
+  bool is_zero() const { return sum_ == Hash{}; }
+  bool is_zero_mod_2() const { return parity_ == Hash{}; }
+
+ private:
+  Hash sum_{}, parity_{};
+};
+
+// The hash of two points, with the key of this process.
+HashSum::Hash hash_of_points(const LatticePoint& a, const LatticePoint& b) noexcept;
+
+class EdgeSum {
+ public:
+  void add(const LatticeTriangle& triangle);
+  // Whether the edges match one by one: then the surface is closed.
+  bool is_closed() const { return sum_.is_zero(); }
+  bool is_closed_mod_2() const { return sum_.is_zero_mod_2(); }
+
+ private:
+  HashSum sum_;
+};
+
 class BoundaryChain {
  public:
-  using Sum = std::array<uint64_t, 2>;
   // The end of an edge: it adds `sum` if the edge ends there, else takes it away.
   struct EdgeEnd {
     LatticePoint point;
-    Sum hash;
+    HashSum::Hash hash;
     bool adds;
   };
 
   void add(const LatticeTriangle& triangle) {
     for_each_end(triangle, [&](const EdgeEnd& end) { add(end); });
   }
-  void add(const EdgeEnd& end) {
-    for (size_t i = 0; i < 2; ++i) {
-      sum_[i] += end.adds ? end.hash[i] : -end.hash[i];
-      parity_[i] ^= end.hash[i];
-    }
-  }
-  bool is_closed() const { return sum_ == Sum{}; }
+  void add(const EdgeEnd& end) { sum_.add(end.hash, end.adds); }
+  bool is_closed() const { return sum_.is_zero(); }
   // Closed if every edge may be passed in either direction.
-  bool is_closed_mod_2() const { return parity_ == Sum{}; }
+  bool is_closed_mod_2() const { return sum_.is_zero_mod_2(); }
 
   // Calls visit(end) for the two ends of each edge that has a length.
   template <class Visit>
@@ -51,17 +82,16 @@ class BoundaryChain {
       const LatticePoint &a = triangle.v[i], &b = triangle.v[(i + 1) % 3];
       if (a == b) continue;
       const LatticePoint d = primitive_direction(a, b);
-      visit(EdgeEnd{b, hash_of(d, b), true});
-      visit(EdgeEnd{a, hash_of(d, a), false});
+      visit(EdgeEnd{b, hash_of_points(d, b), true});
+      visit(EdgeEnd{a, hash_of_points(d, a), false});
     }
   }
 
  private:
   // With its first nonzero component positive, the same for both directions of an edge.
   static LatticePoint primitive_direction(const LatticePoint& a, const LatticePoint& b) noexcept;
-  static Sum hash_of(const LatticePoint& direction, const LatticePoint& point) noexcept;
 
-  Sum sum_{}, parity_{};
+  HashSum sum_;
 };
 
 }  // namespace svdag
