@@ -78,15 +78,14 @@ OpenEdges find_open_edges(const Scene& scene, const Grid& grid) {
     if (std::ranges::find(open.parts, parts[end.part]) == open.parts.end())
       open.parts.push_back(parts[end.part]);
   }
-  open.edges = count / 2;
+  open.edges = count / (open.closed_mod_2 ? 4 : 2);
   if (!left.empty()) open.first = left.front().point;
   return open;
 }
 
 std::string describe(const OpenEdges& open) {
-  std::string text = "the scene is not closed: ";
-  text += (open.all_counted ? "" : "more than ") + format_count(open.edges) + " open edge" +
-          (open.edges == 1 ? "" : "s");
+  std::string text = (open.all_counted ? "" : "more than ") + format_count(open.edges) +
+                     (open.closed_mod_2 ? " edge" : " open edge") + (open.edges == 1 ? "" : "s");
   std::string names;
   size_t shown = 0;
   for (const std::string& part : open.parts) {

@@ -15,8 +15,8 @@
 namespace svdag {
 
 struct OpenEdges {
-  uint64_t edges = 0;  // open intervals, as often as they are
-  bool closed_mod_2 = false;
+  uint64_t edges = 0;         // open intervals; if closed_mod_2, passed twice in one direction
+  bool closed_mod_2 = false;  // closed if the orientation of triangles does not matter
   bool all_counted = true;         // false: there are more
   Point first{0};                  // an end of the first, in the order of the scene
   std::vector<std::string> parts;  // names of the objects that have some, in the order of the scene
@@ -25,7 +25,7 @@ struct OpenEdges {
 // Reads the scene twice; it is snapped to `grid`.
 OpenEdges find_open_edges(const Scene& scene, const Grid& grid);
 
-// "the scene is not closed: 3 open edges, in part "lid", the first at (0, 1, 2)".
+// "3 open edges in lid, the first at (0, 1, 2)".
 std::string describe(const OpenEdges& open);
 
 }  // namespace svdag

@@ -109,18 +109,20 @@ void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeS
   if (is_closed(edges)) return;
   const BoundaryChain chain = boundary_chain(scene, grid);
   if (is_closed(chain)) return;
+  const OpenEdges open = find_open_edges(scene, grid);
   throw Error(ExitCode::kBadInput,
-              describe(find_open_edges(scene, grid)) +
-                  (chain.is_closed_mod_2()
-                       ? ": it is closed, but its triangles are not oriented alike: give --inside "
-                         "odd"
-                       : ": bake its surface with --rule conservative, or repair it"));
+              open.closed_mod_2 ? "the triangles of the scene are not oriented alike at " +
+                                      describe(open) + ": give --inside odd"
+                                : "the scene is not closed: " + describe(open) +
+                                      ": repair it, or bake its surface with --rule conservative");
 }
 
 }  // namespace
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
                  MemoryBudget* budget) {
+  if (config.layers != LayerKind::kNone && is_solid(config.rule))
+    fail_usage("--layers: rule solid has no layers yet: bake each part alone, with --include");
   if (config.layers == LayerKind::kFile) require_different_names(scene.config().paths);
   const Lattice lattice(grid);
   SplitScene result;

@@ -111,7 +111,9 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   ParallelExecutor executor(threads_or_all(config.common.threads));
   result.sampled = config.sample.has_value();
   if (result.sampled && file.layers().has_union) {
-    const auto held = judged.budget.reserve(*config.sample * kBytesOfDraw, "drawn bricks");
+    const auto held = judged.budget.reserve(
+        *config.sample * (is_solid(file.rule()) ? kBytesOfSolidDraw : kBytesOfDraw),
+        "drawn bricks");
     result.sample = compare_sample(judged.scene, file.view(), grid, *config.sample, config.seed,
                                    choice, executor, judged.progress);
     result.comparison = result.sample.comparison;
@@ -145,6 +147,8 @@ void print_draws(const SampleComparison& sample) {
   print("", area, "points by area", kInside, "the area is");
   print("", edge, "points by longest edge", kInside, "that length is");
   print("", triangle, "points beside triangles", kInside, nullptr);
+  if (sample.anywhere.draws > 0)
+    print("", sample.anywhere, "points anywhere", kInside, "the selection is");
   std::printf("bounds     each at 95 %% confidence; the number of missing bricks is not bounded\n");
 }
 
@@ -185,7 +189,8 @@ nlohmann::json draws_json(const SampleComparison& sample) {
   return {{"file_bricks", one(sample.file, "wrong_file_bricks_bound_95")},
           {"scene_area", one(area, "area_in_wrong_bricks_bound_95")},
           {"scene_longest_edges", one(edge, "length_in_wrong_bricks_bound_95")},
-          {"beside_triangles", one(triangle, nullptr)}};
+          {"beside_triangles", one(triangle, nullptr)},
+          {"anywhere", one(sample.anywhere, "selection_in_wrong_bricks_bound_95")}};
 }
 
 void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
@@ -230,7 +235,11 @@ int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.sample) require_count("--sample", *config.sample);
   const DagFile file = open_dag(config.file);
-  if (config.judge == "openvdb") return run_distance_bounds(config, file);
+  if (config.judge == "openvdb") {
+    if (is_solid(file.rule()))
+      fail_usage("--judge openvdb: judges surfaces: choose integer or cgal for rule solid");
+    return run_distance_bounds(config, file);
+  }
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};
   make_judge(choice);  // rejects a judge that is not in this build before reading the scene
   const Judgement judgement = judge(config, choice, file);

@@ -171,12 +171,13 @@ void print_text(const DagFile& file, const TraceConfig& config, const TraceJudge
               count(r.late).c_str(), count(r.judged).c_str());
   std::printf(" (%s more pass within %.2g voxels of an edge)\n", count(r.doubtful).c_str(),
               t.doubt);
-  std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
-              count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
+  if (!is_solid(file.rule()))
+    std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
+                count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
   if (file.grid().bounded)
     std::printf("outside    %s of %s voxels are outside the bounds\n", count(r.outside).c_str(),
                 count(r.voxels).c_str());
-  if (file.rule() == Rule::kConservative)
+  if (file.rule() != Rule::kThin)
     std::printf(
         "uncovered  %s of %s points of the surface are more than %.4f voxels from a voxel\n",
         count(r.uncovered).c_str(), count(r.points_judged).c_str(), t.largest_distance);

@@ -96,7 +96,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
                                 Executor& executor, Progress& progress) {
   const std::vector<std::unique_ptr<Judge>> judges = make_judges(choice, executor.workers());
   progress.phase("drawing bricks", 0);
-  const BrickDraw draw = draw_bricks(scene, dag, grid, count, seed);
+  const BrickDraw draw = draw_bricks(scene, dag, grid, choice.rule, count, seed);
   std::vector<uint64_t> codes = draw.all();
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
@@ -133,6 +133,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
     const std::vector<uint64_t>& drawn = draw.scene.codes[m];
     result.scene[m] = {drawn.size(), sample.count_wrong(dag, drawn)};
   }
+  result.anywhere = {draw.anywhere.size(), sample.count_wrong(dag, draw.anywhere)};
   result.both_empty = draw.both_empty();
   result.untested = draw.untested();
   return result;

@@ -27,10 +27,12 @@ namespace svdag {
 std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& random);
 
 // `count` draws, half from the file and half from the scene. An odd draw is the scene's, so that a
-// single draw detects an empty file. Draws that the scene cannot give are made from the file.
+// single draw detects an empty file. Draws that the scene cannot give are made from the file. For
+// the solid rules, as many again are made anywhere in the selection, inside and outside.
 struct BrickDraw {
   std::vector<uint64_t> file;
   SceneDraw scene;
+  std::vector<uint64_t> anywhere;
 
   std::vector<uint64_t> all() const;
   // Nothing to compare: the file has no voxel, and no triangle's box meets the selection.
@@ -38,12 +40,14 @@ struct BrickDraw {
   // Nothing was drawn although the scene may set voxels: no conclusion is possible.
   bool untested() const { return all().empty() && scene.near > 0; }
 };
-BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
-                      uint64_t seed);
+BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, Rule rule,
+                      uint64_t count, uint64_t seed);
 
 // Memory of one draw while its brick is drawn and compared: its position, several copies of its
 // code, and the brick; or its window.
 constexpr uint64_t kBytesOfDraw = 64;
+// With a solid rule, of which as many bricks again are drawn: also the windings of the voxels.
+constexpr uint64_t kBytesOfSolidDraw = 2 * (kBytesOfDraw + 64 * sizeof(int32_t));
 
 // Throws the Error (kUsage) for an untested sample.
 [[noreturn]] void fail_untested();
@@ -83,6 +87,7 @@ struct SampleComparison {
   Comparison comparison;  // of all drawn bricks, each counted once
   DrawnBricks file;       // drawn from the file's occupied bricks
   std::array<DrawnBricks, kMeasures> scene;
+  DrawnBricks anywhere;  // solid rules only
   bool both_empty = false, untested = false;  // as in BrickDraw
 };
 

@@ -70,15 +70,24 @@ std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& ran
 std::vector<uint64_t> BrickDraw::all() const {
   std::vector<uint64_t> all = scene.all();
   all.insert(all.end(), file.begin(), file.end());
+  all.insert(all.end(), anywhere.begin(), anywhere.end());
   return all;
 }
 
-BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, uint64_t count,
-                      uint64_t seed) {
+BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, Rule rule,
+                      uint64_t count, uint64_t seed) {
   Random random(seed);
   BrickDraw draw;
   draw.scene = draw_scene(scene, grid, count - count / 2, random);
   draw.file = sample_dag(dag, count - draw.scene.all().size(), random);
+  for (uint64_t i = 0; is_solid(rule) && !grid.selection.empty() && i < count; ++i) {
+    LatticePoint voxel;
+    for (int a = 0; a < 3; ++a) {
+      const int64_t side = grid.selection.max[a] - grid.selection.min[a];
+      voxel[a] = grid.selection.min[a] + int64_t(random.below(uint64_t(side)));
+    }
+    draw.anywhere.push_back(cell_code(voxel >> int64_t(2)));
+  }
   return draw;
 }
 

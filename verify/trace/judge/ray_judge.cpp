@@ -116,7 +116,7 @@ double RayJudge::largest_distance() const {
 }
 
 bool RayJudge::is_judged(uint64_t index) const {
-  return config_.rule == Rule::kConservative || TestRays::kind(index) == RayKind::kAxis;
+  return config_.rule != Rule::kThin || TestRays::kind(index) == RayKind::kAxis;
 }
 
 RayJudgement RayJudge::judge_rays(Executor& executor, Progress& progress) const {
@@ -190,7 +190,7 @@ void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* re
   double d = tracer_.distance_to(centre, largest_distance() + 1);
   if (d == kInfinite) d = tracer_.distance_to(centre, kInfinite);  // rare: measure it
   result->voxels_to_scene = std::max(result->voxels_to_scene, d);
-  if (d <= largest_distance()) return;
+  if (d <= largest_distance() || is_solid(config_.rule)) return;  // inside, voxels may be far
   ++result->far;
   add_offender(result, {RayOffender::What::kFar, number, centre, d});
 }
