@@ -44,6 +44,7 @@ struct BuildConfig {
   int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
   double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
   DescentConfig descent;              // --rule
+  bool open_as_sheets = false;        // --open surface
   Layout layout = Layout::kPlain;     // --layout
   LayerKind layers = LayerKind::kNone;  // --layers
   bool with_union = true;               // --no-union

@@ -20,6 +20,7 @@ struct Triangle {
 struct LatticeTriangle {
   std::array<LatticePoint, 3> v;
   uint32_t subject = 0;  // with layers: its layer (builder/octree/sub_dag_root.h)
+  uint32_t sheet = 0;    // 1: of an open part, which bounds no solid (io/scene/open_parts.h)
   bool operator==(const LatticeTriangle&) const = default;
 };
 

@@ -75,6 +75,7 @@ SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const Gri
   split.cell_level =
       choose_cell_level(tools.config, chosen.grid, tools.workspace->budget()->limit());
   split.rule = tools.config.descent.rule;
+  split.open_as_sheets = tools.config.open_as_sheets;
   split.workers = tools.executor->workers();
   split.triangle_bytes = tools.workspace->shares().triangles;
   split.scratch = tools.workspace->scratch();

@@ -109,14 +109,16 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const Winding
   };
   fill({});
   if (windings != nullptr) cube.fill(windings->at(bin.cube));
-  voxelizer_->bake(bin.cube, windings, bin.range, [&](NodeTable* table, std::vector<SubjectDag>* dags) {
-    if (subjects.size() == 1) return dags->push_back({*subjects.begin(), cube.reduce(table)});
-    dags->push_back({kUnionSet, cube.reduce(table)});
-    for (const Subject subject : subjects) {
-      fill(subject);
-      dags->push_back({subject | kApart, cube.reduce(table)});
-    }
-  });
+  voxelizer_->bake(bin.cube, windings, bin.range,
+                   [&](NodeTable* table, std::vector<SubjectDag>* dags) {
+                     if (subjects.size() == 1)
+                       return dags->push_back({*subjects.begin(), cube.reduce(table)});
+                     dags->push_back({kUnionSet, cube.reduce(table)});
+                     for (const Subject subject : subjects) {
+                       fill(subject);
+                       dags->push_back({subject | kApart, cube.reduce(table)});
+                     }
+                   });
 }
 
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {

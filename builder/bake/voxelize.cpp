@@ -29,8 +29,7 @@ class Voxelizer::Worker {
     if (config_.store == nullptr || !is_new(cell) || !is_of_one_layer(list))
       return descent_.run(cell, list, winding);
     const CellKey key = config_.store->key(cell, list, winding);
-    if (!config_.store->take(key, cell, subject_of(list)))
-      bake_for_store(cell, list, winding, key);
+    if (!config_.store->take(key, cell, subject_of(list))) bake_for_store(cell, list, winding, key);
   }
   void bake_untouched(const MortonRange& range, const WindingGrid* windings) {
     if (windings == nullptr) return builder_.note_empty(range);
@@ -40,8 +39,7 @@ class Voxelizer::Worker {
     });
   }
   bool is_done(const MortonRange& range) const {
-    return config_.done != nullptr &&
-           config_.done->coverage(range) == MortonSet::Coverage::kAll;
+    return config_.done != nullptr && config_.done->coverage(range) == MortonSet::Coverage::kAll;
   }
   NodeTable* table() { return builder_.table(); }
   void adopt(const Cube& cube, std::vector<SubjectDag> dags) {

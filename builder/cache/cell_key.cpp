@@ -9,9 +9,10 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kVersion = 1;  // to be changed when the sub-DAG of the same triangles changes
+constexpr int64_t kVersion = 2;  // to be changed when the sub-DAG of the same triangles changes
 
-using Words = std::array<int64_t, 9>;  // three vertices, relative to the cell's corner
+// Three vertices, relative to the cell's corner, and whether they are of a sheet.
+using Words = std::array<int64_t, 10>;
 
 void put_selection(const Grid& grid, const Cube& cube, std::vector<int64_t>* text) {
   const int shift = grid.levels - cube.level;
@@ -30,7 +31,7 @@ void put_first_vertex_first(Words* words) {
   for (size_t i = 1; i < 3; ++i) {
     if (std::ranges::lexicographical_compare(vertex(i), vertex(first))) first = i;
   }
-  std::rotate(words->begin(), words->begin() + 3 * int(first), words->end());
+  std::rotate(words->begin(), words->begin() + 3 * int(first), words->begin() + 9);
 }
 
 }  // namespace
@@ -44,10 +45,12 @@ CellKey cell_key(const Grid& grid, Rule rule, const Cube& cube, const TriangleLi
     Words& words = triangles.emplace_back();
     for (size_t i = 0; i < 9; ++i)
       words[i] = entry.triangle->triangle.v[i / 3][int(i % 3)] - corner[int(i % 3)];
+    words[9] = entry.triangle->triangle.sheet;
     if (is_solid(rule)) put_first_vertex_first(&words);
   }
   std::sort(triangles.begin(), triangles.end());
-  if (!is_solid(rule)) triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  if (!is_solid(rule))
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
 
   std::vector<int64_t> text = {kVersion, int64_t(rule), grid.fraction(), grid.levels - cube.level};
   put_selection(grid, cube, &text);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,8 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"cells", r.cells},
                {"cache_hits", r.cache_hits},
                {"cache_packs_ignored", r.cache_packs_skipped},
+               {"open_parts", r.split.open_parts},
+               {"volume_voxels", r.split.volume},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
                {"layers", layers_json(r.layers)},
@@ -146,6 +149,13 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
               format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
               r.seconds.total);
   print_scene_notes(r.split.scene);
+  if (r.rule == Rule::kSolid && r.split.volume != 0)
+    std::printf("  the surface encloses %s voxels%s\n",
+                format_count(uint64_t(std::abs(r.split.volume) + 0.5)).c_str(),
+                r.split.volume < 0 ? ", and most of it is inside out" : "");
+  if (r.split.open_parts > 0)
+    std::printf("  %s open part%s baked as surface%s\n", format_count(r.split.open_parts).c_str(),
+                r.split.open_parts == 1 ? "" : "s", r.split.open_parts == 1 ? "" : "s");
   if (r.voxels == 0)
     std::printf("  no voxel is set: %s triangles meet the grid\n",
                 format_count(r.split.scene.triangles - r.split.outside).c_str());

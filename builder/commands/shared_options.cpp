@@ -27,6 +27,12 @@ Rule parse_inside(const std::string& name, Rule rule) {
   fail_usage("--inside: unknown kind \"" + name + "\": choose nonzero or odd");
 }
 
+// Whether open parts are baked as surfaces.
+bool parse_open(const std::string& name) {
+  if (name == "error" || name == "surface") return name == "surface";
+  fail_usage("--open: unknown kind \"" + name + "\": choose error or surface");
+}
+
 double checked_scale(double scale) {
   if (!std::isnormal(scale)) fail_usage("--scale: give a factor other than 0");
   return scale;
@@ -170,6 +176,12 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
                "With --rule solid, inside is where the surface winds around: nonzero (default), or "
                "odd, for surfaces without consistent orientation"),
            {"nonzero", "odd"})
+      ->type_name("KIND");
+  suggests(app->add_option_function<std::string>(
+               "--open", [build](const std::string& s) { build->open_as_sheets = parse_open(s); },
+               "With --rule solid, what to do with a scene that is not closed: error (default), or "
+               "bake its open objects as surfaces"),
+           {"error", "surface"})
       ->type_name("KIND");
   add_scene_options(app, &build->scene);
   return grid;

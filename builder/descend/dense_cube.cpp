@@ -46,8 +46,7 @@ void DenseCube::fill(int32_t winding) {
     for (unsigned bit = 0; bit < 64; ++bit) {
       const auto [x, y, z] = brick_voxel(bit);
       const LatticePoint voxel = corner + LatticePoint(x, y, z);
-      const bool selected =
-          !grid_.bounded || grid_.selection.holds({voxel, voxel + int64_t(1)});
+      const bool selected = !grid_.bounded || grid_.selection.holds({voxel, voxel + int64_t(1)});
       if (selected && is_inside(rule_, windings_->at({grid_.levels, voxel})))
         bricks_[i] |= Brick(1) << bit;
     }

@@ -47,7 +47,7 @@ class DenseCube {
   MemoryBudget* budget_;
   MemoryBudget::Reservation reservation_;
   std::optional<WindingGrid> windings_;  // of the voxels; solid rules only
-  std::vector<Brick> bricks_;  // in Morton order
+  std::vector<Brick> bricks_;            // in Morton order
 };
 
 }  // namespace svdag

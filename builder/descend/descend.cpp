@@ -82,8 +82,7 @@ void Descent::update_memo(SubDagBuilder::Pause pause) {
   }
 }
 
-Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list,
-                               int32_t winding) const {
+Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list, int32_t winding) const {
   if ((list.empty() && !is_inside(config_.rule, winding)) ||
       (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
     return Need::kNothing;
@@ -139,8 +138,7 @@ void Descent::node(const Cube& cube, const TriangleList& list, SubjectDags* dags
   divide(cube, list, need == Need::kRest, dags);
 }
 
-SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t winding,
-                       bool as_roots) {
+SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots) {
   ++divided_[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
@@ -196,8 +194,7 @@ bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, SubjectDa
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list,
                                             int32_t winding) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
-  if (list.size() > 1)
-    return config_.patches ? find_patch(cube, list, winding) : std::nullopt;
+  if (list.size() > 1) return config_.patches ? find_patch(cube, list, winding) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
   const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(*list[0].triangle);
   if (!known || cube.level < known->min_query_level) return std::nullopt;
@@ -243,8 +240,8 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
   if (!range) return std::nullopt;
   std::optional<Witness> witness;
-  const auto dag = memo_.find(*known, cube, *range,
-                              filled_sides(cube, list, known->plane, winding), &witness);
+  const auto dag =
+      memo_.find(*known, cube, *range, filled_sides(cube, list, known->plane, winding), &witness);
   if (!dag || !witness || covered || !config_.patch.witness) return dag;
   if (!covers_witness(list, known->plane, corner, grid_.fraction(), voxels, *witness))
     return std::nullopt;
@@ -262,8 +259,7 @@ const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleS
   return admitted_[slot].known;
 }
 
-Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
-                         int32_t winding) {
+Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =

@@ -34,8 +34,8 @@ class FullNodes {
     const VoxelBox voxels = cube.voxels(table_->levels());
     size_t planes = 0;
     for (int a = 0; a < 3; ++a) {
-      planes = 4 * planes + 2 * (voxels.min[a] < selection.min[a]) +
-               (voxels.max[a] > selection.max[a]);
+      planes =
+          4 * planes + 2 * (voxels.min[a] < selection.min[a]) + (voxels.max[a] > selection.max[a]);
     }
     return &nodes_[size_t(cube.level)][planes];
   }

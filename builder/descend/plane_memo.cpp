@@ -246,7 +246,8 @@ void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset, FilledSides
   LevelTable& table = tables_[size_t(level)];
   if (table.entries.empty()) return;
   const int64_t bucket = offset >> planes_[number].bucket_log2[size_t(level)];
-  const char* set = reinterpret_cast<const char*>(set_of(&table, tag_of(4 * number + sides, bucket)));
+  const char* set =
+      reinterpret_cast<const char*>(set_of(&table, tag_of(4 * number + sides, bucket)));
   __builtin_prefetch(set);
   __builtin_prefetch(set + 64);
 }

@@ -42,7 +42,7 @@ void WindingGrid::add(const LatticeTriangle& triangle) {
     high[a] = std::min((int64_t(1) << side_log2_) - 1, (box.max[a] - first_[a]) >> log2);
     empty += low[a] > high[a];
   }
-  if (empty > 1) return;
+  if (empty > 1 || triangle.sheet != 0) return;
   const TriangleSetup setup = make_setup(triangle);
   for (int w = 0; w < 3; ++w) {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -114,8 +114,7 @@ bool WindingGrid::are_of_grid(int levels, const std::vector<int32_t>& values) {
 std::shared_ptr<const WindingGrid> WindingGrid::of_grid(int levels, std::vector<int32_t> values) {
   SVDAG_ASSERT(are_of_grid(levels, values));
   if (values.empty()) return nullptr;
-  const auto grid =
-      std::make_shared<WindingGrid>(levels, Cube(), level_of_grid(levels), nullptr);
+  const auto grid = std::make_shared<WindingGrid>(levels, Cube(), level_of_grid(levels), nullptr);
   grid->steps_ = std::move(values);
   return grid;
 }

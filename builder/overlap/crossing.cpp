@@ -36,7 +36,7 @@ bool spans(const TriangleSetup& t, int a, int64_t at) noexcept {
 
 bool is_above_triangle(const TriangleSetup& t, EdgeMask edges, int w,
                        const LatticePoint& x) noexcept {
-  if (t.normal[w] == 0) return false;
+  if (t.normal[w] == 0 || t.triangle.sheet != 0) return false;
   for (int k = 3 * w; k < 3 * w + 3; ++k) {
     if ((edges >> k & 1) != 0 && !edge_holds(t, k, x)) return false;
   }
@@ -85,8 +85,7 @@ unsigned fronts_of_children(const TriangleSetup& t, const LatticePoint& first,
   const double h = double(half);
   const double step[3] = {t.normal[0] * h, t.normal[1] * h, t.normal[2] * h};
   // As error_at() of a point that is half a side farther; the steps add 3 roundings more.
-  const double error =
-      error_at(std::max({std::abs(r[0]), std::abs(r[1]), std::abs(r[2])}) + h);
+  const double error = error_at(std::max({std::abs(r[0]), std::abs(r[1]), std::abs(r[2])}) + h);
   unsigned fronts = 0, unsure = 0;
   for (unsigned c = 0; c < 8; ++c) {
     const double value = at_first + (((c & 4) != 0 ? step[0] : 0) + ((c & 2) != 0 ? step[1] : 0) +
@@ -124,7 +123,7 @@ void windings_of_children(std::span<const ListedTriangle> list, const LatticePoi
     unsigned crossed = (in[0] & 1) * ((in[1] & 1) << 1 | (in[1] & 2) << 2) |
                        (in[0] >> 1) * ((in[1] & 1) << 5 | (in[1] & 2) << 6) |
                        (in[2] & 1) * ((in[0] & 1) << 2 | (in[0] & 2) << 5 | (in[1] & 1) << 4);
-    if (crossed == 0) continue;
+    if (crossed == 0 || t.triangle.sheet != 0) continue;
     const unsigned fronts = fronts_of_children(t, first, half);
     // Of these, those whose ends are on different sides of the plane.
     const unsigned along_z = (fronts ^ fronts << 1) & 0b10101010;

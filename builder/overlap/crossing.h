@@ -10,7 +10,8 @@
 // (builder/overlap/brick_thin.cpp). A shifted point is on no triangle, and a shifted segment meets
 // no edge, so every crossing is unambiguous, also where a point is in a touched voxel. The winding
 // number of a shifted point is the sum over any path to it, provided that the boundary chain of the
-// triangles vanishes (io/scene/boundary_chain.h). Triangles of zero area are never crossed.
+// triangles vanishes (io/scene/boundary_chain.h). Triangles of zero area and sheets are never
+// crossed.
 //
 // Signs are computed in double with an error bound, and exactly where that is unsure. Rejected:
 // rays along one axis from outside of the grid for each point (they leave the cube, so the cube's
@@ -63,8 +64,8 @@ void for_each_untouched(std::span<const ListedTriangle> list, const LatticePoint
     const unsigned bit = unsigned(__builtin_ctzll(left));
     const Brick component = connected_voxels(Brick(1) << bit, left);
     const auto [x, y, z] = brick_voxel(bit);
-    const LatticePoint at =
-        first + LatticePoint(int64_t(x) << fraction, int64_t(y) << fraction, int64_t(z) << fraction);
+    const LatticePoint at = first + LatticePoint(int64_t(x) << fraction, int64_t(y) << fraction,
+                                                 int64_t(z) << fraction);
     visit(component, winding + (bit == 0 ? 0 : crossings(list, first, at)));
     left &= ~component;
   }

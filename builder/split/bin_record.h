@@ -1,5 +1,5 @@
-// Serializes triangle bins, layers and winding numbers in records: for the journal of a bake and the index of a
-// plan.
+// Serializes triangle bins, layers and winding numbers in records: for the journal of a bake and
+// the index of a plan.
 #pragma once
 
 #include <vector>

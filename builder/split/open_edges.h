@@ -15,8 +15,8 @@
 namespace svdag {
 
 struct OpenEdges {
-  uint64_t edges = 0;         // open intervals; if closed_mod_2, passed twice in one direction
-  bool closed_mod_2 = false;  // closed if the orientation of triangles does not matter
+  uint64_t edges = 0;              // open intervals; if closed_mod_2, passed twice in one direction
+  bool closed_mod_2 = false;       // closed if the orientation of triangles does not matter
   bool all_counted = true;         // false: there are more
   Point first{0};                  // an end of the first, in the order of the scene
   std::vector<std::string> parts;  // names of the objects that have some, in the order of the scene

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "builder/overlap/exact.h"
 #include "builder/split/open_edges.h"
 #include "io/lattice.h"
-#include "io/scene/boundary_chain.h"
+#include "io/scene/open_parts.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -91,30 +92,34 @@ void require_different_names(const std::vector<std::string>& paths) {
   }
 }
 
+// Of the tetrahedron on the triangle with its apex at the grid's corner, in voxels. The sum over a
+// closed surface is the volume that it winds around.
+double volume_of(const LatticeTriangle& t, int fraction) {
+  const Point a(t.v[0]), b(t.v[1]), c(t.v[2]);
+  return std::ldexp(glm::dot(a, glm::cross(b, c)) / 6, -3 * fraction);
+}
+
 BoundaryChain boundary_chain(const Scene& scene, const Grid& grid) {
   const Lattice lattice(grid);
   BoundaryChain chain;
   scene.stream([&](const TriangleBatch& batch) {
     for (const Triangle& t : batch.triangles)
-      chain.add(LatticeTriangle{{lattice.snap(t.v[0]), lattice.snap(t.v[1]), lattice.snap(t.v[2])}});
+      chain.add(
+          LatticeTriangle{{lattice.snap(t.v[0]), lattice.snap(t.v[1]), lattice.snap(t.v[2])}});
   });
   return chain;
 }
 
 // Error (kBadInput) unless the rule is defined for the surface.
 void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeSum& edges) {
-  const auto is_closed = [rule](const auto& sum) {
-    return rule == Rule::kSolid ? sum.is_closed() : sum.is_closed_mod_2();
-  };
-  if (is_closed(edges)) return;
-  const BoundaryChain chain = boundary_chain(scene, grid);
-  if (is_closed(chain)) return;
+  if (is_closed(edges, rule) || is_closed(boundary_chain(scene, grid), rule)) return;
   const OpenEdges open = find_open_edges(scene, grid);
   throw Error(ExitCode::kBadInput,
-              open.closed_mod_2 ? "the triangles of the scene are not oriented alike at " +
-                                      describe(open) + ": give --inside odd"
-                                : "the scene is not closed: " + describe(open) +
-                                      ": repair it, or bake its surface with --rule conservative");
+              open.closed_mod_2
+                  ? "the triangles of the scene are not oriented alike at " + describe(open) +
+                        ": give --inside odd"
+                  : "the scene is not closed: " + describe(open) +
+                        ": repair it, or bake its open parts as surfaces with --open surface");
 }
 
 }  // namespace
@@ -136,21 +141,27 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
                                              WindingGrid::level_of_grid(grid.levels), budget);
   }
   EdgeSum edges;
+  OpenParts open;
+  if (is_solid(config.rule) && config.open_as_sheets) open = OpenParts(scene, grid, config.rule);
+  counts.open_parts = open.size();
   const LatticeBox whole = grid.closed(grid.whole());
   const bool layered = config.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
+    const bool sheet = open.contains(batch);
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       snapped.subject = subject;
+      snapped.sheet = sheet;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
       const BoxPlacement placement = placement_of(snapped, grid, config.part);
       counts.outside += placement == BoxPlacement::kOutside;
       counts.clipped += placement == BoxPlacement::kClipped;
-      if (windings) {
+      if (windings && !sheet) {
         windings->add_with_ray(snapped);
         edges.add(snapped);
+        counts.volume += volume_of(snapped, grid.fraction());
       }
       if (placement == BoxPlacement::kOutside) {
         if (windings && box_of(snapped).meets(whole)) store.add(snapped);
@@ -163,7 +174,8 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     if (config.on_batch) config.on_batch(batch.triangles.size());
   });
   store.finish(&result);
-  if (is_solid(config.rule)) require_closed(scene, grid, config.rule, edges);
+  // Of open parts the others were tested alone.
+  if (is_solid(config.rule) && open.size() == 0) require_closed(scene, grid, config.rule, edges);
   if (windings) windings->finish();
   result.windings = std::move(windings);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());

@@ -25,6 +25,7 @@ namespace svdag {
 struct SplitConfig {
   int cell_level = 0;
   Rule rule = Rule::kConservative;
+  bool open_as_sheets = false;  // solid rules: open parts are baked as surfaces
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // triangles are spilled above this CellTree::bytes()
   Scratch* scratch = nullptr;            // null: triangles are never spilled
@@ -42,6 +43,9 @@ struct SplitCounts {
   uint64_t outside = 0;     // dropped: their box misses the selection or the grid part
   uint64_t degenerate = 0;  // kept, with zero area after the snap
   double largest_snap = 0;  // in voxels, of the triangles that are kept
+  // Solid rules:
+  uint64_t open_parts = 0;  // baked as surfaces
+  double volume = 0;        // that the closed parts wind around, signed, in voxels
 };
 
 // Calls visit(name, field) for every stored field: the field list of journals and plans.
@@ -55,13 +59,15 @@ void visit_count_fields(AnyCounts& counts, const Visit& visit) {
   visit("outside", counts.outside);
   visit("degenerate", counts.degenerate);
   visit("largest_snap_voxels", counts.largest_snap);
+  visit("open_parts", counts.open_parts);
+  visit("volume_voxels", counts.volume);
 }
 
 struct SplitScene {
   SplitCounts counts;
-  std::unique_ptr<CellTree> tree;  // sealed; null if the triangles were spilled
-  std::vector<TriangleBin> bins;   // in Morton order, in the scratch's `triangles`
-  SceneLayers layers;              // by the subjects of the triangles
+  std::unique_ptr<CellTree> tree;               // sealed; null if the triangles were spilled
+  std::vector<TriangleBin> bins;                // in Morton order, in the scratch's `triangles`
+  SceneLayers layers;                           // by the subjects of the triangles
   std::shared_ptr<const WindingGrid> windings;  // of the grid; null unless the rule is solid
 };
 

@@ -2,7 +2,7 @@
 //
 // A bin is a cube and the stream of its triangles. Many bins are filled at once, in one pass; each
 // is then baked by itself, or dealt into bins of its sub-cubes. A triangle is stored as nine
-// numbers, its first vertex and the differences to the others, and its subject, each in as few
+// numbers, its first vertex and the differences to the others, and its kind, each in as few
 // bytes as it needs (LEB128 of the zigzag code): about 41 bytes for a scan at 16K, instead of 80.
 #pragma once
 

@@ -42,8 +42,7 @@ void EdgeSum::add(const LatticeTriangle& triangle) {
 LatticePoint BoundaryChain::primitive_direction(const LatticePoint& a,
                                                 const LatticePoint& b) noexcept {
   LatticePoint d = b - a;
-  const uint64_t divisor =
-      std::gcd(std::gcd(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
+  const uint64_t divisor = std::gcd(std::gcd(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
   const bool forward = is_forward(d);
   // Vertices differ by less than 2^63, so the divisor fits.
   const int64_t signed_divisor = forward ? int64_t(divisor) : -int64_t(divisor);

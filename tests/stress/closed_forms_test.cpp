@@ -39,7 +39,7 @@ void everywhere(const Check& check) {
   }
 }
 
-// The twelve triangles of a box.
+// The twelve triangles of a box, with their front outside.
 Soup box(const LatticePoint& low, const LatticePoint& size) {
   Soup soup;
   for (int w = 0; w < 3; ++w) {
@@ -47,10 +47,10 @@ Soup box(const LatticePoint& low, const LatticePoint& size) {
     u[(w + 1) % 3] = size[(w + 1) % 3];
     v[(w + 2) % 3] = size[(w + 2) % 3];
     up[w] = size[w];
-    for (const LatticePoint& at : {low, low + up}) {
-      soup.push_back({{at, at + u, at + u + v}});
-      soup.push_back({{at, at + u + v, at + v}});
-    }
+    soup.push_back({{low, low + u + v, low + u}});
+    soup.push_back({{low, low + v, low + u + v}});
+    soup.push_back({{low + up, low + up + u, low + up + u + v}});
+    soup.push_back({{low + up, low + up + u + v, low + up + v}});
   }
   return soup;
 }
@@ -132,6 +132,67 @@ TEST(ClosedForm, AThinRectangleHasItsArea) {
       const Soup face(soup.begin() + 4 * w, soup.begin() + 4 * w + 2);
       EXPECT_EQ(count_voxels(spot, Rule::kThin, face), uint64_t(s[(w + 1) % 3] * s[(w + 2) % 3]));
     }
+  });
+}
+
+Soup turned(Soup soup) {
+  for (LatticeTriangle& t : soup) std::swap(t.v[0], t.v[1]);
+  return soup;
+}
+
+Soup both(Soup a, const Soup& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(ClosedForm, ASolidBoxHasNoHole) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
+    const LatticePoint s = draw_size(random);
+    const Soup on_planes = box(at, s * spot.voxel());
+    const Soup off_planes = box(at + inside_voxel(spot, random), s * spot.voxel());
+    for (const Rule rule : {Rule::kSolid, Rule::kSolidOdd}) {
+      EXPECT_EQ(count_voxels(spot, rule, on_planes), product(s + int64_t(2)));
+      EXPECT_EQ(count_voxels(spot, rule, off_planes), product(s + int64_t(1)));
+    }
+  });
+}
+
+TEST(ClosedForm, ShellsInABoxAreCavitiesOrNot) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
+    const LatticePoint outer = draw_size(random) + int64_t(4), inner = outer - int64_t(4);
+    const Soup shell = box(at, outer * spot.voxel());
+    const Soup core = box(at + 2 * spot.voxel(), inner * spot.voxel());
+    const uint64_t all = product(outer + int64_t(2)), hole = product(inner - int64_t(2));
+    EXPECT_EQ(count_voxels(spot, Rule::kSolid, both(shell, core)), all);
+    EXPECT_EQ(count_voxels(spot, Rule::kSolidOdd, both(shell, core)), all - hole);
+    EXPECT_EQ(count_voxels(spot, Rule::kSolid, both(shell, turned(core))), all - hole);
+    EXPECT_EQ(count_voxels(spot, Rule::kSolidOdd, both(shell, turned(core))), all - hole);
+    // Two boxes that overlap, one inside out, cancel out where they overlap.
+    EXPECT_EQ(count_voxels(spot, Rule::kSolid, both(shell, turned(shell))),
+              count_voxels(spot, Rule::kConservative, shell));
+  });
+}
+
+// The tetrahedron x, y, z >= 0, x + y + z <= c meets the cube of voxel (i, j, k) iff its corner
+// that is nearest to the origin does: max(i, 0) + max(j, 0) + max(k, 0) <= c for i, j, k >= -1.
+TEST(ClosedForm, ASolidTetrahedron) {
+  everywhere([](const Spot& spot, StressRandom* random, const LatticePoint& at) {
+    const int64_t c = random->between(1, 40), s = c * spot.voxel();
+    const LatticePoint x(s, 0, 0), y(0, s, 0), z(0, 0, s);
+    const Soup soup = {{{at, at + y, at + x}},
+                       {{at, at + z, at + y}},
+                       {{at, at + x, at + z}},
+                       {{at + x, at + y, at + z}}};
+    uint64_t voxels = 0;
+    for (int64_t i = -1; i <= c; ++i) {
+      for (int64_t j = -1; j <= c; ++j) {
+        for (int64_t k = -1; k <= c; ++k)
+          voxels +=
+              std::max<int64_t>(i, 0) + std::max<int64_t>(j, 0) + std::max<int64_t>(k, 0) <= c;
+      }
+    }
+    EXPECT_EQ(count_voxels(spot, Rule::kSolid, soup), voxels) << c;
+    EXPECT_EQ(count_voxels(spot, Rule::kSolidOdd, soup), voxels) << c;
   });
 }
 

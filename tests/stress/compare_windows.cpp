@@ -64,10 +64,9 @@ VoxelRegion judged(const Spot& spot, Rule rule, std::span<const LatticeTriangle>
       continue;
     }
     if (is_solid(rule)) {
-      winding_changes(t, spot.grid.fraction(), spot.region,
-                      [&](const LatticePoint& voxel, int change) {
-                        windings[place(voxel)] += change;
-                      });
+      winding_changes(
+          t, spot.grid.fraction(), spot.region,
+          [&](const LatticePoint& voxel, int change) { windings[place(voxel)] += change; });
     }
     clipper.run(t, spot.grid.fraction(), spot.region, [&](const CellRun& run) {
       LatticePoint voxel = run.first;

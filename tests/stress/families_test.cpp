@@ -68,8 +68,7 @@ class Families : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Families, GiveTheVoxelsOfTheJudgeOnEveryGridAtEveryDepth) {
   const uint64_t decisions = min_decisions();
-  for (const Rule rule :
-       {Rule::kConservative, Rule::kThin, Rule::kSolid, Rule::kSolidOdd}) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin, Rule::kSolid, Rule::kSolidOdd}) {
     std::printf("%-24s %-12s", GetParam().name.c_str(), rule_name(rule));
     Tally sum;
     for (const int levels : kGrids) {

@@ -138,20 +138,27 @@ RC_GTEST_PROP(Invariance, OrderAndDuplicates, ()) {
   expect_unchanged(sample, soup);
 }
 
-RC_GTEST_PROP(Invariance, SubdivisionAtLatticeMidpoints, ()) {
-  Sample sample = draw_sample();
-  // Even coordinates have midpoints on the lattice.
-  sample.soup = moved(sample.soup, [](const LatticePoint& p) {
-    return LatticePoint(p.x & ~int64_t(1), p.y & ~int64_t(1), p.z & ~int64_t(1));
-  });
+// Each triangle in four, at the midpoints of its edges; even coordinates have midpoints on the
+// lattice.
+Soup subdivided(const Soup& soup) {
   Soup parts;
-  for (const LatticeTriangle& t : sample.soup) {
+  for (const LatticeTriangle& t : soup) {
     LatticePoint m[3];  // of the edge opposite to vertex i
     for (int i = 0; i < 3; ++i) m[i] = (t.v[(i + 1) % 3] + t.v[(i + 2) % 3]) / int64_t(2);
     for (int i = 0; i < 3; ++i) parts.push_back({{t.v[i], m[(i + 1) % 3], m[(i + 2) % 3]}});
     parts.push_back({{m[0], m[1], m[2]}});
   }
-  expect_unchanged(sample, parts);
+  return parts;
+}
+
+LatticePoint even(const LatticePoint& p) {
+  return {p.x & ~int64_t(1), p.y & ~int64_t(1), p.z & ~int64_t(1)};
+}
+
+RC_GTEST_PROP(Invariance, SubdivisionAtLatticeMidpoints, ()) {
+  Sample sample = draw_sample();
+  sample.soup = moved(sample.soup, even);
+  expect_unchanged(sample, subdivided(sample.soup));
 }
 
 // With scene and grid scaled by the same power of two, the snap gives the same lattice triangles.
@@ -174,6 +181,65 @@ RC_GTEST_PROP(Invariance, ScalingByPowersOfTwo, ()) {
   const Soup here = snapped(grid, world);
   RC_ASSERT(here == snapped(other, scaled));
   expect_unchanged({sample.spot, here, sample.random}, snapped(other, scaled));
+}
+
+// The triangles of a sample closed up to solids.
+Sample draw_solid() {
+  Sample sample = draw_sample();
+  sample.soup = moved(closed_up(sample.soup, sample.spot.anchor(&sample.random)), even);
+  return sample;
+}
+
+void expect_same_solid(const Sample& sample, Rule rule, const Soup& changed) {
+  RC_ASSERT(voxelized(sample.spot, {.rule = rule}, changed) ==
+            voxelized(sample.spot, {.rule = rule}, sample.soup));
+}
+
+RC_GTEST_PROP(InvarianceOfSolids, TranslationByWholeVoxels, ()) {
+  Sample sample = draw_solid();
+  const LatticePoint by = sample.random.point(40);
+  Spot there = sample.spot;
+  there.region.min += by;
+  there.region.max += by;
+  const Soup soup =
+      moved(sample.soup, [&](const LatticePoint& p) { return p + by * sample.spot.voxel(); });
+  for (const Rule rule : {Rule::kSolid, Rule::kSolidOdd}) {
+    expect_mapped(voxelized(sample.spot, {.rule = rule}, sample.soup),
+                  voxelized(there, {.rule = rule}, soup),
+                  [&](const LatticePoint& p) { return p + by; });
+  }
+}
+
+// Subdivision of a part of the surface would open it, unless its edges stay exactly on the others.
+RC_GTEST_PROP(InvarianceOfSolids, OrderFirstVertexAndSubdivision, ()) {
+  Sample sample = draw_solid();
+  Soup soup = subdivided(sample.soup);
+  for (LatticeTriangle& t : soup)
+    std::rotate(t.v.begin(), t.v.begin() + sample.random.axis(), t.v.end());
+  for (size_t i = soup.size() - 1; i > 0; --i) std::swap(soup[i], soup[sample.random.below(i + 1)]);
+  for (const Rule rule : {Rule::kSolid, Rule::kSolidOdd}) expect_same_solid(sample, rule, soup);
+}
+
+RC_GTEST_PROP(InvarianceOfSolids, OrientationOfTheWholeAndForOddOfEachTriangle, ()) {
+  Sample sample = draw_solid();
+  Soup all = sample.soup, some = sample.soup;
+  for (LatticeTriangle& t : all) std::swap(t.v[0], t.v[1]);
+  for (LatticeTriangle& t : some) {
+    if (sample.random.coin()) std::swap(t.v[0], t.v[1]);
+  }
+  expect_same_solid(sample, Rule::kSolid, all);
+  expect_same_solid(sample, Rule::kSolidOdd, all);
+  expect_same_solid(sample, Rule::kSolidOdd, some);
+}
+
+// Duplicates do change solids: the whole surface twice winds twice around its inside.
+RC_GTEST_PROP(InvarianceOfSolids, TheWholeTwiceIsTheSameForNonzeroAndASurfaceForOdd, ()) {
+  Sample sample = draw_solid();
+  Soup twice = sample.soup;
+  twice.insert(twice.end(), sample.soup.begin(), sample.soup.end());
+  expect_same_solid(sample, Rule::kSolid, twice);
+  RC_ASSERT(voxelized(sample.spot, {.rule = Rule::kSolidOdd}, twice) ==
+            voxelized(sample.spot, {}, sample.soup));
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ struct Judgement : SceneFacts {
 // The windows that contain bricks drawn from the file and the scene (verify/sample/sample.h).
 BoundsWindows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
                            Judgement* result) {
-  const BrickDraw draw = draw_bricks(scene, file.view(), file.grid(), file.rule(), *config.sample, config.seed);
+  const BrickDraw draw =
+      draw_bricks(scene, file.view(), file.grid(), file.rule(), *config.sample, config.seed);
   if (draw.untested() && result->grid.defects.empty()) fail_untested();
   result->both_empty = draw.both_empty();
   std::vector<LatticePoint> voxels;

@@ -46,7 +46,7 @@ std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint6
       [&](std::span<const LatticeTriangle> batch) {
         triangles.insert(triangles.end(), batch.begin(), batch.end());
       },
-      is_solid(file.rule()));
+      file.rule());
   return triangles;
 }
 

@@ -131,7 +131,7 @@ void thin_voxels(const LatticeTriangle& triangle, int shift, const VoxelBox& win
 
 void winding_changes(const LatticeTriangle& triangle, int shift, const VoxelBox& window,
                      const WindingSink& sink) {
-  if (window.empty()) return;
+  if (window.empty() || triangle.sheet != 0) return;
   const int64_t half = int64_t(1) << shift >> 1;
   visit_lines(triangle, shift, half, 2, window, [&](LatticePoint voxel, bool up) {
     voxel.z = std::max(voxel.z + 1, window.min.z);  // the first centre above the crossing

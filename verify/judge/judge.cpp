@@ -1,8 +1,8 @@
 #include "verify/judge/judge.h"
 
 #include "streaming/error.h"
-#include "verify/judge/judge_cgal.h"
 #include "verify/judge/centre_lines.h"
+#include "verify/judge/judge_cgal.h"
 
 namespace svdag {
 namespace {

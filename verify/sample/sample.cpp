@@ -118,10 +118,13 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
     gathered.clear();
   };
   progress.phase("judging triangles", 0);
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    gathered.insert(gathered.end(), batch.begin(), batch.end());
-    if (gathered.size() >= kBatchTriangles) flush();
-  }, solid.has_value());
+  stream_snapped(
+      scene, grid,
+      [&](std::span<const LatticeTriangle> batch) {
+        gathered.insert(gathered.end(), batch.begin(), batch.end());
+        if (gathered.size() >= kBatchTriangles) flush();
+      },
+      choice.rule);
   flush();
   progress.finish();
   for (size_t i = 0; solid && i < sample.codes().size(); ++i)

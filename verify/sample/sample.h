@@ -87,7 +87,7 @@ struct SampleComparison {
   Comparison comparison;  // of all drawn bricks, each counted once
   DrawnBricks file;       // drawn from the file's occupied bricks
   std::array<DrawnBricks, kMeasures> scene;
-  DrawnBricks anywhere;  // solid rules only
+  DrawnBricks anywhere;                       // solid rules only
   bool both_empty = false, untested = false;  // as in BrickDraw
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/lattice.h"
+#include "io/scene/open_parts.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -28,8 +29,10 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 }  // namespace
 
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
-                          bool outside) {
+                          Rule rule) {
   const Lattice lattice(grid);
+  OpenParts open;
+  if (is_solid(rule)) open = OpenParts(scene, grid, rule);
   const LatticeBox whole = grid.closed(grid.whole()), selection = grid.closed(grid.selection);
   SnapCounts counts;
   std::vector<LatticeTriangle> snapped;
@@ -37,13 +40,14 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
     snapped.clear();
     for (const Triangle& t : batch.triangles) {
       LatticeTriangle q;
+      q.sheet = open.contains(batch);
       double move = 0;
       for (int i = 0; i < 3; ++i) q.v[i] = lattice.snap(t.v[i], &move);
       const LatticeBox box = box_of(q);
       if (box.meets(selection)) counts.largest_move = std::max(counts.largest_move, move);
       const bool meets = whole.meets(box);
       counts.outside += !meets;
-      if (meets || outside) snapped.push_back(q);
+      if (meets || is_solid(rule)) snapped.push_back(q);
     }
     if (!snapped.empty()) sink(snapped);
   });

@@ -19,10 +19,10 @@ struct SnapCounts {
 
 using SnappedSink = std::function<void(std::span<const LatticeTriangle>)>;
 
-// Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; with
-// `outside`, as winding numbers need it, all triangles.
+// Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; for the
+// solid rules, whose winding numbers need them, all triangles, and those of open parts as sheets.
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
-                          bool outside = false);
+                          Rule rule = Rule::kConservative);
 
 // The result of comparing the file's grid with the scene's bounds.
 struct GridJudgement {

@@ -22,8 +22,8 @@ SolidColumns::SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeT
   for (const LatticeTriangle& triangle : triangles) {
     winding_changes(triangle, grid.fraction(), grid.whole(),
                     [&](const LatticePoint& voxel, int change) {
-                      changes_.push_back({uint64_t(voxel.x) << 20 | uint64_t(voxel.y),
-                                          int32_t(voxel.z), change});
+                      changes_.push_back(
+                          {uint64_t(voxel.x) << 20 | uint64_t(voxel.y), int32_t(voxel.z), change});
                     });
   }
   std::ranges::sort(changes_, {}, [](const Change& c) { return std::tuple(c.column, c.z); });
@@ -129,15 +129,15 @@ void SolidBricks::descend(const LatticeTriangle& triangle, const VoxelBox& box, 
 
 void SolidBricks::count(const LatticeTriangle& triangle, size_t index) {
   const LatticePoint corner = corners_[index];
-  winding_changes(triangle, grid_.fraction(), {corner, corner + int64_t(kBrickSide)},
-                  [&](LatticePoint voxel, int change) {
-                    for (; voxel.z < corner.z + kBrickSide; ++voxel.z) {
-                      const LatticePoint p = voxel - corner;
-                      const unsigned bit = brick_bit(unsigned(p.x), unsigned(p.y), unsigned(p.z));
-                      std::atomic_ref(windings_[64 * index + bit])
-                          .fetch_add(change, std::memory_order_relaxed);
-                    }
-                  });
+  winding_changes(
+      triangle, grid_.fraction(), {corner, corner + int64_t(kBrickSide)},
+      [&](LatticePoint voxel, int change) {
+        for (; voxel.z < corner.z + kBrickSide; ++voxel.z) {
+          const LatticePoint p = voxel - corner;
+          const unsigned bit = brick_bit(unsigned(p.x), unsigned(p.y), unsigned(p.z));
+          std::atomic_ref(windings_[64 * index + bit]).fetch_add(change, std::memory_order_relaxed);
+        }
+      });
 }
 
 Brick SolidBricks::inside(Rule rule, size_t index) const {

@@ -129,6 +129,7 @@ void Planner::read_scene() {
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
   split_config.rule = plan_.rule;
+  split_config.open_as_sheets = config_.build.open_as_sheets;
   split_config.layers = config_.build.layers;
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();

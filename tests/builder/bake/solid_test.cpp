@@ -145,9 +145,8 @@ class Solid : public ::testing::Test {
     });
     ParallelExecutor executor(1);
     Progress progress;
-    const Comparison found =
-        compare_all(file.view(), grid, snapped, {JudgeChoice::Kind::kInteger, file.rule()},
-                    executor, progress);
+    const Comparison found = compare_all(
+        file.view(), grid, snapped, {JudgeChoice::Kind::kInteger, file.rule()}, executor, progress);
     EXPECT_EQ(found.missing, 0U);
     EXPECT_EQ(found.extra, 0U);
     EXPECT_EQ(found.file_voxels, file.header().voxels);

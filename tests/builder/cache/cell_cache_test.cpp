@@ -290,12 +290,12 @@ TEST_F(Cache, AFolderThatCannotBeWrittenDoesNotFailTheBake) {
 
 // The key of a cube of 32^3 voxels with `triangles`.
 CellKey key_of(const Grid& grid, Rule rule, const LatticePoint& cube,
-               const std::vector<LatticeTriangle>& triangles) {
+               const std::vector<LatticeTriangle>& triangles, int32_t winding = 0) {
   std::vector<TriangleSetup> setups;
   for (const LatticeTriangle& t : triangles) setups.push_back(make_setup(t));
   TriangleList list;
   for (const TriangleSetup& setup : setups) list.push_back({&setup, setup.edges});
-  return cell_key(grid, rule, {grid.levels - 5, cube}, list);
+  return cell_key(grid, rule, {grid.levels - 5, cube}, list, winding);
 }
 
 TEST(CellKey, DependsOnTheContentAndNotOnThePosition) {
@@ -310,6 +310,23 @@ TEST(CellKey, DependsOnTheContentAndNotOnThePosition) {
   }
   EXPECT_EQ(key, key_of(grid, Rule::kConservative, {3, 1, 2}, {moved_a, moved_b}));
   EXPECT_EQ(key, key_of(grid_of(12), Rule::kConservative, {0, 0, 0}, {a, b}));
+}
+
+TEST(CellKey, OfSolidsKnowsOrientationRepetitionAndWinding) {
+  const Grid grid = grid_of(10);
+  const LatticeTriangle a{{LatticePoint(1, 2, 3), {400, 500, 600}, {7000, 8, 9}}};
+  const LatticeTriangle same{{a.v[1], a.v[2], a.v[0]}}, turned{{a.v[1], a.v[0], a.v[2]}};
+  LatticeTriangle sheet = a;
+  sheet.sheet = 1;
+  const auto key = [&](const std::vector<LatticeTriangle>& list, int32_t winding) {
+    return key_of(grid, Rule::kSolid, {0, 0, 0}, list, winding);
+  };
+  EXPECT_EQ(key({a}, 1), key({same}, 1));
+  EXPECT_NE(key({a}, 1), key({turned}, 1));
+  EXPECT_NE(key({a}, 1), key({a, a}, 1));
+  EXPECT_NE(key({a}, 1), key({a}, 0));
+  EXPECT_NE(key({a}, 1), key({sheet}, 1));
+  EXPECT_NE(key({a}, 1), key_of(grid, Rule::kSolidOdd, {0, 0, 0}, {a}, 1));
 }
 
 TEST(CellKey, DiffersWhereTheContentMayDiffer) {
