@@ -30,7 +30,7 @@ struct ReadySplit {
   std::vector<TriangleBin> bins;   // every bin that meets the grid part to bake
   SpillFile* triangles = nullptr;  // holds the streams of `bins`
   SceneLayers layers = {};
-  std::shared_ptr<const WindingGrid> windings = {};  // null unless the rule is solid
+  std::shared_ptr<const CellWindings> windings = {};  // null unless the rule is solid
 };
 
 // Default of --checkpoint, in seconds.

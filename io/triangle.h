@@ -16,11 +16,14 @@ struct Triangle {
   std::array<Point, 3> v;
 };
 
+// Of which sets of a bake a triangle is a sheet only (io/scene/open_parts.h).
+constexpr uint32_t kSheetOfUnion = 1, kSheetOfLayer = 2;
+
 // The normative geometry: everything after the snap is decided on these integers alone.
 struct LatticeTriangle {
   std::array<LatticePoint, 3> v;
   uint32_t subject = 0;  // with layers: its layer (builder/octree/sub_dag_root.h)
-  uint32_t sheet = 0;    // 1: of an open part, which bounds no solid (io/scene/open_parts.h)
+  uint32_t sheet = 0;    // kSheetOf...: of an open part, which bounds no solid
   bool operator==(const LatticeTriangle&) const = default;
 };
 

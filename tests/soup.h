@@ -59,6 +59,22 @@ inline std::vector<Triangle> bumpy_sphere(int stacks) {
   return mesh;
 }
 
+// The twelve triangles of a box, two for each face, with their front outside.
+inline std::vector<Triangle> closed_box(const Point& low, const Point& high) {
+  std::vector<Triangle> mesh;
+  for (int w = 0; w < 3; ++w) {
+    Point u(0), v(0), up(0);
+    u[(w + 1) % 3] = (high - low)[(w + 1) % 3];
+    v[(w + 2) % 3] = (high - low)[(w + 2) % 3];
+    up[w] = (high - low)[w];
+    mesh.push_back({{low + up, low + up + u, low + up + u + v}});
+    mesh.push_back({{low + up, low + up + u + v, low + up + v}});
+    mesh.push_back({{low, low + u + v, low + u}});
+    mesh.push_back({{low, low + v, low + u + v}});
+  }
+  return mesh;
+}
+
 // Axis-aligned boxes and a big slanted quad: large triangles that stay at inner nodes.
 inline std::vector<Triangle> boxes_and_quad(int boxes, uint64_t seed) {
   std::mt19937_64 random(seed);

@@ -28,7 +28,7 @@ BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConf
       executor_(executor),
       progress_(progress) {}
 
-void BinBaker::bake(SpillFile* file, const TriangleBin& all, const WindingGrid* windings) {
+void BinBaker::bake(SpillFile* file, const TriangleBin& all, const CellWindings* windings) {
   if (done_ != nullptr && done_->coverage(all.range) == MortonSet::Coverage::kAll) return;
   TriangleBin bin = all;
   // Winding numbers are known where the bin begins, not where its voxels do.
@@ -45,10 +45,10 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& all, const WindingGrid* 
   bake_parts(file, bin, windings);
 }
 
-std::unique_ptr<WindingGrid> BinBaker::finer(const WindingGrid* known, const Cube& cube,
-                                             int level) {
+std::unique_ptr<CellWindings> BinBaker::finer(const CellWindings* known, const Cube& cube,
+                                              int level) {
   if (known == nullptr || level <= known->level()) return nullptr;
-  return std::make_unique<WindingGrid>(grid_.levels, cube, level, budget_);
+  return std::make_unique<CellWindings>(grid_.levels, cube, level, budget_);
 }
 
 template <class Visit>
@@ -64,7 +64,7 @@ bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const
 }
 
 // Bakes the bin as a tree; false if that is too much.
-bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
+bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
   if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return false;
   const int finest = std::max(grid_.levels - kSmallestCellLog2, bin.cube.level);
   const int wanted = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
@@ -85,34 +85,43 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const WindingG
   return true;
 }
 
-void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
+void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
   constexpr uint64_t kPerTriangle =
       sizeof(LatticeTriangle) + sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
   const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
   DenseCube cube(grid_, bin.cube, descent_, budget_);
   progress_->phase("voxelize a dense cube", bin.triangles);
+  const LayerWindings at_cube = windings != nullptr ? windings->at(bin.cube) : LayerWindings();
   std::set<Subject> subjects;
+  for (const LayerWinding& w : at_cube) {
+    if (w.subject != kUnionSet) subjects.insert(w.subject);
+  }
+  bool same = true;  // the union and the only layer, if there is one
   // Fills the bitmap with all triangles, or those of a layer.
   const auto fill = [&](std::optional<Subject> only) {
-    cube.clear();
+    cube.clear(only ? kSheetOfLayer : kSheetOfUnion);
     read(file, bin, most, [&](std::vector<LatticeTriangle>* triangles) {
       if (only) {
         std::erase_if(*triangles, [&](const LatticeTriangle& t) { return t.subject != *only; });
       } else {
-        for (const LatticeTriangle& t : *triangles) subjects.insert(t.subject);
+        for (const LatticeTriangle& t : *triangles) {
+          subjects.insert(t.subject);
+          same &= t.subject == kUnionSet || is_sheet_of_both_or_none(t.sheet);
+        }
         progress_->advance(triangles->size());
       }
       cube.add(*triangles, executor_);
       return true;
     });
+    cube.fill(winding_of(at_cube, only.value_or(kUnionSet)));
   };
   fill({});
-  if (windings != nullptr) cube.fill(windings->at(bin.cube));
+  same &= subjects.size() == 1 &&
+          winding_of(at_cube, *subjects.begin()) == winding_of(at_cube, kUnionSet);
   voxelizer_->bake(bin.cube, windings, bin.range,
                    [&](NodeTable* table, std::vector<SubjectDag>* dags) {
-                     if (subjects.size() == 1)
-                       return dags->push_back({*subjects.begin(), cube.reduce(table)});
+                     if (same) return dags->push_back({*subjects.begin(), cube.reduce(table)});
                      dags->push_back({kUnionSet, cube.reduce(table)});
                      for (const Subject subject : subjects) {
                        fill(subject);
@@ -121,7 +130,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const Winding
                    });
 }
 
-void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings) {
+void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
   // A surface in 4^depth parts of as many: deep enough that most fit.
   const uint64_t fitting = split_.triangle_bytes / (2 * sizeof(LatticeTriangle));
   const int most =
@@ -139,7 +148,7 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const Winding
     return true;
   });
   if (own) own->finish(windings->at(bin.cube));
-  const WindingGrid* const of_parts = own ? own.get() : windings;
+  const CellWindings* const of_parts = own ? own.get() : windings;
   uint64_t at = bin.range.begin;
   for_each_bin(bins.finish(), progress_, [&](const TriangleBin& part) {
     voxelizer_->bake_untouched({at, part.range.begin}, of_parts);

@@ -32,7 +32,7 @@ class BinBaker {
 
   // `file` holds the bin. `windings`: of the cubes of a level, that of the bin or a finer one, for
   // the solid rules; else null.
-  void bake(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
+  void bake(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
 
  private:
   // visit(&triangles) for batch after batch, until it returns false; whether it never did.
@@ -40,10 +40,10 @@ class BinBaker {
   bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
   // The winding numbers of the cubes of `level` in the bin; null if `known` has that level. The
   // bin's triangles are to be added.
-  std::unique_ptr<WindingGrid> finer(const WindingGrid* known, const Cube& cube, int level);
-  bool bake_tree(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
-  void bake_dense(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
-  void bake_parts(SpillFile* file, const TriangleBin& bin, const WindingGrid* windings);
+  std::unique_ptr<CellWindings> finer(const CellWindings* known, const Cube& cube, int level);
+  bool bake_tree(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
+  void bake_dense(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
+  void bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
 
   const Grid& grid_;
   const SplitConfig& split_;

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "builder/descend/self_test.h"
-#include "builder/overlap/crossing.h"
 
 namespace svdag {
 namespace {
@@ -23,15 +22,16 @@ class Voxelizer::Worker {
 
   void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent.overlap()); }
   void end() { cursor_.reset(); }
-  void bake(const Cube& cell, const WindingGrid* windings) {
-    const int32_t winding = winding_at(cell, windings);
+  void bake(const Cube& cell, const CellWindings* windings) {
+    const LayerWindings at_cell = windings_at(cell, windings);
     const TriangleList& list = cursor_->list(cell);
-    if (config_.store == nullptr || !is_new(cell) || !is_of_one_layer(list))
-      return descent_.run(cell, list, winding);
-    const CellKey key = config_.store->key(cell, list, winding);
-    if (!config_.store->take(key, cell, subject_of(list))) bake_for_store(cell, list, winding, key);
+    const std::optional<Subject> subject = descent_.only_subject(list, at_cell);
+    if (config_.store == nullptr || !is_new(cell) || !subject)
+      return descent_.run(cell, list, at_cell);
+    const CellKey key = config_.store->key(cell, list, winding_of(at_cell, kUnionSet));
+    if (!config_.store->take(key, cell, *subject)) bake_for_store(cell, list, at_cell, key);
   }
-  void bake_untouched(const MortonRange& range, const WindingGrid* windings) {
+  void bake_untouched(const MortonRange& range, const CellWindings* windings) {
     if (windings == nullptr) return builder_.note_empty(range);
     for_each_cube(range, builder_.levels(), [&](const Cube& cube) {
       if (!is_done(morton_range(cube, builder_.levels())))
@@ -72,23 +72,20 @@ class Voxelizer::Worker {
   }
 
   // Cubes in heavy cells are smaller than those of `windings`.
-  int32_t winding_at(const Cube& cube, const WindingGrid* windings) {
-    if (windings == nullptr) return 0;
+  LayerWindings windings_at(const Cube& cube, const CellWindings* windings) {
+    if (windings == nullptr) return {};
     const Cube known = ancestor(cube, std::min(cube.level, windings->level()));
-    const int fraction = fraction_bits(builder_.levels());
-    return windings->at(known) +
-           (known == cube ? 0
-                          : crossings(cursor_->list(known),
-                                      first_centre(known.corner(builder_.levels()), fraction),
-                                      first_centre(cube.corner(builder_.levels()), fraction)));
+    const LayerWindings at_known = windings->at(known);
+    return known == cube ? at_known
+                         : descent_.windings_at(cube, known, cursor_->list(known), at_known);
   }
 
   // A cell in whose middle the table was emptied is in two runs, and useless to others.
-  void bake_for_store(const Cube& cell, const TriangleList& list, int32_t winding,
+  void bake_for_store(const Cube& cell, const TriangleList& list, const LayerWindings& windings,
                       const CellKey& key) {
     const size_t first = builder_.roots().size(), runs = runs_;
     const uint64_t voxels = builder_.voxels();
-    descent_.run(cell, list, winding);
+    descent_.run(cell, list, windings);
     if (runs_ != runs) return;
     const size_t added = builder_.roots().size() - first;
     if (added == 0) return cells_.push_back({key, BakedCell::kNoRoot, 0});
@@ -126,7 +123,7 @@ Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budg
 
 Voxelizer::~Voxelizer() = default;
 
-void Voxelizer::bake(const CellTree& tree, const WindingGrid* windings, const MortonRange& range,
+void Voxelizer::bake(const CellTree& tree, const CellWindings* windings, const MortonRange& range,
                      Progress* progress) {
   const uint64_t share = tree.triangles() / (kTasksPerWorker * workers_.size());
   const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kMinDividedCell));
@@ -150,7 +147,7 @@ void Voxelizer::bake(const CellTree& tree, const WindingGrid* windings, const Mo
   for (const auto& worker : workers_) worker->end();
 }
 
-void Voxelizer::bake(const Cube& cube, const WindingGrid* windings, const MortonRange& range,
+void Voxelizer::bake(const Cube& cube, const CellWindings* windings, const MortonRange& range,
                      const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce) {
   ++cells_;
   const MortonRange own = morton_range(cube, grid_.levels);
@@ -161,7 +158,7 @@ void Voxelizer::bake(const Cube& cube, const WindingGrid* windings, const Morton
   workers_[0]->bake_untouched({own.end, range.end}, windings);
 }
 
-void Voxelizer::bake_untouched(const MortonRange& range, const WindingGrid* windings) {
+void Voxelizer::bake_untouched(const MortonRange& range, const CellWindings* windings) {
   workers_[0]->bake_untouched(range, windings);
 }
 

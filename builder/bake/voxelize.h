@@ -13,7 +13,7 @@
 
 #include "builder/cache/cell_store.h"
 #include "builder/descend/descend.h"
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/cell_windings.h"
 #include "builder/reduce/baked_run.h"
 #include "builder/split/cell_tree.h"
 #include "builder/workspace/scratch.h"
@@ -46,13 +46,13 @@ class Voxelizer {
 
   // Bakes all cells of a sealed tree, which holds all triangles of `range`. `windings`: of the
   // cells, for the solid rules; else null.
-  void bake(const CellTree& tree, const WindingGrid* windings, const MortonRange& range,
+  void bake(const CellTree& tree, const CellWindings* windings, const MortonRange& range,
             Progress* progress);
   // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is untouched.
-  void bake(const Cube& cube, const WindingGrid* windings, const MortonRange& range,
+  void bake(const Cube& cube, const CellWindings* windings, const MortonRange& range,
             const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce);
   // Bakes a range that no triangle touches: it is empty, or inside of a solid.
-  void bake_untouched(const MortonRange& range, const WindingGrid* windings);
+  void bake_untouched(const MortonRange& range, const CellWindings* windings);
   // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.
   std::vector<BakedRun> finish(bool spill);
 

@@ -111,6 +111,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"cache_hits", r.cache_hits},
                {"cache_packs_ignored", r.cache_packs_skipped},
                {"open_parts", r.split.open_parts},
+               {"open_layers", r.split.open_layers},
                {"volume_voxels", r.split.volume},
                {"voxels", r.voxels},
                {"nodes", r.nodes},
@@ -156,6 +157,9 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
   if (r.split.open_parts > 0)
     std::printf("  %s open part%s baked as surface%s\n", format_count(r.split.open_parts).c_str(),
                 r.split.open_parts == 1 ? "" : "s", r.split.open_parts == 1 ? "" : "s");
+  if (r.split.open_layers > 0)
+    std::printf("  %s open layer%s baked as surface%s\n", format_count(r.split.open_layers).c_str(),
+                r.split.open_layers == 1 ? "" : "s", r.split.open_layers == 1 ? "" : "s");
   if (r.voxels == 0)
     std::printf("  no voxel is set: %s triangles meet the grid\n",
                 format_count(r.split.scene.triangles - r.split.outside).c_str());

@@ -13,11 +13,14 @@ DenseCube::DenseCube(const Grid& grid, const Cube& cube, const DescentConfig& co
   const int log2 = grid.levels - cube.level - 2;  // of the side in bricks
   SVDAG_ASSERT(log2 >= 0 && log2 + 2 <= max_side_log2(config.rule));
   const uint64_t bricks = uint64_t(1) << (3 * log2);
-  reservation_ = budget->reserve(bricks * sizeof(Brick), "voxels of a dense cube");
+  const bool solid = is_solid(config.rule);
+  const uint64_t per_brick = sizeof(Brick) + (solid ? 64 * sizeof(int32_t) : 0);
+  reservation_ = budget->reserve(bricks * per_brick, "voxels of a dense cube");
   bricks_.assign(bricks, 0);
-  if (!is_solid(config.rule)) return;
+  if (!solid) return;
   surface_.rule = Rule::kConservative;
-  windings_.emplace(grid.levels, cube, grid.levels, budget);
+  lines_.emplace(grid.levels, cube, grid.levels);
+  steps_.assign(lines_->points(), 0);
 }
 
 void DenseCube::add(std::span<const LatticeTriangle> triangles, Executor* executor) {
@@ -32,14 +35,20 @@ void DenseCube::add(std::span<const LatticeTriangle> triangles, Executor* execut
           std::atomic_ref(bricks_[morton(at) - first]).fetch_or(brick, std::memory_order_relaxed);
         },
         budget_);
-    if (!windings_) return;
-    for (const LatticeTriangle& triangle : share) windings_->add(triangle);
+    if (!lines_) return;
+    for (const LatticeTriangle& triangle : share) {
+      if ((triangle.sheet & sheets_) != 0) continue;
+      lines_->for_each_change(triangle, [&](size_t point, int change) {
+        std::atomic_ref(steps_[point]).fetch_add(change, std::memory_order_relaxed);
+      });
+    }
   });
 }
 
 void DenseCube::fill(int32_t winding) {
-  if (!windings_) return;
-  windings_->finish(winding);
+  if (!lines_) return;
+  steps_[0] = winding;
+  lines_->sum(steps_);
   const uint64_t first = morton(cube_.coordinate) * bricks_.size();
   for (size_t i = 0; i < bricks_.size(); ++i) {
     const LatticePoint corner = unmorton(first + i) * int64_t(kBrickSide);
@@ -47,7 +56,7 @@ void DenseCube::fill(int32_t winding) {
       const auto [x, y, z] = brick_voxel(bit);
       const LatticePoint voxel = corner + LatticePoint(x, y, z);
       const bool selected = !grid_.bounded || grid_.selection.holds({voxel, voxel + int64_t(1)});
-      if (selected && is_inside(rule_, windings_->at({grid_.levels, voxel})))
+      if (selected && is_inside(rule_, steps_[lines_->index(Cube{grid_.levels, voxel})]))
         bricks_[i] |= Brick(1) << bit;
     }
   }

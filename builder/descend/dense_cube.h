@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "builder/descend/descend.h"
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/winding_lines.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {
@@ -32,8 +32,12 @@ class DenseCube {
   // Sets the voxels inside of the solid, given the winding number at the cube's first_centre(). To
   // be called once, after all triangles were added; does nothing for the other rules.
   void fill(int32_t winding);
-  // Empties the bitmap.
-  void clear() { std::fill(bricks_.begin(), bricks_.end(), 0); }
+  // Empties the bitmap, for the triangles of a set whose sheets are those of `sheets`.
+  void clear(uint32_t sheets) {
+    std::fill(bricks_.begin(), bricks_.end(), 0);
+    std::fill(steps_.begin(), steps_.end(), 0);
+    sheets_ = sheets;
+  }
   // Adds the nodes to `table`; the root is pending.
   SubDag reduce(NodeTable* table) const;
 
@@ -46,8 +50,10 @@ class DenseCube {
   DescentConfig surface_;
   MemoryBudget* budget_;
   MemoryBudget::Reservation reservation_;
-  std::optional<WindingGrid> windings_;  // of the voxels; solid rules only
-  std::vector<Brick> bricks_;            // in Morton order
+  uint32_t sheets_ = kSheetOfUnion;
+  std::optional<WindingLines> lines_;  // of the voxels; solid rules only
+  std::vector<int32_t> steps_;         // their changes, then the winding numbers
+  std::vector<Brick> bricks_;          // in Morton order
 };
 
 }  // namespace svdag

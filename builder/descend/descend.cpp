@@ -15,17 +15,38 @@ constexpr int64_t kLargestPatchSide = 64;             // voxels
 constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio (Knuth)
 constexpr int kPauseLog2 = 6;  // the builder may pause before each cube of 64^3 voxels
 
-// Calls visit(subject, triangles) for each layer of a list.
+// Calls visit(subject, triangles, winding) for the union and for each layer of a list or of
+// windings, by subject. A layer that merely winds around the cube has no triangles.
 template <class Visit>
-void for_each_layer(const TriangleList& list, const Visit& visit) {
+void for_each_set(const TriangleList& list, const LayerWindings& windings, const Visit& visit) {
+  visit(kUnionSet, std::span(list), winding_of(windings, kUnionSet));
+  auto known = windings.begin();
+  const auto visit_before = [&](Subject subject) {
+    for (; known != windings.end() && known->subject < subject; ++known) {
+      if (known->subject != kUnionSet)
+        visit(known->subject, std::span(list).first(0), known->winding);
+    }
+  };
   for (auto begin = list.begin(); begin != list.end();) {
+    const Subject subject = begin->triangle->triangle.subject;
     auto end = begin;
-    while (end != list.end() &&
-           end->triangle->triangle.subject == begin->triangle->triangle.subject)
-      ++end;
-    visit(begin->triangle->triangle.subject | kApart, std::span(begin, end));
+    while (end != list.end() && end->triangle->triangle.subject == subject) ++end;
+    visit_before(subject);
+    const bool winds = known != windings.end() && known->subject == subject;
+    if (subject != kUnionSet) visit(subject, std::span(begin, end), winds ? known->winding : 0);
+    if (winds) ++known;
     begin = end;
   }
+  visit_before(~Subject(0));
+}
+
+// As the subject of a sub-DAG in a cube of several layers.
+Subject apart(Subject set) {
+  return set == kUnionSet ? kUnionSet : set | kApart;
+}
+
+uint32_t sheets_of(Subject set) {
+  return set == kUnionSet ? kSheetOfUnion : kSheetOfLayer;
 }
 
 }  // namespace
@@ -44,7 +65,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* b
       dags_(size_t(grid.levels)),
       divided_(size_t(grid.levels)) {}
 
-void Descent::run(const Cube& cube, const TriangleList& list, int32_t winding) {
+void Descent::run(const Cube& cube, const TriangleList& list, const LayerWindings& windings) {
   check_interrupt();
   admitted_.fill({});  // its addresses may belong to other triangles by now
   memo_.forget();
@@ -52,13 +73,44 @@ void Descent::run(const Cube& cube, const TriangleList& list, int32_t winding) {
   partly_done_ = done_ != nullptr &&
                  done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
   builder_->begin(cube);
-  if (is_of_one_layer(list)) {
-    builder_->set_subject(subject_of(list));
-    return update_memo(builder_->end(cube, node(cube, list, winding)));
+  if (const auto subject = only_subject(list, windings)) {
+    builder_->set_subject(*subject);
+    return update_memo(builder_->end(cube, node(cube, list, winding_of(windings, kUnionSet))));
   }
   SubjectDags dags;
-  node(cube, list, &dags);
+  node(cube, list, windings, &dags);
   end(cube, std::move(dags));
+}
+
+std::optional<Subject> Descent::only_subject(const TriangleList& list,
+                                             const LayerWindings& windings) const {
+  if (!is_of_one_layer(list)) return std::nullopt;
+  Subject subject = subject_of(list);
+  if (!is_solid(config_.rule)) return subject;
+  for (const LayerWinding& w : windings) {
+    if (w.subject == kUnionSet || w.subject == subject) continue;
+    if (!list.empty() || subject != kUnionSet) return std::nullopt;
+    subject = w.subject;
+  }
+  if (subject == kUnionSet) return subject;
+  if (winding_of(windings, subject) != winding_of(windings, kUnionSet)) return std::nullopt;
+  for (const ListedTriangle& entry : list) {
+    if (!is_sheet_of_both_or_none(entry.triangle->triangle.sheet)) return std::nullopt;
+  }
+  return subject;
+}
+
+LayerWindings Descent::windings_at(const Cube& to, const Cube& from, const TriangleList& list,
+                                   const LayerWindings& windings) const {
+  const LatticePoint a = first_centre(from.corner(grid_.levels), grid_.fraction());
+  const LatticePoint b = first_centre(to.corner(grid_.levels), grid_.fraction());
+  LayerWindings result;
+  for_each_set(list, windings,
+               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                 winding += crossings(of_set, a, b, sheets_of(subject));
+                 if (winding != 0) result.push_back({subject, winding});
+               });
+  return result;
 }
 
 void Descent::adopt(const Cube& cube, SubjectDags dags) {
@@ -82,9 +134,8 @@ void Descent::update_memo(SubDagBuilder::Pause pause) {
   }
 }
 
-Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list, int32_t winding) const {
-  if ((list.empty() && !is_inside(config_.rule, winding)) ||
-      (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
+Descent::Need Descent::need_of(const Cube& cube, bool is_empty) const {
+  if (is_empty || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
     return Need::kNothing;
   if (!partly_done_) return Need::kAll;
   const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
@@ -99,12 +150,13 @@ void Descent::pause_at(const Cube& cube) {
 }
 
 SubDag Descent::node(const Cube& cube, const TriangleList& list, int32_t winding) {
-  const Need need = need_of(cube, list, winding);
+  const Need need = need_of(cube, list.empty() && !is_inside(config_.rule, winding));
   if (need == Need::kNothing) return {};
   if (list.empty()) return full(cube, winding, need);
-  if (cube.level == table_->brick_level()) return brick(voxels_of(cube, list, winding));
+  if (cube.level == table_->brick_level())
+    return brick(voxels_of(cube, list, winding, kSheetOfUnion));
   if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch) {
-    if (const auto known = find_in_memo(cube, list, winding)) return *known;
+    if (const auto known = find_in_memo(cube, list, winding, kSheetOfUnion)) return *known;
   }
   pause_at(cube);
   return divide(cube, list, winding, need == Need::kRest);
@@ -127,15 +179,27 @@ SubDag Descent::full(const Cube& cube, int32_t winding, Need need) {
   return {*known, uint64_t(side.x) * uint64_t(side.y) * uint64_t(side.z)};
 }
 
-void Descent::node(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
-  const Need need = need_of(cube, list, 0);
+void Descent::node(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                   SubjectDags* dags) {
+  const Need need = need_of(cube, list.empty() && windings.empty());
   if (need == Need::kNothing) return;
-  if (cube.level == table_->brick_level()) return bricks(cube, list, dags);
+  if (list.empty() && need == Need::kAll) return add_full(cube, list, windings, dags);
+  if (cube.level == table_->brick_level()) return bricks(cube, list, windings, dags);
   if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
-      find_in_memo(cube, list, dags))
+      find_in_memo(cube, list, windings, dags))
     return;
   pause_at(cube);
-  divide(cube, list, need == Need::kRest, dags);
+  divide(cube, list, windings, need == Need::kRest, dags);
+}
+
+// Adds the sets that have no triangle in the cube and wind around it.
+void Descent::add_full(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                       SubjectDags* dags) {
+  for_each_set(list, windings,
+               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                 if (of_set.empty() && is_inside(config_.rule, winding))
+                   dags->push_back({apart(subject), full(cube, winding, Need::kAll)});
+               });
 }
 
 SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots) {
@@ -154,21 +218,35 @@ SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t windi
   return builder_->close(cube.level);
 }
 
-void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots, SubjectDags* dags) {
+void Descent::divide(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                     bool as_roots, SubjectDags* dags) {
   ++divided_[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
+  std::array<LayerWindings, 8> windings_of;
+  if (is_solid(config_.rule)) {
+    for_each_set(list, windings,
+                 [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                   int32_t at[8];
+                   windings_of_children(of_set, cube.corner(grid_.levels),
+                                        int64_t(1) << cube.side_log2(grid_.levels),
+                                        grid_.fraction(), winding, at, sheets_of(subject));
+                   for (unsigned c = 0; c < 8; ++c) {
+                     if (at[c] != 0) windings_of[c].push_back({subject, at[c]});
+                   }
+                 });
+  }
   builder_->open(cube, as_roots);
   SubjectDags& of_child = dags_[size_t(cube.level)];
   for (unsigned c = 0; c < 8; ++c) {
     of_child.clear();
-    if (is_of_one_layer(lists[c])) {
-      const Subject subject = subject_of(lists[c]);
-      builder_->set_subject(subject);
-      const SubDag dag = node(cube.child(c), lists[c], 0);
-      of_child = {{kUnionSet, dag}, {subject | kApart, dag}};
+    if (const auto subject = only_subject(lists[c], windings_of[c])) {
+      builder_->set_subject(*subject);
+      const SubDag dag = node(cube.child(c), lists[c], winding_of(windings_of[c], kUnionSet));
+      of_child = {{kUnionSet, dag}};
+      if (*subject != kUnionSet) of_child.push_back({*subject | kApart, dag});
     } else {
-      node(cube.child(c), lists[c], &of_child);
+      node(cube.child(c), lists[c], windings_of[c], &of_child);
     }
     for (const auto& [subject, dag] : of_child) {
       if (config_.with_union || subject != kUnionSet)
@@ -178,23 +256,30 @@ void Descent::divide(const Cube& cube, const TriangleList& list, bool as_roots, 
   builder_->close(cube.level, dags);
 }
 
-// Whether the memo knows every subject's sub-DAG.
-bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
-  const auto of_all = find_in_memo(cube, list, 0);
-  if (!of_all) return false;
-  dags->push_back({kUnionSet, *of_all});
-  for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
-    if (dags->empty()) return;
-    const auto known = find_in_memo(cube, TriangleList(of_layer.begin(), of_layer.end()), 0);
-    known ? dags->push_back({subject, *known}) : dags->clear();
-  });
-  return !dags->empty();
+// Whether the memo knows the sub-DAG of every set.
+bool Descent::find_in_memo(const Cube& cube, const TriangleList& list,
+                           const LayerWindings& windings, SubjectDags* dags) {
+  bool known = true;
+  for_each_set(list, windings,
+               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                 if (!known || of_set.empty()) return;
+                 const auto dag =
+                     of_set.size() == list.size()
+                         ? find_in_memo(cube, list, winding, sheets_of(subject))
+                         : find_in_memo(cube, TriangleList(of_set.begin(), of_set.end()), winding,
+                                        sheets_of(subject));
+                 known = dag.has_value();
+                 if (known) dags->push_back({apart(subject), *dag});
+               });
+  known ? add_full(cube, list, windings, dags) : dags->clear();
+  return known;
 }
 
 std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list,
-                                            int32_t winding) {
+                                            int32_t winding, uint32_t sheets) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
-  if (list.size() > 1) return config_.patches ? find_patch(cube, list, winding) : std::nullopt;
+  if (list.size() > 1)
+    return config_.patches ? find_patch(cube, list, winding, sheets) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
   const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(*list[0].triangle);
   if (!known || cube.level < known->min_query_level) return std::nullopt;
@@ -202,28 +287,29 @@ std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList
                                        int64_t(1) << cube.side_log2(grid_.levels));
   if (!range) return std::nullopt;
   std::optional<Witness> witness;
-  return memo_.find(*known, cube, *range, filled_sides(cube, list, known->plane, winding),
+  return memo_.find(*known, cube, *range, filled_sides(cube, list, known->plane, winding, sheets),
                     &witness);
 }
 
 // Which sides of the plane are inside of the solid, by the winding numbers of the cube's extreme
 // voxels along the plane's normal.
 FilledSides Descent::filled_sides(const Cube& cube, const TriangleList& list,
-                                  const LatticePlane& plane, int32_t winding) const {
+                                  const LatticePlane& plane, int32_t winding,
+                                  uint32_t sheets) const {
   if (!is_solid(config_.rule)) return 0;
   const int64_t step = (int64_t(1) << cube.side_log2(grid_.levels)) -
                        (int64_t(1) << grid_.fraction());  // between first and last centre
   const LatticePoint first = first_centre(cube.corner(grid_.levels), grid_.fraction());
   LatticePoint low = first, high = first;
   for (int a = 0; a < 3; ++a) (plane.n[a] < 0 ? low : high)[a] += step;
-  const int32_t at_low = winding + crossings(list, first, low);
-  const int32_t at_high = winding + crossings(list, first, high);
+  const int32_t at_low = winding + crossings(list, first, low, sheets);
+  const int32_t at_high = winding + crossings(list, first, high, sheets);
   return (is_inside(config_.rule, at_low) ? kLowSide : 0) |
          (is_inside(config_.rule, at_high) ? kHighSide : 0);
 }
 
 std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& list,
-                                          int32_t winding) {
+                                          int32_t winding, uint32_t sheets) {
   const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
   if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
   const auto covering = std::find_if(list.begin(), list.end(), [](const ListedTriangle& entry) {
@@ -240,8 +326,8 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
   if (!range) return std::nullopt;
   std::optional<Witness> witness;
-  const auto dag =
-      memo_.find(*known, cube, *range, filled_sides(cube, list, known->plane, winding), &witness);
+  const auto dag = memo_.find(*known, cube, *range,
+                              filled_sides(cube, list, known->plane, winding, sheets), &witness);
   if (!dag || !witness || covered || !config_.patch.witness) return dag;
   if (!covers_witness(list, known->plane, corner, grid_.fraction(), voxels, *witness))
     return std::nullopt;
@@ -259,7 +345,8 @@ const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleS
   return admitted_[slot].known;
 }
 
-Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding) {
+Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding,
+                         uint32_t sheets) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =
@@ -269,7 +356,7 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
   const Brick touched =
       kernel(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &decisions_);
   Brick voxels = touched;
-  for_each_untouched(list, corner, grid_.fraction(), winding, touched,
+  for_each_untouched(list, corner, grid_.fraction(), winding, touched, sheets,
                      [&](Brick component, int32_t at) {
                        if (is_inside(config_.rule, at)) voxels |= component;
                      });
@@ -281,14 +368,19 @@ SubDag Descent::brick(Brick voxels) {
   return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
 }
 
-void Descent::bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags) {
+void Descent::bricks(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                     SubjectDags* dags) {
+  const bool solid = is_solid(config_.rule);
   Brick of_all = 0;
-  for_each_layer(list, [&](Subject subject, std::span<const ListedTriangle> of_layer) {
-    const Brick voxels = voxels_of(cube, of_layer, 0);
-    of_all |= voxels;
-    dags->push_back({subject, brick(voxels)});
-  });
-  dags->push_back({kUnionSet, brick(of_all)});
+  for_each_set(list, windings,
+               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                 if (of_set.empty() || (subject == kUnionSet && !solid)) return;
+                 const Brick voxels = voxels_of(cube, of_set, winding, sheets_of(subject));
+                 of_all |= voxels;
+                 dags->push_back({apart(subject), brick(voxels)});
+               });
+  if (!solid) dags->push_back({kUnionSet, brick(of_all)});
+  add_full(cube, list, windings, dags);
 }
 
 Brick Descent::selected_voxels(const Cube& cube) const {

@@ -13,8 +13,10 @@
 // one list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it,
 // cubes that one layer touches are descended as without layers, and what they give is shared; so
 // layers cost only where they meet. A brick's voxels are the OR over its triangles, so the union's
-// brick is the OR of the layers' bricks. Rejected: the layers one after the other, and the union by
-// recursive OR of their nodes (the upper cubes are divided once for each layer).
+// brick is the OR of the layers' bricks. With the solid rules it is not: the union has a winding
+// number of its own, and a layer is also where it has no triangle, but winds around the cube.
+// Rejected: the layers one after the other, and the union by recursive OR of their nodes (the upper
+// cubes are divided once for each layer).
 #pragma once
 
 #include <array>
@@ -22,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "builder/descend/cell_windings.h"
 #include "builder/descend/patch.h"
 #include "builder/descend/plane_memo.h"
 #include "builder/octree/morton.h"
@@ -57,8 +60,14 @@ class Descent {
           const MortonSet* done = nullptr);
 
   // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint. The
-  // solid rules need the winding number at its first_centre().
-  void run(const Cube& cube, const TriangleList& list, int32_t winding = 0);
+  // solid rules need the winding numbers at its first_centre().
+  void run(const Cube& cube, const TriangleList& list, const LayerWindings& windings = {});
+  // The subject of a cube whose sets are one: no other layer is there, and the union winds like it.
+  std::optional<Subject> only_subject(const TriangleList& list,
+                                      const LayerWindings& windings) const;
+  // The winding numbers at the first_centre() of `to`, in the cube `from` of the other arguments.
+  LayerWindings windings_at(const Cube& to, const Cube& from, const TriangleList& list,
+                            const LayerWindings& windings) const;
   // Adds `cube`, whose sub-DAGs were reduced to the builder's table otherwise.
   using SubjectDags = std::vector<SubjectDag>;
   void adopt(const Cube& cube, SubjectDags dags);
@@ -77,24 +86,34 @@ class Descent {
 
   // What a cube needs: nothing, or to be descended, its children as roots since some are done.
   enum class Need { kNothing, kAll, kRest };
-  Need need_of(const Cube& cube, const TriangleList& list, int32_t winding) const;
+  Need need_of(const Cube& cube, bool is_empty) const;
   void pause_at(const Cube& cube);
   SubDag node(const Cube& cube, const TriangleList& list, int32_t winding);
   SubDag divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots);
   SubDag full(const Cube& cube, int32_t winding, Need need);
-  // The same for a list of several layers.
-  void node(const Cube& cube, const TriangleList& list, SubjectDags* dags);
-  void divide(const Cube& cube, const TriangleList& list, bool as_roots, SubjectDags* dags);
-  bool find_in_memo(const Cube& cube, const TriangleList& list, SubjectDags* dags);
-  void bricks(const Cube& cube, const TriangleList& list, SubjectDags* dags);
+  // The same for a cube of several layers.
+  void node(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+            SubjectDags* dags);
+  void divide(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+              bool as_roots, SubjectDags* dags);
+  bool find_in_memo(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                    SubjectDags* dags);
+  void bricks(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+              SubjectDags* dags);
+  void add_full(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
+                SubjectDags* dags);
   void end(const Cube& cube, SubjectDags dags);
   void update_memo(SubDagBuilder::Pause pause);
-  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list, int32_t winding);
-  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list, int32_t winding);
+  // `sheets`: of the set (builder/overlap/crossing.h).
+  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list, int32_t winding,
+                                     uint32_t sheets);
+  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list, int32_t winding,
+                                   uint32_t sheets);
   FilledSides filled_sides(const Cube& cube, const TriangleList& list, const LatticePlane& plane,
-                           int32_t winding) const;
+                           int32_t winding, uint32_t sheets) const;
   const std::optional<PlaneMemo::AdmittedPlane>& admitted(const TriangleSetup& triangle);
-  Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding);
+  Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding,
+                  uint32_t sheets);
   SubDag brick(Brick voxels);
   Brick selected_voxels(const Cube& cube) const;
 

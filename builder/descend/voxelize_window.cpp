@@ -1,6 +1,6 @@
 #include "builder/descend/voxelize_window.h"
 
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/winding_lines.h"
 #include "builder/overlap/overlap.h"
 
 namespace svdag {
@@ -29,12 +29,12 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
     setups.back().triangle.subject = kUnionSet;
     if (setups.back().box.meets(closed)) list.push_back({&setups.back(), setups.back().edges});
   }
-  WindingGrid windings(grid.levels, window, window.level, &unlimited);
+  int32_t winding = 0;
   if (is_solid(config.rule)) {
-    for (const LatticeTriangle& triangle : triangles) windings.add_with_ray(triangle);
+    const WindingLines lines(grid.levels, window, window.level);
+    for (const LatticeTriangle& triangle : triangles) winding += lines.ray_change(triangle);
   }
-  windings.finish();
-  Descent(grid, config, &builder).run(window, list, windings.at(window));
+  Descent(grid, config, &builder).run(window, list, {{kUnionSet, winding}});
   builder.settle();
   if (builder.roots().empty()) return 0;
   emit(*builder.table(), window, 1 + builder.roots().front().rank, sink);

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "io/triangle.h"
+
 namespace svdag {
 
 // The sets of voxels of a bake with layers: the union of all, and each layer. A bake without layers
@@ -26,6 +28,11 @@ constexpr uint32_t layer_of(Subject subject) {
 }
 constexpr bool has_union(Subject subject) {
   return (subject & kApart) == 0;
+}
+
+// Whether a triangle counts alike for the windings of its layer and of the union (io/triangle.h).
+constexpr bool is_sheet_of_both_or_none(uint32_t sheet) {
+  return (sheet & kSheetOfUnion) * kSheetOfLayer == (sheet & kSheetOfLayer);
 }
 
 // Node `rank` of the cube's level in run `run`. The cube is a cell, a cube in a cell in which a

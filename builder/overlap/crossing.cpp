@@ -36,7 +36,7 @@ bool spans(const TriangleSetup& t, int a, int64_t at) noexcept {
 
 bool is_above_triangle(const TriangleSetup& t, EdgeMask edges, int w,
                        const LatticePoint& x) noexcept {
-  if (t.normal[w] == 0 || t.triangle.sheet != 0) return false;
+  if (t.normal[w] == 0) return false;
   for (int k = 3 * w; k < 3 * w + 3; ++k) {
     if ((edges >> k & 1) != 0 && !edge_holds(t, k, x)) return false;
   }
@@ -54,12 +54,13 @@ bool is_in_front(const TriangleSetup& t, const LatticePoint& x) noexcept {
 }
 
 int crossings(std::span<const ListedTriangle> list, const LatticePoint& from,
-              const LatticePoint& to) noexcept {
+              const LatticePoint& to, uint32_t sheets) noexcept {
   // The corners of the path.
   const LatticePoint at[4] = {from, {to.x, from.y, from.z}, {to.x, to.y, from.z}, to};
   int sum = 0;
   for (const ListedTriangle& entry : list) {
     const TriangleSetup& t = *entry.triangle;
+    if ((t.triangle.sheet & sheets) != 0) continue;
     bool front = is_in_front(t, from);
     for (int w = 0; w < 3; ++w) {
       if (from[w] == to[w]) continue;
@@ -105,7 +106,8 @@ unsigned fronts_of_children(const TriangleSetup& t, const LatticePoint& first,
 }  // namespace
 
 void windings_of_children(std::span<const ListedTriangle> list, const LatticePoint& corner,
-                          int64_t side, int fraction, int32_t winding, int32_t out[8]) noexcept {
+                          int64_t side, int fraction, int32_t winding, int32_t out[8],
+                          uint32_t sheets) noexcept {
   const LatticePoint first = first_centre(corner, fraction);
   const int64_t half = side / 2;
   // step[c]: along the segment to child c from the child without c's lowest set axis, z before y
@@ -123,7 +125,7 @@ void windings_of_children(std::span<const ListedTriangle> list, const LatticePoi
     unsigned crossed = (in[0] & 1) * ((in[1] & 1) << 1 | (in[1] & 2) << 2) |
                        (in[0] >> 1) * ((in[1] & 1) << 5 | (in[1] & 2) << 6) |
                        (in[2] & 1) * ((in[0] & 1) << 2 | (in[0] & 2) << 5 | (in[1] & 1) << 4);
-    if (crossed == 0 || t.triangle.sheet != 0) continue;
+    if (crossed == 0 || (t.triangle.sheet & sheets) != 0) continue;
     const unsigned fronts = fronts_of_children(t, first, half);
     // Of these, those whose ends are on different sides of the plane.
     const unsigned along_z = (fronts ^ fronts << 1) & 0b10101010;

@@ -83,15 +83,20 @@ SceneLayers get_layers(RecordReader* in) {
   return layers;
 }
 
-void put_windings(const WindingGrid* windings, RecordWriter* out) {
-  out->put(windings != nullptr ? windings->values() : std::vector<int32_t>());
+void put_windings(const CellWindings* windings, RecordWriter* out) {
+  out->put(uint32_t(windings != nullptr));
+  if (windings != nullptr) out->put(windings->entries());
 }
 
-std::shared_ptr<const WindingGrid> get_windings(RecordReader* in, int levels) {
-  std::vector<int32_t> values;
-  in->get(&values);
-  in->require(WindingGrid::are_of_grid(levels, values), "impossible number of windings");
-  return WindingGrid::of_grid(levels, std::move(values));
+std::shared_ptr<const CellWindings> get_windings(RecordReader* in, int levels) {
+  uint32_t exist = 0;
+  in->get(&exist);
+  in->require(exist <= 1, "impossible winding numbers");
+  if (exist == 0) return nullptr;
+  std::vector<CellWindings::Entry> entries;
+  in->get(&entries);
+  in->require(CellWindings::are_of_grid(levels, entries), "impossible winding numbers");
+  return CellWindings::of_grid(levels, std::move(entries));
 }
 
 }  // namespace svdag

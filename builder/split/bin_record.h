@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/cell_windings.h"
 #include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
 #include "streaming/spill/record.h"
@@ -23,7 +23,7 @@ void put_layers(const SceneLayers& layers, RecordWriter* out);
 SceneLayers get_layers(RecordReader* in);
 
 // The winding numbers of the cells of a grid; null: none.
-void put_windings(const WindingGrid* windings, RecordWriter* out);
-std::shared_ptr<const WindingGrid> get_windings(RecordReader* in, int levels);
+void put_windings(const CellWindings* windings, RecordWriter* out);
+std::shared_ptr<const CellWindings> get_windings(RecordReader* in, int levels);
 
 }  // namespace svdag

@@ -126,8 +126,6 @@ void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeS
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
                  MemoryBudget* budget) {
-  if (config.layers != LayerKind::kNone && is_solid(config.rule))
-    fail_usage("--layers: rule solid has no layers yet: bake each part alone, with --include");
   if (config.layers == LayerKind::kFile) require_different_names(scene.config().paths);
   const Lattice lattice(grid);
   SplitScene result;
@@ -135,20 +133,25 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   TriangleStore store(grid, config, counts, budget);
   double largest_move = 0;
   result.layers = SceneLayers(config.layers);
-  std::shared_ptr<WindingGrid> windings;
+  std::shared_ptr<CellWindings> windings;
   if (is_solid(config.rule)) {
-    windings = std::make_shared<WindingGrid>(grid.levels, Cube(),
-                                             WindingGrid::level_of_grid(grid.levels), budget);
+    windings = std::make_shared<CellWindings>(grid.levels, Cube(),
+                                              CellWindings::level_of_grid(grid.levels), budget);
   }
   EdgeSum edges;
-  OpenParts open;
+  OpenParts open, open_layers;
   if (is_solid(config.rule) && config.open_as_sheets) open = OpenParts(scene, grid, config.rule);
+  if (is_solid(config.rule) && config.layers != LayerKind::kNone)
+    open_layers = OpenParts(scene, grid, config.rule, config.layers);
   counts.open_parts = open.size();
+  counts.open_layers = open_layers.size();
   const LatticeBox whole = grid.closed(grid.whole());
   const bool layered = config.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
-    const bool sheet = open.contains(batch);
+    const bool open_part = open.contains(batch);
+    const uint32_t sheet =
+        (open_part ? kSheetOfUnion : 0) | (open_layers.contains(batch) ? kSheetOfLayer : 0);
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       snapped.subject = subject;
@@ -158,8 +161,8 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       const BoxPlacement placement = placement_of(snapped, grid, config.part);
       counts.outside += placement == BoxPlacement::kOutside;
       counts.clipped += placement == BoxPlacement::kClipped;
-      if (windings && !sheet) {
-        windings->add_with_ray(snapped);
+      if (windings) windings->add_with_ray(snapped);
+      if (windings && !open_part) {
         edges.add(snapped);
         counts.volume += volume_of(snapped, grid.fraction());
       }

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/cell_windings.h"
 #include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
 #include "builder/split/scene_layers.h"
@@ -44,7 +44,8 @@ struct SplitCounts {
   uint64_t degenerate = 0;  // kept, with zero area after the snap
   double largest_snap = 0;  // in voxels, of the triangles that are kept
   // Solid rules:
-  uint64_t open_parts = 0;  // baked as surfaces
+  uint64_t open_parts = 0;   // baked as surfaces
+  uint64_t open_layers = 0;  // the same, of the layers
   double volume = 0;        // that the closed parts wind around, signed, in voxels
 };
 
@@ -60,6 +61,7 @@ void visit_count_fields(AnyCounts& counts, const Visit& visit) {
   visit("degenerate", counts.degenerate);
   visit("largest_snap_voxels", counts.largest_snap);
   visit("open_parts", counts.open_parts);
+  visit("open_layers", counts.open_layers);
   visit("volume_voxels", counts.volume);
 }
 
@@ -68,7 +70,7 @@ struct SplitScene {
   std::unique_ptr<CellTree> tree;               // sealed; null if the triangles were spilled
   std::vector<TriangleBin> bins;                // in Morton order, in the scratch's `triangles`
   SceneLayers layers;                           // by the subjects of the triangles
-  std::shared_ptr<const WindingGrid> windings;  // of the grid; null unless the rule is solid
+  std::shared_ptr<const CellWindings> windings;  // of the grid; null unless the rule is solid
 };
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,

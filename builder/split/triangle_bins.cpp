@@ -80,7 +80,7 @@ void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
   for (int i = 1; i < 3; ++i) {
     for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
   }
-  end = put(2 * int64_t(triangle.subject) + triangle.sheet, end);
+  end = put(4 * int64_t(triangle.subject) + triangle.sheet, end);
   bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
   bytes_ += uint64_t(end - bytes);
   ++bin.triangles;
@@ -175,9 +175,9 @@ bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
         t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
     }
     const int64_t kind = read_number();
-    if (!on_lattice(t) || kind < 0 || kind > 2 * int64_t(kMaxLayers) + 1) reader_.fail_damaged();
-    t.subject = uint32_t(kind >> 1);
-    t.sheet = uint32_t(kind & 1);
+    if (!on_lattice(t) || kind < 0 || kind > 4 * int64_t(kMaxLayers) + 3) reader_.fail_damaged();
+    t.subject = uint32_t(kind >> 2);
+    t.sheet = uint32_t(kind & 3);
   }
   return true;
 }

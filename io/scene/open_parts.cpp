@@ -32,10 +32,25 @@ OpenParts::OpenParts(const Scene& scene, const Grid& grid, Rule rule) {
       scene, grid, [](const TriangleBatch&) { return ""; }, &edges);
   if (is_closed(edges, rule)) return;
   BoundaryChain chain;
-  const auto chains = sums_of_parts(scene, grid, name_of, &chain);
+  const auto chains = sums_of_parts(
+      scene, grid, [&](const TriangleBatch& batch) { return name_of(batch); }, &chain);
   if (is_closed(chain, rule)) return;
   for (const auto& [name, part] : chains) {
     if (!is_closed(part, rule)) names_.insert(name);
+  }
+}
+
+OpenParts::OpenParts(const Scene& scene, const Grid& grid, Rule rule, LayerKind layers)
+    : layers_(layers) {
+  const auto name = [&](const TriangleBatch& batch) { return name_of(batch); };
+  EdgeSum all_edges;
+  for (const auto& [layer, edges] : sums_of_parts(scene, grid, name, &all_edges)) {
+    if (!is_closed(edges, rule)) names_.insert(layer);
+  }
+  if (names_.empty()) return;
+  BoundaryChain all;
+  for (const auto& [layer, chain] : sums_of_parts(scene, grid, name, &all)) {
+    if (is_closed(chain, rule)) names_.erase(layer);
   }
 }
 

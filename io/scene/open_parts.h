@@ -1,7 +1,8 @@
 // The parts of a scene that are not closed surfaces: they bound no solid (--open surface).
 //
 // If the whole scene is closed, none is open: its parts may close each other. Otherwise each object
-// stands for itself, or each file where it has no objects; parts of one name are one part.
+// stands for itself, or each file where it has no objects; parts of one name are one part. A layer
+// always stands for itself: the walls of a room may be closed together, and each open.
 #pragma once
 
 #include <set>
@@ -23,6 +24,8 @@ class OpenParts {
  public:
   // Reads the scene, snapped to `grid`, once, and again if edges do not match one by one.
   OpenParts(const Scene& scene, const Grid& grid, Rule rule);
+  // The layers that are open.
+  OpenParts(const Scene& scene, const Grid& grid, Rule rule, LayerKind layers);
   OpenParts() = default;  // none
 
   bool contains(const TriangleBatch& batch) const {
@@ -31,10 +34,12 @@ class OpenParts {
   size_t size() const { return names_.size(); }
 
  private:
-  static std::string name_of(const TriangleBatch& batch) {
+  std::string name_of(const TriangleBatch& batch) const {
+    if (layers_ != LayerKind::kNone) return std::string(part_name(batch, part_of(layers_)));
     return std::string(batch.mesh.empty() ? batch.file : batch.mesh);
   }
 
+  LayerKind layers_ = LayerKind::kNone;
   std::set<std::string> names_;
 };
 

@@ -38,7 +38,7 @@ struct Judgement : SceneFacts {
 };
 
 std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint64_t count,
-                                  SnapCounts* snapped) {
+                                  LayerKind layer, SnapCounts* snapped) {
   std::vector<LatticeTriangle> triangles;
   triangles.reserve(count);
   *snapped = stream_snapped(
@@ -46,7 +46,7 @@ std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint6
       [&](std::span<const LatticeTriangle> batch) {
         triangles.insert(triangles.end(), batch.begin(), batch.end());
       },
-      file.rule());
+      file.rule(), layer);
   return triangles;
 }
 
@@ -59,7 +59,8 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
       judged.budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
   judged.progress.phase("reading the scene", 0);
   SnapCounts snapped;
-  const std::vector<LatticeTriangle> triangles = load(judged.scene, file, count, &snapped);
+  const std::vector<LatticeTriangle> triangles =
+      load(judged.scene, file, count, LayerKind::kNone, &snapped);
   Comparison& comparison = result->comparison;
   comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
   judge_header(file, comparison.file_voxels, snapped, &result->grid);
@@ -79,9 +80,10 @@ void judge_names(const Scene& scene, const LayerTable& table, GridJudgement* gri
     grid->defects.push_back("the file has no layer \"" + printable(name) + "\"");
 }
 
-Comparison judge_layer(const MeshConfig& config, const JudgeChoice& choice, const DagFile& file,
+Comparison judge_layer(const MeshConfig& config, const JudgeChoice& all, const DagFile& file,
                        size_t layer, JudgedScene& judged, Executor& executor) {
   const Layer& entry = file.layers().layers[layer];
+  const JudgeChoice choice{all.kind, all.rule, file.layers().kind};
   SceneConfig only = judged.scene.config();
   only.only = {part_of(file.layers().kind), entry.name};
   const Scene scene(only, &judged.budget);
@@ -93,7 +95,7 @@ Comparison judge_layer(const MeshConfig& config, const JudgeChoice& choice, cons
         .comparison;
   }
   SnapCounts snapped;
-  const std::vector<LatticeTriangle> triangles = load(scene, file, 0, &snapped);
+  const std::vector<LatticeTriangle> triangles = load(scene, file, 0, choice.layer, &snapped);
   Comparison comparison =
       compare_all(dag, file.grid(), triangles, choice, executor, judged.progress);
   if (comparison.file_voxels != entry.voxels)

@@ -40,6 +40,7 @@ struct JudgeChoice {
 
   Kind kind = Kind::kInteger;
   Rule rule = Rule::kConservative;
+  LayerKind layer = LayerKind::kNone;  // the scene is one layer of this kind; kNone: all of it
 };
 
 // kCgal in a build without CGAL is an Error (kUsage).

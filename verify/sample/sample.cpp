@@ -124,7 +124,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
         gathered.insert(gathered.end(), batch.begin(), batch.end());
         if (gathered.size() >= kBatchTriangles) flush();
       },
-      choice.rule);
+      choice.rule, choice.layer);
   flush();
   progress.finish();
   for (size_t i = 0; solid && i < sample.codes().size(); ++i)

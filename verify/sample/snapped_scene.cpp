@@ -28,11 +28,13 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 
 }  // namespace
 
-SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
-                          Rule rule) {
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink, Rule rule,
+                          LayerKind layer) {
   const Lattice lattice(grid);
   OpenParts open;
-  if (is_solid(rule)) open = OpenParts(scene, grid, rule);
+  if (is_solid(rule))
+    open = layer == LayerKind::kNone ? OpenParts(scene, grid, rule)
+                                     : OpenParts(scene, grid, rule, layer);
   const LatticeBox whole = grid.closed(grid.whole()), selection = grid.closed(grid.selection);
   SnapCounts counts;
   std::vector<LatticeTriangle> snapped;

@@ -21,8 +21,9 @@ using SnappedSink = std::function<void(std::span<const LatticeTriangle>)>;
 
 // Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; for the
 // solid rules, whose winding numbers need them, all triangles, and those of open parts as sheets.
+// `layer`: the scene is one layer of this kind, unless kNone.
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
-                          Rule rule = Rule::kConservative);
+                          Rule rule = Rule::kConservative, LayerKind layer = LayerKind::kNone);
 
 // The result of comparing the file's grid with the scene's bounds.
 struct GridJudgement {

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "builder/commands/commands.h"
 #include "builder/commands/scene_notes.h"
+#include "builder/split/open_edges.h"
 #include "io/json_text.h"
+#include "io/lattice.h"
+#include "io/scene/boundary_chain.h"
 #include "io/scene/mesh_stats.h"
 #include "io/units.h"
 #include "streaming/printable.h"
@@ -45,12 +49,43 @@ std::vector<MeshPart> list_parts(const Scene& scene) {
   return parts;
 }
 
+constexpr int kSnapLevels = 16;  // grids from 64K^3 on have the finest lattice
+
+// Whether rule solid can bake the scene, at 64K^3.
+struct Closedness {
+  bool is_known = false;  // false for a scene without extent
+  OpenEdges open;
+  double volume = 0;  // that the surface winds around, signed, in cubic units of the scene
+
+  bool is_closed() const { return open.edges == 0; }
+};
+
+Closedness closedness_of(const Scene& scene, const Box& box) {
+  Closedness result;
+  const Point side = box.max - box.min;
+  if (!(std::max({side.x, side.y, side.z}) > 0)) return result;
+  const Grid grid = divide_box(box, kSnapLevels);
+  const Lattice lattice(grid);
+  EdgeSum edges;
+  scene.stream([&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles) {
+      const Point a = t.v[0] - box.min, b = t.v[1] - box.min, c = t.v[2] - box.min;
+      result.volume += glm::dot(a, glm::cross(b, c)) / 6;
+      edges.add({{lattice.snap(t.v[0]), lattice.snap(t.v[1]), lattice.snap(t.v[2])}});
+    }
+  });
+  if (!edges.is_closed()) result.open = find_open_edges(scene, grid);
+  result.is_known = true;
+  return result;
+}
+
 Json bounds_json(const Box& box) {
   return {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
 }
 
 void print_json(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const std::vector<MeshPart>& parts) {
+                const MeshStats& stats, const Closedness& closed,
+                const std::vector<MeshPart>& parts) {
   Json json = {{"scene", config.scene.paths},
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
@@ -62,7 +97,15 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
                {"duplicates", stats.duplicates},
                {"open_edges", stats.open_edges},
                {"non_manifold_edges", stats.non_manifold_edges},
-               {"components", stats.components}};
+               {"components", stats.components},
+               {"closed", nullptr},
+               {"closed_without_orientation", nullptr},
+               {"volume", nullptr}};
+  if (closed.is_known) {
+    json["closed"] = closed.is_closed();
+    json["closed_without_orientation"] = closed.is_closed() || closed.open.closed_mod_2;
+    if (closed.is_closed()) json["volume"] = closed.volume;
+  }
   for (const MeshPart& part : parts)
     json["parts"].push_back({{"kind", name_of(part.kind)},
                              {"name", part.name},
@@ -71,8 +114,20 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
+void print_closedness(const Closedness& closed) {
+  if (!closed.is_known) return;
+  if (closed.is_closed()) {
+    std::printf("  closed at 64K^3, encloses %.6g cubic units\n", closed.volume);
+  } else if (closed.open.closed_mod_2) {
+    std::printf("  closed at 64K^3, but not oriented alike at %s\n", describe(closed.open).c_str());
+  } else {
+    std::printf("  not closed at 64K^3: %s\n", describe(closed.open).c_str());
+  }
+}
+
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
-                const MeshStats& stats, const std::vector<MeshPart>& parts) {
+                const MeshStats& stats, const Closedness& closed,
+                const std::vector<MeshPart>& parts) {
   std::printf("%s", config.scene.paths.front().c_str());
   if (config.scene.paths.size() > 1) std::printf(" and %zu more", config.scene.paths.size() - 1);
   std::printf(": %s triangles, %s positions, %s components\n",
@@ -85,6 +140,7 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
       format_count(stats.duplicates).c_str());
   std::printf("  %s open edges, %s non-manifold edges\n", format_count(stats.open_edges).c_str(),
               format_count(stats.non_manifold_edges).c_str());
+  print_closedness(closed);
   if (counts.invalid > 0)
     std::printf("  %s triangles with NaN or infinity dropped\n",
                 format_count(counts.invalid).c_str());
@@ -106,8 +162,9 @@ void info_scene(const InfoCommand& config) {
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);
   const auto parts = config.parts ? list_parts(scene) : std::vector<MeshPart>();
-  config.json ? print_json(config, box, counts, stats, parts)
-              : print_text(config, box, counts, stats, parts);
+  const Closedness closed = closedness_of(scene, box);
+  config.json ? print_json(config, box, counts, stats, closed, parts)
+              : print_text(config, box, counts, stats, closed, parts);
 }
 
 }  // namespace svdag

@@ -65,7 +65,7 @@ struct Plan {
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
   SceneLayers layers;
-  std::shared_ptr<const WindingGrid> windings;  // null unless the rule is solid
+  std::shared_ptr<const CellWindings> windings;  // null unless the rule is solid
 
   size_t shards() const;
   std::string path(const std::string& name) const { return folder + "/" + name; }

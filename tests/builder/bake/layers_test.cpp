@@ -38,7 +38,14 @@ class Layers : public ::testing::Test {
   uint64_t pick(uint64_t count) { return random_() % count; }
   double unit() { return double(random_() >> 11) * 0x1p-53; }
 
+  bool solids_ = false;  // by the solid rules; some layers are open
+
   std::vector<Triangle> some_triangles() {
+    if (solids_ && pick(3) != 0) {
+      const Point corner = Point(unit(), unit(), unit()) - 0.3;
+      return pick(2) ? bumpy_sphere(int(3 + pick(20)))
+                     : closed_box(corner, corner + Point(unit(), unit(), unit()));
+    }
     switch (pick(5)) {
       case 0:
         return random_soup(1 + pick(2000), std::pow(10, -3 * unit()), random_());
@@ -73,6 +80,8 @@ class Layers : public ::testing::Test {
     config.levels = int(3 + pick(7));
     config.cube = GridCube{Point(-0.1 - 1.2 * double(pick(2))), 1.2 + 1.4 * double(pick(2))};
     config.descent.rule = pick(2) ? Rule::kConservative : Rule::kThin;
+    if (solids_) config.descent.rule = pick(2) ? Rule::kSolid : Rule::kSolidOdd;
+    config.open_as_sheets = solids_;
     config.layers = LayerKind::kFile;
     config.with_union = pick(4) != 0;
     if (pick(4) == 0) config.layout = Layout::kCompact;
@@ -127,18 +136,53 @@ TEST_F(Layers, EachIsItsOwnBakeAndTheUnionIsThatOfAll) {
   }
 }
 
+// Each layer is the solid of its own triangles, or a surface if it is open, and the union that of
+// all. (No open parts but the layers: a file has no objects.)
+TEST_F(Layers, OfSolidsAreTheirOwnBakesAndTheUnionIsThatOfAll) {
+  solids_ = true;
+  const uint64_t scenes = std::getenv("SVDAG_LONG") != nullptr ? 2000 : 60;
+  for (uint64_t seed = 0; seed < scenes && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    random_.seed(seed);
+    const BuildConfig config = random_scene();
+    bake(config, 1 + pick(3));
+    check(config);
+  }
+}
+
+// Six open layers that are closed together: the union is a solid, they are its faces.
+TEST_F(Layers, FacesOfABoxAreSurfacesAndTheUnionIsSolid) {
+  BuildConfig config;
+  const std::vector<Triangle> box = closed_box(Point(0), Point(1));
+  for (size_t face = 0; face < 6; ++face) {
+    config.scene.paths.push_back(folder_.file("face" + std::to_string(face) + ".stl"));
+    write_stl(config.scene.paths.back(), {box[2 * face], box[2 * face + 1]});
+  }
+  config.output = folder_.file("layers.svdag");
+  config.levels = 7;
+  config.cube = GridCube{Point(-0.25), 1.5};
+  config.layers = LayerKind::kFile;
+  config.descent.rule = Rule::kSolid;
+  EXPECT_EQ(bake(config).split.open_layers, 6U);
+  config.open_as_sheets = true;  // for each alone
+  check(config);
+  const DagFile file = DagFile::open(config.output);
+  EXPECT_GT(file.header().voxels, 5 * file.layers().layers[0].voxels);
+}
+
 TEST_F(Layers, OrderThreadsMemoryAndCellsDoNotChangeTheBytes) {
   uint64_t spilled = 0;
   for (uint64_t seed = 100; seed < 115; ++seed) {
     SCOPED_TRACE(seed);
     random_.seed(seed);
+    solids_ = seed % 3 == 0;
     BuildConfig config = random_scene();
     write_stl(config.scene.paths.front(), random_soup(8000, 0.1, seed));
     bake(config);
     const std::string expected = read_bytes(config.output);
     for (int bakes = 0; bakes < 6; ++bakes) {
       std::shuffle(config.scene.paths.begin(), config.scene.paths.end(), random_);
-      config.memory = bakes % 2 == 0 ? 4 * kMiB : 0;
+      config.memory = bakes % 2 == 0 ? (solids_ ? 8 : 4) * kMiB : 0;
       config.cell_level = pick(2) ? -1 : int(pick(uint64_t(config.levels - 1)));
       spilled += bake(config, 1 + pick(3)).scratch.written;
       ASSERT_EQ(read_bytes(config.output), expected);
@@ -151,6 +195,7 @@ TEST_F(Layers, PartsMergeToTheSameBytesInAnyTree) {
   for (uint64_t seed = 200; seed < 230; ++seed) {
     SCOPED_TRACE(seed);
     random_.seed(seed);
+    solids_ = seed % 3 == 0;
     BuildConfig config = random_scene();
     config.layout = Layout::kPlain;
     bake(config);

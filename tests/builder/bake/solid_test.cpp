@@ -32,18 +32,7 @@ Mesh closed_up(const Mesh& mesh, const Point& apex) {
 }
 
 Mesh box(const Point& low, const Point& high) {
-  Mesh mesh;
-  for (int w = 0; w < 3; ++w) {
-    Point u(0), v(0), up(0);
-    u[(w + 1) % 3] = (high - low)[(w + 1) % 3];
-    v[(w + 2) % 3] = (high - low)[(w + 2) % 3];
-    up[w] = (high - low)[w];
-    mesh.push_back({{low + up, low + up + u, low + up + u + v}});
-    mesh.push_back({{low + up, low + up + u + v, low + up + v}});
-    mesh.push_back({{low, low + u + v, low + u}});
-    mesh.push_back({{low, low + v, low + u + v}});
-  }
-  return mesh;
+  return closed_box(low, high);
 }
 
 Mesh turned(Mesh mesh) {

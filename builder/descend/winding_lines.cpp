@@ -1,23 +1,13 @@
-#include "builder/descend/winding_grid.h"
+#include "builder/descend/winding_lines.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "builder/overlap/crossing.h"
 #include "streaming/error.h"
 
 namespace svdag {
-namespace {
 
-constexpr int kMaxSideLog2 = 6;
-
-}  // namespace
-
-int WindingGrid::level_of_grid(int levels) {
-  return std::min(levels - 2, kMaxSideLog2);
-}
-
-WindingGrid::WindingGrid(int levels, const Cube& root, int level, MemoryBudget* budget)
+WindingLines::WindingLines(int levels, const Cube& root, int level)
     : levels_(levels),
       level_(level),
       side_log2_(level - root.level),
@@ -25,24 +15,20 @@ WindingGrid::WindingGrid(int levels, const Cube& root, int level, MemoryBudget* 
       first_(first_centre(root.corner(levels), fraction_bits(levels))),
       side_(int64_t(1) << Cube{level, {}}.side_log2(levels)) {
   SVDAG_ASSERT(side_log2_ >= 0 && side_log2_ <= kMaxSideLog2);
-  const size_t points = size_t(1) << 3 * side_log2_;
-  if (budget != nullptr)
-    reservation_ = budget->reserve(points * sizeof(int32_t), "winding numbers");
-  steps_.assign(points, 0);
 }
 
-void WindingGrid::add(const LatticeTriangle& triangle) {
+void WindingLines::for_each_change(const LatticeTriangle& triangle, const Visit& visit) const {
   // The points in the triangle's box: low .. high on each axis; at most one axis may have none.
   const LatticeBox box = box_of(triangle);
+  const int log2 = Cube{level_, {}}.side_log2(levels_);
   int64_t low[3], high[3];
   int empty = 0;
   for (int a = 0; a < 3; ++a) {
-    const int log2 = Cube{level_, {}}.side_log2(levels_);
     low[a] = std::max<int64_t>(0, -((first_[a] - box.min[a]) >> log2));
     high[a] = std::min((int64_t(1) << side_log2_) - 1, (box.max[a] - first_[a]) >> log2);
     empty += low[a] > high[a];
   }
-  if (empty > 1 || triangle.sheet != 0) return;
+  if (empty > 1) return;
   const TriangleSetup setup = make_setup(triangle);
   for (int w = 0; w < 3; ++w) {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -50,13 +36,13 @@ void WindingGrid::add(const LatticeTriangle& triangle) {
     // Lines along y are those with z = 0, lines along x those with y = z = 0.
     if ((w < 2 && low[2] > 0) || (w < 1 && low[1] > 0)) continue;
     const int64_t last[3] = {high[0], w < 1 ? 0 : high[1], w < 2 ? 0 : high[2]};
-    add_along(setup, w, low, last);
+    visit_lines(setup, w, low, last, visit);
   }
 }
 
 // The lines along w through the points low .. high on the other axes.
-void WindingGrid::add_along(const TriangleSetup& t, int w, const int64_t low[3],
-                            const int64_t high[3]) {
+void WindingLines::visit_lines(const TriangleSetup& t, int w, const int64_t low[3],
+                               const int64_t high[3], const Visit& visit) const {
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   const int64_t last = (int64_t(1) << side_log2_) - 1;
   LatticePoint at;
@@ -78,45 +64,31 @@ void WindingGrid::add_along(const TriangleSetup& t, int w, const int64_t low[3],
         (is_in_front(t, point(middle)) == front ? same : other) = middle;
       }
       at[w] = other;
-      std::atomic_ref(steps_[index(at)]).fetch_add(front ? 1 : -1, std::memory_order_relaxed);
+      visit(index(at), front ? 1 : -1);
     }
   }
 }
 
-void WindingGrid::add_with_ray(const LatticeTriangle& triangle) {
+int WindingLines::ray_change(const LatticeTriangle& triangle) const {
   const LatticeBox box = box_of(triangle);
-  if (box.min.x <= first_.x && first_.x <= box.max.x && box.min.y <= first_.y &&
-      first_.y <= box.max.y && box.min.z <= first_.z) {
-    const TriangleSetup t = make_setup(triangle);
-    if (is_above_triangle(t, t.edges, 2, first_))
-      ray_ += int32_t(t.normal[2] < 0) - int32_t(is_in_front(t, first_));
+  for (int a = 0; a < 3; ++a) {
+    if (box.min[a] > first_[a] || (a < 2 && box.max[a] < first_[a])) return 0;
   }
-  add(triangle);
+  const TriangleSetup t = make_setup(triangle);
+  if (!is_above_triangle(t, t.edges, 2, first_)) return 0;
+  return int(t.normal[2] < 0) - int(is_in_front(t, first_));
 }
 
-void WindingGrid::finish(int32_t first) {
+void WindingLines::sum(std::span<int32_t> steps) const {
   const size_t n = size_t(1) << side_log2_;
-  steps_[0] = first;
   for (size_t i = 0; i < n; ++i) {
-    if (i > 0) steps_[i * n * n] += steps_[(i - 1) * n * n];
+    if (i > 0) steps[i * n * n] += steps[(i - 1) * n * n];
     for (size_t j = 0; j < n; ++j) {
-      int32_t* const line = &steps_[(i * n + j) * n];
+      int32_t* const line = &steps[(i * n + j) * n];
       if (j > 0) *line += *(line - n);
       for (size_t k = 1; k < n; ++k) line[k] += line[k - 1];
     }
   }
-}
-
-bool WindingGrid::are_of_grid(int levels, const std::vector<int32_t>& values) {
-  return values.empty() || values.size() == size_t(1) << 3 * level_of_grid(levels);
-}
-
-std::shared_ptr<const WindingGrid> WindingGrid::of_grid(int levels, std::vector<int32_t> values) {
-  SVDAG_ASSERT(are_of_grid(levels, values));
-  if (values.empty()) return nullptr;
-  const auto grid = std::make_shared<WindingGrid>(levels, Cube(), level_of_grid(levels), nullptr);
-  grid->steps_ = std::move(values);
-  return grid;
 }
 
 }  // namespace svdag
