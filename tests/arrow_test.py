@@ -17,7 +17,7 @@ STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/proce
              "streaming/sort"]
 SCENE = ["io/scene/mesh", "io/scene/polygons", "io/scene/readers", "io/scene/gltf", "io/scene"]
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
-PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/workspace", "builder/reduce",
+PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
 BAKE = STREAMING + ["io", "io/dag"] + SCENE + PHASES + ["builder/cache", "builder"]
 VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/report"]
@@ -46,12 +46,13 @@ ALLOWED = {
     "builder/octree": ["streaming", "io"],
     "builder/overlap": ["streaming", "io", "builder/octree"],
     "builder/overlap/kernels": ["streaming", "io", "builder/octree", "builder/overlap"],
+    "builder/winding": STREAMING + ["io", "io/dag", "builder/octree", "builder/overlap"],
     "builder/workspace": STREAMING + ["io", "io/scene/mesh"],
     "builder/reduce": STREAMING + ["io", "io/dag", "builder/octree", "builder/workspace"],
     "builder/descend": STREAMING + ["io", "io/dag", "builder/octree", "builder/overlap", "builder/overlap/kernels",
-                                    "builder/reduce"],
+                                    "builder/winding", "builder/reduce"],
     "builder/split": STREAMING + ["io", "io/dag", "io/scene", "builder/octree", "builder/overlap", "builder/overlap/kernels",
-                                  "builder/workspace"],
+                                  "builder/winding", "builder/workspace"],
     "builder/run": STREAMING + ["io", "io/dag", "builder/octree"],
     "builder/merge": STREAMING + ["io", "io/dag", "builder/octree", "builder/workspace", "builder/reduce",
                                   "builder/run"],

@@ -30,6 +30,8 @@ for mode in level steps; do
 done
 bake scan 4K
 render scan scan --mode soft --camera=-95,45,110,-4,4,-3,48 --light=-150,220,60,20 --size 400x300
+bake scan 1K --rule solid
+render solid scan --mode soft --slice z=10 --camera=-60,45,175,-4,5,-3,40 --light=-150,220,160,20 --size 400x300
 bake hairball 2K
 render hairball hairball --mode soft --camera=-75,50,95,0,0,0,44 --light=-120,160,120,20 --size 400x300
 

@@ -18,6 +18,7 @@ BAKES = """svdag-scene city -n 6K -o city.ply
 svdag-scene scan -n 2K -o scan.ply
 svdag build city.ply -o city.svdag -r 64 --report report.json
 svdag build city.ply -o thin.svdag -r 64 --rule thin
+svdag build scan.ply -o solid.svdag -r 64 --rule solid
 svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
 svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --report layers.json
@@ -39,6 +40,7 @@ svdag-verify mesh layers.svdag city.ply scan.ply
 svdag-verify diff layers.svdag layers.svdag
 svdag-verify check city.svdag
 svdag-verify mesh city.svdag city.ply --sample 1000
+svdag-verify mesh solid.svdag scan.ply --sample 100
 svdag-verify mesh city.svdag scan.ply --judge openvdb
 svdag-verify diff city.svdag thin.svdag
 svdag-verify vdb city.svdag thin.vdb

@@ -13,7 +13,7 @@
 
 #include "builder/cache/cell_store.h"
 #include "builder/descend/descend.h"
-#include "builder/descend/cell_windings.h"
+#include "builder/winding/cell_windings.h"
 #include "builder/reduce/baked_run.h"
 #include "builder/split/cell_tree.h"
 #include "builder/workspace/scratch.h"

@@ -155,11 +155,10 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
                 format_count(uint64_t(std::abs(r.split.volume) + 0.5)).c_str(),
                 r.split.volume < 0 ? ", and most of it is inside out" : "");
   if (r.split.open_parts > 0)
-    std::printf("  %s open part%s baked as surface%s\n", format_count(r.split.open_parts).c_str(),
-                r.split.open_parts == 1 ? "" : "s", r.split.open_parts == 1 ? "" : "s");
+    std::printf("  open parts, baked as surfaces: %s\n", format_count(r.split.open_parts).c_str());
   if (r.split.open_layers > 0)
-    std::printf("  %s open layer%s baked as surface%s\n", format_count(r.split.open_layers).c_str(),
-                r.split.open_layers == 1 ? "" : "s", r.split.open_layers == 1 ? "" : "s");
+    std::printf("  open layers, baked as surfaces: %s\n",
+                format_count(r.split.open_layers).c_str());
   if (r.voxels == 0)
     std::printf("  no voxel is set: %s triangles meet the grid\n",
                 format_count(r.split.scene.triangles - r.split.outside).c_str());

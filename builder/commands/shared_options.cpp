@@ -21,14 +21,15 @@ Rule parse_rule(const std::string& name) {
 
 // Which winding numbers a solid rule counts as inside.
 Rule parse_inside(const std::string& name, Rule rule) {
-  if (!is_solid(rule)) fail_usage("--inside: only --rule solid has an inside");
+  if (!is_solid(rule)) fail_usage("--inside needs --rule solid");
   if (name == "nonzero") return Rule::kSolid;
   if (name == "odd") return Rule::kSolidOdd;
   fail_usage("--inside: unknown kind \"" + name + "\": choose nonzero or odd");
 }
 
 // Whether open parts are baked as surfaces.
-bool parse_open(const std::string& name) {
+bool parse_open(const std::string& name, Rule rule) {
+  if (!is_solid(rule)) fail_usage("--open needs --rule solid");
   if (name == "error" || name == "surface") return name == "surface";
   fail_usage("--open: unknown kind \"" + name + "\": choose error or surface");
 }
@@ -178,7 +179,10 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
            {"nonzero", "odd"})
       ->type_name("KIND");
   suggests(app->add_option_function<std::string>(
-               "--open", [build](const std::string& s) { build->open_as_sheets = parse_open(s); },
+               "--open",
+               [build](const std::string& s) {
+                 build->open_as_sheets = parse_open(s, build->descent.rule);
+               },
                "With --rule solid, what to do with a scene that is not closed: error (default), or "
                "bake its open objects as surfaces"),
            {"error", "surface"})

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "builder/descend/descend.h"
-#include "builder/descend/winding_lines.h"
+#include "builder/winding/winding_lines.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {

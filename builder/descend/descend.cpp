@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "builder/overlap/crossing.h"
+#include "builder/winding/crossing.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {

@@ -6,7 +6,7 @@
 // Only bricks decide voxels, and they decide exactly, so the result depends on the voxels alone.
 //
 // Solid rules: the descent also knows the winding number at each cube's first voxel centre
-// (builder/overlap/crossing.h). Triangles of the cube change it on the way to its children and
+// (builder/winding/crossing.h). Triangles of the cube change it on the way to its children and
 // through its bricks; a cube without triangles is empty or a full node.
 //
 // Layers (builder/octree/sub_dag_root.h): a cube that several layers touch is descended once, with
@@ -24,7 +24,6 @@
 #include <span>
 #include <vector>
 
-#include "builder/descend/cell_windings.h"
 #include "builder/descend/patch.h"
 #include "builder/descend/plane_memo.h"
 #include "builder/octree/morton.h"
@@ -33,6 +32,7 @@
 #include "builder/overlap/kernels/divide_list.h"
 #include "builder/overlap/triangle_list.h"
 #include "builder/reduce/sub_dag_builder.h"
+#include "builder/winding/cell_windings.h"
 #include "io/grid.h"
 
 namespace svdag {
@@ -104,7 +104,7 @@ class Descent {
                 SubjectDags* dags);
   void end(const Cube& cube, SubjectDags dags);
   void update_memo(SubDagBuilder::Pause pause);
-  // `sheets`: of the set (builder/overlap/crossing.h).
+  // `sheets`: of the set (builder/winding/crossing.h).
   std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list, int32_t winding,
                                      uint32_t sheets);
   std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list, int32_t winding,

@@ -1,7 +1,7 @@
 #include "builder/descend/voxelize_window.h"
 
-#include "builder/descend/winding_lines.h"
 #include "builder/overlap/overlap.h"
+#include "builder/winding/winding_lines.h"
 
 namespace svdag {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "builder/descend/cell_windings.h"
+#include "builder/winding/cell_windings.h"
 #include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
 #include "streaming/spill/record.h"

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "builder/descend/cell_windings.h"
+#include "builder/winding/cell_windings.h"
 #include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
 #include "builder/split/scene_layers.h"

@@ -47,3 +47,15 @@ svdag build box.obj -o x.svdag -r 64 --inside odd || echo "exit $?"
 svdag build box.obj -o x.svdag -r 64 --rule solid --inside all || echo "exit $?"
 svdag build box.obj -o x.svdag -r 64 --rule solid --open ignore || echo "exit $?"
 svdag-verify mesh box.svdag box.obj --judge openvdb || echo "exit $?"
+svdag build box.obj -o x.svdag -r 64 --open surface || echo "exit $?"
+# Layers: two boxes, one in the other; the wall of a third is open.
+svdag-scene atrium -q -o atrium.obj
+svdag build atrium.obj -o a.svdag -r 256 --rule solid --layers object --open surface -q && svdag-verify check a.svdag | tail -1
+svdag-verify mesh a.svdag atrium.obj | tail -1
+svdag build scan.ply box.obj -o two.svdag -r 128 --rule solid --layers file | sed 's/, [0-9.]* s$//'
+svdag info two.svdag --layers | tail -3
+svdag-verify mesh two.svdag scan.ply box.obj | tail -3
+svdag build scan.ply box.obj -o small.svdag -r 128 --rule solid --layers file -m 8M -q && cmp two.svdag small.svdag
+svdag build scan.ply open.obj -o mixed.svdag -r 128 --rule solid --open surface --layers file | sed 's/, [0-9.]* s$//'
+svdag-verify mesh mixed.svdag scan.ply open.obj | tail -3
+svdag-verify mesh mixed.svdag scan.ply open.obj --sample 100 | tail -1

@@ -45,16 +45,20 @@ def stream(number, size, blocks):
 
 
 def journal(lattice):
-    """A bake at 32^3: its triangles in two bins, two runs, and a process that resumed."""
+    """A bake at 32^3: its triangles in two bins, winding numbers, two runs, and a process that resumed."""
     levels, all_voxels = 5, 1 << 15
-    grid = struct.pack("<Ii4d3qI6q", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32)
-    bake = struct.pack("<I", 3) + text(b"algorithm: 1\nrule: thin\n") + grid + struct.pack("<Q", 16384)
+    grid = struct.pack("<Ii4d3qI6q12d", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32,
+                       1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)
+    bake = struct.pack("<I", 6) + text(b"algorithm: 1\nrule: thin\n") + grid + struct.pack("<Q", 16384)
     bins = b"".join(struct.pack("<i3q2Q", 1, 0, 0, z, z * 4096, (z + 1) * 4096) + struct.pack("<Q", 9) + stream(
         1 + z, 16000 + z, [z]) for z in range(2))
-    split = struct.pack("<Qd5Qd", 18, 0.25, 0, 4, 1, 2, 3, 0.125) + struct.pack("<Q", 2) + bins
+    layers = struct.pack("<IQ", 0, 0)
+    windings = struct.pack("<IQ", 1, 2) + struct.pack("<2Ii2Ii", 0, 0, 1, 511, 0, -2) if lattice else struct.pack("<I", 0)
+    split = (struct.pack("<Qd5Qd2Qd", 18, 0.25, 0, 4, 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers
+             + windings)
     run = struct.pack("<Q", levels - 2) + stream(3, 16, [0]) + stream(4, 32, [1]) + stream(5, 64, [2]) + stream(6, 32, [3])
-    root = struct.pack("<Q", 1) + struct.pack("<QiI", 5, 1, 1)
-    done = struct.pack("<Q", 7) + struct.pack("<Q", 2) + struct.pack("<4Q", 0, 512, 4096, all_voxels)
+    root = struct.pack("<Q", 1) + struct.pack("<QiII", 5, 1, 1, 0)
+    done = struct.pack("<QQ", 7, 0) + struct.pack("<Q", 2) + struct.pack("<4Q", 0, 512, 4096, all_voxels)
     return record(1, bake) + record(2, split) + record(3, run + root + done) + record(4, b"") + record(3, run + root + done)
 
 

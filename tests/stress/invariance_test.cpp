@@ -145,7 +145,7 @@ Soup subdivided(const Soup& soup) {
   for (const LatticeTriangle& t : soup) {
     LatticePoint m[3];  // of the edge opposite to vertex i
     for (int i = 0; i < 3; ++i) m[i] = (t.v[(i + 1) % 3] + t.v[(i + 2) % 3]) / int64_t(2);
-    for (int i = 0; i < 3; ++i) parts.push_back({{t.v[i], m[(i + 1) % 3], m[(i + 2) % 3]}});
+    for (int i = 0; i < 3; ++i) parts.push_back({{t.v[i], m[(i + 2) % 3], m[(i + 1) % 3]}});
     parts.push_back({{m[0], m[1], m[2]}});
   }
   return parts;

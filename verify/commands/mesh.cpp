@@ -188,11 +188,13 @@ nlohmann::json draws_json(const SampleComparison& sample) {
     return json;
   };
   const auto& [area, edge, triangle] = sample.scene;
-  return {{"file_bricks", one(sample.file, "wrong_file_bricks_bound_95")},
-          {"scene_area", one(area, "area_in_wrong_bricks_bound_95")},
-          {"scene_longest_edges", one(edge, "length_in_wrong_bricks_bound_95")},
-          {"beside_triangles", one(triangle, nullptr)},
-          {"anywhere", one(sample.anywhere, "selection_in_wrong_bricks_bound_95")}};
+  nlohmann::json json = {{"file_bricks", one(sample.file, "wrong_file_bricks_bound_95")},
+                         {"scene_area", one(area, "area_in_wrong_bricks_bound_95")},
+                         {"scene_longest_edges", one(edge, "length_in_wrong_bricks_bound_95")},
+                         {"beside_triangles", one(triangle, nullptr)}};
+  if (sample.anywhere.draws > 0)
+    json["anywhere"] = one(sample.anywhere, "selection_in_wrong_bricks_bound_95");
+  return json;
 }
 
 void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {

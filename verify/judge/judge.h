@@ -7,7 +7,7 @@
 // They share neither arithmetic nor method, except for the box of cells that they test
 // (touched_cells.h), so each detects errors of the other. Both judge every rule
 // (docs/accuracy.md); of the solid rules they judge the touched voxels, and winding numbers decide
-// the others (sample/solid.h). A judge reuses scratch memory: one per thread.
+// the others (verify/sample/solid.h). A judge reuses scratch memory: one per thread.
 #pragma once
 
 #include <memory>

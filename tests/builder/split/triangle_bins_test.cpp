@@ -23,7 +23,7 @@ class TriangleBinsTest : public testing::Test {
         put(uint64_t(triangle.v[i][a]) - from, &writer);
       }
     }
-    put(triangle.subject, &writer);
+    put(4 * uint64_t(triangle.subject) + triangle.sheet, &writer);
     bin.triangles = 1;
     bin.stream = writer.finish();
     return bin;
@@ -86,6 +86,7 @@ TEST_F(TriangleBinsTest, VerticesThatTheSnapCannotProduceAreReportedAsDamage) {
 TEST_F(TriangleBinsTest, ALayerThatCannotExistIsReportedAsDamage) {
   LatticeTriangle triangle{};
   triangle.subject = kMaxLayers;
+  triangle.sheet = kSheetOfUnion | kSheetOfLayer;
   EXPECT_EQ(read(bin_of(triangle)).at(0), triangle);
   ++triangle.subject;
   EXPECT_SVDAG_ERROR(read(bin_of(triangle)), ExitCode::kOutput, "damaged");

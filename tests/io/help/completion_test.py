@@ -27,7 +27,7 @@ OFFERS = [
     ("svdag help ru", {"run", "rules"}),
     ("svdag help exit", {"exit-codes"}),
     ("svdag build --resol", {"--resolution"}),
-    ("svdag build city.ply --rule ", {"conservative", "thin"}),
+    ("svdag build city.ply --rule ", {"conservative", "thin", "solid"}),
     ("svdag build city.ply --rule t", {"thin"}),
     ("svdag build ", {"city.ply", "hall.GLB", "folder/"}),
     ("svdag build -r 4K ci", {"city.ply"}),
@@ -124,7 +124,7 @@ class Bash(Shell):
 
     def test_offers(self):
         self.check_offers({"svdag export -o = ": set(), "svdag export -o = no": set(), "svdag export -o =": set(),
-                           "svdag export --output = no": {"notes.txt"}, "svdag build --rule =": {"conservative", "thin"}})
+                           "svdag export --output = no": {"notes.txt"}, "svdag build --rule =": {"conservative", "thin", "solid"}})
 
     def test_offers_every_option_and_no_other(self):
         self.check_options()

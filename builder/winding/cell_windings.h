@@ -3,14 +3,14 @@
 //
 // A layer winds around few cells, and a scene may have thousands of layers, so only numbers that
 // are not 0 are stored, and while triangles are added only changes
-// (builder/descend/winding_lines.h). Rejected: an array for each layer (1 MiB each).
+// (builder/winding/winding_lines.h). Rejected: an array for each layer (1 MiB each).
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "builder/descend/winding_lines.h"
 #include "builder/octree/sub_dag_root.h"
+#include "builder/winding/winding_lines.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {

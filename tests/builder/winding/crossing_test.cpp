@@ -1,5 +1,5 @@
 // Winding numbers do not depend on the path, whatever the points and planes have in common.
-#include "builder/overlap/crossing.h"
+#include "builder/winding/crossing.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // level below a root cube.
 //
 // Notation: the points are p(i, j, k) = p(0, 0, 0) + (i, j, k) side, 0 <= i, j, k < n, p(0, 0, 0)
-// the centre of the root's minimum voxel (builder/overlap/crossing.h). Each point is reached from
+// the centre of the root's minimum voxel (builder/winding/crossing.h). Each point is reached from
 // p(0, 0, 0) by a path along x, then y, then z, of which only the last step is its own: the step to
 // (i, j, k) is along z if k > 0, else along y if j > 0, else along x. A triangle changes the one
 // step of a line that crosses it, so it costs little more than the lines of points that pass

@@ -1,4 +1,4 @@
-#include "builder/overlap/crossing.h"
+#include "builder/winding/crossing.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "builder/descend/cell_windings.h"
+#include "builder/winding/cell_windings.h"
 
 #include <algorithm>
 #include <tuple>

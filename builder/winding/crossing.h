@@ -10,8 +10,9 @@
 // (builder/overlap/brick_thin.cpp). A shifted point is on no triangle, and a shifted segment meets
 // no edge, so every crossing is unambiguous, also where a point is in a touched voxel. The winding
 // number of a shifted point is the sum over any path to it, provided that the boundary chain of the
-// triangles vanishes (io/scene/boundary_chain.h). Triangles of zero area are never crossed. `sheets`
-// says which triangles count for nothing: those that are sheets of the set (io/triangle.h).
+// triangles vanishes (io/scene/boundary_chain.h). Triangles of zero area are never crossed.
+// `sheets` says which triangles count for nothing: those that are sheets of the set
+// (io/triangle.h).
 //
 // Signs are computed in double with an error bound, and exactly where that is unsure. Rejected:
 // rays along one axis from outside of the grid for each point (they leave the cube, so the cube's

@@ -1,8 +1,8 @@
-#include "builder/descend/winding_lines.h"
+#include "builder/winding/winding_lines.h"
 
 #include <algorithm>
 
-#include "builder/overlap/crossing.h"
+#include "builder/winding/crossing.h"
 #include "streaming/error.h"
 
 namespace svdag {
