@@ -27,8 +27,8 @@
 
 namespace svdag {
 
-// Rules solid: the winding number at the centre of an untouched voxel is summed up along its line of
-// centres, which comes from outside of the scene along z. A crossing between the centres k and
+// Rules solid: the winding number at the centre of an untouched voxel is summed up along its line
+// of centres, which comes from outside of the scene along z. A crossing between the centres k and
 // k + 1 counts for k + 1 and above.
 using WindingSink = std::function<void(const LatticePoint& voxel, int change)>;
 

@@ -1,7 +1,6 @@
 #include "verify/judge/judge.h"
 
 #include "streaming/error.h"
-#include "verify/judge/centre_lines.h"
 #include "verify/judge/judge_cgal.h"
 
 namespace svdag {
@@ -19,6 +18,10 @@ class IntegerJudge final : public Judge {
               const Sink& sink) override {
     if (rule_ == Rule::kThin) return thin_voxels(triangle, fraction, window, sink);
     clipper_.run(triangle, fraction, window, sink);
+  }
+  void windings(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
+                const WindingSink& sink) override {
+    winding_changes(triangle, fraction, window, sink);
   }
 
  private:

@@ -6,8 +6,9 @@
 //
 // They share neither arithmetic nor method, except for the box of cells that they test
 // (touched_cells.h), so each detects errors of the other. Both judge every rule
-// (docs/accuracy.md); of the solid rules they judge the touched voxels, and winding numbers decide
-// the others (verify/sample/solid.h). A judge reuses scratch memory: one per thread.
+// (docs/accuracy.md); for the solid rules they judge which voxels are touched, and how a triangle
+// changes winding numbers, which decide about the others (verify/sample/solid.h). A judge reuses
+// scratch memory: one per thread.
 #pragma once
 
 #include <memory>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "io/dag/format.h"
+#include "verify/judge/centre_lines.h"
 #include "verify/judge/clip_judge.h"
 
 namespace svdag {
@@ -31,6 +33,9 @@ class Judge {
   // Passes every voxel (of side 2^fraction) that the rule sets to `sink`, at least once.
   virtual void voxels(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
                       const Sink& sink) = 0;
+  // As winding_changes() (centre_lines.h).
+  virtual void windings(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
+                        const WindingSink& sink) = 0;
   // True if the triangle meets the closed cell.
   bool touches(const LatticeTriangle& triangle, int shift, const LatticePoint& cell);
 };

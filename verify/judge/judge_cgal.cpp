@@ -66,7 +66,50 @@ class CgalJudge final : public Judge {
     });
   }
 
+  void windings(const LatticeTriangle& triangle, int fraction, const VoxelBox& window,
+                const WindingSink& sink) override {
+    set_triangle(triangle);
+    const auto* shape = std::get_if<Kernel::Triangle_3>(&shape_);
+    if (shape == nullptr || triangle.sheet != 0) return;
+    const Kernel::Plane_3 plane = shape->supporting_plane();
+    if (CGAL::is_zero(plane.c())) return;
+    const bool up = CGAL::is_positive(plane.c());
+    const LatticeBox box = box_of(triangle);
+    LatticePoint voxel;
+    for (voxel.x = std::max(window.min.x, box.min.x >> fraction);
+         voxel.x < window.max.x && voxel.x <= box.max.x >> fraction; ++voxel.x) {
+      for (voxel.y = std::max(window.min.y, box.min.y >> fraction);
+           voxel.y < window.max.y && voxel.y <= box.max.y >> fraction; ++voxel.y) {
+        std::array<Number, 3> low = shifted_centre(voxel, fraction), high = low;
+        low[2] = number(box.min.z - 1);
+        high[2] = number(box.max.z + 1);
+        if (!CGAL::do_intersect(
+                Kernel::Segment_3({low[0], low[1], low[2]}, {high[0], high[1], high[2]}), *shape))
+          continue;
+        // The first centre above the plane, by bisection.
+        int64_t below = window.min.z - 1, above = window.max.z;
+        while (above - below > 1) {
+          voxel.z = (below + above) / 2;
+          const auto centre = shifted_centre(voxel, fraction);
+          const bool front = plane.has_on_positive_side({centre[0], centre[1], centre[2]});
+          (front == up ? above : below) = voxel.z;
+        }
+        voxel.z = above;
+        if (voxel.z < window.max.z) sink(voxel, up ? -1 : 1);
+      }
+    }
+  }
+
  private:
+  static std::array<Number, 3> shifted_centre(const LatticePoint& voxel, int shift) {
+    constexpr double kShift[3] = {0x1p-256, 0x1p-512, 0x1p-768};
+    const Number half(double(int64_t(1) << shift >> 1));
+    std::array<Number, 3> centre;
+    for (int a = 0; a < 3; ++a)
+      centre[size_t(a)] = number(voxel[a] << shift) + half + Number(kShift[a]);
+    return centre;
+  }
+
   // The same triangle is tested many times: CGAL caches its exact numbers.
   void set_triangle(const LatticeTriangle& triangle) {
     if (triangle_ == triangle && has_triangle_) return;
@@ -92,10 +135,7 @@ class CgalJudge final : public Judge {
     const auto* triangle = std::get_if<Kernel::Triangle_3>(&shape_);
     if (triangle == nullptr) return false;
     const Number half(double(int64_t(1) << shift >> 1));
-    constexpr double kShift[3] = {0x1p-256, 0x1p-512, 0x1p-768};
-    std::array<Number, 3> centre;
-    for (int a = 0; a < 3; ++a)
-      centre[size_t(a)] = number(voxel[a] << shift) + half + Number(kShift[a]);
+    const std::array<Number, 3> centre = shifted_centre(voxel, shift);
     for (size_t w = 0; w < 3; ++w) {
       std::array<Number, 3> from = centre, to = centre;
       from[w] -= half;

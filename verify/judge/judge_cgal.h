@@ -11,6 +11,9 @@
 // smaller one: |B| e + |C| e^2 + |D| e^3 < 1, and so on. do_intersect of the triangle with the
 // shifted centre segments is then literally the rule's definition.
 //
+// Solid: the vertical lines through the centres, shifted in the same way, and do_intersect with the
+// triangle; the side of its plane on which a shifted centre is.
+//
 // Costs 200 .. 400 ns per pair if the filter decides, microseconds otherwise: for samples and small
 // grids. The only part of svdag that uses CGAL.
 #pragma once

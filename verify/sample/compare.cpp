@@ -194,7 +194,7 @@ Comparison compare_all(const DagView& dag, const Grid& grid,
   std::vector<TileNode> nodes;
   const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
   if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
-  const SolidColumns solid(grid, choice.rule, triangles);
+  const SolidColumns solid(grid, choice.rule, triangles, *judges[0]);
   const std::vector<TileWork> work = merge_tile_lists(lists, nodes, solid.tiles());
 
   progress.phase("comparing", work.size());

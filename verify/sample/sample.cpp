@@ -111,7 +111,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
                         const size_t end = std::min(gathered.size(), (task + 1) * kTaskTriangles);
                         for (size_t i = task * kTaskTriangles; i < end; ++i) {
                           sample.add(gathered[i], *judges[worker]);
-                          if (solid) solid->add(gathered[i]);
+                          if (solid) solid->add(gathered[i], *judges[worker]);
                         }
                       });
     progress.advance(gathered.size());

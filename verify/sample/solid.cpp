@@ -4,7 +4,6 @@
 #include <atomic>
 #include <tuple>
 
-#include "verify/judge/centre_lines.h"
 #include "verify/judge/touched_cells.h"
 
 namespace svdag {
@@ -16,15 +15,16 @@ bool selects(const Grid& grid, const LatticePoint& voxel) {
 
 }  // namespace
 
-SolidColumns::SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeTriangle> triangles)
+SolidColumns::SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeTriangle> triangles,
+                           Judge& judge)
     : grid_(grid), rule_(rule) {
   if (!is_solid(rule)) return;
   for (const LatticeTriangle& triangle : triangles) {
-    winding_changes(triangle, grid.fraction(), grid.whole(),
-                    [&](const LatticePoint& voxel, int change) {
-                      changes_.push_back(
-                          {uint64_t(voxel.x) << 20 | uint64_t(voxel.y), int32_t(voxel.z), change});
-                    });
+    judge.windings(triangle, grid.fraction(), grid.whole(),
+                   [&](const LatticePoint& voxel, int change) {
+                     changes_.push_back(
+                         {uint64_t(voxel.x) << 20 | uint64_t(voxel.y), int32_t(voxel.z), change});
+                   });
   }
   std::ranges::sort(changes_, {}, [](const Change& c) { return std::tuple(c.column, c.z); });
 }
@@ -97,17 +97,17 @@ SolidBricks::SolidBricks(const Grid& grid, const std::vector<uint64_t>& codes)
   std::ranges::sort(places_, {}, &Place::column);
 }
 
-void SolidBricks::add(const LatticeTriangle& triangle) {
+void SolidBricks::add(const LatticeTriangle& triangle, Judge& judge) {
   const VoxelBox bricks{LatticePoint(0), LatticePoint(grid_.resolution() / kBrickSide)};
   LatticeBox box = box_of(triangle);
   box.min.z = box.max.z = 0;  // bricks above the triangle count it, too
   const VoxelBox touched = touched_cells(box, grid_.fraction() + 2, bricks);
-  if (!touched.empty()) descend(triangle, touched, 0, grid_.levels - 2, places_);
+  if (!touched.empty()) descend(triangle, judge, touched, 0, grid_.levels - 2, places_);
 }
 
 // `places` are the bricks in the columns of `cell`, a square of 2^height bricks a side.
-void SolidBricks::descend(const LatticeTriangle& triangle, const VoxelBox& box, uint64_t cell,
-                          int height, std::span<const Place> places) {
+void SolidBricks::descend(const LatticeTriangle& triangle, Judge& judge, const VoxelBox& box,
+                          uint64_t cell, int height, std::span<const Place> places) {
   if (places.empty()) return;
   const LatticePoint first = cell_of_code(cell) << int64_t(height);
   const int64_t side = int64_t(1) << height;
@@ -115,21 +115,21 @@ void SolidBricks::descend(const LatticeTriangle& triangle, const VoxelBox& box, 
     if (first[a] >= box.max[a] || first[a] + side <= box.min[a]) return;
   }
   if (height == 0) {
-    for (const Place& place : places) count(triangle, place.index);
+    for (const Place& place : places) count(triangle, judge, place.index);
     return;
   }
   for (uint64_t child = cell << 3; child < (cell + 1) << 3; child += 2) {  // z is 0
     const uint64_t beyond = (child + 2) << 3 * (height - 1);
     const auto end = std::ranges::lower_bound(places, beyond, {}, &Place::column);
     const auto middle = size_t(end - places.begin());
-    descend(triangle, box, child, height - 1, places.first(middle));
+    descend(triangle, judge, box, child, height - 1, places.first(middle));
     places = places.subspan(middle);
   }
 }
 
-void SolidBricks::count(const LatticeTriangle& triangle, size_t index) {
+void SolidBricks::count(const LatticeTriangle& triangle, Judge& judge, size_t index) {
   const LatticePoint corner = corners_[index];
-  winding_changes(
+  judge.windings(
       triangle, grid_.fraction(), {corner, corner + int64_t(kBrickSide)},
       [&](LatticePoint voxel, int change) {
         for (; voxel.z < corner.z + kBrickSide; ++voxel.z) {

@@ -1,5 +1,5 @@
-// What the solid rules set beside the touched voxels, by the judge's own winding numbers
-// (verify/judge/centre_lines.h): for all lines of centres of a grid, or for some bricks.
+// What the solid rules set beside the touched voxels, by a judge's winding numbers: for all lines
+// of centres of a grid, or for some bricks.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "io/brick.h"
 #include "io/dag/format.h"
 #include "io/grid.h"
+#include "verify/judge/judge.h"
 #include "verify/sample/tile.h"
 
 namespace svdag {
@@ -19,7 +20,8 @@ class SolidColumns {
  public:
   // `triangles`: all of the scene, those outside of the grid, too. Without a solid rule it is
   // empty.
-  SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeTriangle> triangles);
+  SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeTriangle> triangles,
+               Judge& judge);
 
   // Sets the inside voxels of the selection in the tile at `corner` of `side` voxels.
   void fill(const LatticePoint& corner, int64_t side, Tile* tile) const;
@@ -45,10 +47,10 @@ class SolidColumns {
 // The winding numbers of the voxels of some bricks. Triangles may be added concurrently.
 class SolidBricks {
  public:
-  // `codes`: of the bricks.
+  // `codes`: of the bricks. Each thread that adds has a judge of its own.
   SolidBricks(const Grid& grid, const std::vector<uint64_t>& codes);
 
-  void add(const LatticeTriangle& triangle);
+  void add(const LatticeTriangle& triangle, Judge& judge);
   // The inside voxels of the selection in brick `index`.
   Brick inside(Rule rule, size_t index) const;
 
@@ -57,9 +59,9 @@ class SolidBricks {
     uint64_t column;  // Morton code of the brick's x and y
     uint32_t index;
   };
-  void descend(const LatticeTriangle& triangle, const VoxelBox& box, uint64_t cell, int height,
-               std::span<const Place> places);
-  void count(const LatticeTriangle& triangle, size_t index);
+  void descend(const LatticeTriangle& triangle, Judge& judge, const VoxelBox& box, uint64_t cell,
+               int height, std::span<const Place> places);
+  void count(const LatticeTriangle& triangle, Judge& judge, size_t index);
 
   Grid grid_;
   std::vector<LatticePoint> corners_;  // first voxels of the bricks

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/expect_error.h"
 #include "tests/verify/families.h"
 #include "tests/verify/judged_voxels.h"
@@ -35,16 +37,31 @@ class Agreement {
         return ::testing::AssertionFailure() << rule_name(rule);
       set_[size_t(rule)] += expected.size();
     }
+    if (changes(*integer_[0], t, shift, window) != changes(*cgal_[0], t, shift, window))
+      return ::testing::AssertionFailure() << "winding numbers";
+    changes_ += changes(*integer_[0], t, shift, window).size();
     return ::testing::AssertionSuccess();
   }
   size_t conservative() const { return set_[0]; }
   size_t thin() const { return set_[1]; }
+  size_t windings() const { return changes_; }
 
  private:
   using Pair = std::array<std::unique_ptr<Judge>, 2>;
   Pair integer_{make_judge({}), make_judge({JudgeChoice::Kind::kInteger, Rule::kThin})};
   Pair cgal_{make_judge({kCgal, Rule::kConservative}), make_judge({kCgal, Rule::kThin})};
+  using Changes = std::set<std::array<int64_t, 4> >;
+  static Changes changes(Judge& judge, const LatticeTriangle& t, int shift,
+                         const VoxelBox& window) {
+    Changes changes;
+    judge.windings(t, shift, window, [&](const LatticePoint& voxel, int change) {
+      changes.insert({voxel.x, voxel.y, voxel.z, change});
+    });
+    return changes;
+  }
+
   std::array<size_t, 2> set_{};
+  size_t changes_ = 0;
 };
 
 TEST(CgalJudge, AgreesOnEveryFamilyAndSize) {
@@ -58,6 +75,7 @@ TEST(CgalJudge, AgreesOnEveryFamilyAndSize) {
     }
     EXPECT_GT(judges.conservative(), 100U);
     EXPECT_EQ(judges.thin() == 0, family >= 3 && family <= 5);  // the families of zero area
+    EXPECT_EQ(judges.windings() == 0, family >= 3 && family <= 5);
   }
 }
 
