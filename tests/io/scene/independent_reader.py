@@ -183,15 +183,21 @@ def read_off(data, soup):
 READERS = {".ply": read_ply, ".stl": read_stl, ".obj": read_obj, ".off": read_off}
 
 
-def digest(path):
-    """(number of triangles, SHA-256 of their corners) of a scene file."""
+def triangles(path):
+    """The corners of the triangles of a scene file, nine doubles each."""
     with open(path, "rb") as file:
         data = file.read()
     soup = Soup()
     READERS[path[path.rfind("."):].lower()](data, soup)
+    return soup.values
+
+
+def digest(path):
+    """(number of triangles, SHA-256 of their corners) of a scene file."""
+    values = triangles(path)
     if sys.byteorder == "big":
-        soup.values.byteswap()
-    return len(soup.values) // 9, hashlib.sha256(soup.values.tobytes()).hexdigest()
+        values.byteswap()
+    return len(values) // 9, hashlib.sha256(values.tobytes()).hexdigest()
 
 
 if __name__ == "__main__":
