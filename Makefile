@@ -23,6 +23,7 @@
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bench-layers     bytes and times of files with layers; its tables
+#   bench-solid      bytes and times of solids; its table
 #   bench-size       bytes of each layout, and rays per second through them; its tables
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
@@ -44,7 +45,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm stress fuzz-long bench bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bundle deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bench-solid bundle deb cuda \
   cuda-packages pictures clean
 all: build
 
@@ -128,6 +129,9 @@ bench-size: build
 
 bench-layers: build
 	@$(PYTHON) tests/bench/layers.py --programs $(PROGRAMS)
+
+bench-solid: build
+	@$(PYTHON) tests/bench/solid.py --programs $(PROGRAMS)
 
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows

@@ -21,17 +21,18 @@ Rule parse_rule(const std::string& name) {
 
 // Which winding numbers a solid rule counts as inside.
 Rule parse_inside(const std::string& name, Rule rule) {
+  if (name != "nonzero" && name != "odd")
+    fail_usage("--inside: unknown kind \"" + name + "\": choose nonzero or odd");
   if (!is_solid(rule)) fail_usage("--inside needs --rule solid");
-  if (name == "nonzero") return Rule::kSolid;
-  if (name == "odd") return Rule::kSolidOdd;
-  fail_usage("--inside: unknown kind \"" + name + "\": choose nonzero or odd");
+  return name == "odd" ? Rule::kSolidOdd : Rule::kSolid;
 }
 
 // Whether open parts are baked as surfaces.
 bool parse_open(const std::string& name, Rule rule) {
+  if (name != "error" && name != "surface")
+    fail_usage("--open: unknown kind \"" + name + "\": choose error or surface");
   if (!is_solid(rule)) fail_usage("--open needs --rule solid");
-  if (name == "error" || name == "surface") return name == "surface";
-  fail_usage("--open: unknown kind \"" + name + "\": choose error or surface");
+  return name == "surface";
 }
 
 double checked_scale(double scale) {

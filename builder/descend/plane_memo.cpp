@@ -26,6 +26,14 @@ uint32_t tag_of(uint32_t plane, int64_t bucket) noexcept {
   return (uint32_t(hash >> 32) ^ uint32_t(hash)) << 3 | uint32_t(bucket & 7);
 }
 
+// The voxels of a brick that are above the plane for every offset up to `high`.
+Brick voxels_above(const PlaneBrick& plane, int64_t high) noexcept {
+  Brick above = 0;
+  for (unsigned bit = 0; bit < 64; ++bit)
+    above |= Brick(plane.outer[bit >> 3] + plane.inner[bit & 7] > high) << bit;
+  return above;
+}
+
 }  // namespace
 
 PlaneMemo::PlaneMemo(int levels, Rule rule, const Kernels* kernels, double repeats,
@@ -322,8 +330,11 @@ bool PlaneMemo::compute_brick(const Plane& plane, const OffsetRange& range, Fill
   const PlaneVoxels found = kernels_->plane(plane.brick, range.low, range.high);
   if (found.straddles) return false;
   Brick voxels = found.voxels;
-  if ((sides & kHighSide) != 0) voxels |= found.above;
-  if ((sides & kLowSide) != 0) voxels |= ~(found.voxels | found.above);
+  if (sides != 0) {
+    const Brick above = voxels_above(plane.brick, range.high);
+    if ((sides & kHighSide) != 0) voxels |= above;
+    if ((sides & kLowSide) != 0) voxels |= ~(found.voxels | above);
+  }
   *out = {found.low, found.high, 0, uint32_t(std::popcount(voxels)), kNoWitness};
   if (voxels == 0) return true;
   ++counts_.computed;

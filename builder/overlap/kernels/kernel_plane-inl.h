@@ -22,7 +22,7 @@ PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
   const IntVec above = hn::Set(d, high), below = hn::Set(d, low - p.span);
   const IntVec far = hn::Set(d, kFarOffset), near = hn::Set(d, -kFarOffset);
   IntVec first_set = far, last_set = near, first_above = far, last_below = near;
-  Brick voxels = 0, above_voxels = 0, straddling = 0;
+  Brick voxels = 0, straddling = 0;
   for (unsigned o = 0; o < 8; ++o) {
     for (size_t i = 0; i < 8; i += kLongs) {
       const IntVec f = hn::Add(hn::Set(d, p.outer[o]), hn::LoadU(d, p.inner + i));
@@ -34,12 +34,11 @@ PlaneVoxels plane(const PlaneBrick& p, int64_t low, int64_t high) noexcept {
       first_above = hn::Min(first_above, hn::IfThenElse(is_above, f, far));
       last_below = hn::Max(last_below, hn::IfThenElse(is_below, f, near));
       voxels |= Brick(bits(d, is_set)) << (8 * o + i);
-      above_voxels |= Brick(bits(d, is_above)) << (8 * o + i);
       const auto decided = hn::Or(is_set, hn::Or(is_above, is_below));
       straddling |= Brick(bits(d, decided) ^ ((1U << kLongs) - 1)) << (8 * o + i);
     }
   }
-  PlaneVoxels out{voxels, above_voxels, -kFarOffset, kFarOffset, straddling != 0};
+  PlaneVoxels out{voxels, -kFarOffset, kFarOffset, straddling != 0};
   if (voxels != 0) {
     out.low = hn::GetLane(hn::MaxOfLanes(d, last_set));
     out.high = hn::GetLane(hn::MinOfLanes(d, first_set)) + p.span;

@@ -29,12 +29,11 @@ Brick plain_voxels(const ListedTriangle* entries, size_t count, const LatticePoi
 }
 
 PlaneVoxels plain_plane(const PlaneBrick& plane, int64_t low, int64_t high) noexcept {
-  PlaneVoxels out{0, 0, -kFarOffset, kFarOffset, false};
+  PlaneVoxels out{0, -kFarOffset, kFarOffset, false};
   for (unsigned bit = 0; bit < 64; ++bit) {
     const int64_t first = plane.outer[bit >> 3] + plane.inner[bit & 7], last = first + plane.span;
     if (high < first) {
       out.high = std::min(out.high, first - 1);
-      out.above |= Brick(1) << bit;
     } else if (low > last) {
       out.low = std::max(out.low, last + 1);
     } else if (first <= low && high <= last) {

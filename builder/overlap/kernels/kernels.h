@@ -31,7 +31,6 @@ struct PlaneBrick {
 // around them with the same voxels. `straddles`: some voxel is set for only a part of [low, high].
 struct PlaneVoxels {
   Brick voxels;
-  Brick above;  // clear voxels on the side of larger n . x; the other clear ones are below
   int64_t low, high;
   bool straddles;
 };
