@@ -260,8 +260,9 @@ void PlaneMemo::prefetch(uint32_t number, int level, int64_t offset, FilledSides
   __builtin_prefetch(set + 64);
 }
 
-bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
-                        PlaneAnswer* out) {
+template <bool kFilled>
+bool PlaneMemo::compute_children(uint32_t number, int level, const OffsetRange& range,
+                                 FilledSides sides, PlaneAnswer* out) {
   if (level == levels_ - 2) return compute_brick(planes_[number], range, sides, out);
   const int half_log2 = levels_ - level - 1 + fraction_bits(levels_);
   const int64_t step[3] = {planes_[number].n[0] << half_log2, planes_[number].n[1] << half_log2,
@@ -276,30 +277,33 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Fi
   std::optional<PlaneContents::Query> queries[8];
   const bool by_content = level + 1 == contents_.level();
   unsigned met = 0;
-  const auto fill = [&](unsigned c) {
-    const SubDag full = full_->sub_dag(level + 1);
-    key[c] = full.root;
-    out->voxels += uint32_t(full.voxels);
-  };
+  [[maybe_unused]] unsigned above = 0;
   for (unsigned c = 0; c < 8; ++c) {
     shift[c] = (c & 4 ? step[0] : 0) + (c & 2 ? step[1] : 0) + (c & 1 ? step[2] : 0);
     if (range.high - shift[c] < low) {
       out->high = std::min(out->high, low - 1 + shift[c]);
-      if ((sides & kHighSide) != 0) fill(c);
+      if constexpr (kFilled) above |= 1U << c;
     } else if (range.low - shift[c] > high) {
       out->low = std::max(out->low, high + 1 + shift[c]);
-      if ((sides & kLowSide) != 0) fill(c);
     } else {
       met |= 1U << c;
       const OffsetRange child{range.low - shift[c], range.high - shift[c]};
       if (by_content) {
         const FilledSides filled =
-            sides == 0 ? 0 : sides & sides_with_voxels(planes_[number], level + 1, child);
+            kFilled ? sides & sides_with_voxels(planes_[number], level + 1, child) : 0;
         queries[c] = contents_.query(planes_[number].heights, child, filled);
       } else {
         prefetch(number, level + 1, child.low, sides);
       }
     }
+  }
+  if constexpr (kFilled) {  // one of them: if both are filled, the caller has no need of an answer
+    const unsigned filled = (sides & kHighSide) != 0 ? above : 0xFF & ~(met | above);
+    const SubDag full = full_->sub_dag(level + 1);
+    for (unsigned c = 0; c < 8; ++c) {
+      if ((filled >> c & 1) != 0) key[c] = full.root;
+    }
+    out->voxels = uint32_t(std::popcount(filled)) * uint32_t(full.voxels);
   }
   for (; met != 0; met &= met - 1) {
     const unsigned c = unsigned(std::countr_zero(met));
@@ -315,7 +319,7 @@ bool PlaneMemo::compute(uint32_t number, int level, const OffsetRange& range, Fi
     if (child.node == 0) continue;
     key[c] = child.node;
     out->voxels += child.voxels;
-    if (child.witness == kNoWitness) continue;
+    if (kFilled && child.witness == kNoWitness) continue;
     out->witness =
         child.witness + pack_voxel((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
   }

@@ -139,7 +139,14 @@ class PlaneMemo {
                  PlaneAnswer* out);
   void prefetch(uint32_t number, int level, int64_t offset, FilledSides sides);
   bool compute(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
-               PlaneAnswer* out);
+               PlaneAnswer* out) {
+    return sides == 0 ? compute_children<false>(number, level, range, 0, out)
+                      : compute_children<true>(number, level, range, sides, out);
+  }
+  // kFilled: some side is filled; without, surfaces take no longer than they need.
+  template <bool kFilled>
+  bool compute_children(uint32_t number, int level, const OffsetRange& range, FilledSides sides,
+                        PlaneAnswer* out);
   bool compute_brick(const Plane& plane, const OffsetRange& range, FilledSides sides,
                      PlaneAnswer* out);
   static MemoEntry* set_of(LevelTable* table, uint32_t tag);
