@@ -25,10 +25,11 @@ constexpr uint64_t kMiB = 1 << 20;
 class OutOfCore : public ::testing::Test {
  protected:
   // Bakes in memory what the others must equal.
-  BuildConfig prepare(const std::vector<Triangle>& triangles, int levels) {
+  BuildConfig prepare(const std::vector<Triangle>& triangles, int levels,
+                      Rule rule = Rule::kConservative) {
     write_stl(folder_.file("scene.stl"), triangles);
-    const BuildConfig config =
-        config_for(folder_.file("scene.stl"), folder_.file("out.svdag"), levels);
+    BuildConfig config = config_for(folder_.file("scene.stl"), folder_.file("out.svdag"), levels);
+    config.descent.rule = rule;
     bake(config);
     expected_ = read_bytes(config.output);
     std::filesystem::remove(config.output);
@@ -38,6 +39,9 @@ class OutOfCore : public ::testing::Test {
     return read_bytes(config.output) == expected_ &&
            !std::filesystem::exists(config.output + ".scratch");
   }
+
+  // Stops and resumes a bake until both happened often.
+  void stop_anywhere(BuildConfig config, uint64_t least_memory);
 
   TempFolder folder_;
   std::string expected_;
@@ -144,15 +148,14 @@ class StopAfter {
   std::thread thread_;
 };
 
-TEST_F(OutOfCore, ABakeThatIsStoppedAnywhereIsResumedToTheSameBytes) {
+void OutOfCore::stop_anywhere(BuildConfig config, uint64_t least_memory) {
   using Milliseconds = std::chrono::milliseconds;
-  BuildConfig config = prepare(random_soup(20'000, 0.1, 9), 8);
   std::mt19937 random(11);
   int stopped = 0, resumed = 0;
   Milliseconds whole(200);  // about what a bake takes on this machine today
   config.unfinished = Unfinished::kResume;
   for (int bakes = 0; bakes < 400 && (stopped < 12 || resumed < 6); ++bakes) {
-    config.memory = (4 + random() % 6) * kMiB;
+    config.memory = least_memory + random() % 6 * kMiB;
     config.checkpoint = random() % 2 ? 0.01 : 30;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -169,6 +172,19 @@ TEST_F(OutOfCore, ABakeThatIsStoppedAnywhereIsResumedToTheSameBytes) {
   }
   EXPECT_GE(stopped, 12);
   EXPECT_GE(resumed, 6);
+}
+
+TEST_F(OutOfCore, ABakeThatIsStoppedAnywhereIsResumedToTheSameBytes) {
+  stop_anywhere(prepare(random_soup(20'000, 0.1, 9), 8), 4 * kMiB);
+}
+
+TEST_F(OutOfCore, ASolidThatIsStoppedAnywhereIsResumedToTheSameBytes) {
+  std::vector<Triangle> mesh = bumpy_sphere(100);
+  for (const Triangle& t : random_soup(5000, 0.2, 9)) {  // a tetrahedron on each
+    mesh.push_back(t);
+    for (size_t i = 0; i < 3; ++i) mesh.push_back({{t.v[(i + 1) % 3], t.v[i], Point(0.4)}});
+  }
+  stop_anywhere(prepare(mesh, 8, Rule::kSolid), 8 * kMiB);
 }
 
 // Leaves an unfinished bake with runs behind.

@@ -230,6 +230,24 @@ TEST_F(Solid, ACrowdedCubeIsFilledByTheBitmap) {
   }
 }
 
+// 64K^3 voxels, of which --bounds selects some inside of a box: a few nodes a level.
+TEST_F(Solid, ASelectionInsideTakesFewNodes) {
+  BuildConfig config;
+  config.scene.paths = {folder_.file("box.stl")};
+  write_stl(config.scene.paths[0], box(Point(-1), Point(2)));
+  config.output = folder_.file("box.svdag");
+  config.levels = 16;
+  config.cube = GridCube{Point(0), 1};
+  config.bounds = Box{Point(0.1, 0.2, 0.3), Point(0.9, 0.77, 0.61)};
+  config.descent.rule = Rule::kSolid;
+  const BuildReport report = bake(config);
+  const VoxelBox& selection = report.grid.selection;
+  uint64_t all = 1;
+  for (int a = 0; a < 3; ++a) all *= uint64_t(selection.max[a] - selection.min[a]);
+  EXPECT_EQ(report.voxels, all);
+  for (const uint64_t nodes : report.nodes) EXPECT_LE(nodes, 27U);
+}
+
 // Rule odd has no inside where an even number of shells overlap; nonzero has none where opposite
 // shells cancel out.
 TEST_F(Solid, InsideIsWhereTheSurfaceWindsAroundOrWindsAroundOddly) {

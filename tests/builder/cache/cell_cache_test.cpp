@@ -29,10 +29,12 @@ Grid grid_of(int levels) {
 
 class Cache : public ::testing::Test {
  protected:
-  BuildConfig prepare(const std::vector<Triangle>& triangles, int levels) {
+  BuildConfig prepare(const std::vector<Triangle>& triangles, int levels,
+                      Rule rule = Rule::kConservative) {
     write_stl(folder_.file("scene.stl"), triangles);
     BuildConfig config = config_for(folder_.file("scene.stl"), folder_.file("out.svdag"), levels);
     config.cell_level = 3;
+    config.descent.rule = rule;
     config.bounds = Box{Point(0), Point(1)};  // the grid stays where it is
     bake(config);
     expected_ = read_bytes(config.output);
@@ -86,6 +88,25 @@ TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
   const BuildReport report = bake_as_expected(prepare(soup, 8));
   EXPECT_LT(report.cache_hits, report.cells);
   EXPECT_GT(report.cache_hits, report.cells - 20);
+}
+
+// The same triangles in a cell bound another solid if the surface is turned, or is in another one.
+TEST_F(Cache, ACellOfASolidServesTheSameWindingsOnly) {
+  std::vector<Triangle> ball = bumpy_sphere(20), turned;
+  for (Triangle& t : ball) {
+    for (Point& p : t.v) p = Point(0.5) + 0.3 * p;
+    turned.push_back({{t.v[1], t.v[0], t.v[2]}});
+  }
+  const auto in_a_box = [](std::vector<Triangle> mesh) {
+    for (const Triangle& t : closed_box(Point(-1), Point(2))) mesh.push_back(t);
+    return mesh;
+  };
+  bake_as_expected(prepare(ball, 8, Rule::kSolid));
+  EXPECT_GT(bake_as_expected(prepare(ball, 8, Rule::kSolid)).cache_hits, 0U);
+  for (const auto& mesh : {turned, in_a_box(ball), in_a_box(turned)}) {
+    EXPECT_EQ(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache_hits, 0U);
+    EXPECT_GT(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache_hits, 0U);
+  }
 }
 
 TEST_F(Cache, EveryBudgetGivesTheSameBytes) {
