@@ -26,7 +26,8 @@ class Voxelizer::Worker {
     const LayerWindings at_cell = windings_at(cell, windings);
     const TriangleList& list = cursor_->list(cell);
     const std::optional<Subject> subject = descent_.only_subject(list, at_cell);
-    if (config_.store == nullptr || !is_new(cell) || !subject)
+    if (config_.store == nullptr || !is_new(cell) || !subject ||
+        (*subject == kUnionSet && !config_.descent.with_union))
       return descent_.run(cell, list, at_cell);
     const CellKey key = config_.store->key(cell, list, winding_of(at_cell, kUnionSet));
     if (!config_.store->take(key, cell, *subject)) bake_for_store(cell, list, at_cell, key);

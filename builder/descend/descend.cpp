@@ -75,7 +75,10 @@ void Descent::run(const Cube& cube, const TriangleList& list, const LayerWinding
   builder_->begin(cube);
   if (const auto subject = only_subject(list, windings)) {
     builder_->set_subject(*subject);
-    return update_memo(builder_->end(cube, node(cube, list, winding_of(windings, kUnionSet))));
+    // Without triangles there, only the union may wind around a cube.
+    const bool wanted = config_.with_union || *subject != kUnionSet || !list.empty();
+    return update_memo(
+        builder_->end(cube, wanted ? node(cube, list, winding_of(windings, kUnionSet)) : SubDag()));
   }
   SubjectDags dags;
   node(cube, list, windings, &dags);

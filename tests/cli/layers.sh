@@ -26,6 +26,8 @@ svdag-scene scan -n 3K --frames 3 -q -o wave.ply
 svdag build wave_*.ply -o wave.svdag -r 64 --layers file --no-union -q && svdag info wave.svdag --layers | tail -9
 svdag-verify check wave.svdag | tail -1
 svdag-verify mesh wave.svdag wave_*.ply | tail -4
+svdag-verify mesh wave.svdag wave_*.ply --judge openvdb || echo "exit $?"
+svdag-verify trace wave.svdag wave_*.ply || echo "exit $?"
 svdag-verify render wave.svdag -o wave.png --frames --size 64x36
 # What cannot be.
 mkdir other && cp atrium.obj other

@@ -51,6 +51,12 @@ void print_facts(const DagFile& file, const SceneFacts& facts, const std::string
     std::printf("unmatched  %s\n", printable(pattern).c_str());
 }
 
+void require_union(const DagFile& file, const char* what) {
+  if (!file.layers().has_union)
+    fail_usage(file.path() + ": has layers without their union, which " + what +
+               " would judge: use svdag-verify mesh, or one layer (svdag convert --layer)");
+}
+
 std::array<int64_t, 6> selection_of(const DagFile& file) {
   const auto [min, max] = file.grid().selection;
   return {min.x, min.y, min.z, max.x, max.y, max.z};

@@ -36,6 +36,9 @@ void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_
 // patterns of --include and --exclude without a match.
 void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
 
+// Error (kUsage) if the file has layers without their union, which `what` would judge.
+void require_union(const DagFile& file, const char* what);
+
 // The voxels of the file's selection: first x, y, z, then one past the last x, y, z.
 std::array<int64_t, 6> selection_of(const DagFile& file);
 

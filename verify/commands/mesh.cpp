@@ -165,11 +165,13 @@ void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement&
   const Comparison& c = j.comparison;
   print_facts(file, j,
               std::string(name_of(choice.kind)) + ": " + description_of(choice.kind, choice.rule));
-  std::printf("bricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
-              j.sampled ? "sampled" : "(all)", format_count(c.wrong_bricks).c_str());
-  std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
-              format_count(c.judge_voxels).c_str());
-  print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
+  if (file.layers().has_union) {
+    std::printf("bricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
+                j.sampled ? "sampled" : "(all)", format_count(c.wrong_bricks).c_str());
+    std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
+                format_count(c.judge_voxels).c_str());
+    print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
+  }
   if (j.sampled && file.layers().has_union) print_draws(j.sample);
   for (const JudgedLayer& layer : j.layers)
     std::printf("layer      %s: %s voxels judged, %s missing, %s extra\n",
@@ -242,6 +244,7 @@ int run(const MeshConfig& config) {
   if (config.judge == "openvdb") {
     if (is_solid(file.rule()))
       fail_usage("--judge openvdb: judges surfaces: choose integer or cgal for rule solid");
+    require_union(file, "--judge openvdb");
     return run_distance_bounds(config, file);
   }
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};

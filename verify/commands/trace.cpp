@@ -264,6 +264,7 @@ int run(const TraceConfig& config) {
   const Stopwatch stopwatch(config.common);
   require_count("--rays", config.rays);
   const DagFile file = open_dag(config.file);
+  require_union(file, "trace");
   const TraceJudgement judgement = trace(config, file);
   if (config.common.json) {
     print_json(file, config, judgement);

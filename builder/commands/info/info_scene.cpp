@@ -149,7 +149,7 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
   for (const auto& [kind, name, triangles, bounds] : parts)
     std::printf("  %14s  %s%s  %s .. %s\n", format_count(triangles).c_str(),
                 (std::string(name_of(kind)) + ":").c_str(),
-                name.empty() ? "(no name)" : printable(name).c_str(),
+                name.empty() ? "(unnamed)" : printable(name).c_str(),
                 format_point(bounds.min).c_str(), format_point(bounds.max).c_str());
 }
 

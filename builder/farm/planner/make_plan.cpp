@@ -135,7 +135,8 @@ void Planner::read_scene() {
   inputs_.check();
   plan_.counts = scene.counts;
   plan_.layers = scene.layers;
-  plan_.windings = scene.windings;
+  if (scene.windings)  // a copy, since the plan outlives the budget
+    plan_.windings = CellWindings::of_grid(plan_.grid.levels, scene.windings->entries());
   plan_.with_union = config_.build.with_union;
   if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);
   progress_->phase("distribute triangles", 0);

@@ -168,6 +168,9 @@ TEST_F(Layers, FacesOfABoxAreSurfacesAndTheUnionIsSolid) {
   check(config);
   const DagFile file = DagFile::open(config.output);
   EXPECT_GT(file.header().voxels, 5 * file.layers().layers[0].voxels);
+  config.with_union = false;
+  bake(config);
+  check(config);
 }
 
 TEST_F(Layers, OrderThreadsMemoryAndCellsDoNotChangeTheBytes) {
