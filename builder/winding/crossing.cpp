@@ -34,8 +34,8 @@ bool spans(const TriangleSetup& t, int a, int64_t at) noexcept {
 
 }  // namespace
 
-bool is_above_triangle(const TriangleSetup& t, EdgeMask edges, int w,
-                       const LatticePoint& x) noexcept {
+bool is_crossed_by_line(const TriangleSetup& t, EdgeMask edges, int w,
+                        const LatticePoint& x) noexcept {
   if (t.normal[w] == 0) return false;
   for (int k = 3 * w; k < 3 * w + 3; ++k) {
     if ((edges >> k & 1) != 0 && !edge_holds(t, k, x)) return false;
@@ -67,7 +67,7 @@ int crossings(std::span<const ListedTriangle> list, const LatticePoint& from,
       const bool next = is_in_front(t, at[w + 1]);
       const int u = (w + 1) % 3, v = (w + 2) % 3;
       if (next != front && spans(t, u, at[w][u]) && spans(t, v, at[w][v]) &&
-          is_above_triangle(t, entry.edges, w, at[w]))
+          is_crossed_by_line(t, entry.edges, w, at[w]))
         sum += front ? 1 : -1;
       front = next;
     }
@@ -136,7 +136,7 @@ void windings_of_children(std::span<const ListedTriangle> list, const LatticePoi
       const int w = (c & 1) != 0 ? 2 : ((c & 2) != 0 ? 1 : 0);
       const LatticePoint to =
           first + LatticePoint((c >> 2 & 1) * half, (c >> 1 & 1) * half, (c & 1) * half);
-      if (is_above_triangle(t, entry.edges, w, to)) step[c] += (fronts >> c & 1) != 0 ? -1 : 1;
+      if (is_crossed_by_line(t, entry.edges, w, to)) step[c] += (fronts >> c & 1) != 0 ? -1 : 1;
     }
   }
   out[0] = winding;

@@ -33,8 +33,8 @@ inline LatticePoint first_centre(const LatticePoint& corner, int fraction) noexc
 
 // Whether the line through x along axis w passes through the triangle. Only the edge functions in
 // `edges` are evaluated; the others hold at x.
-bool is_above_triangle(const TriangleSetup& t, EdgeMask edges, int w,
-                       const LatticePoint& x) noexcept;
+bool is_crossed_by_line(const TriangleSetup& t, EdgeMask edges, int w,
+                        const LatticePoint& x) noexcept;
 // Whether x is on the front side of the plane of a triangle that has an area.
 bool is_in_front(const TriangleSetup& t, const LatticePoint& x) noexcept;
 

@@ -55,7 +55,7 @@ void WindingLines::visit_lines(const TriangleSetup& t, int w, const int64_t low[
         p[w] = first_[w] + k * side_;
         return p;
       };
-      if (!is_above_triangle(t, t.edges, w, point(0))) continue;
+      if (!is_crossed_by_line(t, t.edges, w, point(0))) continue;
       const bool front = is_in_front(t, point(0));
       if (is_in_front(t, point(last)) == front) continue;
       int64_t same = 0, other = last;  // on the two sides of the plane
@@ -75,7 +75,7 @@ int WindingLines::ray_change(const LatticeTriangle& triangle) const {
     if (box.min[a] > first_[a] || (a < 2 && box.max[a] < first_[a])) return 0;
   }
   const TriangleSetup t = make_setup(triangle);
-  if (!is_above_triangle(t, t.edges, 2, first_)) return 0;
+  if (!is_crossed_by_line(t, t.edges, 2, first_)) return 0;
   return int(t.normal[2] < 0) - int(is_in_front(t, first_));
 }
 
