@@ -36,7 +36,10 @@ Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneExtent* ext
 // 64 cells along the grid, of at least 64 voxels: enough cells to share out, few enough to be
 // cheap. Where memory is so little that their list would matter, 32.
 int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory) {
-  if (config.cell_level >= 0) return std::min(config.cell_level, grid.levels - 2);
+  // Winding numbers are known at cubes of a level, and lists of triangles from the cells down.
+  const int finest =
+      is_solid(config.descent.rule) ? CellWindings::level_of_grid(grid.levels) : grid.levels - 2;
+  if (config.cell_level >= 0) return std::min(config.cell_level, finest);
   return std::clamp(grid.levels - 6, 0, memory < uint64_t(512) << 20 ? 5 : 6);
 }
 
