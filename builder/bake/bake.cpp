@@ -10,6 +10,7 @@
 #include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
+#include "streaming/error.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/spill/invalid_scratch.h"
@@ -217,6 +218,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   } else {
     split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }
+  SVDAG_ASSERT(is_solid(report.rule) == (split.windings != nullptr));
   report.split = split.counts;
   report.cell_level = splitting.cell_level;
   meter.end_phase(&report.seconds.split, &report.phase_peaks.split);

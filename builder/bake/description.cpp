@@ -75,6 +75,7 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
   if (config.layout != Layout::kPlain) out << "layout: " << layout_name(config.layout) << '\n';
   out << "algorithm: " << kAlgorithm << '\n';
   out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
+  if (config.open_as_sheets) out << "open parts: surfaces\n";
   if (config.layers != LayerKind::kNone)
     out << "layers: " << layer_kind_name(config.layers)
         << (config.with_union ? "" : ", without union") << '\n';

@@ -41,6 +41,9 @@ svdag build turned.obj -o turned.svdag -r 64 --rule solid || echo "exit $?"
 svdag build turned.obj -o turned.svdag -r 64 --rule solid --inside odd | sed 's/, [0-9.]* s$//'
 svdag info turned.obj | tail -2
 svdag-verify diff box.svdag turned.svdag || echo "exit $?"
+# A scene too small for a grid is neither closed nor open.
+printf 'v 0 0 0\nv 1e-310 0 0\nv 0 1e-310 0\nf 1 2 3\n' > tiny.obj
+svdag info tiny.obj | tail -1
 # What cannot be.
 svdag build box.obj -o x.svdag -r 64 --rule full || echo "exit $?"
 svdag build box.obj -o x.svdag -r 64 --inside odd || echo "exit $?"

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <map>
@@ -53,7 +54,7 @@ constexpr int kSnapLevels = 16;  // grids from 64K^3 on have the finest lattice
 
 // Whether rule solid can bake the scene, at 64K^3.
 struct Closedness {
-  bool is_known = false;  // false for a scene without extent
+  bool is_known = false;  // false for a scene without a grid: of no extent, or of denormals
   OpenEdges open;
   double volume = 0;  // that the surface winds around, signed, in cubic units of the scene
 
@@ -63,7 +64,8 @@ struct Closedness {
 Closedness closedness_of(const Scene& scene, const Box& box) {
   Closedness result;
   const Point side = box.max - box.min;
-  if (!(std::max({side.x, side.y, side.z}) > 0)) return result;
+  const double voxel = std::max({side.x, side.y, side.z}) / ((1 << kSnapLevels) - 1);
+  if (!std::isnormal(voxel)) return result;
   const Grid grid = divide_box(box, kSnapLevels);
   const Lattice lattice(grid);
   EdgeSum edges;

@@ -44,7 +44,7 @@ void load_index(const std::string& hash, Plan* plan) {
   plan->bins = get_bins(&in, plan->grid.levels);
   plan->layers = get_layers(&in);
   plan->windings = get_windings(&in, plan->grid.levels);
-  in.require((plan->windings != nullptr) == is_solid(plan->rule), "winding numbers, or none");
+  in.require((plan->windings != nullptr) == is_solid(plan->rule), "winding numbers do not fit the rule");
   uint32_t with_union = 0;
   in.get(&with_union);
   in.require(with_union <= 1, "impossible layers");

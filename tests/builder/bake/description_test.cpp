@@ -37,6 +37,9 @@ TEST(Description, HoldsTheGridTheRuleAndTheParts) {
   other.memory = uint64_t(1) << 30;
   other.output = "elsewhere.svdag";
   EXPECT_EQ(difference(said, described(other)), "");
+  other = config;
+  other.open_as_sheets = true;
+  EXPECT_NE(difference(said, described(other)), "");
 }
 
 TEST(Description, PatternsAreNeverMistakenForOthers) {
