@@ -48,7 +48,9 @@ TEST(BoundaryChain, VanishesForSolidsOfAnySizeAndOrder) {
     mesh.pop_back();
     // A triangle of zero area has no boundary.
     const LatticePoint p = last.v[1] - last.v[0], q = last.v[2] - last.v[0];
-    const bool flat = p.x * q.y == p.y * q.x && p.y * q.z == p.z * q.y && p.x * q.z == p.z * q.x;
+    using Wide = __int128;
+    const auto parallel = [&](int a, int b) { return Wide(p[a]) * q[b] == Wide(p[b]) * q[a]; };
+    const bool flat = parallel(0, 1) && parallel(1, 2) && parallel(0, 2);
     ASSERT_EQ(is_closed(mesh), flat);
   }
 }
