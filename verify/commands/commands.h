@@ -11,10 +11,11 @@
 #include "verify/commands/report.h"
 #include "verify/commands/trace.h"
 #include "verify/commands/vdb.h"
+#include "verify/commands/view.h"
 
 namespace svdag {
 
 using VerifyCommand = std::variant<CheckConfig, MeshConfig, DiffConfig, VdbConfig, TraceConfig,
-                                   RenderCommandConfig, ReportConfig>;
+                                   RenderCommandConfig, ReportConfig, ViewConfig>;
 
 }  // namespace svdag

@@ -21,6 +21,7 @@ int run_judge(int argc, char** argv) {
   add_trace(&app, &command);
   add_render(&app, &command);
   add_report(&app, &command);
+  add_view(&app, &command);
   if (const auto done = read_command_line(&app, argc, argv)) return *done;
   return std::visit([](const auto& parsed) { return run(parsed); }, command);
 }

@@ -24,6 +24,7 @@ void add_vdb(CLI::App* app, VerifyCommand* parsed);
 void add_trace(CLI::App* app, VerifyCommand* parsed);
 void add_render(CLI::App* app, VerifyCommand* parsed);
 void add_report(CLI::App* app, VerifyCommand* parsed);
+void add_view(CLI::App* app, VerifyCommand* parsed);
 
 // Options of several commands (shared_options.cpp).
 void add_common(CLI::App* command, CommonConfig* config, bool with_json);

@@ -13,6 +13,8 @@
 namespace svdag {
 namespace {
 
+constexpr uint64_t kViewerBytes = uint64_t(3) << 20;  // the rest of 4 MB is for pictures
+
 std::string read_text(const std::string& path) {
   constexpr uint64_t kMaxBytes = uint64_t(16) << 20;
   const File file = File::open_read(path);
@@ -77,7 +79,11 @@ int run(const ReportConfig& config) {
   const IntegrityReport integrity = inspect_file(file, temporary_room(&budget));
   const DagStats stats = compute_stats(file);
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
-  const ReportPage page = report_html(json, file, stats, integrity, make_pictures(config, file));
+  ParallelExecutor executor(threads_or_all(config.common.threads));
+  const int up = int(std::string("xyz").find(config.up));
+  const EmbeddedViewer viewer = embed_viewer(file, up, kViewerBytes, executor);
+  const ReportPage page =
+      report_html(json, file, stats, integrity, make_pictures(config, file), viewer);
   output.append(page.html);
   output.commit();
   if (!config.common.quiet)

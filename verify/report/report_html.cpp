@@ -44,7 +44,7 @@ class Page {
        const DagStats& stats, const IntegrityReport& integrity)
       : bake_(bake), verdicts_(verdicts), file_(file), stats_(stats), integrity_(integrity) {}
 
-  std::string make(const std::vector<ReportPicture>& pictures) {
+  std::string make(const std::vector<ReportPicture>& pictures, const EmbeddedViewer& viewer = {}) {
     const std::string& output = file_.path();
     const std::string name = escaped(output.substr(output.find_last_of('/') + 1));
     // The policy prevents the browser from loading anything from elsewhere.
@@ -52,13 +52,15 @@ class Page {
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><meta "
         "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "style-src 'unsafe-inline'\"><title>" +
-        name + "</title><style>" + kReportStyle + "</style>\n<h1>" + name + "</h1>\n";
+        "style-src 'unsafe-inline'; script-src " +
+        (viewer.level == 0 ? "'none'" : viewer.script_hash) + "\"><title>" + name +
+        "</title><style>" + kReportStyle + viewer.style + "</style>\n<h1>" + name + "</h1>\n";
     tiles();
     soundness();
     for (const Json& verdict : verdicts_) show(verdict);
     if (baked()) warnings();
     if (stats_.voxels == 0) box("note", "No voxel is set.");
+    if (viewer.level != 0) out_ += viewer.html;
     show(pictures);
     if (!file_.layers().empty()) legend();
     contents();
@@ -381,7 +383,8 @@ Json parse_input(const ReportInput& input, const DagFile& file) {
 
 ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& file,
                        const DagStats& stats, const IntegrityReport& integrity,
-                       const std::vector<ReportPicture>& pictures) {
+                       const std::vector<ReportPicture>& pictures,
+                       const EmbeddedViewer& viewer) {
   Json bake;
   std::vector<Json> verdicts;
   std::string path = file.path();  // of the input that is used
@@ -401,7 +404,7 @@ ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& fi
         Page(bake, {}, file, stats, integrity).make({});
       }
     }
-    page.html = Page(bake, verdicts, file, stats, integrity).make(pictures);
+    page.html = Page(bake, verdicts, file, stats, integrity).make(pictures, viewer);
   } catch (const Json::exception&) {
     fail_input(
         path, "is not a report of svdag build or a verdict of svdag-verify, or of another version");

@@ -10,6 +10,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_stats.h"
 #include "verify/integrity/integrity.h"
+#include "verify/view/embedded.h"
 
 namespace svdag {
 
@@ -33,6 +34,7 @@ struct ReportPage {
 // incomplete, kUsage if it is about another file, or a second report of a bake.
 ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& file,
                        const DagStats& stats, const IntegrityReport& integrity,
-                       const std::vector<ReportPicture>& pictures);
+                       const std::vector<ReportPicture>& pictures,
+                       const EmbeddedViewer& viewer = {});
 
 }  // namespace svdag

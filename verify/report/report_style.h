@@ -45,6 +45,7 @@ th { text-align: left; font-weight: 500; } .facts th { width: 38%; color: var(--
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .bars th { color: var(--dim); font-weight: 400; width: 1%; white-space: nowrap; padding-left: 0; } .bars .n { width: 1%; padding-right: 0; }
 .bar { vertical-align: middle; } .bar div { background: currentColor; height: .8rem; border-radius: .2rem; min-width: 1px; }
+.viewer { height: min(34rem, 75vh); border: 1px solid var(--line); border-radius: .5rem; margin: 1rem 0; }
 footer { margin-top: 2.5rem; }
 @media (max-width: 34rem) { .card { font-size: .85rem; } .card td, .card th { padding: .25rem .3rem; } th.n { white-space: normal; }
   .facts th, .facts td { display: block; width: auto; } .facts td { border: 0 !important; padding-top: 0; } })";

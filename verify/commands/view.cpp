@@ -1,0 +1,99 @@
+#include "verify/commands/view.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include "io/pack/unpack.h"
+#include "io/units.h"
+#include "streaming/error.h"
+#include "verify/view/folder.h"
+#include "verify/view/server.h"
+
+namespace svdag {
+namespace {
+
+// Parses "8123" or "8123/TOKEN", or the URL that an earlier run has printed.
+void parse_address(std::string text, ServerConfig* server) {
+  const std::string shown = text;
+  for (const char* const prefix : {"http://", "127.0.0.1:", "localhost:"}) {
+    if (text.starts_with(prefix)) text.erase(0, std::string(prefix).size());
+  }
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), server->port);
+  std::string token = text.substr(size_t(read.ptr - text.data()));
+  if (token.ends_with('/')) token.pop_back();
+  if (token.starts_with('/')) token.erase(0, 1);
+  const bool is_token = token.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ-_") == token.npos;
+  if (read.ec != std::errc() || server->port < 1 || server->port > 65535 || !is_token ||
+      (!token.empty() && token.size() < 16))
+    fail_usage("--at: \"" + shown +
+               "\" is not PORT or PORT/TOKEN with 16 or more letters and digits");
+  server->token = token;
+}
+
+// Opens the URL in the user's browser if there is a desktop; otherwise the user opens it.
+void open_browser(const std::string& url) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  if (const pid_t child = fork(); child == 0) {
+    if (fork() == 0) {  // not our child, so that no zombie remains
+      std::freopen("/dev/null", "w", stdout);
+      std::freopen("/dev/null", "w", stderr);
+      execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+    }
+    _exit(0);
+  } else if (child > 0) {
+    waitpid(child, nullptr, 0);
+  }
+}
+
+int write_to(const std::string& folder, const ViewConfig& config, const DagFile& file,
+             const TileCutter& cutter, int up) {
+  ParallelExecutor executor(threads_or_all(config.common.threads));
+  Progress progress(config.common.progress);
+  const TileList list = list_tiles(cutter);
+  const uint64_t estimate = estimate_bytes(cutter, list, executor);
+  if (!config.common.quiet) {
+    std::printf("%s: %s tiles, about %s\n", folder.c_str(),
+                format_count(list.cubes.size()).c_str(), format_bytes(estimate).c_str());
+    std::fflush(stdout);
+  }
+  const uint64_t bytes = write_folder(folder, file, cutter, list, up, executor, progress);
+  progress.finish();
+  if (!config.common.quiet)
+    std::printf("%s: written, %s\n", folder.c_str(), format_bytes(bytes).c_str());
+  return int(ExitCode::kOk);
+}
+
+}  // namespace
+
+int run(const ViewConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  const size_t up = std::string("xyz").find(config.up);
+  if (config.up.size() != 1 || up == std::string::npos)
+    fail_usage("--up: \"" + config.up + "\" is not x, y or z");
+  ServerConfig server;
+  if (!config.at.empty()) parse_address(config.at, &server);
+  const DagFile file = open_dag(config.file);
+  if (file.view().empty()) fail_usage(file.path() + ": has no voxel to show");
+  const uint32_t levels = file.view().levels;
+  const uint64_t level = config.level.value_or(levels);
+  if (level < 3 || level > levels)
+    fail_usage("--level: " + file.path() + " has levels 3 to " + std::to_string(levels) +
+               " to show");
+  const TileCutter cutter(file, uint32_t(level));
+  if (config.to) return write_to(*config.to, config, file, cutter, int(up));
+  server.up = int(up);
+  server.keep = config.keep;
+  serve(file, cutter, server, [&](const std::string& url) {
+    std::printf("%s\n", url.c_str());
+    std::fflush(stdout);
+    if (config.open) open_browser(url);
+  });
+  return int(ExitCode::kOk);
+}
+
+}  // namespace svdag

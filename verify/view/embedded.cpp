@@ -1,0 +1,83 @@
+#include "verify/view/embedded.h"
+
+#include <sodium/crypto_hash_sha256.h>
+#include <sodium/utils.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "verify/view/folder.h"
+
+namespace svdag {
+namespace {
+
+std::string base64_of(const void* bytes, size_t size) {
+  std::string text(sodium_base64_ENCODED_LEN(size, sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(text.data(), text.size(), static_cast<const unsigned char*>(bytes), size,
+                    sodium_base64_VARIANT_ORIGINAL);
+  text.pop_back();  // the terminating zero
+  return text;
+}
+
+// The tiles of a level as a JSON object of texts in base 64; nothing if it has more than
+// `max_bytes`.
+std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_bytes,
+                                      Executor& executor) {
+  const TileList list = list_tiles(cutter);
+  if (list.cubes.size() > max_bytes / 64) return {};
+  std::vector<std::string> tiles(list.cubes.size());
+  executor.for_each(tiles.size(), [&](size_t, size_t i) {
+    const std::string tile = tile_of_list(cutter, list, i + 1);
+    tiles[i] = base64_of(tile.data(), tile.size());
+  });
+  std::string json = "{";
+  for (size_t i = 0; i < tiles.size(); ++i)
+    json += (i == 0 ? "\"" : ",\n\"") + std::to_string(i + 1) + "\":\"" + tiles[i] + "\"";
+  json += "}";
+  return json.size() <= max_bytes ? std::optional(json) : std::nullopt;
+}
+
+// Runs in the page.
+constexpr const char* kStart = R"(
+const json = (id) => JSON.parse(document.getElementById(id).textContent), tiles = json('tiles'), parent = document.getElementById('viewer');
+async function unpack(text) {
+  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return new Uint32Array(bytes, 0, bytes.byteLength >> 2);
+}
+parent.hidden = false;
+if (!start(parent, {scene: json('scene'), tile: (id) => unpack(tiles[id])})) parent.hidden = true;
+)";
+
+}  // namespace
+
+EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Executor& executor) {
+  EmbeddedViewer viewer;
+  if (file.view().empty()) return viewer;
+  std::string tiles;
+  // A level has about four times the bytes of the one above.
+  for (uint32_t level = std::min(file.view().levels, 8U); level <= file.view().levels; ++level) {
+    const auto finer = tiles_json(TileCutter(file, level), max_bytes, executor);
+    if (!finer) break;
+    viewer.level = level;
+    tiles = *finer;
+  }
+  if (viewer.level == 0) return viewer;
+  const std::string script = "'use strict';\n" + joined_scripts() + kStart;
+  unsigned char hash[crypto_hash_sha256_BYTES];
+  crypto_hash_sha256(hash, reinterpret_cast<const unsigned char*>(script.data()), script.size());
+  viewer.script_hash = "'sha256-" + base64_of(hash, sizeof hash) + "'";
+  for (const PageFile& page : page_files()) {
+    if (page.name == "view.css") viewer.style = page.text;
+  }
+  const TileCutter cutter(file, viewer.level);
+  viewer.html = "<div class=\"viewer\" id=\"viewer\" hidden></div>\n"
+                "<script type=\"application/json\" id=\"scene\">" +
+                scene_json(file, cutter, {up, 1, false}) +
+                "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles +
+                "</script>\n<script>" + script + "</script>\n";
+  return viewer;
+}
+
+}  // namespace svdag

@@ -1,0 +1,133 @@
+#include "verify/view/folder.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <unordered_map>
+
+#include "streaming/error.h"
+#include "streaming/file/file.h"
+#include "streaming/process/interrupt.h"
+#include "verify/view/tile_file.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kSample = 64;  // tiles of a level that are cut for an estimate
+
+std::string read_whole(const std::string& path) {
+  const File file = File::open_read(path);
+  std::string text(file.size(), ' ');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+// Without fsync: a run that continues checks what is there.
+void write_whole(const std::string& folder, const std::string& name, std::string_view text) {
+  const std::string path = folder + "/" + name;
+  File file = File::create_anonymous(std::filesystem::path(path).parent_path(), path);
+  file.write_at(0, std::as_bytes(std::span(text)));
+  file.link_as(path);
+}
+
+void create_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw Error(ExitCode::kOutput, "cannot create: " + error.message(), path);
+}
+
+// Creates the folder and its scene.json; accepts one that holds the same.
+void open_folder(const std::string& folder, const std::string& scene) {
+  const std::string scene_path = folder + "/scene.json";
+  create_folder(folder);
+  if (std::filesystem::exists(scene_path)) {
+    if (read_whole(scene_path) != scene)
+      fail_usage(folder + ": holds the page of another scene or level; choose another folder");
+  } else if (!std::filesystem::is_empty(folder)) {
+    fail_usage(folder + ": is not empty and not such a page; choose another folder");
+  } else {
+    write_whole(folder, "scene.json", scene);
+  }
+  create_folder(folder + "/tiles");
+}
+
+// The bytes of a tile that an earlier run has written; 0 without a valid one.
+uint64_t valid_bytes(const std::string& path) {
+  if (!std::filesystem::exists(path)) return 0;
+  const std::string text = read_whole(path);
+  return decode_tile(std::as_bytes(std::span(text))) ? text.size() : 0;
+}
+
+std::string key_of(const TileCube& cube) {
+  std::string key;
+  for (const auto& node : cube.nodes)
+    key.append(reinterpret_cast<const char*>(&node), sizeof node);
+  return key;
+}
+
+}  // namespace
+
+TileList list_tiles(const TileCutter& cutter) {
+  TileList list;
+  if (TileCube root = cutter.root(); !root.nodes.empty()) list.cubes.push_back(std::move(root));
+  std::unordered_map<std::string, uint64_t> numbers;  // of the level below that of cube i
+  for (size_t i = 0; i < list.cubes.size(); ++i) {
+    check_interrupt();
+    if (i > 0 && list.cubes[i].level != list.cubes[i - 1].level) numbers.clear();
+    list.finer.emplace_back();
+    if (!cutter.has_finer(list.cubes[i])) continue;
+    for (unsigned c = 0; c < 8; ++c) {
+      TileCube octant = cutter.octant(list.cubes[i], c);
+      if (octant.nodes.empty() || cutter.is_full(octant)) continue;
+      const auto [at, is_new] = numbers.emplace(key_of(octant), list.cubes.size() + 1);
+      if (is_new) list.cubes.push_back(std::move(octant));
+      list.finer[i][c] = at->second;
+    }
+  }
+  return list;
+}
+
+std::string tile_of_list(const TileCutter& cutter, const TileList& list, uint64_t id) {
+  Tile tile = cutter.cut(list.cubes[id - 1]);
+  tile.finer = list.finer[id - 1];
+  return encode_tile(tile);
+}
+
+uint64_t estimate_bytes(const TileCutter& cutter, const TileList& list, Executor& executor) {
+  double bytes = 0;
+  for (size_t begin = 0, end = 0; begin < list.cubes.size(); begin = end) {
+    while (end < list.cubes.size() && list.cubes[end].level == list.cubes[begin].level) ++end;
+    const size_t count = end - begin, sample = std::min(count, kSample);
+    std::atomic<uint64_t> sampled = 0;
+    executor.for_each(sample, [&](size_t, size_t i) {
+      check_interrupt();
+      sampled += tile_of_list(cutter, list, begin + (2 * i + 1) * count / (2 * sample) + 1).size();
+    });
+    bytes += double(sampled) * double(count) / double(sample);
+  }
+  return uint64_t(bytes);
+}
+
+uint64_t write_folder(const std::string& folder, const DagFile& file, const TileCutter& cutter,
+                      const TileList& list, int up, Executor& executor, Progress& progress) {
+  open_folder(folder, scene_json(file, cutter, {up, 1, false}));
+  progress.phase("Tiles", list.cubes.size());
+  std::atomic<uint64_t> bytes = 0;
+  executor.for_each(list.cubes.size(), [&](size_t, size_t i) {
+    check_interrupt();
+    const std::string name = "tiles/" + std::to_string(i + 1);
+    uint64_t size = valid_bytes(folder + "/" + name);
+    if (size == 0) {
+      const std::string text = tile_of_list(cutter, list, i + 1);
+      write_whole(folder, name, text);
+      size = text.size();
+    }
+    bytes += size;
+    progress.advance();
+  });
+  for (const PageFile& page : page_files()) write_whole(folder, std::string(page.name), page.text);
+  return bytes;
+}
+
+}  // namespace svdag

@@ -1,0 +1,29 @@
+// Serves the viewer's page, the scene and its tiles to browsers of this machine.
+//
+// It listens on 127.0.0.1 alone and only reads. The URL has a random token, which other users and
+// web pages do not know; and requests must name this machine as their host, so that a web page
+// whose name is made to lead here (DNS rebinding) is refused. Tiles are cut on demand.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "verify/view/page.h"
+
+namespace svdag {
+
+struct ServerConfig {
+  int port = 0;                // 0: any that is free
+  std::string token = {};      // in the URL; empty: a random one
+  int up = 1;                  // axis
+  bool keep = false;           // go on when no page is open
+  std::chrono::seconds linger{30};  // else: end when no page has been open for so long
+};
+
+// Serves until Ctrl-C (Interrupted), or until the page has been closed. Calls ready(url) once.
+// Error (kUsage) if the port is in use.
+void serve(const DagFile& file, const TileCutter& cutter, const ServerConfig& config,
+           const std::function<void(const std::string& url)>& ready);
+
+}  // namespace svdag
