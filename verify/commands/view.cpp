@@ -26,8 +26,9 @@ void parse_address(std::string text, ServerConfig* server) {
   std::string token = text.substr(size_t(read.ptr - text.data()));
   if (token.ends_with('/')) token.pop_back();
   if (token.starts_with('/')) token.erase(0, 1);
-  const bool is_token = token.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz"
-                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ-_") == token.npos;
+  const bool is_token = token.find_first_not_of(
+                            "0123456789abcdefghijklmnopqrstuvwxyz"
+                            "ABCDEFGHIJKLMNOPQRSTUVWXYZ-_") == token.npos;
   if (read.ec != std::errc() || server->port < 1 || server->port > 65535 || !is_token ||
       (!token.empty() && token.size() < 16))
     fail_usage("--at: \"" + shown +
@@ -57,8 +58,8 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
   const TileList list = list_tiles(cutter);
   const uint64_t estimate = estimate_bytes(cutter, list, executor);
   if (!config.common.quiet) {
-    std::printf("%s: %s tiles, about %s\n", folder.c_str(),
-                format_count(list.cubes.size()).c_str(), format_bytes(estimate).c_str());
+    std::printf("%s: %s tiles, about %s\n", folder.c_str(), format_count(list.cubes.size()).c_str(),
+                format_bytes(estimate).c_str());
     std::fflush(stdout);
   }
   const uint64_t bytes = write_folder(folder, file, cutter, list, up, executor, progress);

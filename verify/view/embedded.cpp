@@ -72,11 +72,12 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
     if (page.name == "view.css") viewer.style = page.text;
   }
   const TileCutter cutter(file, viewer.level);
-  viewer.html = "<div class=\"viewer\" id=\"viewer\" hidden></div>\n"
-                "<script type=\"application/json\" id=\"scene\">" +
-                scene_json(file, cutter, {up, 1, false}) +
-                "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles +
-                "</script>\n<script>" + script + "</script>\n";
+  viewer.html =
+      "<div class=\"viewer\" id=\"viewer\" hidden></div>\n"
+      "<script type=\"application/json\" id=\"scene\">" +
+      scene_json(file, cutter, {up, 1, false}) +
+      "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles + "</script>\n<script>" +
+      script + "</script>\n";
   return viewer;
 }
 

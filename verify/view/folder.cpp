@@ -61,8 +61,7 @@ uint64_t valid_bytes(const std::string& path) {
 
 std::string key_of(const TileCube& cube) {
   std::string key;
-  for (const auto& node : cube.nodes)
-    key.append(reinterpret_cast<const char*>(&node), sizeof node);
+  for (const auto& node : cube.nodes) key.append(reinterpret_cast<const char*>(&node), sizeof node);
   return key;
 }
 

@@ -18,8 +18,8 @@
 namespace svdag {
 
 struct TileList {
-  std::vector<TileCube> cubes;                  // [id - 1]
-  std::vector<std::array<uint64_t, 8>> finer;   // [id - 1]: ids of the octants' tiles
+  std::vector<TileCube> cubes;                 // [id - 1]
+  std::vector<std::array<uint64_t, 8>> finer;  // [id - 1]: ids of the octants' tiles
 };
 
 // All tiles that differ.

@@ -22,8 +22,8 @@ struct PageFile {
 std::span<const PageFile> page_files();
 
 struct SceneOfPage {
-  int up = 1;         // axis
-  uint64_t root = 1;  // id of the tile of the grid
+  int up = 1;           // axis
+  uint64_t root = 1;    // id of the tile of the grid
   bool served = false;  // the page keeps a request open while it is shown
 };
 

@@ -39,7 +39,10 @@ bool is_equal(const std::string& a, const std::string& b) {
 // Knows how long no page has been open.
 class OpenPages {
  public:
-  void open() { ++count_; was_open_ = true; }
+  void open() {
+    ++count_;
+    was_open_ = true;
+  }
   void close() {
     last_ = Clock::now().time_since_epoch().count();
     --count_;
@@ -101,7 +104,8 @@ class Site {
     if (name.starts_with("tiles/")) return send_tile(request, name.substr(6), response);
     for (const PageFile& file : page_files()) {
       if (file.name == (name.empty() ? "index.html" : name))
-        return send(request, std::string(file.text), std::string(file.type).c_str(), name, response);
+        return send(request, std::string(file.text), std::string(file.type).c_str(), name,
+                    response);
     }
     response->status = 404;
   }

@@ -14,10 +14,10 @@
 namespace svdag {
 
 struct ServerConfig {
-  int port = 0;                // 0: any that is free
-  std::string token = {};      // in the URL; empty: a random one
-  int up = 1;                  // axis
-  bool keep = false;           // go on when no page is open
+  int port = 0;                     // 0: any that is free
+  std::string token = {};           // in the URL; empty: a random one
+  int up = 1;                       // axis
+  bool keep = false;                // go on when no page is open
   std::chrono::seconds linger{30};  // else: end when no page has been open for so long
 };
 

@@ -1,5 +1,6 @@
 #include "verify/view/tile.h"
 
+#include <algorithm>
 #include <bit>
 #include <map>
 #include <unordered_map>
@@ -44,8 +45,11 @@ bool is_full_node(const DagView& dag, uint32_t level, uint32_t node) {
 
 }  // namespace
 
-TileCutter::TileCutter(const DagFile& file, uint32_t level)
-    : level_(level), dag_(file.view()), has_union_(file.layers().has_union) {
+TileCutter::TileCutter(const DagFile& file, uint32_t level, uint32_t max_tile_levels)
+    : level_(level),
+      tile_levels_(std::min(level, max_tile_levels)),
+      dag_(file.view()),
+      has_union_(file.layers().has_union) {
   for (size_t i = 0; i < file.layers().layers.size(); ++i) layers_.push_back(file.view_of(i));
 }
 
@@ -87,7 +91,7 @@ class TileCutter::Cut {
     done_.resize(tile_.sections.size());
     numbers_.resize(tile_.sections.size());
     tile_.layer_root = visit(cube).layers;
-    if (cutter.layers_.empty()) tile_.layer_root = kNothing;
+    if (cutter.layers_.empty()) tile_.layer_root = kNoLayerSet;
     tile_.layer_sets.resize(sets_.size());
     for (const auto& [members, number] : sets_) tile_.layer_sets[number] = members;
   }
@@ -105,8 +109,7 @@ class TileCutter::Cut {
   }
   static std::string key_of(const TileCube& cube) {
     std::string key;
-    for (const LayerNode& node : cube.nodes)
-      key += bytes_of({{node.layer, node.node}});
+    for (const LayerNode& node : cube.nodes) key += bytes_of({{node.layer, node.node}});
     return key;
   }
 
@@ -123,7 +126,7 @@ class TileCutter::Cut {
     std::vector<uint32_t> words = {0};
     Octants layers;
     for (unsigned c = 0; c < 8; ++c) {
-      layers[c] = kNothing;
+      layers[c] = kNoLayerSet;
       const TileCube octant = cutter_.octant(cube, c);
       if (octant.nodes.empty()) continue;
       const Result child = visit(octant);
@@ -142,12 +145,12 @@ class TileCutter::Cut {
       all |= of_node.back();
     }
     const uint32_t shape = add(cube.level - top_, {uint32_t(all), uint32_t(all >> 32)});
-    if (cutter_.layers_.empty()) return {shape, kNothing};
+    if (cutter_.layers_.empty()) return {shape, kNoLayerSet};
     Octants blocks;
     for (unsigned b = 0; b < 8; ++b) {
       Octants cells;
       for (unsigned c = 0; c < 8; ++c)
-        cells[c] = all >> (8 * b + c) & 1 ? set_of(cube, of_node, 8 * b + c) : kNothing;
+        cells[c] = all >> (8 * b + c) & 1 ? set_of(cube, of_node, 8 * b + c) : kNoLayerSet;
       blocks[b] = layer_value(cells);
     }
     return {shape, layer_value(blocks)};
@@ -168,22 +171,21 @@ class TileCutter::Cut {
       if (of_node[i] >> bit & 1 && cube.nodes[i].layer != TileCube::kUnion)
         members.push_back(cube.nodes[i].layer);
     }
-    return kSet + sets_.emplace(members, uint32_t(sets_.size())).first->second;
+    return kLayerSet + sets_.emplace(members, uint32_t(sets_.size())).first->second;
   }
 
   uint32_t layer_value(const Octants& octants) {
-    uint32_t one = kNothing;
+    uint32_t one = kNoLayerSet;
     bool same = true;
     for (const uint32_t value : octants) {
-      if (value == kNothing) continue;
-      same = same && (value & kSet) != 0 && (one == kNothing || one == value);
+      if (value == kNoLayerSet) continue;
+      same = same && (value & kLayerSet) != 0 && (one == kNoLayerSet || one == value);
       one = value;
     }
     if (same) return one;
     const auto [at, is_new] =
         layer_numbers_.emplace(bytes_of(octants), uint32_t(tile_.layer_nodes.size()));
-    if (is_new)
-      tile_.layer_nodes.insert(tile_.layer_nodes.end(), octants.begin(), octants.end());
+    if (is_new) tile_.layer_nodes.insert(tile_.layer_nodes.end(), octants.begin(), octants.end());
     return at->second;
   }
 

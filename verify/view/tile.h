@@ -15,8 +15,8 @@
 //   bricks, depth T-2       two words, the low one first: 4^3 cells as in the file
 //
 // In a file with layers, `layer_nodes` is an octree over the same cells, that ends where all cells
-// of a cube are in the same layers. A value is kSet + the number of a set of layers, kNothing
-// where no cell is set, or else the offset of a node, which is 8 values.
+// of a cube are in the same layers. A value is kLayerSet + the number of a set of layers,
+// kNoLayerSet where no cell is set, or else the offset of a node, which is 8 values.
 //
 // A tile is a function of the voxels and layers of its cube, not of the layout of the file:
 // sections, layer nodes and sets are in the order in which a depth-first walk completes them.
@@ -32,12 +32,12 @@
 namespace svdag {
 
 constexpr uint32_t kTileLevels = 9;  // T, or the number of levels that are shown if it is less
-constexpr uint32_t kSet = 0x80000000U;
-constexpr uint32_t kNothing = 0xffffffffU;
+constexpr uint32_t kLayerSet = 0x80000000U;
+constexpr uint32_t kNoLayerSet = 0xffffffffU;
 
 struct Tile {
   std::vector<std::vector<uint32_t>> sections;  // [depth], T-1 of them
-  uint32_t layer_root = kNothing;               // a value; kNothing without layers
+  uint32_t layer_root = kNoLayerSet;            // a value; kNoLayerSet without layers
   std::vector<uint32_t> layer_nodes;
   std::vector<std::vector<uint32_t>> layer_sets;  // [set]: layers, ascending
   std::array<uint64_t, 8> finer = {};  // ids of the tiles of the octants; 0: nothing finer to show
@@ -57,11 +57,12 @@ struct TileCube {
 
 class TileCutter {
  public:
-  // Shows the cubes of level `level`, 3 .. L, as cells. `file` must outlive this.
-  TileCutter(const DagFile& file, uint32_t level);
+  // Shows the cubes of level `level`, 3 .. L, as cells. `max_tile_levels`: 3 or more; tests give
+  // less, for small files with tiles of many levels. `file` must outlive this.
+  TileCutter(const DagFile& file, uint32_t level, uint32_t max_tile_levels = kTileLevels);
 
   uint32_t levels() const { return level_; }
-  uint32_t tile_levels() const { return level_ < kTileLevels ? level_ : kTileLevels; }
+  uint32_t tile_levels() const { return tile_levels_; }
   // The grid; without nodes if nothing is set.
   TileCube root() const;
   // The octant c; without nodes if nothing is set in it.
@@ -77,9 +78,9 @@ class TileCutter {
   class Cut;
   const DagView& view(const TileCube& cube, const TileCube::LayerNode& node) const;
 
-  uint32_t level_;
-  DagView dag_;                   // of levels 1 and deeper, which all roots share
-  std::vector<DagView> layers_;   // of level 0
+  uint32_t level_, tile_levels_;
+  DagView dag_;                  // of levels 1 and deeper, which all roots share
+  std::vector<DagView> layers_;  // of level 0
   bool has_union_;
 };
 

@@ -98,9 +98,10 @@ bool has_valid_layers(const Tile& tile) {
   std::set<uint32_t> sets;
   std::set<uint32_t> nodes;
   const auto add = [&](uint32_t value) {
-    if (value == kNothing) return true;
-    return value & kSet ? (sets.insert(value & ~kSet), (value & ~kSet) < tile.layer_sets.size())
-                        : (nodes.insert(value), value % 8 == 0 && value < tile.layer_nodes.size());
+    if (value == kNoLayerSet) return true;
+    return value & kLayerSet
+               ? (sets.insert(value & ~kLayerSet), (value & ~kLayerSet) < tile.layer_sets.size())
+               : (nodes.insert(value), value % 8 == 0 && value < tile.layer_nodes.size());
   };
   if (!add(tile.layer_root) || tile.layer_nodes.size() % 8 != 0) return false;
   std::set<Words> contents;
@@ -109,7 +110,7 @@ bool has_valid_layers(const Tile& tile) {
     if (!contents.insert(node).second) return false;
     // Children are completed first, so references lead backwards and end.
     for (const uint32_t value : node) {
-      if (!add(value) || ((value & kSet) == 0 && value >= at)) return false;
+      if (!add(value) || ((value & kLayerSet) == 0 && value >= at)) return false;
     }
   }
   for (const auto& members : tile.layer_sets) {
@@ -124,9 +125,14 @@ bool has_valid_layers(const Tile& tile) {
 }  // namespace
 
 std::string encode_tile(const Tile& tile) {
-  Words words = {kTileMagic, 0, uint32_t(tile.sections.size() + 1), tile.layer_root,
-                 uint32_t(tile.layer_nodes.size()), 0};
-  for (const uint64_t id : tile.finer) words.insert(words.end(), {uint32_t(id), uint32_t(id >> 32)});
+  Words words = {kTileMagic,
+                 0,
+                 uint32_t(tile.sections.size() + 1),
+                 tile.layer_root,
+                 uint32_t(tile.layer_nodes.size()),
+                 0};
+  for (const uint64_t id : tile.finer)
+    words.insert(words.end(), {uint32_t(id), uint32_t(id >> 32)});
   for (const Words& section : tile.sections) words.push_back(uint32_t(section.size()));
   for (const Words& section : tile.sections)
     words.insert(words.end(), section.begin(), section.end());
@@ -148,7 +154,8 @@ std::optional<Tile> decode_tile(std::span<const std::byte> bytes) {
   Tile tile;
   tile.sections.resize(words[2] - 1);
   tile.layer_root = words[3];
-  for (size_t c = 0; c < 8; ++c) tile.finer[c] = words[6 + 2 * c] | uint64_t(words[7 + 2 * c]) << 32;
+  for (size_t c = 0; c < 8; ++c)
+    tile.finer[c] = words[6 + 2 * c] | uint64_t(words[7 + 2 * c]) << 32;
   WordReader reader{std::span(words).subspan(kFixedWords)};
   if (!reader.has(tile.sections.size())) return {};
   for (Words& section : tile.sections) {

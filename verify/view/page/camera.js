@@ -81,14 +81,15 @@ export class Camera {
   }
 
   // The directions of a picture's rays: that of pixel (x, y), counted from the upper left, is
-  // first + x * right + y * down. At most 1 in each component, for trace.js.
-  rays(width, height) {
+  // first + x * right + y * down. At most 1 in each component, for trace.js. `shift`: where in its
+  // pixel a ray is, 0 .. 1.
+  rays(width, height, shift) {
     const f = this.frame(), slope = Math.tan(radians(this.fov / 2)), aspect = width / height;
     const longest = Math.sqrt(1 + slope * slope * (1 + aspect * aspect));
     const right = scaled(f.right, 2 * slope * aspect / width / longest);
     const down = scaled(f.up, -2 * slope / height / longest);
     let first = add(add(scaled(f.forward, 1), f.right, -slope * aspect), f.up, slope);
-    first = add(add(scaled(first, 1 / longest), right, 0.5), down, 0.5);
+    first = add(add(scaled(first, 1 / longest), right, shift[0]), down, shift[1]);
     return {first, right, down};
   }
 }

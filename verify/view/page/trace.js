@@ -340,7 +340,7 @@ export class Tracer {
     const gl = this.gl, at = (name) => gl.getUniformLocation(program, name);
     gl.useProgram(program);
     const high = [], low = [];
-    const {first, right, down} = camera.rays(this.width, this.height);
+    const {first, right, down} = camera.rays(this.width, this.height, this.shift);
     for (const v of [...first, ...right, ...down]) {
       const h = Math.floor(v * LIMB);
       high.push(h);
@@ -365,8 +365,9 @@ export class Tracer {
   }
 
   // Traces a picture of width x height pixels. `clip`: [min, max], in voxels.
-  draw(tiles, camera, clip, width, height) {
+  draw(tiles, camera, clip, width, height, shift = [0.5, 0.5]) {
     const gl = this.gl;
+    this.shift = shift;
     this.resize(width, height);
     const at = this.use(this.trace, camera);
     this.bind(at, 'pool', 1, gl.TEXTURE_2D_ARRAY, tiles.pool.texture);
@@ -380,8 +381,9 @@ export class Tracer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  // Shades the last picture into the canvas. `look`: {mode, light, background, picked}.
-  show(camera, look) {
+  // Shades the last picture into the canvas. `look`: {mode, light, background, picked}; `share`: its
+  // part of the mean with what the canvas shows.
+  show(camera, look, share = 1) {
     const gl = this.gl;
     const at = this.use(this.shade, camera);
     this.bind(at, 'hits', 1, gl.TEXTURE_2D, this.hits);
@@ -396,7 +398,11 @@ export class Tracer {
     gl.uniform4iv(at('picked'), look.picked ?? [0, 0, 0, 0]);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, this.width, this.height);
+    gl.enable(gl.BLEND);
+    gl.blendColor(0, 0, 0, share);
+    gl.blendFunc(gl.CONSTANT_ALPHA, gl.ONE_MINUS_CONSTANT_ALPHA);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.BLEND);
   }
 
   // The hits of a part of the last picture, from the lower left, 4 words each; w is 0 without one:

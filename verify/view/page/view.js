@@ -45,6 +45,7 @@ class Viewer {
     this.detail = 1;           // pixels per cell; 0: every voxel
     this.budget = 256 * 2 ** 20;
     this.scale = 1;            // of the picture while it changes
+    this.samples = 8;          // rays per pixel of a picture that does not change
     this.keys = new Set();
     this.readUrl();
     this.tiles = new Tiles(gl, source, this.budget, () => this.tileCame());
@@ -93,8 +94,24 @@ class Viewer {
     this.pending = more;
     this.first ??= {seconds: performance.now() / 1000, bytes: this.tiles.bytes};
     this.showStatus(seconds);
-    if (whole && !more) this.settle();
-    else if (moving || whole || !more || this.tiles.loading === 0) this.redraw();  // else the next tile does
+    if (whole && !more) {
+      this.settle();
+      this.refine(1);
+    } else if (moving || whole || !more || this.tiles.loading === 0) {
+      this.redraw();  // else the next tile does
+    }
+  }
+
+  // Adds the rays of other places in the pixels, one per frame, until something changes.
+  refine(sample) {
+    if (sample >= this.samples) return;
+    requestAnimationFrame(() => {
+      if (!this.settled) return;
+      const {tracer, camera} = this, radical = (base, i) => i === 0 ? 0 : (i % base + radical(base, Math.floor(i / base))) / base;
+      tracer.draw(this.tiles, camera, this.clip, tracer.width, tracer.height, [radical(2, sample), radical(3, sample)]);
+      tracer.show(camera, this.look(), 1 / (sample + 1));
+      this.refine(sample + 1);
+    });
   }
 
   // Draws once and notes which tiles are seen; `same`: the view has not changed. Returns whether a better picture will come.
@@ -277,9 +294,9 @@ class Viewer {
     };
     canvas.addEventListener('pointerup', release);
     canvas.addEventListener('pointercancel', release);
-    const fills = this.parent.parentElement === document.body && getComputedStyle(this.parent).position === 'fixed';
     canvas.addEventListener('wheel', (e) => {
-      if (!fills && document.activeElement !== canvas) return;  // the page scrolls
+      // Inside another page, the wheel scrolls until the viewer has been clicked.
+      if (!this.parent.classList.contains('whole') && document.activeElement !== canvas) return;
       e.preventDefault();
       camera.zoom(Math.exp(Math.max(-1, Math.min(1, e.deltaY / (e.deltaMode ? 10 : 300)))));
       this.touch();
