@@ -9,6 +9,7 @@
 #           optimisation
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
+#   test-view  the viewer in a headless Chromium, against the tracer
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
 #           page in Chromium, fuzzers; hours (or some of it: STAGES="tsan families")
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
@@ -37,6 +38,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
   libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
+VIEW_PACKAGES = chromium
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
 
@@ -44,7 +46,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-sanitized test-farm stress fuzz-long bench bench-giants bench-sort \
+.PHONY: all deps build demo test test-sanitized test-farm test-view stress fuzz-long bench bench-giants bench-sort \
   bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bench-solid bundle deb cuda \
   cuda-packages pictures clean
 all: build
@@ -85,6 +87,10 @@ test-sanitized: deps
 test-farm: build
 	$(call install,$(FARM_PACKAGES))
 	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
+
+test-view: build
+	$(call install,$(VIEW_PACKAGES))
+	@$(PYTHON) tests/view/view_test.py $(PROGRAMS)
 
 stress: deps
 	$(call install,$(STRESS_PACKAGES))
@@ -163,6 +169,7 @@ cuda-packages:
 
 # The pictures of docs/images/, all of generated scenes.
 pictures: build
+	$(call install,$(VIEW_PACKAGES))
 	@sh tests/pictures.sh $(PROGRAMS) docs/images
 
 clean:

@@ -20,7 +20,7 @@ FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
 BAKE = STREAMING + ["io", "io/dag"] + SCENE + PHASES + ["builder/cache", "builder"]
-VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/report"]
+VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
 ALLOWED = {
     "streaming": [],
@@ -74,7 +74,8 @@ ALLOWED = {
     "verify/judge": STREAMING + ["io", "io/dag"],
     "verify/sample": STREAMING + ["io", "io/dag", "io/scene", "verify/integrity", "verify/judge"],
     "verify/compare": STREAMING + ["io", "io/dag", "io/formats", "verify/judge", "verify/sample"],
-    "verify/report": STREAMING + ["io", "io/dag", "verify/integrity"],
+    "verify/view": STREAMING + ["io", "io/dag"],
+    "verify/report": STREAMING + ["io", "io/dag", "verify/integrity", "verify/view"],
     "verify/trace/kernel": STREAMING + ["io/dag"],
     "verify/trace": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
     "verify/trace/judge": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
@@ -124,7 +125,8 @@ LIBRARIES = {
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
     r"meshoptimizer": r"io/scene/readers/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
-    r"zlib": r"io/scene/readers/gzip\.cpp|tests/io/scene/readers/gzip_test\.cpp",
+    r"zlib": r"io/scene/readers/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/readers/gzip_test\.cpp",
+    r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/readers/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",

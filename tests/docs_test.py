@@ -50,8 +50,9 @@ def commands(page):
 
 
 def shrink(command):
-    """The command with smaller grids (above 1K) and pictures (of no given size), to save time."""
+    """The command with smaller grids (above 1K) and pictures (of no given size), to save time; the viewer as a folder."""
     command = re.sub(r"-r (?:[2-9]|\d\d+)K", "-r 512", command)
+    command = re.sub(r"(svdag-verify view [\w.]+)(?!.*--to)", r"\1 --to page", command)
     return re.sub(r"(svdag-verify (?:render|report) )(?!.*--size)", r"\1--size 64x36 ", command)
 
 

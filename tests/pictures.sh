@@ -28,6 +28,7 @@ render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420
 for mode in level steps; do
   render atrium_$mode atrium --mode $mode --camera=$inside --light=$light --size 304x171 --samples 32
 done
+/usr/bin/python3 -B "$(dirname "$0")"/view/picture.py "$programs" "$work"/atrium.svdag "$folder"/viewer.png
 bake scan 4K
 render scan scan --mode soft --camera=-95,45,110,-4,4,-3,48 --light=-150,220,60,20 --size 400x300
 bake scan 1K --rule solid

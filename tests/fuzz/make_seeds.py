@@ -234,6 +234,10 @@ def main(programs, corpus):
             svdag("convert", "a.svdag", "-o", "compact.svdag", "--layout", "compact")
             svdag("pack", "a.svdag", "-o", "a.pack")
             keep("packed", f"{kind}.pack", (folder / "a.pack").read_bytes())
+            subprocess.run([programs / "svdag-verify", "view", "a.svdag", "--to", kind, "-q"], cwd=folder, check=True)
+            tile = (folder / kind / "tiles" / "1").read_bytes()
+            keep("tile", f"{kind}.tile", tile)
+            keep("tile", f"{kind}.words", gzip.decompress(tile))
             for reader in ("svdag", "plain_file"):
                 keep(reader, f"{kind}.svdag", (folder / "a.svdag").read_bytes())
                 keep(reader, f"compact_{kind}.svdag", (folder / "compact.svdag").read_bytes())

@@ -13,7 +13,14 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kViewerBytes = uint64_t(3) << 20;  // the rest of 4 MB is for pictures
+constexpr uint64_t kPageBytes = uint64_t(4) << 20;  // with the viewer, unless pictures are larger
+
+// What the page's other parts leave for the viewer's tiles.
+uint64_t tile_bytes(const std::vector<ReportPicture>& pictures) {
+  uint64_t others = uint64_t(128) << 10;
+  for (const ReportPicture& picture : pictures) others += picture.png.size() * 4 / 3;
+  return others < kPageBytes / 2 ? kPageBytes - others : kPageBytes / 2;
+}
 
 std::string read_text(const std::string& path) {
   constexpr uint64_t kMaxBytes = uint64_t(16) << 20;
@@ -81,9 +88,9 @@ int run(const ReportConfig& config) {
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
   ParallelExecutor executor(threads_or_all(config.common.threads));
   const int up = int(std::string("xyz").find(config.up));
-  const EmbeddedViewer viewer = embed_viewer(file, up, kViewerBytes, executor);
-  const ReportPage page =
-      report_html(json, file, stats, integrity, make_pictures(config, file), viewer);
+  const std::vector<ReportPicture> pictures = make_pictures(config, file);
+  const EmbeddedViewer viewer = embed_viewer(file, up, tile_bytes(pictures), executor);
+  const ReportPage page = report_html(json, file, stats, integrity, pictures, viewer);
   output.append(page.html);
   output.commit();
   if (!config.common.quiet)

@@ -10,6 +10,7 @@
 #include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/process/interrupt.h"
 #include "verify/view/folder.h"
 #include "verify/view/server.h"
 
@@ -86,6 +87,7 @@ int run(const ViewConfig& config) {
     fail_usage("--level: " + file.path() + " has levels 3 to " + std::to_string(levels) +
                " to show");
   const TileCutter cutter(file, uint32_t(level));
+  catch_interrupts();
   if (config.to) return write_to(*config.to, config, file, cutter, int(up));
   server.up = int(up);
   server.keep = config.keep;

@@ -40,7 +40,7 @@ std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_byt
 
 // Runs in the page.
 constexpr const char* kStart = R"(
-const json = (id) => JSON.parse(document.getElementById(id).textContent), tiles = json('tiles'), parent = document.getElementById('viewer');
+const json = (id) => JSON.parse(document.getElementById(id).textContent), tiles = json('tiles'), parent = document.getElementById('svdag');
 async function unpack(text) {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
@@ -73,7 +73,7 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
   }
   const TileCutter cutter(file, viewer.level);
   viewer.html =
-      "<div class=\"viewer\" id=\"viewer\" hidden></div>\n"
+      "<div class=\"viewer\" id=\"svdag\" hidden></div>\n"
       "<script type=\"application/json\" id=\"scene\">" +
       scene_json(file, cutter, {up, 1, false}) +
       "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles + "</script>\n<script>" +

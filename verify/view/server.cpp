@@ -67,6 +67,11 @@ class Site {
         scene_(scene_json(file, cutter, {config.up, 1, true})) {
     server_.new_task_queue = [] { return new httplib::ThreadPool(16); };
     server_.set_payload_max_length(0);
+    // The default, SO_REUSEPORT, would share the port with another process.
+    server_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     server_.set_keep_alive_max_count(1000000);
     server_.set_tcp_nodelay(true);
     server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},

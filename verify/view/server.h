@@ -18,7 +18,7 @@ struct ServerConfig {
   std::string token = {};           // in the URL; empty: a random one
   int up = 1;                       // axis
   bool keep = false;                // go on when no page is open
-  std::chrono::seconds linger{30};  // else: end when no page has been open for so long
+  std::chrono::seconds linger{10};  // else: end when no page has been open for so long
 };
 
 // Serves until Ctrl-C (Interrupted), or until the page has been closed. Calls ready(url) once.

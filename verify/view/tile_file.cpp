@@ -124,7 +124,7 @@ bool has_valid_layers(const Tile& tile) {
 
 }  // namespace
 
-std::string encode_tile(const Tile& tile) {
+Words words_of(const Tile& tile) {
   Words words = {kTileMagic,
                  0,
                  uint32_t(tile.sections.size() + 1),
@@ -143,20 +143,27 @@ std::string encode_tile(const Tile& tile) {
     words[5] += uint32_t(1 + members.size());
   }
   words[1] = checksum_of(std::span(words).subspan(2));
-  return compressed(words);
+  return words;
+}
+
+std::string encode_tile(const Tile& tile) {
+  return compressed(words_of(tile));
 }
 
 std::optional<Tile> decode_tile(std::span<const std::byte> bytes) {
-  const Words words = decompressed(bytes);
+  return tile_of_words(decompressed(bytes));
+}
+
+std::optional<Tile> tile_of_words(std::span<const uint32_t> words) {
   if (words.size() < kFixedWords || words[0] != kTileMagic || words[2] < 3 ||
-      words[2] > kTileLevels || words[1] != checksum_of(std::span(words).subspan(2)))
+      words[2] > kTileLevels || words[1] != checksum_of(words.subspan(2)))
     return {};
   Tile tile;
   tile.sections.resize(words[2] - 1);
   tile.layer_root = words[3];
   for (size_t c = 0; c < 8; ++c)
     tile.finer[c] = words[6 + 2 * c] | uint64_t(words[7 + 2 * c]) << 32;
-  WordReader reader{std::span(words).subspan(kFixedWords)};
+  WordReader reader(words.subspan(kFixedWords));
   if (!reader.has(tile.sections.size())) return {};
   for (Words& section : tile.sections) {
     section.resize(std::min<size_t>(reader.take(), words.size() + 1));

@@ -1,26 +1,34 @@
 // The page of a server or a folder: scene and tiles are files beside it.
 import {start} from './view.js';
 
+// The bytes of a file. An error with `retry` is one of the network.
 async function get(path) {
-  const response = await fetch(path);
+  let response, bytes;
+  try {
+    response = await fetch(path);
+    bytes = await response.arrayBuffer();
+  } catch (error) {
+    throw Object.assign(error, {retry: true});
+  }
   if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
-  return response;
+  return bytes;
 }
 
 async function main() {
-  const parent = document.getElementById('viewer');
+  const parent = document.getElementById('svdag');
   try {
-    const scene = await (await get('scene.json')).json();
+    const scene = JSON.parse(new TextDecoder().decode(await get('scene.json')));
     document.title = scene.name;
-    start(parent, {scene, tile: async (id) => unpack((await get(`tiles/${id}`)).body)});
+    start(parent, {scene, tile: async (id) => unpack(await get(`tiles/${id}`))});
     if (scene.served) new EventSource('alive');  // tells the server that the page is open
   } catch (error) {
     parent.textContent = error.message;
   }
 }
 
-async function unpack(stream) {
-  const bytes = await new Response(stream.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+async function unpack(packed) {
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const bytes = await new Response(stream).arrayBuffer();
   return new Uint32Array(bytes, 0, bytes.byteLength >> 2);
 }
 

@@ -129,7 +129,8 @@ function parse(words) {
 }
 
 export class Tiles {
-  // `source`: {scene, tile(id): a promise of words}; `changed()` is called when a tile has come.
+  // `source`: {scene, tile(id): a promise of words}, which is requested again after an error with
+  // `retry`; `changed()` is called when a tile has come.
   constructor(gl, source, budget, changed) {
     Object.assign(this, {source, changed});
     this.pool = new Pool(gl, budget);
@@ -206,9 +207,9 @@ export class Tiles {
         .then((words) => this.insert(tile, parse(words)))
         .catch(async (error) => {
           // A server that is being restarted answers again; a damaged tile stays damaged.
-          if (!(error instanceof TypeError)) this.error = error;
-          else await new Promise((resolve) => setTimeout(resolve, 1000));
-          tile.state = error instanceof TypeError ? 'absent' : 'failed';
+          if (error.retry) await new Promise((resolve) => setTimeout(resolve, 1000));
+          else this.error = error;
+          tile.state = error.retry ? 'absent' : 'failed';
         })
         .finally(() => {
           --this.loading;

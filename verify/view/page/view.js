@@ -104,6 +104,7 @@ class Viewer {
 
   // Adds the rays of other places in the pixels, one per frame, until something changes.
   refine(sample) {
+    this.sample = sample;
     if (sample >= this.samples) return;
     requestAnimationFrame(() => {
       if (!this.settled) return;
