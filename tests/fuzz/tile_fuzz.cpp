@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-void check(const std::optional<Tile>& tile, std::span<const uint32_t> words) {
+void check(const std::optional<DagTile>& tile, std::span<const uint32_t> words) {
   if (!tile) return;
   const std::vector<uint32_t> again = words_of(*tile);
   if (!std::equal(again.begin(), again.end(), words.begin(), words.end())) std::abort();

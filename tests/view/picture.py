@@ -15,11 +15,11 @@ VIEW = "#eye=-10.5,2.2,1.8&to=6,3.4,-1.2&fov=75&colours=layer"
 with subprocess.Popen([programs / "svdag-verify", "view", file, "--no-open", "--keep"], stdout=subprocess.PIPE, text=True) as server:
     try:
         url = server.stdout.readline().strip()
-        with Browser(800, 450) as page:
+        with Browser(1000, 620) as page:
             page.open(url + VIEW)
             page.wait("window.viewer")
             page.run("viewer.whenSettled()")
-            page.run("viewer.pick(300, 330)")
+            page.run("viewer.pick(400, 500)")
             page.run("viewer.whenSettled()")
             page.wait("viewer.sample === viewer.samples")
             page.picture(picture)

@@ -200,6 +200,15 @@ class Pictures(unittest.TestCase):
         self.assertGreater(hit, 0.2)
         self.assertLess(max(shares), 0.001)
 
+    def test_hits_at_64k(self):
+        file = baked("crytek_sponza.glb", "atrium", "-r", "64K")
+        camera = [-11.0, 2.0, 1.0, -11.5, 1.7, 1.2, 60.0] if SCENES else cameras(file)[1]
+        with Server(file) as server, Page(server.url, camera, detail=0) as page:
+            page.settle()
+            share = differing(page.hits(), traced(file, camera))
+            print(f"at 64K^3, a wall at half a metre: {100 * share:.4f} %", file=sys.stderr)
+            self.assertLess(share, 0.001)
+
     def test_a_layer_alone_is_that_of_its_own_bake(self):
         if SCENES is None:
             self.skipTest("needs a scene with materials")
@@ -350,6 +359,7 @@ class Serving(unittest.TestCase):
         with Server(self.file, "--keep") as server:
             server.process.send_signal(signal.SIGINT)
             self.assertEqual(server.process.wait(10), 130)
+            self.assertIn("stopped serving", server.process.stderr.read())
         with Server(self.file) as server:
             with Page(server.url) as page:
                 page.settle()

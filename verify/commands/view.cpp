@@ -70,10 +70,7 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
   return int(ExitCode::kOk);
 }
 
-}  // namespace
-
-int run(const ViewConfig& config) {
-  const Stopwatch stopwatch(config.common);
+int view(const ViewConfig& config) {
   const size_t up = std::string("xyz").find(config.up);
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
@@ -87,7 +84,6 @@ int run(const ViewConfig& config) {
     fail_usage("--level: " + file.path() + " has levels 3 to " + std::to_string(levels) +
                " to show");
   const TileCutter cutter(file, uint32_t(level));
-  catch_interrupts();
   if (config.to) return write_to(*config.to, config, file, cutter, int(up));
   server.up = int(up);
   server.keep = config.keep;
@@ -97,6 +93,21 @@ int run(const ViewConfig& config) {
     if (config.open) open_browser(url);
   });
   return int(ExitCode::kOk);
+}
+
+}  // namespace
+
+int run(const ViewConfig& config) {
+  const Stopwatch stopwatch(config.common);
+  catch_interrupts();
+  try {
+    return view(config);
+  } catch (Interrupted& interrupted) {
+    interrupted.resumable = true;
+    interrupted.resume_message =
+        config.to ? "stopped; the same command continues" : "stopped serving";
+    throw;
+  }
 }
 
 }  // namespace svdag

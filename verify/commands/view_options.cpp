@@ -19,10 +19,9 @@ void add_view(CLI::App* app, VerifyCommand* parsed) {
                    "Show nothing finer than the cubes of level K, from 3 on (default: voxels)")
       ->type_name("K");
   CLI::Option* to =
-      takes_files(command->add_option("--to", config->to,
-                                      "Write the page and its tiles to a folder, for any web "
-                                      "server; a run that was stopped is continued"),
-                  {"/"})
+      takes_folder(command->add_option("--to", config->to,
+                                       "Write the page and its tiles to a folder, for any web "
+                                       "server; a run that was stopped is continued"))
           ->type_name("FOLDER");
   CLI::Option* at =
       command

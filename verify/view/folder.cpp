@@ -88,7 +88,7 @@ TileList list_tiles(const TileCutter& cutter) {
 }
 
 std::string tile_of_list(const TileCutter& cutter, const TileList& list, uint64_t id) {
-  Tile tile = cutter.cut(list.cubes[id - 1]);
+  DagTile tile = cutter.cut(list.cubes[id - 1]);
   tile.finer = list.finer[id - 1];
   return encode_tile(tile);
 }

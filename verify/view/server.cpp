@@ -119,7 +119,7 @@ class Site {
     uint64_t path = 0;
     const auto read = std::from_chars(id.data(), id.data() + id.size(), path);
     const bool is_number = read.ec == std::errc() && read.ptr == id.data() + id.size();
-    const std::optional<Tile> tile = is_number ? tile_of_path(cutter_, path) : std::nullopt;
+    const std::optional<DagTile> tile = is_number ? tile_of_path(cutter_, path) : std::nullopt;
     if (!tile) {
       response->status = 404;
       return;

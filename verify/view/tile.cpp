@@ -95,7 +95,7 @@ class TileCutter::Cut {
     tile_.layer_sets.resize(sets_.size());
     for (const auto& [members, number] : sets_) tile_.layer_sets[number] = members;
   }
-  Tile take() { return std::move(tile_); }
+  DagTile take() { return std::move(tile_); }
 
  private:
   struct Result {
@@ -191,18 +191,18 @@ class TileCutter::Cut {
 
   const TileCutter& cutter_;
   uint32_t bricks_, top_;  // levels
-  Tile tile_;
+  DagTile tile_;
   std::vector<std::unordered_map<std::string, Result>> done_;       // [depth], by nodes
   std::vector<std::unordered_map<std::string, uint32_t>> numbers_;  // [depth], by words
   std::unordered_map<std::string, uint32_t> layer_numbers_;         // by words
   std::map<std::vector<uint32_t>, uint32_t> sets_;                  // by members
 };
 
-Tile TileCutter::cut(const TileCube& cube) const {
+DagTile TileCutter::cut(const TileCube& cube) const {
   return Cut(*this, cube).take();
 }
 
-std::optional<Tile> tile_of_path(const TileCutter& cutter, uint64_t path) {
+std::optional<DagTile> tile_of_path(const TileCutter& cutter, uint64_t path) {
   if (path == 0) return {};
   const uint32_t bits = uint32_t(std::bit_width(path)) - 1;
   if (bits % 3 != 0) return {};
@@ -213,7 +213,7 @@ std::optional<Tile> tile_of_path(const TileCutter& cutter, uint64_t path) {
     if (cutter.is_full(cube)) return {};
   }
   if (cube.nodes.empty()) return {};
-  Tile tile = cutter.cut(cube);
+  DagTile tile = cutter.cut(cube);
   for (unsigned c = 0; c < 8 && cutter.has_finer(cube); ++c) {
     const TileCube octant = cutter.octant(cube, c);
     if (!octant.nodes.empty() && !cutter.is_full(octant)) tile.finer[c] = path << 3 | c;

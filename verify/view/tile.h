@@ -35,7 +35,7 @@ constexpr uint32_t kTileLevels = 9;  // T, or the number of levels that are show
 constexpr uint32_t kLayerSet = 0x80000000U;
 constexpr uint32_t kNoLayerSet = 0xffffffffU;
 
-struct Tile {
+struct DagTile {
   std::vector<std::vector<uint32_t>> sections;  // [depth], T-1 of them
   uint32_t layer_root = kNoLayerSet;            // a value; kNoLayerSet without layers
   std::vector<uint32_t> layer_nodes;
@@ -72,7 +72,7 @@ class TileCutter {
   // Whether all its voxels are set, by each layer that sets one: a finer tile shows no more.
   bool is_full(const TileCube& cube) const;
   // `finer` is left to the caller.
-  Tile cut(const TileCube& cube) const;
+  DagTile cut(const TileCube& cube) const;
 
  private:
   class Cut;
@@ -86,6 +86,6 @@ class TileCutter {
 
 // The tile of a cube by its path: 1, then for each level the octant's three bits. 1 is the grid.
 // Nothing if there is no such tile.
-std::optional<Tile> tile_of_path(const TileCutter& cutter, uint64_t path);
+std::optional<DagTile> tile_of_path(const TileCutter& cutter, uint64_t path);
 
 }  // namespace svdag

@@ -71,7 +71,7 @@ class WordReader {
 };
 
 // Checks references: each offset is that of a node, and each node is referred to, but for the root.
-bool has_valid_nodes(const Tile& tile) {
+bool has_valid_nodes(const DagTile& tile) {
   std::set<uint32_t> referred = {0};
   for (size_t depth = 0; depth < tile.sections.size(); ++depth) {
     const Words& section = tile.sections[depth];
@@ -94,7 +94,7 @@ bool has_valid_nodes(const Tile& tile) {
   return true;
 }
 
-bool has_valid_layers(const Tile& tile) {
+bool has_valid_layers(const DagTile& tile) {
   std::set<uint32_t> sets;
   std::set<uint32_t> nodes;
   const auto add = [&](uint32_t value) {
@@ -124,7 +124,7 @@ bool has_valid_layers(const Tile& tile) {
 
 }  // namespace
 
-Words words_of(const Tile& tile) {
+Words words_of(const DagTile& tile) {
   Words words = {kTileMagic,
                  0,
                  uint32_t(tile.sections.size() + 1),
@@ -146,19 +146,19 @@ Words words_of(const Tile& tile) {
   return words;
 }
 
-std::string encode_tile(const Tile& tile) {
+std::string encode_tile(const DagTile& tile) {
   return compressed(words_of(tile));
 }
 
-std::optional<Tile> decode_tile(std::span<const std::byte> bytes) {
+std::optional<DagTile> decode_tile(std::span<const std::byte> bytes) {
   return tile_of_words(decompressed(bytes));
 }
 
-std::optional<Tile> tile_of_words(std::span<const uint32_t> words) {
+std::optional<DagTile> tile_of_words(std::span<const uint32_t> words) {
   if (words.size() < kFixedWords || words[0] != kTileMagic || words[2] < 3 ||
       words[2] > kTileLevels || words[1] != checksum_of(words.subspan(2)))
     return {};
-  Tile tile;
+  DagTile tile;
   tile.sections.resize(words[2] - 1);
   tile.layer_root = words[3];
   for (size_t c = 0; c < 8; ++c)

@@ -21,14 +21,14 @@
 
 namespace svdag {
 
-std::vector<uint32_t> words_of(const Tile& tile);
-std::string encode_tile(const Tile& tile);
+std::vector<uint32_t> words_of(const DagTile& tile);
+std::string encode_tile(const DagTile& tile);
 
 // The tile of `words`; nothing if they are not exactly those of a valid tile: an offset that is not
 // that of a node of the next section, a node or set that repeats or that nothing refers to, a value
 // out of range.
-std::optional<Tile> tile_of_words(std::span<const uint32_t> words);
+std::optional<DagTile> tile_of_words(std::span<const uint32_t> words);
 // The same for bytes, with memory of at most 1,032 times as many, as gzip allows.
-std::optional<Tile> decode_tile(std::span<const std::byte> bytes);
+std::optional<DagTile> decode_tile(std::span<const std::byte> bytes);
 
 }  // namespace svdag

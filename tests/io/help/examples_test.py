@@ -61,6 +61,7 @@ LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag plan": "city.ply
          "svdag convert": "city.svdag -o converted.svdag", "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.vdb", "svdag import": "city.npz -o in.svdag",
          "svdag-verify mesh": "city.svdag city.ply", "svdag-verify render": "city.svdag -o city.png --size 16x16",
          "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
+         "svdag-verify view": "city.svdag --to page",
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
 BY_MACHINE = ["--vectors"]  # the values depend on the processor
 

@@ -26,7 +26,7 @@ using CellsOfTile = std::map<Cell, std::vector<uint32_t>>;  // cell -> its layer
 // The cells of a tile at `corner`, by walking its words as its header describes them.
 class TileReader {
  public:
-  explicit TileReader(const Tile& tile) : tile_(tile) {}
+  explicit TileReader(const DagTile& tile) : tile_(tile) {}
   CellsOfTile cells(const Cell& corner) {
     node(0, 0, corner, 1U << (tile_.sections.size() + 1));
     return std::move(cells_);
@@ -60,7 +60,7 @@ class TileReader {
         value == kNoLayerSet ? std::vector<uint32_t>() : tile_.layer_sets[value - kLayerSet];
   }
 
-  const Tile& tile_;
+  const DagTile& tile_;
   CellsOfTile cells_;
 };
 
@@ -260,15 +260,15 @@ TEST_F(Tiles, OfAnEmptyFileDoNotExist) {
 
 TEST_F(Tiles, AreRefusedIfAWordIsMissingOrTooMany) {
   const DagFile file = layered(true, Layout::kPlain, 3);
-  const Tile tile = *tile_of_path(TileCutter(file, 7, 4), 1);
-  const auto is_accepted = [](const Tile& changed) {
+  const DagTile tile = *tile_of_path(TileCutter(file, 7, 4), 1);
+  const auto is_accepted = [](const DagTile& changed) {
     const std::string bytes = encode_tile(changed);
     return decode_tile(std::as_bytes(std::span(bytes))).has_value();
   };
   ASSERT_TRUE(is_accepted(tile));
   std::mt19937_64 random(1);
   for (int i = 0; i < 500; ++i) {
-    Tile changed = tile;
+    DagTile changed = tile;
     const size_t part = random() % (tile.sections.size() + 1);
     auto& words = part < tile.sections.size() ? changed.sections[part] : changed.layer_nodes;
     const size_t at = random() % words.size();
@@ -282,21 +282,21 @@ TEST_F(Tiles, AreRefusedIfAWordIsMissingOrTooMany) {
 
 TEST_F(Tiles, AreRefusedIfAReferenceOrSetDoesNotExist) {
   const DagFile file = layered(true, Layout::kPlain, 3);
-  const Tile tile = *tile_of_path(TileCutter(file, 7, 4), 1);
+  const DagTile tile = *tile_of_path(TileCutter(file, 7, 4), 1);
   const auto refuses = [&](const auto& change) {
-    Tile changed = tile;
+    DagTile changed = tile;
     change(&changed);
     const std::string bytes = encode_tile(changed);
     return !decode_tile(std::as_bytes(std::span(bytes)));
   };
-  EXPECT_TRUE(refuses([](Tile* t) { t->sections[0][1] = uint32_t(t->sections[1].size()); }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->sections[0][1] += 1; }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->sections[0][0] = 0x100; }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->layer_root = uint32_t(t->layer_nodes.size()); }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->layer_nodes[0] = 0; }));  // would lead to itself
-  EXPECT_TRUE(refuses([](Tile* t) { t->layer_sets.push_back({77}); }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->layer_sets.pop_back(); }));
-  EXPECT_TRUE(refuses([](Tile* t) { t->layer_sets.back() = {2, 1}; }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->sections[0][1] = uint32_t(t->sections[1].size()); }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->sections[0][1] += 1; }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->sections[0][0] = 0x100; }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->layer_root = uint32_t(t->layer_nodes.size()); }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->layer_nodes[0] = 0; }));  // would lead to itself
+  EXPECT_TRUE(refuses([](DagTile* t) { t->layer_sets.push_back({77}); }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->layer_sets.pop_back(); }));
+  EXPECT_TRUE(refuses([](DagTile* t) { t->layer_sets.back() = {2, 1}; }));
 }
 
 TEST_F(Tiles, AreRefusedIfTheirBytesAreCutOrChanged) {

@@ -19,8 +19,11 @@ async function main() {
   try {
     const scene = JSON.parse(new TextDecoder().decode(await get('scene.json')));
     document.title = scene.name;
-    start(parent, {scene, tile: async (id) => unpack(await get(`tiles/${id}`))});
-    if (scene.served) new EventSource('alive');  // tells the server that the page is open
+    const viewer = start(parent, {scene, tile: async (id) => unpack(await get(`tiles/${id}`))});
+    if (!scene.served) return;
+    const alive = new EventSource('alive');  // tells the server that the page is open
+    alive.onerror = () => viewer?.say('The server does not answer.');
+    alive.onopen = () => viewer?.say('');
   } catch (error) {
     parent.textContent = error.message;
   }

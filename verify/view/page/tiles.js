@@ -222,6 +222,7 @@ export class Tiles {
   insert(tile, parsed) {
     const {words, begin, sections, layers} = parsed;
     const rows = Math.ceil((words.length - begin) / ROW);
+    if (rows > LAYER_ROWS - TOP_ROWS) throw new Error('a tile is too large');
     let row;
     while ((row = this.pool.take(rows)) < 0) {
       if (!this.pool.grow() && !this.evict()) {

@@ -75,6 +75,10 @@ class Viewer {
     });
   }
 
+  say(text) {
+    this.message.textContent = text;
+  }
+
   // Pictures of a still view wait for several tiles.
   tileCame() {
     if (this.tiles.queue.length === 0 || performance.now() - this.drawnAt > 500) this.redraw();
@@ -82,7 +86,7 @@ class Viewer {
 
   // While anything changes, pictures are small enough to follow; the last one has every pixel.
   frame(time) {
-    if (this.tiles.error) this.message.textContent = `A part of the scene cannot be loaded: ${this.tiles.error.message}`;
+    if (this.tiles.error) this.say(`A part of the scene cannot be loaded: ${this.tiles.error.message}`);
     if (this.tiles.root.state !== 'ready') return;
     const moving = this.fly(time) || this.pressed || performance.now() - (this.touchedAt ?? -1e9) < 200;
     const begin = performance.now();
@@ -264,6 +268,7 @@ class Viewer {
   listen() {
     const {canvas, camera} = this, pointers = new Map();
     canvas.addEventListener('contextmenu', (e) => e.preventDefault());
+    canvas.addEventListener('webglcontextlost', () => this.say('The browser has lost the memory of the GPU: reload the page.'));
     canvas.addEventListener('pointerdown', (e) => {
       canvas.setPointerCapture(e.pointerId);
       pointers.set(e.pointerId, {x: e.offsetX, y: e.offsetY, moved: 0});
