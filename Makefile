@@ -9,6 +9,7 @@
 #           optimisation
 #   test-farm  one plan on Slurm (installed and started here, as root), as processes, as Open Job
 #              Description: the same bytes
+#   test-python  the Python package, from its wheel in an environment of its own
 #   test-view  the viewer in a headless Chromium, against the tracer
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
 #           page in Chromium, fuzzers; hours (or some of it: STAGES="tsan families")
@@ -25,7 +26,9 @@
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bench-layers     bytes and times of files with layers; its tables
 #   bench-solid      bytes and times of solids; its table
+#   bench-python     the Python package beside trimesh and Open3D; the tables of docs/python.md
 #   bench-size       bytes of each layout, and rays per second through them; its tables
+#   wheel   build/wheel/*.whl: the Python package, with the programs and their libraries
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    build/cuda/svdag-trace: the tracer for NVIDIA GPUs
@@ -38,6 +41,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
   libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
+PYTHON_PACKAGES = python3-dev python3-venv
 VIEW_PACKAGES = chromium
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
@@ -46,8 +50,8 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-sanitized test-farm test-view stress fuzz-long bench bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bench-solid bundle deb cuda \
+.PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-giants bench-sort \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
   cuda-packages pictures clean
 all: build
 
@@ -87,6 +91,18 @@ test-sanitized: deps
 test-farm: build
 	$(call install,$(FARM_PACKAGES))
 	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
+
+test-python: wheel
+	@rm -rf build/python/test
+	@$(PYTHON) -m venv build/python/test
+	@build/python/test/bin/pip install -q --disable-pip-version-check matplotlib build/wheel/*.whl
+	@env -i HOME="$$HOME" PATH="$$PWD/build/python/test/bin" build/python/test/bin/python -B tests/python/package_test.py .
+
+wheel: deps
+	$(call install,$(PYTHON_PACKAGES))
+	@rm -rf build/wheel
+	@$(PYTHON) -m venv build/python/tools
+	@build/python/tools/bin/pip wheel -q --disable-pip-version-check . --no-deps -w build/wheel
 
 test-view: build
 	$(call install,$(VIEW_PACKAGES))
@@ -135,6 +151,11 @@ bench-size: build
 
 bench-layers: build
 	@$(PYTHON) tests/bench/layers.py --programs $(PROGRAMS)
+
+bench-python: wheel
+	@$(PYTHON) -m venv build/python/bench
+	@build/python/bench/bin/pip install -q --disable-pip-version-check matplotlib trimesh open3d scipy build/wheel/*.whl
+	@build/python/bench/bin/python -B tests/bench/python_package.py
 
 bench-solid: build
 	@$(PYTHON) tests/bench/solid.py --programs $(PROGRAMS)

@@ -80,6 +80,7 @@ ALLOWED = {
     "verify/trace": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
     "verify/trace/judge": STREAMING + ["io", "io/dag", "verify/trace/kernel"],
     "verify/trace/program": STREAMING + ["io", "io/dag", "io/help", "verify/trace/kernel", "verify/trace"],
+    "python": STREAMING + ["io", "io/dag", "io/pack", "builder/import", "verify/trace/kernel"],
     "verify/commands": STREAMING + ["io", "io/dag", "io/scene", "io/help", "io/pack"] + FORMATS + VERIFY + TRACE,
 }
 
@@ -137,6 +138,7 @@ LIBRARIES = {
     r"hwy/": r"builder/overlap/kernels/kernel[\w-]*\.(h|cpp)",
     r"xxhash": r"streaming/file/\w+\.cpp",
     r"zstd\.h>": r"io/pack/zstd\.cpp",
+    r"nanobind/": r"python/module\.cpp",
     r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
 }
 
@@ -184,7 +186,7 @@ def forbidden_includes(path, text):
 
 
 def sources():
-    for top in ["streaming", "io", "builder", "verify", "tests"]:
+    for top in ["streaming", "io", "builder", "verify", "python", "tests"]:
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix in (".h", ".cpp", ".cu"):
                 yield str(path.relative_to(ROOT)), path.read_text()

@@ -316,7 +316,7 @@ class Loading(unittest.TestCase):
                 self.assertEqual(int((hits[:, :, 0] > shown[:, :, 0]).sum()), 0)
             self.assertEqual(page.errors(), [])
 
-    def test_a_full_memory_is_said_and_not_a_loop(self):
+    def test_a_full_memory_is_reported_and_not_a_loop(self):
         file = sponza16k()
         with Server(file) as server, Page(server.url, cameras(file)[0], detail=0, memory=8) as page:
             page.settle()
@@ -402,7 +402,7 @@ class Folders(unittest.TestCase):
     def setUpClass(cls):
         cls.file = baked("samurai_monastery.obj", "city", "-r", "4K", "--layers", "material")
         cls.folder = FOLDER / "site"
-        cls.said = program("svdag-verify", "view", cls.file, "--to", cls.folder)
+        cls.printed = program("svdag-verify", "view", cls.file, "--to", cls.folder)
         handler = functools.partial(QuietHandler, directory=cls.folder)
         cls.web = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
         threading.Thread(target=cls.web.serve_forever, daemon=True).start()
@@ -420,8 +420,8 @@ class Folders(unittest.TestCase):
             self.assertLess(differing(page.hits(), traced(self.file, camera)), 0.001)
             self.assertEqual(page.errors(), [])
 
-    def test_its_size_is_said_before(self):
-        first, second = self.said.splitlines()[:2]
+    def test_its_size_is_printed_before(self):
+        first, second = self.printed.splitlines()[:2]
         self.assertIn("about", first)
         self.assertIn("written", second)
 
@@ -446,7 +446,7 @@ class Folders(unittest.TestCase):
         self.assertIn("not empty", program("svdag-verify", "view", self.file, "--to", other, code=2))
         self.assertIn("another", program("svdag-verify", "view", self.file, "--to", self.folder, "--level", "10", code=2))
 
-    def test_a_damaged_tile_is_said(self):
+    def test_a_damaged_tile_is_reported(self):
         folder = FOLDER / "damaged"
         shutil.copytree(self.folder, folder)
         for tile in (folder / "tiles").iterdir():
@@ -521,7 +521,7 @@ class Manners(unittest.TestCase):
                 self.assertEqual(background < 0.5, is_dark)
                 self.assertEqual(int(colour.split("(")[1].split(",")[0]) < 128, is_dark)
 
-    def test_without_webgl2_it_says_so(self):
+    def test_without_webgl2_there_is_a_message(self):
         with Server(self.file, "--keep") as server, Browser(WIDTH, HEIGHT, ["--disable-3d-apis"]) as page:
             page.open(server.url)
             page.wait("document.querySelector('.message')")

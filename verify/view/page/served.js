@@ -22,8 +22,8 @@ async function main() {
     const viewer = start(parent, {scene, tile: async (id) => unpack(await get(`tiles/${id}`))});
     if (!scene.served) return;
     const alive = new EventSource('alive');  // tells the server that the page is open
-    alive.onerror = () => viewer?.say('The server does not answer.');
-    alive.onopen = () => viewer?.say('');
+    alive.onerror = () => viewer?.report('The server does not answer.');
+    alive.onopen = () => viewer?.report('');
   } catch (error) {
     parent.textContent = error.message;
   }

@@ -19,7 +19,7 @@ const grouped = (n) => String(n).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
 const megabytes = (n) => `${(n / 2 ** 20).toFixed(1)} MB`;
 
 // Starts a viewer in `parent`. `source`: {scene, tile(id): a promise of words}. Returns it, or null
-// where WebGL2 is missing, which the page then says.
+// where WebGL2 is missing, which the page then reports.
 export function start(parent, source) {
   const canvas = element('canvas', {tabIndex: 0});
   canvas.setAttribute('role', 'img');
@@ -75,7 +75,7 @@ class Viewer {
     });
   }
 
-  say(text) {
+  report(text) {
     this.message.textContent = text;
   }
 
@@ -86,7 +86,7 @@ class Viewer {
 
   // While anything changes, pictures are small enough to follow; the last one has every pixel.
   frame(time) {
-    if (this.tiles.error) this.say(`A part of the scene cannot be loaded: ${this.tiles.error.message}`);
+    if (this.tiles.error) this.report(`A part of the scene cannot be loaded: ${this.tiles.error.message}`);
     if (this.tiles.root.state !== 'ready') return;
     const moving = this.fly(time) || this.pressed || performance.now() - (this.touchedAt ?? -1e9) < 200;
     const begin = performance.now();
@@ -268,7 +268,7 @@ class Viewer {
   listen() {
     const {canvas, camera} = this, pointers = new Map();
     canvas.addEventListener('contextmenu', (e) => e.preventDefault());
-    canvas.addEventListener('webglcontextlost', () => this.say('The browser has lost the memory of the GPU: reload the page.'));
+    canvas.addEventListener('webglcontextlost', () => this.report('The browser has lost the memory of the GPU: reload the page.'));
     canvas.addEventListener('pointerdown', (e) => {
       canvas.setPointerCapture(e.pointerId);
       pointers.set(e.pointerId, {x: e.offsetX, y: e.offsetY, moved: 0});

@@ -1,0 +1,309 @@
+// The module svdag._svdag: files and their queries, and making a file of voxels. svdag/__init__.py
+// checks the arguments and is the interface.
+//
+// Arrays come contiguous and of the right type. Long work runs on a thread of its own, without the
+// GIL, while this one waits for signals: Ctrl-C ends it within 100 ms.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <mutex>
+#include <thread>
+
+#include "builder/import/import.h"
+#include "io/dag/layer_index.h"
+#include "io/dag/occupied_bounds.h"
+#include "io/pack/unpack.h"
+#include "python/queries.h"
+#include "streaming/file/checksum.h"
+#include "streaming/process/interrupt.h"
+
+namespace nb = nanobind;
+
+namespace svdag {
+namespace {
+
+using Bools = nb::ndarray<nb::numpy, bool>;
+using Ints = nb::ndarray<nb::numpy, int32_t>;
+using Doubles = nb::ndarray<nb::numpy, double>;
+template <class T>
+using Rows = nb::ndarray<const T, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Corner = std::array<int64_t, 3>;
+
+// Runs work() and returns when it is done. A signal that Python handles with an exception, such as
+// KeyboardInterrupt, ends it.
+template <class Work>
+void interruptible(const Work& work) {
+  std::exception_ptr failure;
+  bool is_done = false;
+  std::mutex mutex;
+  std::condition_variable done;
+  std::thread worker([&] {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    is_done = true;
+    done.notify_one();
+  });
+  bool signalled = false;
+  {
+    const nb::gil_scoped_release no_gil;
+    std::unique_lock lock(mutex);
+    while (!done.wait_for(lock, std::chrono::milliseconds(20), [&] { return is_done; })) {
+      lock.unlock();
+      if (!signalled) {
+        const nb::gil_scoped_acquire gil;
+        signalled = PyErr_CheckSignals() != 0;
+      }
+      if (signalled) pretend_interrupt(SIGINT);
+      lock.lock();
+    }
+    lock.unlock();
+    worker.join();
+  }
+  if (signalled) {
+    pretend_interrupt(0);
+    throw nb::python_error();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+// An array that owns `values`.
+template <class Array, class T>
+Array owned(std::vector<T>&& values, std::initializer_list<size_t> shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  return Array(kept->data(), shape, owner);
+}
+
+VoxelBox box_of(const Corner& low, const Corner& high) {
+  return {LatticePoint(low[0], low[1], low[2]), LatticePoint(high[0], high[1], high[2])};
+}
+
+class PyFile {
+ public:
+  explicit PyFile(const std::string& path) {
+    interruptible([&] { file_.emplace(open_dag(path)); });
+    executor_ = std::make_unique<ParallelExecutor>(available_processors());
+  }
+
+  nb::dict info() const {
+    const Header& h = file_->header();
+    const VoxelBox occupied = occupied_bounds(file_->view());
+    nb::dict info;
+    info["levels"] = h.levels;
+    info["voxel_size"] = h.voxel_size;
+    info["corner"] = std::array{h.corner[0], h.corner[1], h.corner[2]};
+    info["rule"] = rule_name(file_->rule());
+    info["layout"] = layout_name(file_->layout());
+    info["voxels"] = h.voxels;
+    info["occupied"] =
+        std::array{Corner{occupied.min.x, occupied.min.y, occupied.min.z},
+                   Corner{occupied.max.x, occupied.max.y, occupied.max.z}};
+    info["content_hash"] = to_hex(h.content_hash);
+    info["metadata"] = nb::bytes(file_->metadata().data(), file_->metadata().size());
+    nb::list layers;
+    for (const Layer& layer : file_->layers().layers)
+      layers.append(nb::make_tuple(nb::bytes(layer.name.data(), layer.name.size()),
+                                   nb::make_tuple(layer.colour.r, layer.colour.g, layer.colour.b),
+                                   layer.voxels));
+    info["layers"] = layers;
+    return info;
+  }
+
+  Bools window(const Corner& low, const Corner& high, uint32_t level, int layer) const {
+    const size_t n[3] = {size_t(high[0] - low[0]), size_t(high[1] - low[1]),
+                         size_t(high[2] - low[2])};
+    auto* const voxels = static_cast<uint8_t*>(std::calloc(std::max<size_t>(1, n[0] * n[1] * n[2]), 1));
+    if (voxels == nullptr) throw std::bad_alloc();
+    const nb::capsule owner(voxels, [](void* p) noexcept { std::free(p); });
+    const DagView dag = view(layer);
+    interruptible([&] { fill_window(dag, level, box_of(low, high), voxels, executor_.get()); });
+    return Bools(voxels, {n[0], n[1], n[2]}, owner);
+  }
+
+  Ints coords(const Corner& low, const Corner& high, uint32_t level, int layer) const {
+    return list([&] { return list_voxels(view(layer), level, box_of(low, high)); });
+  }
+
+  Ints ball(const std::array<double, 3>& center, double radius, int layer) const {
+    return list([&] { return list_ball(view(layer), {{center[0], center[1], center[2]}}, radius); });
+  }
+
+  std::tuple<Ints, nb::ndarray<nb::numpy, uint64_t>> bricks(const Corner& low, const Corner& high,
+                                                            uint64_t first, size_t count,
+                                                            int layer) const {
+    std::vector<PlacedBrick> found;
+    interruptible(
+        [&] { found = next_bricks(view(layer), box_of(low, high), first, count); });
+    std::vector<std::array<int32_t, 3>> corners;
+    std::vector<uint64_t> words;
+    for (const PlacedBrick& brick : found) {
+      corners.push_back(brick.corner);
+      words.push_back(brick.brick);
+    }
+    const size_t n = words.size();
+    return {owned<Ints>(std::move(corners), {n, 3}),
+            owned<nb::ndarray<nb::numpy, uint64_t>>(std::move(words), {n})};
+  }
+
+  template <class T>
+  Bools occupied(const Rows<T>& points, int layer) const {
+    std::vector<uint8_t> set(points.shape(0));
+    const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), set.size());
+    interruptible([&] { look_up(view(layer), rows, set.data(), executor_.get()); });
+    const size_t n = set.size();
+    return owned<Bools>(std::move(set), {n});
+  }
+
+  bool box_occupied(const Corner& low, const Corner& high, int layer) const {
+    return any_in_box(view(layer), box_of(low, high));
+  }
+
+  uint64_t count(const Corner& low, const Corner& high, uint32_t level, int layer) const {
+    uint64_t voxels = 0;
+    interruptible([&] {
+      const VoxelBox grid{LatticePoint(0), LatticePoint(int64_t(1) << level)};
+      VoxelBox box = box_of(low, high);
+      box = {glm::max(box.min, grid.min), glm::min(box.max, grid.max)};
+      if (!box.empty()) voxels = CubeWalk(view(layer), level).count_voxels(box);
+    });
+    return voxels;
+  }
+
+  // t is infinite, and voxel, axis and layer are -1, where nothing is hit.
+  std::tuple<Doubles, Ints, nb::ndarray<nb::numpy, int8_t>, Ints> trace(
+      const Rows<double>& origins, const Rows<double>& directions, double t_max, int layer) {
+    const size_t n = origins.shape(0);
+    const DagView dag = view(layer);
+    const bool find_layers = layer < 0 && !file_->layers().empty();
+    std::vector<double> t(n, std::numeric_limits<double>::infinity());
+    std::vector<std::array<int32_t, 3>> voxels(n, {-1, -1, -1});
+    std::vector<int8_t> axes(n, -1);
+    std::vector<int32_t> layers(n, -1);
+    interruptible([&] {
+      std::vector<Ray> rays(n);
+      for (size_t i = 0; i < n; ++i) {
+        const double* const o = origins.data() + 3 * i;
+        const double* const d = directions.data() + 3 * i;
+        rays[i] = ray_from_world(dag, {{o[0], o[1], o[2]}}, {{d[0], d[1], d[2]}});
+      }
+      std::vector<Hit> hits(n);
+      trace_rays(dag, rays, t_max, hits.data(), executor_.get());
+      if (find_layers && !index_) index_.emplace(*file_);
+      for (size_t i = 0; i < n; ++i) {
+        const Hit& hit = hits[i];
+        if (!hit.found) continue;
+        t[i] = hit.t;
+        for (size_t a = 0; a < 3; ++a) voxels[i][a] = int32_t(hit.voxel[a]);
+        axes[i] = int8_t(hit.axis);
+        if (find_layers) {
+          const uint32_t at = layer_of_cube(dag, index_->view(), hit.level, hit.voxel[0],
+                                            hit.voxel[1], hit.voxel[2]);
+          layers[i] = at == kNoLayer ? -1 : int32_t(at);
+        }
+      }
+    });
+    return {owned<Doubles>(std::move(t), {n}), owned<Ints>(std::move(voxels), {n, 3}),
+            owned<nb::ndarray<nb::numpy, int8_t>>(std::move(axes), {n}),
+            owned<Ints>(std::move(layers), {n})};
+  }
+
+ private:
+  // `layer`: its number; -1: the file's default.
+  DagView view(int layer) const { return layer < 0 ? file_->view() : file_->view_of(size_t(layer)); }
+
+  template <class Find>
+  static Ints list(const Find& find) {
+    std::vector<std::array<int32_t, 3>> voxels;
+    interruptible([&] { voxels = find(); });
+    const size_t n = voxels.size();
+    return owned<Ints>(std::move(voxels), {n, 3});
+  }
+
+  std::optional<DagFile> file_;
+  std::optional<LayerIndex> index_;
+  std::unique_ptr<ParallelExecutor> executor_;
+};
+
+// Writes the file of voxels `coords`, in any order, with repetitions.
+nb::dict from_coords(const Rows<uint32_t>& coords, const std::string& path, int levels,
+                     const std::array<double, 3>& corner, double voxel_size, uint64_t memory,
+                     int rule, int layout) {
+  ImportConfig config;
+  config.source = path;
+  config.output = path;
+  config.levels = levels;
+  config.memory = memory;
+  config.rule = Rule(rule);
+  config.layout = Layout(layout);
+  ImportReport report;
+  interruptible([&] {
+    ParallelExecutor executor(available_processors());
+    constexpr size_t kBatch = size_t(1) << 16;
+    const auto* const voxels = reinterpret_cast<const Voxel*>(coords.data());
+    const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
+      for (size_t at = 0; at < coords.shape(0); at += kBatch) {
+        check_interrupt();
+        sink({voxels + at, std::min(kBatch, coords.shape(0) - at)});
+      }
+      return GridPlacement{Point(corner[0], corner[1], corner[2]), voxel_size,
+                           uint64_t(1) << levels};
+    };
+    report = import_voxels(read, config, &executor, coords.shape(0));
+  });
+  nb::dict result;
+  result["voxels"] = report.voxels;
+  result["nodes"] = report.nodes;
+  result["file_bytes"] = report.file_bytes;
+  result["content_hash"] = report.content_hash;
+  return result;
+}
+
+// Raises an Error as svdag.Error.
+void translate(const std::exception_ptr& exception, void* type) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const Error& error) {
+    const nb::object path = nb::steal(PyUnicode_DecodeFSDefaultAndSize(
+        error.path().data(), Py_ssize_t(error.path().size())));
+    const nb::object sentence = nb::steal(PyUnicode_DecodeUTF8(
+        error.what(), Py_ssize_t(std::strlen(error.what())), "replace"));
+    const nb::handle cls(static_cast<PyObject*>(type));
+    const nb::object made = cls(sentence, int(error.code()), path);
+    PyErr_SetObject(cls.ptr(), made.ptr());
+  }
+}
+
+}  // namespace
+}  // namespace svdag
+
+NB_MODULE(_svdag, m) {
+  using namespace svdag;
+  m.attr("__version__") = SVDAG_VERSION;
+  nb::object error = nb::module_::import_("svdag._error").attr("Error");
+  nb::register_exception_translator(translate, error.release().ptr());  // kept for good
+  nb::class_<PyFile>(m, "File")
+      .def(nb::init<const std::string&>())
+      .def("info", &PyFile::info)
+      .def("window", &PyFile::window)
+      .def("coords", &PyFile::coords)
+      .def("ball", &PyFile::ball)
+      .def("bricks", &PyFile::bricks)
+      .def("occupied_voxels", &PyFile::occupied<int64_t>)
+      .def("occupied_points", &PyFile::occupied<double>)
+      .def("box_occupied", &PyFile::box_occupied)
+      .def("count", &PyFile::count)
+      .def("trace", &PyFile::trace);
+  m.def("from_coords", &from_coords);
+}

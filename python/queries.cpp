@@ -1,0 +1,269 @@
+#include "python/queries.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "streaming/memory/memory_budget.h"
+#include "streaming/process/interrupt.h"
+#include "verify/trace/kernel/tree64.h"
+
+namespace svdag {
+namespace {
+
+constexpr size_t kPointsPerTask = size_t(1) << 16;
+constexpr size_t kRaysPerTask = size_t(1) << 14;
+constexpr size_t kTogether = 32;  // points that descend together, so that none waits for memory
+
+// Calls visit(begin, end) for successive pieces of 0 .. count, on all threads.
+template <class Visit>
+void in_pieces(size_t count, size_t piece, Executor* executor, const Visit& visit) {
+  executor->for_each((count + piece - 1) / piece, [&](size_t, size_t i) {
+    check_interrupt();
+    visit(i * piece, std::min(count, (i + 1) * piece));
+  });
+}
+
+// Looks up to kTogether voxels up, level by level: while the children of one are fetched from
+// memory, the others go on. voxels[i] is outside of the grid if any coordinate is 2^L or more.
+void look_up_together(const DagView& dag, const std::array<uint32_t, 3>* voxels, size_t count,
+                      uint8_t* set) {
+  uint32_t nodes[kTogether] = {};
+  for (size_t i = 0; i < count; ++i) {
+    const auto& v = voxels[i];
+    if (((v[0] | v[1] | v[2]) >> dag.levels) != 0 || dag.empty()) nodes[i] = kNoChild;
+  }
+  for (uint32_t level = 0; level < dag.brick_level(); ++level) {
+    const uint32_t s = dag.levels - 1 - level;
+    for (size_t i = 0; i < count; ++i) {
+      if (nodes[i] == kNoChild) continue;
+      const auto& v = voxels[i];
+      const unsigned c = 4 * (v[0] >> s & 1) + 2 * (v[1] >> s & 1) + (v[2] >> s & 1);
+      nodes[i] = dag_child(dag, level, nodes[i], c);
+      if (nodes[i] == kNoChild) continue;
+      if (level + 1 == dag.brick_level())
+        __builtin_prefetch(dag.bricks + nodes[i]);
+      else if (dag.layout == Layout::kPlain)
+        __builtin_prefetch(dag.words[level + 1] + nodes[i]);
+      else
+        __builtin_prefetch(dag.compact[level + 1].lines + uint64_t(nodes[i] / kLineNodes) * 8);
+    }
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const auto& v = voxels[i];
+    const unsigned outer = child_index(v[0] >> 1 & 1, v[1] >> 1 & 1, v[2] >> 1 & 1);
+    const unsigned inner = child_index(v[0] & 1, v[1] & 1, v[2] & 1);
+    set[i] = nodes[i] != kNoChild && (dag.bricks[nodes[i]] >> (8 * outer + inner) & 1) != 0;
+  }
+}
+
+template <class Point, class VoxelOf>
+void look_up_all(const DagView& dag, std::span<const Point> points, uint8_t* set,
+                 Executor* executor, const VoxelOf& voxel_of) {
+  in_pieces(points.size(), kPointsPerTask, executor, [&](size_t begin, size_t end) {
+    std::array<uint32_t, 3> voxels[kTogether];
+    for (size_t at = begin; at < end; at += kTogether) {
+      const size_t count = std::min(kTogether, end - at);
+      for (size_t i = 0; i < count; ++i) voxels[i] = voxel_of(points[at + i]);
+      look_up_together(dag, voxels, count, set + at);
+    }
+  });
+}
+
+VoxelBox clipped(const VoxelBox& box, uint32_t level) {
+  const int64_t side = int64_t(1) << level;
+  return {glm::max(box.min, LatticePoint(0)), glm::min(box.max, LatticePoint(side))};
+}
+
+// The first brick in `box` that is number `first` or later: a depth-first walk.
+class BrickList {
+ public:
+  BrickList(const DagView& dag, const VoxelBox& box, uint64_t first, size_t count)
+      : dag_(dag), box_(box), first_(first), count_(count) {}
+  std::vector<PlacedBrick> take() {
+    if (!dag_.empty() && count_ > 0) visit(0, 0, LatticePoint(0), 0);
+    return std::move(found_);
+  }
+
+ private:
+  bool visit(uint32_t level, uint32_t node, const LatticePoint& corner, uint64_t number) {
+    const int64_t side = int64_t(1) << (dag_.levels - level);
+    for (int a = 0; a < 3; ++a) {
+      if (corner[a] >= box_.max[a] || corner[a] + side <= box_.min[a]) return true;
+    }
+    const uint64_t numbers = uint64_t(1) << 3 * (dag_.brick_level() - level);
+    if (number + numbers <= first_) return true;
+    if (level == dag_.brick_level()) {
+      found_.push_back(
+          {{int32_t(corner.x), int32_t(corner.y), int32_t(corner.z)}, dag_.bricks[node]});
+      return found_.size() < count_;
+    }
+    for (unsigned c = 0; c < 8; ++c) {
+      const uint32_t child = dag_child(dag_, level, node, c);
+      if (child == kNoChild) continue;
+      const LatticePoint step(c >> 2 & 1, c >> 1 & 1, c & 1);
+      if (!visit(level + 1, child, corner + step * (side / 2), number + c * (numbers / 8)))
+        return false;
+    }
+    return true;
+  }
+
+  const DagView& dag_;
+  const VoxelBox box_;
+  const uint64_t first_;
+  const size_t count_;
+  std::vector<PlacedBrick> found_;
+};
+
+bool any_in_box(const DagView& dag, const VoxelBox& box, uint32_t level, uint32_t node,
+                const LatticePoint& corner) {
+  const LatticePoint end = corner + (int64_t(1) << (dag.levels - level));
+  if (!box.meets({corner, end})) return false;
+  if (box.holds({corner, end})) return true;
+  if (level == dag.brick_level()) {
+    const Brick brick = dag.bricks[node];
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      if ((brick >> bit & 1) == 0) continue;
+      const auto [x, y, z] = brick_voxel(bit);
+      const LatticePoint voxel = corner + LatticePoint(x, y, z);
+      if (box.holds({voxel, voxel + int64_t(1)})) return true;
+    }
+    return false;
+  }
+  const int64_t half = int64_t(1) << (dag.levels - level - 1);
+  for (unsigned c = 0; c < 8; ++c) {
+    const uint32_t child = dag_child(dag, level, node, c);
+    const LatticePoint step(c >> 2 & 1, c >> 1 & 1, c & 1);
+    if (child != kNoChild && any_in_box(dag, box, level + 1, child, corner + step * half))
+      return true;
+  }
+  return false;
+}
+
+// Calls visit(voxel) for the set voxels of a level in `box`, in Morton order.
+template <class Visit>
+void for_voxels(const DagView& dag, uint32_t level, const VoxelBox& box, const Visit& visit) {
+  const VoxelBox inside = clipped(box, level);
+  if (inside.empty() || dag.empty()) return;
+  CubeWalk(dag, level).visit(inside, [&](const VoxelCube& cube) {
+    check_interrupt();
+    const int bits = std::countr_zero(uint64_t(cube.side));
+    for (uint64_t code = 0; code < uint64_t(1) << 3 * bits; ++code) {
+      LatticePoint at(0);
+      for (int b = 0; b < bits; ++b) {
+        at.x |= int64_t(code >> (3 * b + 2) & 1) << b;
+        at.y |= int64_t(code >> (3 * b + 1) & 1) << b;
+        at.z |= int64_t(code >> 3 * b & 1) << b;
+      }
+      if (cube.side != kBlockSide || cube.block.get(unsigned(at.x), unsigned(at.y), unsigned(at.z)))
+        visit(cube.origin + at);
+    }
+    return true;
+  });
+}
+
+}  // namespace
+
+void fill_window(const DagView& dag, uint32_t level, const VoxelBox& box, uint8_t* out,
+                 Executor* executor) {
+  const VoxelBox inside = clipped(box, level);
+  if (inside.empty() || dag.empty()) return;
+  const LatticePoint size = box.max - box.min;
+  // Slabs of whole blocks, so that no two tasks write the same row.
+  const int64_t first = inside.min.x / 8 * 8, slabs = (inside.max.x - first + 7) / 8;
+  const int64_t step = std::max<int64_t>(1, slabs / int64_t(4 * executor->workers()));
+  executor->for_each(size_t((slabs + step - 1) / step), [&](size_t, size_t i) {
+    VoxelBox part = inside;
+    part.min.x = std::max(inside.min.x, first + 8 * step * int64_t(i));
+    part.max.x = std::min(inside.max.x, first + 8 * step * int64_t(i + 1));
+    CubeWalk(dag, level).visit(part, [&](const VoxelCube& cube) {
+      check_interrupt();
+      const VoxelBox rows{glm::max(cube.origin, part.min),
+                          glm::min(cube.origin + LatticePoint(cube.side), part.max)};
+      for (int64_t x = rows.min.x; x < rows.max.x; ++x)
+        for (int64_t y = rows.min.y; y < rows.max.y; ++y) {
+          uint8_t* const row =
+              out + ((x - box.min.x) * size.y + y - box.min.y) * size.z + rows.min.z - box.min.z;
+          const size_t length = size_t(rows.max.z - rows.min.z);
+          if (cube.side != kBlockSide) {
+            std::fill_n(row, length, uint8_t(1));
+            continue;
+          }
+          const unsigned bx = unsigned(x - cube.origin.x), by = unsigned(y - cube.origin.y);
+          const unsigned bz = unsigned(rows.min.z - cube.origin.z);
+          for (unsigned z = 0; z < length; ++z) row[z] = cube.block.get(bx, by, bz + z);
+        }
+      return true;
+    });
+  });
+}
+
+std::vector<std::array<int32_t, 3>> list_voxels(const DagView& dag, uint32_t level,
+                                                const VoxelBox& box) {
+  std::vector<std::array<int32_t, 3>> voxels;
+  for_voxels(dag, level, box, [&](const LatticePoint& v) {
+    voxels.push_back({int32_t(v.x), int32_t(v.y), int32_t(v.z)});
+  });
+  return voxels;
+}
+
+std::vector<std::array<int32_t, 3>> list_ball(const DagView& dag, const Vec3& center,
+                                              double radius) {
+  VoxelBox box;
+  for (int a = 0; a < 3; ++a) {
+    const double side = dag.resolution();
+    box.min[a] = int64_t(std::clamp(std::floor(center[a] - radius) - 1, 0.0, side));
+    box.max[a] = int64_t(std::clamp(std::floor(center[a] + radius) + 2, 0.0, side));
+  }
+  std::vector<std::array<int32_t, 3>> voxels;
+  for_voxels(dag, dag.levels, box, [&](const LatticePoint& v) {
+    double square = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double off = std::max({double(v[a]) - center[a], center[a] - double(v[a] + 1), 0.0});
+      square += off * off;
+    }
+    if (square <= radius * radius) voxels.push_back({int32_t(v.x), int32_t(v.y), int32_t(v.z)});
+  });
+  return voxels;
+}
+
+std::vector<PlacedBrick> next_bricks(const DagView& dag, const VoxelBox& box, uint64_t first,
+                                     size_t count) {
+  return BrickList(dag, box, first, count).take();
+}
+
+void look_up(const DagView& dag, std::span<const std::array<int64_t, 3>> points, uint8_t* set,
+             Executor* executor) {
+  look_up_all(dag, points, set, executor, [](const std::array<int64_t, 3>& p) {
+    std::array<uint32_t, 3> voxel;
+    for (size_t a = 0; a < 3; ++a) voxel[a] = uint64_t(p[a]) > 0xffffffff ? ~0U : uint32_t(p[a]);
+    return voxel;
+  });
+}
+
+void look_up(const DagView& dag, std::span<const std::array<double, 3>> points, uint8_t* set,
+             Executor* executor) {
+  const double side = dag.resolution();
+  look_up_all(dag, points, set, executor, [&](const std::array<double, 3>& p) {
+    std::array<uint32_t, 3> voxel;
+    for (int a = 0; a < 3; ++a) {
+      const double at = voxel_from_world(dag, a, p[size_t(a)]);
+      voxel[size_t(a)] = at >= 0 && at < side ? uint32_t(at) : ~0U;  // NaN is outside
+    }
+    return voxel;
+  });
+}
+
+bool any_in_box(const DagView& dag, const VoxelBox& box) {
+  return !box.empty() && !dag.empty() && any_in_box(dag, box, 0, 0, LatticePoint(0));
+}
+
+void trace_rays(const DagView& dag, std::span<const Ray> rays, double t_max, Hit* hits,
+                Executor* executor) {
+  const Tree64 tree =
+      tree_if_it_pays(dag, rays.size() / executor->workers(), default_memory_limit());
+  in_pieces(rays.size(), kRaysPerTask, executor, [&](size_t begin, size_t end) {
+    trace_closest(dag, tree.view(), rays.data() + begin, end - begin, {0, t_max}, {}, hits + begin);
+  });
+}
+
+}  // namespace svdag

@@ -1,0 +1,53 @@
+// Queries of the Python module: windows, lists, points, boxes and rays, on many threads.
+//
+// All functions check for interrupts at least ten times a second. Coordinates are in voxels of the
+// requested level, and may be outside of the grid.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "io/dag/cube_walk.h"
+#include "streaming/process/executor.h"
+#include "verify/trace/kernel/rays.h"
+
+namespace svdag {
+
+// Sets out[((x - min.x) * ny + y - min.y) * nz + z - min.z] to 1 for each set voxel of level `level`
+// in `box`; `out` is zero before.
+void fill_window(const DagView& dag, uint32_t level, const VoxelBox& box, uint8_t* out,
+                 Executor* executor);
+
+// The set voxels of level `level` in `box`, in Morton order.
+std::vector<std::array<int32_t, 3>> list_voxels(const DagView& dag, uint32_t level,
+                                                const VoxelBox& box);
+
+// Those of the voxels (level L) whose closed cubes are within `radius` of `center`.
+std::vector<std::array<int32_t, 3>> list_ball(const DagView& dag, const Vec3& center,
+                                              double radius);
+
+// A brick of 4^3 voxels; its corner is a multiple of 4.
+struct PlacedBrick {
+  std::array<int32_t, 3> corner;
+  Brick brick;
+};
+// The next bricks in `box` in Morton order, from the one that is number `first` of the grid's
+// (Morton code of its corner / 64) on: at most `count`. Bricks are whole, also at the box's faces.
+std::vector<PlacedBrick> next_bricks(const DagView& dag, const VoxelBox& box, uint64_t first,
+                                     size_t count);
+
+// set[i] is 1 if the voxel that holds points[i] is set.
+void look_up(const DagView& dag, std::span<const std::array<int64_t, 3>> points, uint8_t* set,
+             Executor* executor);
+// The same for points of the world.
+void look_up(const DagView& dag, std::span<const std::array<double, 3>> points, uint8_t* set,
+             Executor* executor);
+
+// Whether a voxel of `box` is set.
+bool any_in_box(const DagView& dag, const VoxelBox& box);
+// hits[i] is the hit of rays[i].
+void trace_rays(const DagView& dag, std::span<const Ray> rays, double t_max, Hit* hits,
+                Executor* executor);
+
+}  // namespace svdag

@@ -1,0 +1,430 @@
+#!/usr/bin/env python3
+"""Tests the Python package as it is installed: what it reads is what the programs say, what it makes has their bytes, and no
+argument crashes it.
+
+Usage: package_test.py SOURCE [TEST...], by the Python of the environment that has the package.
+"""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import svdag
+from svdag import _programs
+
+SOURCE = pathlib.Path()
+
+
+def program(name, *arguments, text=None):
+    done = subprocess.run([_programs.program(name), *map(str, arguments)], capture_output=True, text=True, input=text)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def sphere_mesh(n=24):
+    """A closed sphere of radius 1 around (3, 4, 5): vertices and faces."""
+    u, v = np.meshgrid(np.linspace(0, np.pi, n + 1)[1:-1], np.linspace(0, 2 * np.pi, 2 * n, endpoint=False), indexing="ij")
+    points = np.stack([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)], -1).reshape(-1, 3)
+    points = np.vstack([points, [[0, 0, 1], [0, 0, -1]]]) + [3, 4, 5]
+    m, faces = 2 * n, []
+    for j in range(m):
+        k = (j + 1) % m
+        faces.append([len(points) - 2, j, k])
+        faces.append([len(points) - 1, (n - 2) * m + k, (n - 2) * m + j])
+        for i in range(n - 2):
+            faces += [[i * m + j, (i + 1) * m + j, (i + 1) * m + k], [i * m + j, (i + 1) * m + k, i * m + k]]
+    return points, np.array(faces)
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="svdag-python-")
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.random = np.random.default_rng(1)
+        cls.coords = np.unique(cls.random.integers(0, 200, (20000, 3)), axis=0)
+        cls.coords = np.vstack([cls.coords, np.argwhere(np.ones((20, 20, 20), bool)) + 64])
+        cls.coords = np.unique(cls.coords, axis=0)
+        cls.grid = np.zeros((256, 256, 256), bool)
+        cls.grid[tuple(cls.coords.T)] = True
+        cls.plain = cls.folder / "plain.svdag"
+        svdag.from_coords(cls.random.permutation(cls.coords), cls.plain, voxel_size=0.25, origin=(-3, 2, 7))
+        cls.compact, cls.packed = cls.folder / "compact.svdag", cls.folder / "packed.svdag.pack"
+        program("svdag", "convert", cls.plain, "-o", cls.compact, "--layout", "compact", "-q")
+        program("svdag", "pack", cls.plain, "-o", cls.packed, "-q")
+        svdag.build({"ball": sphere_mesh(), "floor": ([[0, 0, 4.5], [9, 0, 4.5], [0, 9, 4.5]], [[0, 1, 2]])},
+                    path=cls.folder / "layers.svdag", resolution=128)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def every(self):
+        return [svdag.open(path) for path in (self.plain, self.compact, self.packed)]
+
+
+class Reading(Files):
+    def test_attributes_are_those_of_info(self):
+        printed = json.loads(program("svdag", "info", self.plain, "--json"))
+        for file in self.every():
+            self.assertEqual((file.resolution, file.levels, file.voxels, file.voxel_size, file.rule),
+                             (256, 8, len(self.coords), 0.25, "conservative"))
+            self.assertEqual(file.content_hash, printed["content_hash"])
+            np.testing.assert_array_equal(file.origin, [-3, 2, 7])
+            np.testing.assert_array_equal(file.bounds, [[-3, 2, 7], [61, 66, 71]])
+            np.testing.assert_array_equal(file.occupied_bounds.ravel(), printed["occupied"]["bounds"])
+            self.assertEqual(file.layers, [])
+            self.assertIn("256^3", repr(file))
+        self.assertEqual([f.layout for f in self.every()], ["plain", "compact", "plain"])
+        self.assertEqual(svdag.__version__, program("svdag", "--version").split()[1])
+
+    def test_windows_are_the_grid(self):
+        for file in self.every():
+            np.testing.assert_array_equal(file.window((0, 0, 0), (256, 256, 256)), self.grid)
+            for _ in range(50):
+                low = self.random.integers(-30, 250, 3)
+                high = low + self.random.integers(0, 70, 3)
+                expected = np.zeros(high - low, bool)
+                inside = [slice(max(0, a), max(0, min(256, b))) for a, b in zip(low, high)]
+                part = self.grid[tuple(inside)]
+                at = [slice(s.start - a, s.start - a + n) for s, a, n in zip(inside, low, part.shape)]
+                if part.size:
+                    expected[tuple(at)] = part
+                window = file.window(low, high)
+                np.testing.assert_array_equal(window, expected)
+                self.assertTrue(window.flags["C_CONTIGUOUS"] and window.dtype == bool)
+                self.assertEqual(file.count(low, high), expected.sum())
+                self.assertEqual(file.box_occupied(low, high), expected.any())
+                np.testing.assert_array_equal(np.sort(file.coords(low, high), 0), np.sort(np.argwhere(expected) + low, 0))
+
+    def test_levels_are_the_grid_made_coarser(self):
+        file = svdag.open(self.compact)
+        for level in range(3, 9):
+            step = 256 >> level
+            coarse = self.grid.reshape([256 // step, step] * 3).any((1, 3, 5))
+            np.testing.assert_array_equal(file.window((0, 0, 0), (2 ** level,) * 3, level=level), coarse)
+            self.assertEqual(file.count(level=level), coarse.sum())
+            voxels = file.coords(level=level)
+            self.assertEqual(voxels.dtype, np.int32)
+            np.testing.assert_array_equal(np.unique(voxels, axis=0), np.argwhere(coarse))
+
+    def test_points_of_both_kinds(self):
+        points = self.random.integers(-20, 280, (50000, 3))
+        inside = ((points >= 0) & (points < 256)).all(1)
+        expected = np.zeros(len(points), bool)
+        expected[inside] = self.grid[tuple(points[inside].T)]
+        for file in self.every():
+            for dtype in (np.int64, np.int32, np.int16):
+                np.testing.assert_array_equal(file.occupied(points.astype(dtype)), expected)
+            world = file.origin + (points + self.random.uniform(0.01, 0.99, points.shape)) * file.voxel_size
+            np.testing.assert_array_equal(file.occupied(world), expected)
+            far = [[np.nan, 0, 0], [np.inf, 0, 0], [-np.inf, 1, 1], [1e300, 0, 0]]
+            self.assertFalse(file.occupied(far).any())
+            self.assertFalse(file.occupied(np.array([[2 ** 63 - 1, 0, 0], [-2 ** 63, 0, 0], [2 ** 32, 0, 0]])).any())
+            self.assertFalse(file.occupied(np.array([[2 ** 64 - 1, 0, 0]], np.uint64)).any())
+
+    def test_a_ball_touches_what_is_near(self):
+        file = svdag.open(self.plain)
+        for _ in range(20):
+            center, radius = self.random.uniform(-10, 266, 3), self.random.uniform(0, 60)
+            off = np.maximum(np.maximum(self.coords - center, center - (self.coords + 1)), 0)
+            near = self.coords[(off ** 2).sum(1) <= radius ** 2]
+            np.testing.assert_array_equal(np.unique(file.sphere(center, radius).reshape(-1, 3), axis=0), near)
+
+    def test_bricks_are_all_voxels_in_any_chunk(self):
+        for file in self.every():
+            for chunk in (1, 7, 1 << 16):
+                if chunk == 1 and file.layout == "compact":
+                    continue
+                found, order = [], []
+                for corners, words in file.bricks((60, 0, 0), (120, 256, 90), chunk=chunk):
+                    cubes = svdag.unpack_bricks(words)
+                    self.assertTrue((words != 0).all())
+                    brick, *at = np.nonzero(cubes)
+                    found.append(corners[brick] + np.stack(at, 1))
+                    order += [tuple(c) for c in corners]
+                self.assertEqual(len(order), len(set(order)))
+                voxels = np.concatenate(found)
+                inside = ((self.coords >= [60, 0, 0]) & (self.coords < [120, 256, 92])).all(1)
+                np.testing.assert_array_equal(np.unique(voxels, axis=0), self.coords[inside])
+
+    def test_rays_hit_what_svdag_trace_hits(self):
+        for path in (self.plain, self.compact):
+            dump = self.folder / "hits.bin"
+            camera = (-40, 10, 60, 20, 30, 30, 50)
+            program("svdag-trace", path, "--size", "320x200", "--camera=" + ",".join(map(str, camera)), "--dump", dump,
+                    "--samples", "1")
+            printed = np.fromfile(dump, [("found", "u4"), ("voxel", "u4", 3), ("level", "u4"), ("axis", "u4"), ("t", "f8"),
+                                      ("rest", "u4", 6)])
+            eye, target = np.array(camera[:3], float), np.array(camera[3:6], float)
+            forward = (target - eye) / np.linalg.norm(target - eye)
+            right = np.cross(forward, [0, 1, 0])
+            right /= np.linalg.norm(right)
+            slope = np.tan(np.radians(camera[6] / 2))
+            y, x = np.mgrid[0:200, 0:320]
+            across, down = (2 * (x + .5) / 320 - 1) * slope * 1.6, (1 - 2 * (y + .5) / 200) * slope
+            rays = forward + across[..., None] * right + down[..., None] * np.cross(right, forward)
+            hits = svdag.open(path).trace(eye, rays.reshape(-1, 3))
+            found = np.isfinite(hits.t)
+            self.assertGreater(found.mean(), 0.2)
+            # The rays are rounded otherwise here: a few pixels in a hundred thousand may differ.
+            self.assertLess((found != (printed["found"] == 1)).mean(), 1e-4)
+            both = found & (printed["found"] == 1)
+            self.assertLess((hits.voxel[both] != printed["voxel"][both]).any(1).mean(), 1e-3)
+            normal = hits.normal[both]
+            self.assertLess((np.abs(normal).argmax(1) != printed["axis"][both]).mean(), 1e-3)
+            self.assertTrue((np.einsum("ij,ij->i", normal, rays.reshape(-1, 3)[both]) <= 0).all())
+            point = eye + hits.t[both, None] * rays.reshape(-1, 3)[both]
+            middle = svdag.open(path).origin + (hits.voxel[both] + 0.5) * 0.25
+            self.assertLess(np.abs(point - middle).max(), 0.126)
+
+    def test_rays_end_at_tmax(self):
+        file = svdag.open(self.plain)
+        hits = file.trace([-3 + 70 * 0.25, 2 + 70 * 0.25, 0], [0, 0, 1])
+        self.assertTrue(np.isfinite(hits.t[0]))
+        self.assertTrue(np.isfinite(file.trace([-3 + 70 * 0.25, 2 + 70 * 0.25, 0], [0, 0, 1], tmax=hits.t[0] + 1e-9).t[0]))
+        missed = file.trace([-3 + 70 * 0.25, 2 + 70 * 0.25, 0], [0, 0, 1], tmax=hits.t[0] - 1e-9)
+        self.assertEqual((missed.t[0], *missed.voxel[0], *missed.normal[0], missed.layer[0]), (np.inf, -1, -1, -1, 0, 0, 0, -1))
+
+    def test_layers_are_those_of_the_file(self):
+        with svdag.open(self.folder / "layers.svdag") as file:
+            self.assertEqual([layer.name for layer in file.layers], ["ball.ply", "floor.ply"])
+            whole = file.window((0, 0, 0), (128,) * 3)
+            parts = [file.window((0, 0, 0), (128,) * 3, layer=i) for i in range(2)]
+            np.testing.assert_array_equal(whole, parts[0] | parts[1])
+            for part, layer in zip(parts, file.layers):
+                self.assertEqual(part.sum(), layer.voxels)
+                self.assertEqual(file.count(layer=layer.name), layer.voxels)
+            hits = file.trace([[3, 4, 9], [1, 1, 9], [8, 8, 9]], [0, 0, -1.0])
+            np.testing.assert_array_equal(hits.layer, [0, 1, -1])
+            np.testing.assert_array_equal(file.trace([3, 4, 9], [0, 0, -1.0], layer="floor.ply").layer, [1])
+            with self.assertRaises(KeyError):
+                file.count(layer="roof")
+            with self.assertRaises(IndexError):
+                file.count(layer=2)
+
+    def test_a_closed_file_is_refused(self):
+        file = svdag.open(self.plain)
+        file.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            file.count()
+
+    def test_threads_share_a_file(self):
+        file = svdag.open(self.compact)
+        points = self.random.integers(0, 256, (100000, 3))
+        expected, wrong = self.grid[tuple(points.T)], []
+
+        def look():
+            for _ in range(5):
+                if not (file.occupied(points) == expected).all():
+                    wrong.append(1)
+        threads = [threading.Thread(target=look) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(wrong, [])
+
+    def test_opening_takes_little_memory(self):
+        big = self.folder / "big.svdag"
+        svdag.from_coords(self.random.integers(0, 2 ** 14, (1000000, 3)), big)
+
+        def own_kilobytes():
+            return int(re.search(r"RssAnon:\s+(\d+)", pathlib.Path("/proc/self/status").read_text()).group(1))
+        svdag.open(self.plain)
+        before = own_kilobytes()
+        file = svdag.open(big)
+        self.assertGreater(big.stat().st_size, 10 << 20)
+        self.assertLess(own_kilobytes() - before, 1024)
+        del file
+
+
+class Making(Files):
+    def test_a_build_has_the_bytes_of_the_program(self):
+        vertices, faces = sphere_mesh()
+        ply = self.folder / "scene.ply"
+        svdag._write_ply(ply, vertices, faces)
+        for options, words in [({"resolution": "256"}, ["-r", "256"]), ({"voxel_size": 0.1, "rule": "thin"}, ["-s", "0.1", "--rule", "thin"]),
+                               ({"resolution": 128, "rule": "solid", "layout": "compact", "bounds": (3, 4, 5, 9, 9, 9)},
+                                ["-r", "128", "--rule", "solid", "--layout", "compact", "--bounds=3,4,5,9,9,9"])]:
+            report = svdag.build(vertices, faces, self.folder / "a.svdag", **options)
+            program("svdag", "build", ply, "-o", self.folder / "b.svdag", "-q", *words)
+            self.assertEqual((self.folder / "a.svdag").read_bytes(), (self.folder / "b.svdag").read_bytes())
+            self.assertEqual(report["content_hash"], svdag.open(self.folder / "a.svdag").content_hash)
+        self.assertEqual([p.name for p in self.folder.iterdir() if p.name.startswith(".")], [])
+
+    def test_arrays_of_any_kind_make_the_same_file(self):
+        vertices, faces = sphere_mesh()
+        svdag.build(vertices, faces, self.folder / "a.svdag", resolution=64)
+        wide = np.zeros((len(vertices), 5))
+        wide[:, 1:4] = vertices
+        for v, f in [(wide[:, 1:4], faces[:, ::1]), (np.asfortranarray(vertices), faces.astype(np.uint8) if len(vertices) < 256 else faces),
+                     (vertices.tolist(), faces.tolist()), (vertices[::-1], len(vertices) - 1 - faces)]:
+            svdag.build(v, f, self.folder / "b.svdag", resolution=64)
+            self.assertTrue(svdag.diff(self.folder / "a.svdag", self.folder / "b.svdag")["same"])
+
+    def test_coordinates_have_the_bytes_of_an_import(self):
+        npz = self.folder / "coords.npz"
+        svdag.export(self.plain, npz)
+        again = self.folder / "again.svdag"
+        program("svdag", "import", npz, "-o", again, "-q")
+        self.assertEqual(svdag.open(again).content_hash, svdag.open(self.plain).content_hash)
+        for options in ({"layout": "compact"}, {"resolution": 1024}, {"rule": "thin"}):
+            svdag.from_coords(self.coords, again, **options)
+            self.assertIn("sound", program("svdag-verify", "check", again))
+        svdag.from_array(self.grid, again, voxel_size=0.25, origin=(-3, 2, 7))
+        self.assertEqual(svdag.open(again).content_hash, svdag.open(self.plain).content_hash)
+        self.assertEqual(svdag.from_coords(np.zeros((0, 3), int), again)["voxels"], 0)
+        self.assertEqual(svdag.open(again).count(), 0)
+
+    def test_a_file_is_verified_and_compared(self):
+        vertices, faces = sphere_mesh()
+        ply = self.folder / "scene.ply"
+        svdag._write_ply(ply, vertices, faces)
+        svdag.build_files(ply, self.folder / "a.svdag", resolution=64)
+        self.assertTrue(svdag.verify_mesh(self.folder / "a.svdag", ply)["ok"])
+        svdag._write_ply(ply, vertices + 0.05, faces)
+        self.assertFalse(svdag.verify_mesh(self.folder / "a.svdag", [ply])["ok"])
+        self.assertFalse(svdag.diff(self.folder / "layers.svdag", self.folder / "layers.svdag", quiet=None)["same"] is False)
+
+    def test_progress_is_reported(self):
+        printed = []
+        vertices, faces = sphere_mesh(60)
+        svdag.build(vertices, faces, self.folder / "a.svdag", resolution="2K", progress=lambda phase, share: printed.append((phase, share)))
+        self.assertTrue(printed and all(phase and 0 <= share <= 1 for phase, share in printed), printed)
+
+    def test_interrupts_end_within_a_tenth_of_a_second(self):
+        vertices, faces = sphere_mesh(200)
+        coords = self.random.integers(0, 2 ** 16, (8000000, 3)).astype(np.uint32)
+        file = svdag.open(self.folder / "plain.svdag")
+        solid = self.folder / "solid.svdag"
+        svdag.from_array(np.ones((256,) * 3, bool), solid)
+        full = svdag.open(solid)
+        calls = {"build": lambda: svdag.build(vertices, faces, self.folder / "i.svdag", resolution="32K"),
+                 "from_coords": lambda: svdag.from_coords(coords, self.folder / "i.svdag"),
+                 "coords": lambda: full.coords(),
+                 "trace": lambda: file.trace(self.random.uniform(0, 60, (4000000, 3)), [0.3, 0.5, 0.7])}
+        for name, call in calls.items():
+            late = []
+
+            def interrupt():
+                time.sleep(0.25)
+                late.append(time.monotonic())
+                os.kill(os.getpid(), signal.SIGINT)
+            thread = threading.Thread(target=interrupt)
+            thread.start()
+            try:
+                with self.assertRaises(KeyboardInterrupt, msg=name):
+                    call()
+                    time.sleep(2)  # it was faster than the interrupt
+                seconds = time.monotonic() - late[0]
+            finally:
+                thread.join()
+            print(f"{name} ended {1000 * seconds:.0f} ms after Ctrl-C", file=sys.stderr)
+            self.assertLess(seconds, 0.1 if name != "build" else 0.3)
+        self.assertFalse((self.folder / "i.svdag").exists())
+        self.assertEqual(file.count(), len(self.coords))  # all goes on
+
+
+class Refusals(Files):
+    def test_errors_have_a_code_a_path_and_the_sentence(self):
+        missing = self.folder / "missing.svdag"
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.open(missing)
+        self.assertEqual((caught.exception.code, caught.exception.path), (3, str(missing)))
+        printed = subprocess.run([_programs.program("svdag"), "info", missing], capture_output=True, text=True).stderr
+        self.assertEqual(printed.strip(), f"svdag: {caught.exception}")
+        damaged = self.folder / "damaged.svdag"
+        damaged.write_bytes(self.plain.read_bytes()[:-1])
+        with self.assertRaises(svdag.Error):
+            svdag.open(damaged)
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.build(*sphere_mesh(), self.folder / "a.svdag", resolution=64, rool="thin")
+        self.assertEqual(caught.exception.code, 2)
+        self.assertIn("--rool", str(caught.exception))
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.build_files(self.folder / "no.ply", self.folder / "a.svdag", resolution=64)
+        self.assertEqual((caught.exception.code, caught.exception.path), (3, str(self.folder / "no.ply")))
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.from_coords([[0, 0, 0]], self.folder / "none" / "a.svdag")
+        self.assertEqual(caught.exception.code, 4)
+        self.assertTrue(issubclass(svdag.Error, Exception))
+
+    def test_no_argument_crashes(self):
+        """Random arguments of random kinds: any exception of Python, but no crash and no other."""
+        file, layers = svdag.open(self.plain), svdag.open(self.folder / "layers.svdag")
+        random = np.random.default_rng(5)
+        expected = (ValueError, TypeError, IndexError, KeyError, OverflowError, MemoryError, svdag.Error)
+        values = [None, -1, 0, 1, 7, 256, 2 ** 31, 2 ** 40, 2 ** 63, 2 ** 64, -2 ** 63, 10 ** 30, 0.5, np.nan, np.inf, -np.inf, 1e300,
+                  1e-320, "", "x", b"x", [], [1], [1, 2, 3], (0, 0, 0), (8, 8, 8), (2 ** 62, 0, 0), (-2 ** 70, 2 ** 70, 5), [np.nan] * 3,
+                  [[0, 0, 1]], np.zeros((0, 3)), np.zeros((3, 0)), np.zeros((4, 3), np.float16), np.zeros((5, 3), np.complex128),
+                  np.full((3, 3), np.nan), np.full((3, 3), np.inf), np.zeros((6, 3), bool), np.zeros((2, 3), ">i4"), np.zeros((3, 2, 3)),
+                  np.zeros((9, 6))[:, ::2], np.zeros((3, 8), np.int32).T, np.zeros((3, 3), object), np.array(["a", "b", "c"]),
+                  np.ma.zeros((3, 3)), np.full((3, 3), 2 ** 64 - 1, np.uint64), np.zeros((2, 3), "M8[s]"), {}, {"a": 1}, object(), len,
+                  np.int64(5), np.float64(2.5), True, slice(3), self.coords[:10], self.coords[:10].astype(float), [[1, 2], [3]]]
+        calls = [(f.window, 2, 4) for f in (file, layers)] + [(f.coords, 0, 4) for f in (file, layers)] + [
+            (file.sphere, 2, 3), (layers.sphere, 2, 3), (file.occupied, 1, 2), (layers.occupied, 1, 2), (file.box_occupied, 2, 3),
+            (file.count, 0, 4), (layers.count, 0, 4), (file.trace, 2, 4), (layers.trace, 2, 4), (svdag.unpack_bricks, 1, 1),
+            (lambda *a: list(file.bricks(*a)), 0, 4), (svdag.open, 1, 1), (svdag.from_array, 2, 2), (svdag.from_coords, 2, 2)]
+        outputs = [None, "", 5, "/nonexistent/a", str(self.folder), str(self.folder / "f.svdag"), b"\xff", "\0", "a\0b"]
+        ran = {}
+        os.chdir(self.folder)  # "x" may be written
+        for i in range(6000):
+            call, least, most = calls[i % len(calls)]
+            count = int(random.integers(least, most + 1))
+            arguments = [values[int(random.integers(len(values)))] for _ in range(count)]
+            if call in (svdag.from_array, svdag.from_coords):
+                arguments[1] = outputs[int(random.integers(len(outputs)))]
+            try:
+                call(*arguments)
+                ran[call] = ran.get(call, 0) + 1
+            except expected:
+                pass
+            except UnicodeDecodeError:
+                pass
+        self.assertGreater(len(ran), 10)
+        self.assertEqual(file.count(), len(self.coords))
+
+
+class Documents(unittest.TestCase):
+    def test_the_examples_of_the_page_run(self):
+        text = (SOURCE / "docs" / "python.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+        self.assertGreater(len(blocks), 5)
+        with tempfile.TemporaryDirectory() as folder:
+            before = os.getcwd()
+            os.chdir(folder)
+            try:
+                points, faces = sphere_mesh()
+                svdag._write_ply(pathlib.Path("part.ply"), points, faces)
+                triangles = points[faces].astype("<f4")
+                with open("part.stl", "wb") as file:
+                    file.write(bytes(80) + np.uint32(len(triangles)).tobytes())
+                    rows = np.zeros(len(triangles), [("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
+                    rows["v"] = triangles
+                    file.write(rows.tobytes())
+                names = {}
+                for block in blocks:
+                    if "matplotlib" in block:
+                        try:
+                            import matplotlib  # noqa: F401
+                        except ImportError:
+                            print("matplotlib is missing: its example was not run", file=sys.stderr)
+                            continue
+                    exec(compile(block, "docs/python.md", "exec"), names)
+            finally:
+                os.chdir(before)
+
+
+if __name__ == "__main__":
+    SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)
