@@ -153,6 +153,7 @@ bench-layers: build
 	@$(PYTHON) tests/bench/layers.py --programs $(PROGRAMS)
 
 bench-python: wheel
+	$(call install,libusb-1.0-0 libgl1 libegl1 libgomp1 libx11-6)
 	@$(PYTHON) -m venv build/python/bench
 	@build/python/bench/bin/pip install -q --disable-pip-version-check matplotlib trimesh open3d scipy build/wheel/*.whl
 	@build/python/bench/bin/python -B tests/bench/python_package.py

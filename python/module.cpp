@@ -107,9 +107,8 @@ class PyFile {
     info["rule"] = rule_name(file_->rule());
     info["layout"] = layout_name(file_->layout());
     info["voxels"] = h.voxels;
-    info["occupied"] =
-        std::array{Corner{occupied.min.x, occupied.min.y, occupied.min.z},
-                   Corner{occupied.max.x, occupied.max.y, occupied.max.z}};
+    info["occupied"] = std::array{Corner{occupied.min.x, occupied.min.y, occupied.min.z},
+                                  Corner{occupied.max.x, occupied.max.y, occupied.max.z}};
     info["content_hash"] = to_hex(h.content_hash);
     info["metadata"] = nb::bytes(file_->metadata().data(), file_->metadata().size());
     nb::list layers;
@@ -124,7 +123,8 @@ class PyFile {
   Bools window(const Corner& low, const Corner& high, uint32_t level, int layer) const {
     const size_t n[3] = {size_t(high[0] - low[0]), size_t(high[1] - low[1]),
                          size_t(high[2] - low[2])};
-    auto* const voxels = static_cast<uint8_t*>(std::calloc(std::max<size_t>(1, n[0] * n[1] * n[2]), 1));
+    auto* const voxels =
+        static_cast<uint8_t*>(std::calloc(std::max<size_t>(1, n[0] * n[1] * n[2]), 1));
     if (voxels == nullptr) throw std::bad_alloc();
     const nb::capsule owner(voxels, [](void* p) noexcept { std::free(p); });
     const DagView dag = view(layer);
@@ -137,15 +137,16 @@ class PyFile {
   }
 
   Ints ball(const std::array<double, 3>& center, double radius, int layer) const {
-    return list([&] { return list_ball(view(layer), {{center[0], center[1], center[2]}}, radius); });
+    return list([&] {
+      return list_ball(view(layer), {{center[0], center[1], center[2]}}, radius);
+    });
   }
 
   std::tuple<Ints, nb::ndarray<nb::numpy, uint64_t>> bricks(const Corner& low, const Corner& high,
                                                             uint64_t first, size_t count,
                                                             int layer) const {
     std::vector<PlacedBrick> found;
-    interruptible(
-        [&] { found = next_bricks(view(layer), box_of(low, high), first, count); });
+    interruptible([&] { found = next_bricks(view(layer), box_of(low, high), first, count); });
     std::vector<std::array<int32_t, 3>> corners;
     std::vector<uint64_t> words;
     for (const PlacedBrick& brick : found) {
@@ -191,28 +192,34 @@ class PyFile {
     std::vector<std::array<int32_t, 3>> voxels(n, {-1, -1, -1});
     std::vector<int8_t> axes(n, -1);
     std::vector<int32_t> layers(n, -1);
-    interruptible([&] {
-      std::vector<Ray> rays(n);
-      for (size_t i = 0; i < n; ++i) {
-        const double* const o = origins.data() + 3 * i;
-        const double* const d = directions.data() + 3 * i;
-        rays[i] = ray_from_world(dag, {{o[0], o[1], o[2]}}, {{d[0], d[1], d[2]}});
+    const auto make = [&](size_t first, std::span<Ray> rays) {
+      const double* o = origins.data() + 3 * first;
+      const double* d = directions.data() + 3 * first;
+      for (Ray& ray : rays) {
+        ray = ray_from_world(dag, {{o[0], o[1], o[2]}}, {{d[0], d[1], d[2]}});
+        o += 3;
+        d += 3;
       }
-      std::vector<Hit> hits(n);
-      trace_rays(dag, rays, t_max, hits.data(), executor_.get());
-      if (find_layers && !index_) index_.emplace(*file_);
-      for (size_t i = 0; i < n; ++i) {
-        const Hit& hit = hits[i];
-        if (!hit.found) continue;
-        t[i] = hit.t;
-        for (size_t a = 0; a < 3; ++a) voxels[i][a] = int32_t(hit.voxel[a]);
-        axes[i] = int8_t(hit.axis);
-        if (find_layers) {
-          const uint32_t at = layer_of_cube(dag, index_->view(), hit.level, hit.voxel[0],
-                                            hit.voxel[1], hit.voxel[2]);
-          layers[i] = at == kNoLayer ? -1 : int32_t(at);
+    };
+    const auto take = [&](size_t first, std::span<const Hit> hits) {
+      for (size_t i = first; const Hit& hit : hits) {
+        if (hit.found) {
+          t[i] = hit.t;
+          voxels[i] = {int32_t(hit.voxel[0]), int32_t(hit.voxel[1]), int32_t(hit.voxel[2])};
+          axes[i] = int8_t(hit.axis);
+          if (find_layers)  // kNoLayer is -1
+            layers[i] = int32_t(layer_of_cube(dag, index_->view(), hit.level, hit.voxel[0],
+                                              hit.voxel[1], hit.voxel[2]));
         }
+        ++i;
       }
+    };
+    interruptible([&] {
+      if (find_layers) {
+        const std::lock_guard lock(mutex_);
+        if (!index_) index_.emplace(*file_);
+      }
+      trace_rays(dag, n, t_max, make, take, executor_.get());
     });
     return {owned<Doubles>(std::move(t), {n}), owned<Ints>(std::move(voxels), {n, 3}),
             owned<nb::ndarray<nb::numpy, int8_t>>(std::move(axes), {n}),
@@ -221,7 +228,9 @@ class PyFile {
 
  private:
   // `layer`: its number; -1: the file's default.
-  DagView view(int layer) const { return layer < 0 ? file_->view() : file_->view_of(size_t(layer)); }
+  DagView view(int layer) const {
+    return layer < 0 ? file_->view() : file_->view_of(size_t(layer));
+  }
 
   template <class Find>
   static Ints list(const Find& find) {
@@ -232,7 +241,8 @@ class PyFile {
   }
 
   std::optional<DagFile> file_;
-  std::optional<LayerIndex> index_;
+  std::optional<LayerIndex> index_;  // made by the first trace() that needs it, under mutex_
+  std::mutex mutex_;
   std::unique_ptr<ParallelExecutor> executor_;
 };
 
@@ -275,10 +285,10 @@ void translate(const std::exception_ptr& exception, void* type) {
   try {
     std::rethrow_exception(exception);
   } catch (const Error& error) {
-    const nb::object path = nb::steal(PyUnicode_DecodeFSDefaultAndSize(
-        error.path().data(), Py_ssize_t(error.path().size())));
-    const nb::object sentence = nb::steal(PyUnicode_DecodeUTF8(
-        error.what(), Py_ssize_t(std::strlen(error.what())), "replace"));
+    const nb::object path = nb::steal(
+        PyUnicode_DecodeFSDefaultAndSize(error.path().data(), Py_ssize_t(error.path().size())));
+    const nb::object sentence = nb::steal(
+        PyUnicode_DecodeUTF8(error.what(), Py_ssize_t(std::strlen(error.what())), "replace"));
     const nb::handle cls(static_cast<PyObject*>(type));
     const nb::object made = cls(sentence, int(error.code()), path);
     PyErr_SetObject(cls.ptr(), made.ptr());

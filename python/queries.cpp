@@ -145,9 +145,9 @@ void for_voxels(const DagView& dag, uint32_t level, const VoxelBox& box, const V
   const VoxelBox inside = clipped(box, level);
   if (inside.empty() || dag.empty()) return;
   CubeWalk(dag, level).visit(inside, [&](const VoxelCube& cube) {
-    check_interrupt();
     const int bits = std::countr_zero(uint64_t(cube.side));
     for (uint64_t code = 0; code < uint64_t(1) << 3 * bits; ++code) {
+      if (code % 65536 == 0) check_interrupt();
       LatticePoint at(0);
       for (int b = 0; b < bits; ++b) {
         at.x |= int64_t(code >> (3 * b + 2) & 1) << b;
@@ -200,6 +200,8 @@ void fill_window(const DagView& dag, uint32_t level, const VoxelBox& box, uint8_
 std::vector<std::array<int32_t, 3>> list_voxels(const DagView& dag, uint32_t level,
                                                 const VoxelBox& box) {
   std::vector<std::array<int32_t, 3>> voxels;
+  if (const VoxelBox inside = clipped(box, level); !inside.empty() && !dag.empty())
+    voxels.reserve(CubeWalk(dag, level).count_voxels(inside));
   for_voxels(dag, level, box, [&](const LatticePoint& v) {
     voxels.push_back({int32_t(v.x), int32_t(v.y), int32_t(v.z)});
   });
@@ -257,12 +259,17 @@ bool any_in_box(const DagView& dag, const VoxelBox& box) {
   return !box.empty() && !dag.empty() && any_in_box(dag, box, 0, 0, LatticePoint(0));
 }
 
-void trace_rays(const DagView& dag, std::span<const Ray> rays, double t_max, Hit* hits,
+void trace_rays(const DagView& dag, size_t count, double t_max,
+                const std::function<void(size_t first, std::span<Ray> rays)>& make,
+                const std::function<void(size_t first, std::span<const Hit> hits)>& take,
                 Executor* executor) {
-  const Tree64 tree =
-      tree_if_it_pays(dag, rays.size() / executor->workers(), default_memory_limit());
-  in_pieces(rays.size(), kRaysPerTask, executor, [&](size_t begin, size_t end) {
-    trace_closest(dag, tree.view(), rays.data() + begin, end - begin, {0, t_max}, {}, hits + begin);
+  const Tree64 tree = tree_if_it_pays(dag, count / executor->workers(), default_memory_limit());
+  in_pieces(count, kRaysPerTask, executor, [&](size_t begin, size_t end) {
+    std::vector<Ray> rays(end - begin);
+    std::vector<Hit> hits(end - begin);
+    make(begin, rays);
+    trace_closest(dag, tree.view(), rays.data(), rays.size(), {0, t_max}, {}, hits.data());
+    take(begin, hits);
   });
 }
 

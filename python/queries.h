@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,8 @@
 
 namespace svdag {
 
-// Sets out[((x - min.x) * ny + y - min.y) * nz + z - min.z] to 1 for each set voxel of level `level`
-// in `box`; `out` is zero before.
+// Sets out[((x - min.x) * ny + y - min.y) * nz + z - min.z] to 1 for each set voxel of level
+// `level` in `box`; `out` is zero before.
 void fill_window(const DagView& dag, uint32_t level, const VoxelBox& box, uint8_t* out,
                  Executor* executor);
 
@@ -46,8 +47,11 @@ void look_up(const DagView& dag, std::span<const std::array<double, 3>> points, 
 
 // Whether a voxel of `box` is set.
 bool any_in_box(const DagView& dag, const VoxelBox& box);
-// hits[i] is the hit of rays[i].
-void trace_rays(const DagView& dag, std::span<const Ray> rays, double t_max, Hit* hits,
+// Traces `count` rays in pieces: make(first, rays) makes those from number `first` on, take(first,
+// hits) takes what they hit. Both are called by several threads.
+void trace_rays(const DagView& dag, size_t count, double t_max,
+                const std::function<void(size_t first, std::span<Ray> rays)>& make,
+                const std::function<void(size_t first, std::span<const Hit> hits)>& take,
                 Executor* executor);
 
 }  // namespace svdag

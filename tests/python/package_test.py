@@ -306,13 +306,14 @@ class Making(Files):
         vertices, faces = sphere_mesh(200)
         coords = self.random.integers(0, 2 ** 16, (8000000, 3)).astype(np.uint32)
         file = svdag.open(self.folder / "plain.svdag")
+        origins = self.random.uniform(0, 60, (4000000, 3))
         solid = self.folder / "solid.svdag"
         svdag.from_array(np.ones((256,) * 3, bool), solid)
         full = svdag.open(solid)
         calls = {"build": lambda: svdag.build(vertices, faces, self.folder / "i.svdag", resolution="32K"),
                  "from_coords": lambda: svdag.from_coords(coords, self.folder / "i.svdag"),
                  "coords": lambda: full.coords(),
-                 "trace": lambda: file.trace(self.random.uniform(0, 60, (4000000, 3)), [0.3, 0.5, 0.7])}
+                 "trace": lambda: file.trace(origins, [0.3, 0.5, 0.7])}
         for name, call in calls.items():
             late = []
 
