@@ -11,7 +11,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <csignal>
 #include <mutex>
@@ -86,6 +88,14 @@ Array owned(std::vector<T>&& values, std::initializer_list<size_t> shape) {
   return Array(kept->data(), shape, owner);
 }
 
+// The same for values that are written in parallel, so that no thread fills their memory first.
+template <class Array, class T>
+Array owned(std::unique_ptr<T[]>&& values, std::initializer_list<size_t> shape) {
+  T* const kept = values.release();
+  const nb::capsule owner(kept, [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return Array(kept, shape, owner);
+}
+
 VoxelBox box_of(const Corner& low, const Corner& high) {
   return {LatticePoint(low[0], low[1], low[2]), LatticePoint(high[0], high[1], high[2])};
 }
@@ -99,7 +109,6 @@ class PyFile {
 
   nb::dict info() const {
     const Header& h = file_->header();
-    const VoxelBox occupied = occupied_bounds(file_->view());
     nb::dict info;
     info["levels"] = h.levels;
     info["voxel_size"] = h.voxel_size;
@@ -107,8 +116,6 @@ class PyFile {
     info["rule"] = rule_name(file_->rule());
     info["layout"] = layout_name(file_->layout());
     info["voxels"] = h.voxels;
-    info["occupied"] = std::array{Corner{occupied.min.x, occupied.min.y, occupied.min.z},
-                                  Corner{occupied.max.x, occupied.max.y, occupied.max.z}};
     info["content_hash"] = to_hex(h.content_hash);
     info["metadata"] = nb::bytes(file_->metadata().data(), file_->metadata().size());
     nb::list layers;
@@ -182,31 +189,49 @@ class PyFile {
     return voxels;
   }
 
-  // t is infinite, and voxel, axis and layer are -1, where nothing is hit.
+  // t is infinite, voxel and layer are -1, and the normal is 0 where nothing is hit. An array of
+  // one row stands for the same row n times.
   std::tuple<Doubles, Ints, nb::ndarray<nb::numpy, int8_t>, Ints> trace(
       const Rows<double>& origins, const Rows<double>& directions, double t_max, int layer) {
-    const size_t n = origins.shape(0);
+    using Vector = std::array<int8_t, 3>;
+    const size_t n = origins.shape(0) == 1 ? directions.shape(0) : origins.shape(0);
+    if (directions.shape(0) != n && directions.shape(0) != 1)
+      throw nb::value_error("trace: origins and directions have different lengths");
+    const size_t origin_step = origins.shape(0) == 1 ? 0 : 3;
+    const size_t direction_step = directions.shape(0) == 1 ? 0 : 3;
     const DagView dag = view(layer);
     const bool find_layers = layer < 0 && !file_->layers().empty();
-    std::vector<double> t(n, std::numeric_limits<double>::infinity());
-    std::vector<std::array<int32_t, 3>> voxels(n, {-1, -1, -1});
-    std::vector<int8_t> axes(n, -1);
-    std::vector<int32_t> layers(n, -1);
+    auto t = std::make_unique_for_overwrite<double[]>(n);
+    auto voxels = std::make_unique_for_overwrite<std::array<int32_t, 3>[]>(n);
+    auto normals = std::make_unique_for_overwrite<Vector[]>(n);
+    auto layers = std::make_unique_for_overwrite<int32_t[]>(n);
+    std::atomic<bool> is_valid = true;
     const auto make = [&](size_t first, std::span<Ray> rays) {
-      const double* o = origins.data() + 3 * first;
-      const double* d = directions.data() + 3 * first;
-      for (Ray& ray : rays) {
-        ray = ray_from_world(dag, {{o[0], o[1], o[2]}}, {{d[0], d[1], d[2]}});
-        o += 3;
-        d += 3;
+      for (size_t i = first; Ray & ray : rays) {
+        const double* const o = origins.data() + i * origin_step;
+        const double* const d = directions.data() + i * direction_step;
+        const double far = std::max({std::abs(o[0]), std::abs(o[1]), std::abs(o[2])});
+        const double length = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+        const double sum = o[0] + o[1] + o[2] + d[0] + d[1] + d[2];  // NaN if any is
+        const bool valid = std::isfinite(sum) && far < 1e100 && length > 1e-90 && length < 1e90;
+        if (!valid) is_valid = false;
+        ray = valid ? ray_from_world(dag, {{o[0], o[1], o[2]}}, {{d[0], d[1], d[2]}})
+                    : Ray{{{-1, -1, -1}}, {{-1, -1, -1}}};
+        ++i;
       }
     };
     const auto take = [&](size_t first, std::span<const Hit> hits) {
       for (size_t i = first; const Hit& hit : hits) {
+        t[i] = std::numeric_limits<double>::infinity();
+        voxels[i] = {-1, -1, -1};
+        normals[i] = {};
+        layers[i] = -1;
         if (hit.found) {
+          const size_t axis = size_t(hit.axis);
           t[i] = hit.t;
           voxels[i] = {int32_t(hit.voxel[0]), int32_t(hit.voxel[1]), int32_t(hit.voxel[2])};
-          axes[i] = int8_t(hit.axis);
+          normals[i][axis] = directions.data()[i * direction_step + axis] < 0 ? 1 : -1;
+          layers[i] = layer;
           if (find_layers)  // kNoLayer is -1
             layers[i] = int32_t(layer_of_cube(dag, index_->view(), hit.level, hit.voxel[0],
                                               hit.voxel[1], hit.voxel[2]));
@@ -221,9 +246,15 @@ class PyFile {
       }
       trace_rays(dag, n, t_max, make, take, executor_.get());
     });
+    if (!is_valid) throw nb::value_error("trace: a ray is not finite, or has no direction");
     return {owned<Doubles>(std::move(t), {n}), owned<Ints>(std::move(voxels), {n, 3}),
-            owned<nb::ndarray<nb::numpy, int8_t>>(std::move(axes), {n}),
+            owned<nb::ndarray<nb::numpy, int8_t>>(std::move(normals), {n, 3}),
             owned<Ints>(std::move(layers), {n})};
+  }
+
+  std::array<Corner, 2> occupied_box() const {
+    const VoxelBox box = occupied_bounds(file_->view());
+    return {Corner{box.min.x, box.min.y, box.min.z}, Corner{box.max.x, box.max.y, box.max.z}};
   }
 
  private:
@@ -314,6 +345,7 @@ NB_MODULE(_svdag, m) {
       .def("occupied_points", &PyFile::occupied<double>)
       .def("box_occupied", &PyFile::box_occupied)
       .def("count", &PyFile::count)
+      .def("occupied_box", &PyFile::occupied_box)
       .def("trace", &PyFile::trace);
   m.def("from_coords", &from_coords);
 }

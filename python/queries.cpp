@@ -12,6 +12,7 @@ namespace {
 
 constexpr size_t kPointsPerTask = size_t(1) << 16;
 constexpr size_t kRaysPerTask = size_t(1) << 14;
+constexpr size_t kRaysTogether = 256;  // rays and hits of a thread stay in its cache
 constexpr size_t kTogether = 32;  // points that descend together, so that none waits for memory
 
 // Calls visit(begin, end) for successive pieces of 0 .. count, on all threads.
@@ -265,11 +266,14 @@ void trace_rays(const DagView& dag, size_t count, double t_max,
                 Executor* executor) {
   const Tree64 tree = tree_if_it_pays(dag, count / executor->workers(), default_memory_limit());
   in_pieces(count, kRaysPerTask, executor, [&](size_t begin, size_t end) {
-    std::vector<Ray> rays(end - begin);
-    std::vector<Hit> hits(end - begin);
-    make(begin, rays);
-    trace_closest(dag, tree.view(), rays.data(), rays.size(), {0, t_max}, {}, hits.data());
-    take(begin, hits);
+    Ray rays[kRaysTogether];
+    Hit hits[kRaysTogether];
+    for (size_t at = begin; at < end; at += kRaysTogether) {
+      const size_t some = std::min(kRaysTogether, end - at);
+      make(at, {rays, some});
+      trace_closest(dag, tree.view(), rays, some, {0, t_max}, {}, hits);
+      take(at, {hits, some});
+    }
   });
 }
 

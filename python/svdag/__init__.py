@@ -45,7 +45,7 @@ class Hits(NamedTuple):
 
     t: (n,) float64, in units of the direction's length; infinite where nothing is hit.
     voxel: (n, 3) int32; -1 where nothing is hit.
-    normal: (n, 3) float64, of the face through which the ray enters the voxel; 0 where nothing is hit.
+    normal: (n, 3) int8, of the face through which the ray enters the voxel; 0 where nothing is hit.
     layer: (n,) int32, the first layer that holds the voxel; -1 without one.
     """
     t: NDArray
@@ -92,7 +92,6 @@ class File:
         self.metadata: dict = _json.loads(info["metadata"].decode(errors="replace") or "{}")
         self.layers: List[Layer] = [Layer(name.decode(errors="surrogateescape"), colour, voxels)
                                     for name, colour, voxels in info["layers"]]
-        self.occupied_voxels: NDArray = _np.array(info["occupied"])  #: (2, 3) box of the set voxels; the end is exclusive
 
     def __enter__(self) -> "File":
         return self
@@ -110,6 +109,11 @@ class File:
     def bounds(self) -> NDArray:
         """(2, 3) box of the grid, in world units."""
         return _np.array([self.origin, self.origin + self.resolution * self.voxel_size])
+
+    @property
+    def occupied_voxels(self) -> NDArray:
+        """(2, 3) box of the set voxels, in voxels; the end is exclusive."""
+        return _np.array(self._open().occupied_box())
 
     @property
     def occupied_bounds(self) -> NDArray:
@@ -229,20 +233,11 @@ class File:
         origins, directions: (n, 3) or (3,), world coordinates; directions of any length but 0. Hits beyond tmax, in
         units of the direction's length, do not count.
         """
-        o, d = _np.broadcast_arrays(_np.atleast_2d(_np.asarray(origins, float)), _np.atleast_2d(_np.asarray(directions, float)))
-        o, d = _rows(o, _np.float64, "origins"), _rows(d, _np.float64, "directions")
-        lengths = _np.linalg.norm(d, axis=1)
-        if not (_np.isfinite(o).all() and ((lengths > 1e-90) & (lengths < 1e90)).all() and _np.abs(o).max(initial=0) < 1e100):
-            raise ValueError("trace: a ray is not finite, or has no direction")
+        o = _rows(_np.atleast_2d(_np.asarray(origins, float)), _np.float64, "origins")
+        d = _rows(_np.atleast_2d(_np.asarray(directions, float)), _np.float64, "directions")
         if not tmax >= 0:
             raise ValueError("trace: tmax must be 0 or more")
-        t, voxel, axis, number = self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer))
-        normal = _np.zeros(o.shape)
-        hit = _np.nonzero(axis >= 0)[0]
-        normal[hit, axis[hit]] = _np.where(d[hit, axis[hit]] < 0, 1.0, -1.0)
-        if layer is not None:
-            number[hit] = self._layer(layer)
-        return Hits(t, voxel, normal, number)
+        return Hits(*self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer)))
 
 
 def open(path: PathLike) -> File:  # noqa: A001
