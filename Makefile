@@ -155,7 +155,8 @@ bench-layers: build
 bench-python: wheel
 	$(call install,libusb-1.0-0 libgl1 libegl1 libgomp1 libx11-6)
 	@$(PYTHON) -m venv build/python/bench
-	@build/python/bench/bin/pip install -q --disable-pip-version-check matplotlib trimesh open3d scipy build/wheel/*.whl
+	@build/python/bench/bin/pip install -q --disable-pip-version-check matplotlib trimesh open3d scipy
+	@build/python/bench/bin/pip install -q --disable-pip-version-check --force-reinstall --no-deps build/wheel/*.whl
 	@build/python/bench/bin/python -B tests/bench/python_package.py
 
 bench-solid: build

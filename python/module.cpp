@@ -311,7 +311,7 @@ nb::dict from_coords(const Rows<uint32_t>& coords, const std::string& path, int 
   return result;
 }
 
-// Raises an Error as svdag.Error.
+// Raises an Error as svdag.Error, and KeyboardInterrupt where another thread's Ctrl-C ended work.
 void translate(const std::exception_ptr& exception, void* type) {
   try {
     std::rethrow_exception(exception);
@@ -323,6 +323,8 @@ void translate(const std::exception_ptr& exception, void* type) {
     const nb::handle cls(static_cast<PyObject*>(type));
     const nb::object made = cls(sentence, int(error.code()), path);
     PyErr_SetObject(cls.ptr(), made.ptr());
+  } catch (const Interrupted&) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
   }
 }
 

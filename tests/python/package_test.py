@@ -294,7 +294,10 @@ class Making(Files):
         self.assertTrue(svdag.verify_mesh(self.folder / "a.svdag", ply)["ok"])
         svdag._write_ply(ply, vertices + 0.05, faces)
         self.assertFalse(svdag.verify_mesh(self.folder / "a.svdag", [ply])["ok"])
-        self.assertFalse(svdag.diff(self.folder / "layers.svdag", self.folder / "layers.svdag", quiet=None)["same"] is False)
+        other = self.folder / "b.svdag"
+        svdag.build_files([ply], other, resolution=64, rule="thin")
+        self.assertTrue(svdag.diff(other, other)["same"])
+        self.assertFalse(svdag.diff(other, self.folder / "a.svdag", by_index=True)["same"])
 
     def test_progress_is_reported(self):
         printed = []
@@ -396,6 +399,23 @@ class Refusals(Files):
         self.assertEqual(file.count(), len(self.coords))
 
 
+class Wheel(unittest.TestCase):
+    def test_it_needs_no_library_of_the_system_but_libc(self):
+        package = pathlib.Path(svdag.__file__).parent
+        binaries = [*package.glob("_svdag*.so"), *(package / "bin").iterdir()]
+        self.assertEqual(len(binaries), 6)
+        for binary in binaries:
+            needed = subprocess.run(["/usr/bin/ldd", binary], capture_output=True, text=True).stdout
+            for name, path in re.findall(r"(\S+) => (\S+)", needed):
+                self.assertTrue(path.startswith(str(package)) or re.match(r"lib(c|m|dl|rt|pthread)\.so", name), f"{binary}: {name} {path}")
+        self.assertFalse(any(p.is_symlink() for p in package.rglob("*")))
+
+    def test_its_programs_are_on_path(self):
+        for name in ("svdag", "svdag-verify", "svdag-trace"):
+            done = subprocess.run([pathlib.Path(sys.executable).parent / name, "--version"], capture_output=True, text=True)
+            self.assertEqual(done.stdout.split(), [name, svdag.__version__])
+
+
 class Documents(unittest.TestCase):
     def test_the_examples_of_the_page_run(self):
         text = (SOURCE / "docs" / "python.md").read_text()
@@ -424,6 +444,15 @@ class Documents(unittest.TestCase):
                     exec(compile(block, "docs/python.md", "exec"), names)
             finally:
                 os.chdir(before)
+
+
+    def test_the_tour_makes_its_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, SOURCE / "python" / "examples" / "tour.py"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(list(pathlib.Path(folder).glob("*.png"))), 4)
+            volume, exact = map(float, re.search(r"volume ([\d.]+), exactly ([\d.]+)", done.stdout).groups())
+            self.assertLess(abs(volume / exact - 1), 0.02)
 
 
 if __name__ == "__main__":
