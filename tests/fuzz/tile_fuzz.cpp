@@ -44,10 +44,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto tile = decode_tile(std::as_bytes(std::span(data, size))))
     check(tile, words_of(*tile));
   std::vector<uint32_t> words(size / 4);
-  std::memcpy(words.data(), data, 4 * words.size());
+  if (!words.empty()) std::memcpy(words.data(), data, 4 * words.size());
   try_words(words);
   uint64_t path = 0;
-  std::memcpy(&path, data, std::min<size_t>(size, sizeof path));
+  if (size > 0) std::memcpy(&path, data, std::min<size_t>(size, sizeof path));
   try_path(path);
   try_path(size < 1 ? 1 : path >> data[0] % 64);
   return 0;
