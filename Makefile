@@ -42,6 +42,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge python3-venv
 PYTHON_PACKAGES = python3-dev python3-venv
+WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0"
 VIEW_PACKAGES = chromium
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
@@ -92,17 +93,16 @@ test-farm: build
 	$(call install,$(FARM_PACKAGES))
 	@$(PYTHON) tests/farm/farm_test.py --programs $(PROGRAMS)
 
-test-python: wheel
-	@rm -rf build/python/test
-	@$(PYTHON) -m venv build/python/test
-	@build/python/test/bin/pip install -q --disable-pip-version-check matplotlib build/wheel/*.whl
-	@env -i HOME="$$HOME" PATH="$$PWD/build/python/test/bin" build/python/test/bin/python -B tests/python/package_test.py .
+test-python: deps
+	$(call install,$(PYTHON_PACKAGES))
+	@$(PYTHON) tests/python/run.py
 
 wheel: deps
 	$(call install,$(PYTHON_PACKAGES))
-	@rm -rf build/wheel
 	@$(PYTHON) -m venv build/python/tools
-	@build/python/tools/bin/pip wheel -q --disable-pip-version-check . --no-deps -w build/wheel
+	@build/python/tools/bin/pip install -q --disable-pip-version-check $(WHEEL_TOOLS)
+	@rm -rf build/wheel
+	@build/python/tools/bin/pip wheel -q --disable-pip-version-check --no-build-isolation . --no-deps -w build/wheel
 
 test-view: build
 	$(call install,$(VIEW_PACKAGES))

@@ -17,7 +17,7 @@ class Browser:
     """One page of `width` x `height` CSS pixels, rendered in software as on a machine without a GPU."""
 
     FLAGS = ["--headless", "--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--no-first-run",
-             "--disable-extensions", "--disable-background-networking", "--remote-debugging-pipe", "--mute-audio"]
+             "--disable-extensions", "--disable-background-networking", "--remote-debugging-pipe", "--mute-audio", "--disable-dev-shm-usage"]
 
     def __init__(self, width=640, height=360, flags=()):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
