@@ -39,6 +39,9 @@ template <class T>
 using Rows = nb::ndarray<const T, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Corner = std::array<int64_t, 3>;
 
+// The thread that imports the module: Python handles signals in its main thread alone.
+const std::thread::id kMainThread = std::this_thread::get_id();
+
 // Runs work() and returns when it is done. A signal that Python handles with an exception, such as
 // KeyboardInterrupt, ends it.
 template <class Work>
@@ -63,7 +66,7 @@ void interruptible(const Work& work) {
     std::unique_lock lock(mutex);
     while (!done.wait_for(lock, std::chrono::milliseconds(20), [&] { return is_done; })) {
       lock.unlock();
-      if (!signalled) {
+      if (!signalled && std::this_thread::get_id() == kMainThread) {
         const nb::gil_scoped_acquire gil;
         signalled = PyErr_CheckSignals() != 0;
       }
@@ -96,14 +99,20 @@ Array owned(std::unique_ptr<T[]>&& values, std::initializer_list<size_t> shape) 
   return Array(kept, shape, owner);
 }
 
+// A path, whose bytes need not be UTF-8.
+std::string string_of(const nb::bytes& bytes) {
+  return {bytes.c_str(), bytes.size()};
+}
+
 VoxelBox box_of(const Corner& low, const Corner& high) {
   return {LatticePoint(low[0], low[1], low[2]), LatticePoint(high[0], high[1], high[2])};
 }
 
 class PyFile {
  public:
-  explicit PyFile(const std::string& path) {
-    interruptible([&] { file_.emplace(open_dag(path)); });
+  explicit PyFile(const nb::bytes& path) {
+    const std::string name = string_of(path);
+    interruptible([&] { file_.emplace(open_dag(name)); });
     executor_ = std::make_unique<ParallelExecutor>(available_processors());
   }
 
@@ -152,14 +161,14 @@ class PyFile {
   std::tuple<Ints, nb::ndarray<nb::numpy, uint64_t>> bricks(const Corner& low, const Corner& high,
                                                             uint64_t first, size_t count,
                                                             int layer) const {
-    std::vector<PlacedBrick> found;
-    interruptible([&] { found = next_bricks(view(layer), box_of(low, high), first, count); });
     std::vector<std::array<int32_t, 3>> corners;
     std::vector<uint64_t> words;
-    for (const PlacedBrick& brick : found) {
-      corners.push_back(brick.corner);
-      words.push_back(brick.brick);
-    }
+    interruptible([&] {
+      for (const PlacedBrick& brick : next_bricks(view(layer), box_of(low, high), first, count)) {
+        corners.push_back(brick.corner);
+        words.push_back(brick.brick);
+      }
+    });
     const size_t n = words.size();
     return {owned<Ints>(std::move(corners), {n, 3}),
             owned<nb::ndarray<nb::numpy, uint64_t>>(std::move(words), {n})};
@@ -175,7 +184,9 @@ class PyFile {
   }
 
   bool box_occupied(const Corner& low, const Corner& high, int layer) const {
-    return any_in_box(view(layer), box_of(low, high));
+    bool found = false;
+    interruptible([&] { found = any_in_box(view(layer), box_of(low, high)); });
+    return found;
   }
 
   uint64_t count(const Corner& low, const Corner& high, uint32_t level, int layer) const {
@@ -278,12 +289,11 @@ class PyFile {
 };
 
 // Writes the file of voxels `coords`, in any order, with repetitions.
-nb::dict from_coords(const Rows<uint32_t>& coords, const std::string& path, int levels,
+nb::dict from_coords(const Rows<uint32_t>& coords, const nb::bytes& path, int levels,
                      const std::array<double, 3>& corner, double voxel_size, uint64_t memory,
                      int rule, int layout) {
   ImportConfig config;
-  config.source = path;
-  config.output = path;
+  config.source = config.output = string_of(path);
   config.levels = levels;
   config.memory = memory;
   config.rule = Rule(rule);
@@ -337,7 +347,7 @@ NB_MODULE(_svdag, m) {
   nb::object error = nb::module_::import_("svdag._error").attr("Error");
   nb::register_exception_translator(translate, error.release().ptr());  // kept for good
   nb::class_<PyFile>(m, "File")
-      .def(nb::init<const std::string&>())
+      .def(nb::init<const nb::bytes&>())
       .def("info", &PyFile::info)
       .def("window", &PyFile::window)
       .def("coords", &PyFile::coords)

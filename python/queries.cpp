@@ -87,6 +87,7 @@ class BrickList {
 
  private:
   bool visit(uint32_t level, uint32_t node, const LatticePoint& corner, uint64_t number) {
+    check_interrupt();
     const int64_t side = int64_t(1) << (dag_.levels - level);
     for (int a = 0; a < 3; ++a) {
       if (corner[a] >= box_.max[a] || corner[a] + side <= box_.min[a]) return true;
@@ -117,6 +118,7 @@ class BrickList {
 
 bool any_in_box(const DagView& dag, const VoxelBox& box, uint32_t level, uint32_t node,
                 const LatticePoint& corner) {
+  check_interrupt();
   const LatticePoint end = corner + (int64_t(1) << (dag.levels - level));
   if (!box.meets({corner, end})) return false;
   if (box.holds({corner, end})) return true;

@@ -3,6 +3,7 @@
 #include "io/dag/dag_level.h"
 #include "io/dag/dag_stats.h"
 #include "streaming/error.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -58,6 +59,7 @@ bool CubeWalk::visit(const VoxelBox& box, const VoxelCubeSink& sink) {
 }
 
 bool CubeWalk::visit(const WalkNode& at, const VoxelBox& box, const VoxelCubeSink& sink) {
+  check_interrupt();
   const Overlap overlapping = overlap(at.origin, side(at.level), box);
   if (overlapping == Overlap::kNone) return true;
   if (at.level + 3 == levels_) {
@@ -126,6 +128,7 @@ uint64_t CubeWalk::count_voxels(const VoxelBox& box) {
 }
 
 uint64_t CubeWalk::count_voxels(const WalkNode& at, const VoxelBox& box) {
+  check_interrupt();
   const Overlap overlapping = overlap(at.origin, side(at.level), box);
   if (overlapping == Overlap::kNone) return 0;
   if (overlapping == Overlap::kWhole) return voxels_below(at.level, at.node);

@@ -78,7 +78,7 @@ class File:
 
     def __init__(self, path: PathLike):
         """Raises Error if the file cannot be read or is damaged."""
-        self._file: Optional[_svdag.File] = _svdag.File(_os.fsdecode(path))
+        self._file: Optional[_svdag.File] = _svdag.File(_os.fsencode(path))
         info = self._file.info()
         self.path = _os.fsdecode(path)
         self.levels: int = info["levels"]  #: L; the grid has 2^L voxels on a side
@@ -327,7 +327,7 @@ def from_coords(coords: ArrayLike, path: PathLike, *, resolution: Optional[int] 
         raise ValueError("origin and voxel_size must be finite, voxel_size more than 0")
     if rule not in _RULES or layout not in _LAYOUTS:
         raise ValueError(f"rule: one of {', '.join(_RULES)}; layout: one of {', '.join(_LAYOUTS)}")
-    return _svdag.from_coords(_np.ascontiguousarray(array, _np.uint32), _os.fsdecode(path), side.bit_length() - 1, corner,
+    return _svdag.from_coords(_np.ascontiguousarray(array, _np.uint32), _os.fsencode(path), side.bit_length() - 1, corner,
                               float(voxel_size), max(0, _operator.index(memory)), _RULES[rule], _LAYOUTS[layout])
 
 

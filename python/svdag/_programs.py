@@ -3,10 +3,10 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
+import threading
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 from ._error import Error
@@ -17,10 +17,9 @@ FOLDER = pathlib.Path(__file__).parent / "bin"
 
 def program(name: str) -> str:
     path = FOLDER / name
-    found = str(path) if path.exists() else shutil.which(name)
-    if found is None:
-        raise Error(f"{name}: the program is missing from this package", 2)
-    return found
+    if not path.exists():
+        raise Error(f"{path}: the program is missing from this package: install it with pip install or from a wheel", 2)
+    return str(path)
 
 
 def words_of(options: Mapping[str, Any]) -> list:
@@ -62,7 +61,6 @@ def run(name: str, *arguments: Union[str, os.PathLike], progress: Optional[Progr
     # In a session of its own, so that the terminal's Ctrl-C reaches it once, from here.
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                           start_new_session=True) as process:
-        import threading
         out = []
         reader = threading.Thread(target=lambda: out.append(process.stdout.read()))
         reader.start()

@@ -352,6 +352,10 @@ class Serving(unittest.TestCase):
                 self.assertEqual(status, 200)
                 again = server.get(server.path + name, headers={"If-None-Match": headers["ETag"]})
                 self.assertEqual((again[0], again[2]), (304, b""))
+        with Server(self.file, "--level", "5", "--at", server.url) as coarse:
+            again = coarse.get(coarse.path + "scene.json", headers={"If-None-Match": headers["ETag"]})
+            self.assertEqual(again[0], 200)  # another scene at the same address
+        with Server(self.file) as server:
             part = server.get(server.path + "view.js", headers={"Range": "bytes=10-19"})
             self.assertEqual((part[0], part[2]), (206, server.get(server.path + "view.js")[2][10:20]))
 

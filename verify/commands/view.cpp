@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -42,6 +43,8 @@ void open_browser(const std::string& url) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   if (const pid_t child = fork(); child == 0) {
     if (fork() == 0) {  // not our child, so that no zombie remains
+      setsid();         // Ctrl-C in the terminal does not end the browser
+      signal(SIGPIPE, SIG_DFL);
       std::freopen("/dev/null", "w", stdout);
       std::freopen("/dev/null", "w", stderr);
       execlp("xdg-open", "xdg-open", url.c_str(), nullptr);

@@ -57,7 +57,7 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
   if (file.view().empty()) return viewer;
   std::string tiles;
   // A level has about four times the bytes of the one above.
-  for (uint32_t level = std::min(file.view().levels, 8U); level <= file.view().levels; ++level) {
+  for (uint32_t level = 3; level <= file.view().levels; ++level) {
     const auto finer = tiles_json(TileCutter(file, level), max_bytes, executor);
     if (!finer) break;
     viewer.level = level;

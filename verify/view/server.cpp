@@ -63,9 +63,9 @@ class Site {
   Site(const DagFile& file, const TileCutter& cutter, const ServerConfig& config)
       : cutter_(cutter),
         root_("/" + config.token + "/"),
-        hash_(to_hex(file.header().content_hash)),
         scene_(scene_json(file, cutter, {config.up, 1, true})) {
-    server_.new_task_queue = [] { return new httplib::ThreadPool(16); };
+    // A connection takes a thread, and a browser opens six for a page.
+    server_.new_task_queue = [] { return new httplib::ThreadPool(64); };
     server_.set_payload_max_length(0);
     // The default, SO_REUSEPORT, would share the port with another process.
     server_.set_socket_options([](socket_t socket) {
@@ -73,6 +73,7 @@ class Site {
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     server_.set_keep_alive_max_count(1000000);
+    server_.set_keep_alive_timeout(1);  // seconds; the end waits for idle connections
     server_.set_tcp_nodelay(true);
     server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                                  {"Referrer-Policy", "no-referrer"},
@@ -105,12 +106,11 @@ class Site {
 
   void answer(const Request& request, const std::string& name, Response* response) {
     if (name == "alive") return keep_open(response);
-    if (name == "scene.json") return send(request, scene_, "application/json", "scene", response);
+    if (name == "scene.json") return send(request, scene_, "application/json", response);
     if (name.starts_with("tiles/")) return send_tile(request, name.substr(6), response);
     for (const PageFile& file : page_files()) {
       if (file.name == (name.empty() ? "index.html" : name))
-        return send(request, std::string(file.text), std::string(file.type).c_str(), name,
-                    response);
+        return send(request, std::string(file.text), std::string(file.type).c_str(), response);
     }
     response->status = 404;
   }
@@ -124,13 +124,13 @@ class Site {
       response->status = 404;
       return;
     }
-    send(request, encode_tile(*tile), "application/octet-stream", id, response);
+    send(request, encode_tile(*tile), "application/octet-stream", response);
   }
 
-  // The tag names the file's content, so a tile is sent again only if another file is served.
-  void send(const Request& request, const std::string& text, const char* type,
-            const std::string& name, Response* response) const {
-    const std::string tag = "\"" + hash_ + "-" + name + "-" SVDAG_VERSION "\"";
+  // The tag is a hash of the text: what a browser has is sent again only if it differs.
+  static void send(const Request& request, const std::string& text, const char* type,
+                   Response* response) {
+    const std::string tag = "\"" + to_hex(hash128(std::as_bytes(std::span(text)), 0)) + "\"";
     response->set_header("ETag", tag);
     if (request.get_header_value("If-None-Match") == tag)
       response->status = 304;
@@ -152,7 +152,7 @@ class Site {
   }
 
   const TileCutter& cutter_;
-  const std::string root_, hash_, scene_;
+  const std::string root_, scene_;
   httplib::Server server_;
   OpenPages pages_;
   std::atomic<bool> ending_ = false;

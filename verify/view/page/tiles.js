@@ -11,7 +11,7 @@ export const ROW = 1024;  // words
 const LAYER_ROWS = 2048;  // of the array texture: 8 MiB
 const TOP_ROWS = 256;
 const BRICK = 0x80000000, ENTRY = 0x40000000, SET = 0x80000000, NOTHING = 0xffffffff;
-const RECENT = 8;  // passes after which a tile that is not seen is drawn no more
+const RECENT = 8;  // passes of a moving view after which a tile that is not seen is drawn no more
 const MAX_REQUESTS = 6;
 
 const popcount8 = (mask) => {
@@ -25,7 +25,8 @@ class Pool {
   constructor(gl, budget) {
     this.gl = gl;
     this.layers = 1;
-    this.maxLayers = Math.max(1, Math.floor(budget / (4 * ROW * LAYER_ROWS)));
+    const limit = Math.min(256, gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS));  // of addresses, of the GPU
+    this.maxLayers = Math.max(1, Math.min(limit, Math.floor(budget / (4 * ROW * LAYER_ROWS))));
     this.texture = this.create(1);
     this.free = [[TOP_ROWS, LAYER_ROWS - TOP_ROWS]];  // [first row, rows], none across layers
   }
@@ -44,8 +45,15 @@ class Pool {
   grow() {
     const layers = Math.min(this.maxLayers, 2 * this.layers), gl = this.gl;
     if (layers === this.layers) return false;
-    const old = this.texture, from = gl.createFramebuffer();
-    this.texture = this.create(layers);
+    while (gl.getError() !== gl.NO_ERROR);
+    const old = this.texture, larger = this.create(layers);
+    if (gl.getError() !== gl.NO_ERROR) {  // the GPU has no more memory
+      gl.deleteTexture(larger);
+      this.maxLayers = this.layers;
+      return false;
+    }
+    const from = gl.createFramebuffer();
+    this.texture = larger;
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, from);
     for (let i = 0; i < this.layers; ++i) {
       gl.framebufferTextureLayer(gl.READ_FRAMEBUFFER, gl.COLOR_ATTACHMENT0, old, 0, i);
@@ -136,6 +144,7 @@ export class Tiles {
     this.pool = new Pool(gl, budget);
     this.byId = new Map();
     this.pass = 0;
+    this.still = 0;      // the pass since which the view has not changed
     this.bytes = 0;      // loaded, before compression
     this.loading = 0;
     this.queue = [];     // tiles to load
@@ -166,6 +175,7 @@ export class Tiles {
   // Returns whether more is to come.
   look(hits, level, same) {
     ++this.pass;
+    if (!same) this.still = this.pass;
     const {levels, tile_levels: depth} = this.source.scene;
     const absent = new Set();
     const see = (x, y, z) => {
@@ -290,7 +300,7 @@ export class Tiles {
   // Rebuilds the top tree; returns whether it differs.
   update() {
     if (this.root.state !== 'ready') return false;
-    const drawn = (t) => t && t.state === 'ready' && this.pass - t.seen <= RECENT;
+    const drawn = (t) => t && t.state === 'ready' && this.still - t.seen <= RECENT;
     const out = [], done = new Map();
     const entry = (node, layers) => out.push(node >>> 0, layers >>> 0) - 2 + ENTRY;
     const build = (tile) => {

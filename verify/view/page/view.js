@@ -87,7 +87,10 @@ class Viewer {
   // While anything changes, pictures are small enough to follow; the last one has every pixel.
   frame(time) {
     if (this.tiles.error) this.report(`A part of the scene cannot be loaded: ${this.tiles.error.message}`);
-    if (this.tiles.root.state !== 'ready') return;
+    if (this.tiles.root.state !== 'ready') {
+      this.tiles.look([], () => 0, true);  // requests it again after an error of the network
+      return;
+    }
     const moving = this.fly(time) || this.pressed || performance.now() - (this.touchedAt ?? -1e9) < 200;
     const begin = performance.now();
     const more = this.draw(moving || this.pending ? this.scale : 1, !moving);
@@ -123,7 +126,8 @@ class Viewer {
   draw(scale, same) {
     const canvas = this.canvas, ratio = this.fixedSize ? 1 : window.devicePixelRatio;
     const [w, h] = this.fixedSize ?? [canvas.clientWidth * ratio, canvas.clientHeight * ratio];
-    const width = Math.max(1, Math.min(4095, Math.round(w * scale))), height = Math.max(1, Math.min(4095, Math.round(h * scale)));
+    const shrunk = Math.min(scale, 4095 / w, 4095 / h);
+    const width = Math.max(1, Math.round(w * shrunk)), height = Math.max(1, Math.round(h * shrunk));
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
     this.tracer.draw(this.tiles, this.camera, this.clip, width, height);
@@ -240,8 +244,8 @@ class Viewer {
 
   // Shows what is at a pixel of the canvas, from the upper left in CSS pixels.
   pick(x, y) {
-    const scale = this.tracer.width / this.canvas.clientWidth, scene = this.scene;
-    const hit = this.tracer.read(Math.floor(x * scale), this.tracer.height - 1 - Math.floor(y * scale), 1, 1);
+    const {tracer, canvas, scene} = this, row = Math.floor(y * tracer.height / canvas.clientHeight);
+    const hit = tracer.read(Math.floor(x * tracer.width / canvas.clientWidth), tracer.height - 1 - row, 1, 1);
     this.picked = null;
     this.copyButton.hidden = hit[3] === 0;
     this.picture.textContent = 'Nothing.';
@@ -317,11 +321,14 @@ class Viewer {
       e.preventDefault();
       this.touch();
     });
-    canvas.addEventListener('keyup', (e) => this.keys.delete(e.key.length === 1 ? e.key.toLowerCase() : e.key));
+    canvas.addEventListener('keyup', (e) => {
+      const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+      for (const each of '+='.includes(key) ? ['+', '='] : [key]) this.keys.delete(each);  // Shift may be released first
+    });
     canvas.addEventListener('blur', () => this.keys.clear());
     new ResizeObserver(() => this.touch()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.touch());
-    window.addEventListener('hashchange', () => { this.readUrl(); this.touch(); });
+    window.addEventListener('hashchange', () => location.reload());  // another view was pasted
   }
 
   pan(dx, dy) {
@@ -369,7 +376,7 @@ class Viewer {
     if (mode >= 0) this.mode = mode;
     const clip = numbers('clip', 6)?.map((v) => Math.max(0, Math.min(this.size, Math.round(v))));
     if (clip) this.clip = [clip.slice(0, 3), clip.slice(3)];
-    if (parts.has('hide')) this.hidden = new Set(parts.get('hide').split(',').map(Number));
+    if (parts.has('hide')) this.hidden = new Set((parts.get('hide') ?? '').split(',').map(Number).filter(Number.isInteger));
     this.detail = Math.max(0, numbers('detail', 1)?.[0] ?? this.detail);
     this.budget = Math.max(8, numbers('memory', 1)?.[0] ?? this.budget / 2 ** 20) * 2 ** 20;
   }
