@@ -330,7 +330,17 @@ class Making(Files):
         solid = self.folder / "solid.svdag"
         svdag.from_array(np.ones((256,) * 3, bool), solid)
         full = svdag.open(solid)
-        calls = {"build": lambda: svdag.build(vertices, faces, self.folder / "i.svdag", resolution="32K"),
+        # A floor, and a box of the empty voxels in its bricks: no voxel is found in 67 million.
+        floor = self.folder / "floor.svdag"
+        svdag.build([[0, 0, 0.3], [1, 0, 0.3], [1, 1, 0.3], [0, 1, 0.3]], [[0, 1, 2], [0, 2, 3]], floor, resolution="32K",
+                    cube=(0, 0, 0, 1))
+        flat = svdag.open(floor)
+        z = flat.occupied_voxels[:, 2]
+        low, high = (z[1], -(-z[1] // 4) * 4) if z[1] % 4 else (z[0] // 4 * 4, z[0])
+        slab = (0, 0, int(low)), (2 ** 15, 2 ** 15, int(high))
+        self.assertLess(slab[0][2], slab[1][2])
+        calls = {"box_occupied": lambda: flat.box_occupied(*slab), "count": lambda: flat.count(*slab),
+                 "bricks": lambda: [None for _ in flat.bricks(chunk=1 << 26)], "build": lambda: svdag.build(vertices, faces, self.folder / "i.svdag", resolution="32K"),
                  "from_coords": lambda: svdag.from_coords(coords, self.folder / "i.svdag"),
                  "coords": lambda: full.coords(),
                  "trace": lambda: file.trace(origins, [0.3, 0.5, 0.7])}
