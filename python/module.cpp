@@ -201,7 +201,7 @@ class PyFile {
   }
 
   // t is infinite, voxel and layer are -1, and the normal is 0 where nothing is hit. An array of
-  // one row stands for the same row n times.
+  // one row is that row n times.
   std::tuple<Doubles, Ints, nb::ndarray<nb::numpy, int8_t>, Ints> trace(
       const Rows<double>& origins, const Rows<double>& directions, double t_max, int layer) {
     using Vector = std::array<int8_t, 3>;

@@ -13,6 +13,7 @@
 #include "verify/report/report_plots.h"
 #include "verify/report/report_style.h"
 #include "verify/report/report_text.h"
+#include "verify/view/base64.h"
 
 namespace svdag {
 namespace {

@@ -28,20 +28,6 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string base64(const std::vector<std::byte>& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t bits = 0;
-    for (size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? uint32_t(bytes[i + k]) : 0);
-    for (int k = 0; k < 4; ++k)
-      out += i + size_t(k) <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
 std::string formatted(const char* pattern, double value) {
   char text[64];
   std::snprintf(text, sizeof text, pattern, value);

@@ -1,16 +1,13 @@
 // Formats text for the report's page.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace svdag {
 
 // Replaces & < > and " by HTML entities.
 std::string escaped(const std::string& text);
-std::string base64(const std::vector<std::byte>& bytes);
 // Formats a number by a printf pattern.
 std::string formatted(const char* pattern, double value);
 // 104807909 -> "105 M": K, M, G and T are powers of 1000.

@@ -1,24 +1,16 @@
 #include "verify/view/embedded.h"
 
 #include <sodium/crypto_hash_sha256.h>
-#include <sodium/utils.h>
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
+#include "verify/view/base64.h"
 #include "verify/view/folder.h"
 
 namespace svdag {
 namespace {
-
-std::string base64_of(const void* bytes, size_t size) {
-  std::string text(sodium_base64_ENCODED_LEN(size, sodium_base64_VARIANT_ORIGINAL), '\0');
-  sodium_bin2base64(text.data(), text.size(), static_cast<const unsigned char*>(bytes), size,
-                    sodium_base64_VARIANT_ORIGINAL);
-  text.pop_back();  // the terminating zero
-  return text;
-}
 
 // The tiles of a level as a JSON object of texts in base 64; nothing if it has more than
 // `max_bytes`.
@@ -29,7 +21,7 @@ std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_byt
   std::vector<std::string> tiles(list.cubes.size());
   executor.for_each(tiles.size(), [&](size_t, size_t i) {
     const std::string tile = tile_of_list(cutter, list, i + 1);
-    tiles[i] = base64_of(tile.data(), tile.size());
+    tiles[i] = base64(std::as_bytes(std::span(tile)));
   });
   std::string json = "{";
   for (size_t i = 0; i < tiles.size(); ++i)
@@ -67,7 +59,7 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
   const std::string script = "'use strict';\n" + joined_scripts() + kStart;
   unsigned char hash[crypto_hash_sha256_BYTES];
   crypto_hash_sha256(hash, reinterpret_cast<const unsigned char*>(script.data()), script.size());
-  viewer.script_hash = "'sha256-" + base64_of(hash, sizeof hash) + "'";
+  viewer.script_hash = "'sha256-" + base64(std::as_bytes(std::span(hash))) + "'";
   for (const PageFile& page : page_files()) {
     if (page.name == "view.css") viewer.style = page.text;
   }

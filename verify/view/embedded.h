@@ -10,7 +10,7 @@
 namespace svdag {
 
 struct EmbeddedViewer {
-  uint32_t level = 0;       // the finest that it shows; 0: there is no viewer
+  uint32_t level = 0;       // the finest that it shows; 0: no viewer
   std::string style;        // CSS
   std::string html;         // a <div> that is hidden until the script shows it, and the script
   std::string script_hash;  // for the page's policy: 'sha256-...'

@@ -85,7 +85,7 @@ class TileCutter {
 };
 
 // The tile of a cube by its path: 1, then for each level the octant's three bits. 1 is the grid.
-// Nothing if there is no such tile.
+// Nothing for other paths.
 std::optional<DagTile> tile_of_path(const TileCutter& cutter, uint64_t path);
 
 }  // namespace svdag

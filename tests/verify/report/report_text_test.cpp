@@ -5,23 +5,6 @@
 namespace svdag {
 namespace {
 
-std::string base64_of(const std::string& text) {
-  std::vector<std::byte> bytes;
-  for (const char c : text) bytes.push_back(std::byte(c));
-  return base64(bytes);
-}
-
-TEST(ReportText, Base64MatchesRfc4648) {
-  EXPECT_EQ(base64_of(""), "");
-  EXPECT_EQ(base64_of("f"), "Zg==");
-  EXPECT_EQ(base64_of("fo"), "Zm8=");
-  EXPECT_EQ(base64_of("foo"), "Zm9v");
-  EXPECT_EQ(base64_of("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64_of("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64_of("\xff\xfe\xfd"), "//79");
-}
-
 TEST(ReportText, MarkupIsEscaped) {
   EXPECT_EQ(escaped("<script>\"a\" & b</script>"),
             "&lt;script&gt;&quot;a&quot; &amp; b&lt;/script&gt;");
