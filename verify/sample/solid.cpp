@@ -30,9 +30,9 @@ SolidColumns::SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeT
 }
 
 std::span<const SolidColumns::Change> SolidColumns::column(int64_t x, int64_t y) const {
-  const auto range =
-      std::ranges::equal_range(changes_, uint64_t(x) << 20 | uint64_t(y), {}, &Change::column);
-  return {range.begin(), range.end()};
+  const uint64_t key = uint64_t(x) << 20 | uint64_t(y);
+  return {std::ranges::lower_bound(changes_, key, {}, &Change::column),
+          std::ranges::upper_bound(changes_, key, {}, &Change::column)};
 }
 
 template <class Visit>

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <ranges>
 
 #include "io/formats/voxels/zip.h"
 #include "streaming/error.h"
@@ -268,8 +267,10 @@ void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   zip->end();
   const std::vector<Layer>& layers = window.labels->layers();
   begin_array(zip, "layer_colours", "<u4", "(" + std::to_string(layers.size()) + ",)");
-  for (const auto& [r, g, b] : layers | std::views::transform(&Layer::colour))
-    zip->put(uint32_t(r) << 16 | uint32_t(g) << 8 | b);
+  for (const Layer& layer : layers) {
+    const Colour& colour = layer.colour;
+    zip->put(uint32_t(colour.r) << 16 | uint32_t(colour.g) << 8 | colour.b);
+  }
   zip->end();
   std::string names;
   for (const Layer& layer : layers) names += layer.name + '\0';
