@@ -424,6 +424,11 @@ class Wheel(unittest.TestCase):
                 self.assertTrue(path.startswith(str(package)) or re.match(r"lib(c|m|dl|rt|pthread)\.so", name), f"{binary}: {name} {path}")
         self.assertFalse(any(p.is_symlink() for p in package.rglob("*")))
 
+    def test_it_holds_the_notices_of_what_it_ships(self):
+        folder = pathlib.Path(svdag.__file__).parent / "share" / "doc"
+        notices = {path.parent.name for path in folder.glob("*/copyright")}
+        self.assertLessEqual({"libstdc++6", "libzstd1", "libxxhash0", "libcli11-dev", "nlohmann-json3-dev"}, notices)
+
     def test_its_programs_are_on_path(self):
         for name in ("svdag", "svdag-verify", "svdag-trace"):
             done = subprocess.run([pathlib.Path(sys.executable).parent / name, "--version"], capture_output=True, text=True)

@@ -190,7 +190,7 @@ precision highp usampler2D;
 uniform usampler2D hits, sets, colours;  // colours[layer]: sRGB, 8 bits each
 uniform int mode, step;  // step: pixels between the hits that a normal compares
 uniform float pixelSize;  // at distance 1
-uniform vec3 light, background, ink;
+uniform vec3 light, background;
 uniform ivec4 picked;     // a cube and its side; side 0: none
 uniform int shownLevels;
 out vec4 colour;

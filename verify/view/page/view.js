@@ -60,7 +60,7 @@ class Viewer {
     this.listen();
     this.tiles.look([], () => 0, false);
     this.drawnAt = 0;
-    if (typeof window !== 'undefined') window.viewer = this;
+    window.viewer = this;  // for the console and tests
   }
 
   // --- drawing
@@ -168,7 +168,7 @@ class Viewer {
   // Which layer each set of layers shows.
   setLayers() {
     this.tracer.showSets(this.tiles.sets.map((members) => {
-      if (members.length === 0) return this.hidden.has(-1) ? HIDDEN : NO_LAYER;
+      if (members.length === 0) return NO_LAYER;
       return members.find((layer) => !this.hidden.has(layer)) ?? HIDDEN;
     }));
     this.setCount = this.tiles.sets.length;
@@ -359,7 +359,7 @@ class Viewer {
     if (this.detail !== 1) parts.detail = this.detail;
     if (this.budget !== 256 * 2 ** 20) parts.memory = this.budget / 2 ** 20;
     this.hash = '#' + Object.entries(parts).map(([name, value]) => `${name}=${value}`).join('&');
-    if (this.keepsUrl !== false) history.replaceState(null, '', this.hash);
+    history.replaceState(null, '', this.hash);
   }
 
   readUrl() {
