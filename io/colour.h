@@ -5,7 +5,6 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
-#include <string_view>
 
 namespace svdag {
 
@@ -28,8 +27,5 @@ inline double light_of(uint8_t code) {
   const double v = code / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
-
-// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name.
-Colour palette_colour(std::string_view name);
 
 }  // namespace svdag

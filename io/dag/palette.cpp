@@ -1,4 +1,4 @@
-#include "io/colour.h"
+#include "io/dag/palette.h"
 
 #include <span>
 
