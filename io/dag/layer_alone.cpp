@@ -1,6 +1,7 @@
 #include "io/dag/layer_alone.h"
 
 #include <algorithm>
+#include <set>
 
 #include "io/dag/dag_writer.h"
 #include "io/suggest.h"
@@ -30,18 +31,29 @@ std::vector<RankBitmap> reached_nodes(const DagView& dag, MemoryBudget* budget) 
   return reached;
 }
 
-}  // namespace
-
+// Error (kUsage) if there is none.
 size_t layer_named(const LayerTable& table, const std::string& name) {
-  const auto found = std::ranges::find(table.layers, name, &Layer::name);
-  if (found != table.layers.end()) return size_t(found - table.layers.begin());
+  const std::vector<Layer>& layers = table.layers;
+  auto found = std::ranges::find(layers, name, &Layer::name);
+  if (found == layers.end() && name == shown_layer(""))
+    found = std::ranges::find(layers, "", &Layer::name);
+  if (found != layers.end()) return size_t(found - layers.begin());
   if (table.empty()) fail_usage("--layer: the file has no layers");
   std::vector<std::string> names;
-  for (const Layer& layer : table.layers) names.push_back(layer.name);
+  for (const Layer& layer : layers)
+    names.push_back(layer.name.empty() ? shown_layer("") : layer.name);
   const std::string near = nearest(name, names);
   fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
              (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
              " (svdag info --layers lists them)");
+}
+
+}  // namespace
+
+std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names) {
+  std::set<size_t> numbers;
+  for (const std::string& name : names) numbers.insert(layer_named(table, name));
+  return {numbers.begin(), numbers.end()};
 }
 
 DagFile layer_alone(const DagFile& file, std::optional<size_t> layer, const WorkRoom& room) {

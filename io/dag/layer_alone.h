@@ -1,17 +1,20 @@
 // One set of voxels of a file with layers, as a file without: for programs that go through whole
-// sections, and for svdag convert --layer.
+// sections, and for --layer.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/dag/dag_file.h"
 #include "streaming/spill/work_array.h"
 
 namespace svdag {
 
-// The number of the layer `name`; Error (kUsage), with the nearest names, if there is none.
-size_t layer_named(const LayerTable& table, const std::string& name);
+// The numbers of the layers with these names, ascending, each once. "(unnamed)" is the empty name,
+// unless a layer has that very name. Error (kUsage), with the nearest name, if there is no such
+// layer.
+std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names);
 
 // The nodes of `file`, which is plain, that a layer's root reaches; without `layer`, those of the
 // union, or of the first layer of a file without union. Its sections are those of a bake of this
