@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <memory>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -157,7 +158,7 @@ class ChosenLayers {
     WorkArray<uint64_t> voxels;  // [place]
   };
 
-  // Let nodes_ be the children c of these nodes, ascending, each once.
+  // Sets nodes_ to the children c of these nodes, ascending, each once.
   void children_of(uint32_t level, std::span<const uint32_t> set, unsigned c) {
     nodes_.clear();
     for (const uint32_t node : set) add_node(dag_child(dag_, level, node, c));

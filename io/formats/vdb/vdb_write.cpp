@@ -1,3 +1,4 @@
+#include <bit>
 #include <fstream>
 #include <sstream>
 

@@ -174,6 +174,11 @@ class ExportLayers(unittest.TestCase):
         if name == "solids" and not options:
             self.assertGreater(numpy.sum(same), 100)
 
+        # An import takes the other grid, unasked.
+        BAKERY.run("svdag", "import", "x.vdb", "-o", "back.svdag", "-q")
+        back = numpy.load(BAKERY.folder / self.exported("back", "back.npz"))["coordinates"]
+        self.assertEqual(len(back), len(voxels))
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=0)
