@@ -4,6 +4,7 @@
 Usage: export_layers_test.py PROGRAMS [DUMP_LABELS]. What is expected is made of exports of single layers, which have
 no labels. DUMP_LABELS prints a grid that OpenVDB reads.
 """
+import functools
 import json
 import pathlib
 import subprocess
@@ -69,6 +70,7 @@ class ExportLayers(unittest.TestCase):
         table = [[int(layer["colour"][i:i + 2], 16) for i in (1, 3, 5)] for layer in self.table(name)]
         return numpy.array(table + [NO_LAYER_COLOUR])[labels]
 
+    @functools.lru_cache(maxsize=None)
     def expected(self, name, *options):
         """The voxels of an export, and the label of each."""
         voxels = self.npz(name, *options)["coordinates"]
