@@ -5,6 +5,8 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <cstdio>
+#include <string>
 
 namespace svdag {
 
@@ -13,6 +15,13 @@ struct Colour {
   uint8_t r = 0, g = 0, b = 0;
   auto operator<=>(const Colour&) const = default;
 };
+
+// "#rrggbb".
+inline std::string colour_text(const Colour& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.r, colour.g, colour.b);
+  return text;
+}
 
 // The nearest code of a channel of 0 .. 1 in sRGB; what is outside is clamped, NaN is 0.
 inline uint8_t colour_code(double srgb) {

@@ -136,8 +136,8 @@ struct ConvertCommand {
   std::string file;
   std::string output_path;
   Layout layout = Layout::kPlain;
-  std::optional<std::string> layer;  // only this one
-  uint64_t memory = 0;               // bytes; 0: half of the machine
+  std::vector<std::string> layers;  // only these
+  uint64_t memory = 0;              // bytes; 0: half of the machine
   std::string scratch;  // folder for data that does not fit in memory; empty: the output's
   OutputConfig output;
 };

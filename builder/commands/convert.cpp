@@ -31,8 +31,8 @@ int run(const ConvertCommand& config) {
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
-  const DagFile file = open_dag(config.file, config.layer);
-  const uint64_t before = file.header().file_bytes;
+  const DagFile file = open_dag(config.file, config.layers);
+  const uint64_t before = File::open_read(config.file).size();
   const std::optional<DagFile> converted = plain_form(file, room);
   const DagFile& plain = converted ? *converted : file;
   Header header = plain.header();

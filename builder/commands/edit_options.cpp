@@ -61,7 +61,7 @@ void add_convert(CLI::App* program, Command* command) {
       ->required()
       ->type_name("OUT");
   add_layout(app, &config->layout);
-  add_layer(app, &config->layer);
+  add_layer(app, &config->layers);
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
   takes_folder(
@@ -73,7 +73,7 @@ void add_convert(CLI::App* program, Command* command) {
                      "svdag convert city.svdag -o roofs.svdag --layer roof"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] {
-    if (app->count("--layout") == 0 && !config->layer)
+    if (app->count("--layout") == 0 && config->layers.empty())
       fail_usage("convert: give --layout, --layer or both");
     *command = *config;
   });

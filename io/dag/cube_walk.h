@@ -33,6 +33,8 @@ class CubeWalk {
   uint64_t count_voxels(const VoxelBox& box);
   // The temporary memory of count_voxels(box), in bytes, without the cached counts.
   uint64_t counting_bytes(const VoxelBox& box) const;
+  // Whether all voxels of a node are set. Below level 0, also of a layer of the same file.
+  bool is_full(uint32_t level, uint32_t node);
   // The voxels origin .. origin + 7; the origin may be anywhere, also outside the grid.
   Block block(const LatticePoint& origin) const;
 
@@ -46,7 +48,6 @@ class CubeWalk {
   bool covers_grid(const VoxelBox& box) const;
   WalkNode child(const WalkNode& at, unsigned c) const;
   Brick brick(const LatticePoint& at) const;
-  bool is_full(uint32_t level, uint32_t node);
   uint64_t voxels_below(uint32_t level, uint32_t node);
   bool visit(const WalkNode& at, const VoxelBox& box, const VoxelCubeSink& sink);
   void count(const WalkNode& at, const VoxelBox& box, uint64_t max_blocks,

@@ -1,9 +1,8 @@
 // One set of voxels of a file with layers, as a file without: for programs that go through whole
-// sections, and for svdag convert --layer.
+// sections, and for --layer.
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "io/dag/dag_file.h"
 #include "streaming/spill/work_array.h"

@@ -2,27 +2,42 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "io/suggest.h"
 #include "streaming/error.h"
 #include "streaming/printable.h"
 
 namespace svdag {
+namespace {
+
+// Error (kUsage) if there is none.
+size_t layer_named(const LayerTable& table, const std::string& name) {
+  const std::vector<Layer>& layers = table.layers;
+  auto found = std::ranges::find(layers, name, &Layer::name);
+  if (found == layers.end() && name == shown_layer(""))
+    found = std::ranges::find(layers, "", &Layer::name);
+  if (found != layers.end()) return size_t(found - layers.begin());
+  if (table.empty()) fail_usage("--layer: the file has no layers");
+  std::vector<std::string> names;
+  for (const Layer& layer : layers)
+    names.push_back(layer.name.empty() ? shown_layer("") : layer.name);
+  const std::string near = nearest(name, names);
+  fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
+             (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
+             " (svdag info --layers lists them)");
+}
+
+}  // namespace
 
 std::string shown_layer(const std::string& name) {
   return name.empty() ? "(unnamed)" : printable(name);
 }
 
-size_t layer_named(const LayerTable& table, const std::string& name) {
-  const auto found = std::ranges::find(table.layers, name, &Layer::name);
-  if (found != table.layers.end()) return size_t(found - table.layers.begin());
-  if (table.empty()) fail_usage("--layer: the file has no layers");
-  std::vector<std::string> names;
-  for (const Layer& layer : table.layers) names.push_back(layer.name);
-  const std::string near = nearest(name, names);
-  fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
-             (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
-             " (svdag info --layers lists them)");
+std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names) {
+  std::set<size_t> numbers;
+  for (const std::string& name : names) numbers.insert(layer_named(table, name));
+  return {numbers.begin(), numbers.end()};
 }
 
 uint32_t LayerTable::default_root() const {

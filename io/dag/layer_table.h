@@ -41,8 +41,10 @@ struct LayerTable {
   uint64_t default_voxels(uint64_t of_union) const;
 };
 
-// The number of the layer `name`; Error (kUsage), with the nearest names, if there is none.
-size_t layer_named(const LayerTable& table, const std::string& name);
+// The numbers of the layers with these names, ascending, each once. "(unnamed)" is the empty name,
+// unless a layer has that very name. Error (kUsage), with the nearest name, if there is no such
+// layer.
+std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names);
 
 std::vector<std::byte> encode_layers(const LayerTable& table);
 

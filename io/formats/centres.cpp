@@ -27,4 +27,10 @@ uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
   return 3 * (leaves * 160 + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000) + leaves * values;
 }
 
+// The tree that is filled and written, and the one that is read back.
+uint64_t vdb_label_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096) {
+  return 2 *
+         (leaves * (160 + 512 * sizeof(int32_t)) + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000);
+}
+
 }  // namespace svdag

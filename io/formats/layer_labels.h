@@ -1,10 +1,16 @@
-// The layer of each exported voxel, for formats that store colours or labels (ply, npz, vox).
+// The layer of each exported voxel, for formats that store colours or labels.
 #pragma once
 
+#include <bit>
+#include <optional>
+
+#include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
 #include "io/voxel_source.h"
 
 namespace svdag {
+
+constexpr Colour kNoLayerColour{0xbc, 0xb5, 0xaa};  // as in pictures
 
 class LayerLabels {
  public:
@@ -12,18 +18,56 @@ class LayerLabels {
   LayerLabels(const DagFile& file, int level)
       : file_(file), index_(file.layer_index()), view_(index_.view()), level_(uint32_t(level)) {}
 
-  // The number of the first layer, in the order of the table, that has a voxel in this one.
+  // The number of the first layer, in the order of the table, that has a voxel in this one;
+  // kNoLayer if none has: an inside that only the union encloses (docs/format.md, "Layers").
   uint32_t of(const Voxel& voxel) const {
     const uint32_t shift = file_.view().levels - level_;
-    const uint32_t label = layer_of_cube(file_.view(), view_, level_, voxel[0] << shift,
-                                         voxel[1] << shift, voxel[2] << shift);
-    SVDAG_ASSERT(label != kNoLayer);
-    return label;
+    return layer_of_cube(file_.view(), view_, level_, voxel[0] << shift, voxel[1] << shift,
+                         voxel[2] << shift);
+  }
+  // Divides a cube that `walk`, of the same file and level, visits: calls visit(cube, label) for
+  // full cubes of one label, and visit(block, none) for other blocks. Stops when it returns false.
+  template <class Visit>
+  bool divide(const VoxelCube& cube, CubeWalk* walk, const Visit& visit) const {
+    if (cube.side == kBlockSide && cube.block != Block::full()) return visit(cube, std::nullopt);
+    const std::optional<uint32_t> label = of_full_cube(cube, walk);
+    if (label || cube.side == kBlockSide) return visit(cube, label);
+    for (unsigned c = 0; c < 8; ++c) {
+      const LatticePoint half(c >> 2 & 1, c >> 1 & 1, c & 1);
+      const VoxelCube part{cube.origin + half * (cube.side / 2), cube.side / 2, Block::full()};
+      if (!divide(part, walk, visit)) return false;
+    }
+    return true;
   }
   const std::vector<Layer>& layers() const { return file_.layers().layers; }
-  const Colour& colour_of(const Voxel& voxel) const { return layers()[of(voxel)].colour; }
+  Colour colour_of(const Voxel& voxel) const {
+    const uint32_t label = of(voxel);
+    return label == kNoLayer ? kNoLayerColour : layers()[label].colour;
+  }
 
  private:
+  // The label of all voxels of a full cube; nothing if they differ. That is the cube's first layer,
+  // if it fills the cube.
+  std::optional<uint32_t> of_full_cube(const VoxelCube& cube, CubeWalk* walk) const {
+    const uint32_t level = level_ - uint32_t(std::countr_zero(uint64_t(cube.side)));
+    if (level == 0) return std::nullopt;  // its node is in other views another one
+    const DagView& dag = file_.view();
+    const uint32_t shift = dag.levels - level_;
+    const LatticePoint at = cube.origin << LatticePoint(shift);
+    const uint32_t label =
+        layer_of_cube(dag, view_, level, uint32_t(at.x), uint32_t(at.y), uint32_t(at.z));
+    if (label == kNoLayer) return label;
+    const DagView layer = file_.view_of(label);
+    uint32_t node = 0;
+    for (uint32_t k = 0; k < level; ++k) {
+      const uint32_t bit = dag.levels - 1 - k;
+      const unsigned c =
+          unsigned(4 * (at.x >> bit & 1) + 2 * (at.y >> bit & 1) + (at.z >> bit & 1));
+      node = dag_present_child(layer, k, node, c);
+    }
+    return walk->is_full(level, node) ? std::optional(label) : std::nullopt;
+  }
+
   const DagFile& file_;
   LayerIndex index_;
   LayerIndexView view_;

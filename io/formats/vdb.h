@@ -57,6 +57,14 @@ class VdbWriter {
   // The origin is a multiple of 8; that of a larger cube, a multiple of its side or of 4096.
   virtual void add(const VoxelCube& cube) = 0;
   virtual void add_voxel(const LatticePoint& voxel) = 0;
+  // Begins the grid of labels, of type Int32 with the background -1. It is the last grid; .nvdb has
+  // none.
+  virtual void begin_labels(const std::string& name, const IndexToWorld& centres) = 0;
+  // All voxels of a cube have the label. `side` is 8 or more; the origin as in add().
+  virtual void add_label(const LatticePoint& origin, int64_t side, int32_t label) = 0;
+  // [64x + 8y + z]: the label of a voxel of the block; what is not set has none.
+  using BlockLabels = std::array<int32_t, 512>;
+  virtual void add_labels(const VoxelCube& block, const BlockLabels& labels) = 0;
   // Writes all grids to the file `path`, as a whole or not at all; a full disk is an Error
   // (kOutput).
   virtual void write(const std::string& path, VdbFormat format) = 0;
@@ -69,6 +77,8 @@ std::unique_ptr<VdbWriter> make_vdb_writer();
 // included.
 uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
                    uint64_t nodes_of_4096);
+// The same for its grid of labels, in addition.
+uint64_t vdb_label_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096);
 
 // A grid that was read. A voxel is set iff it is active (mask), active and true (bool), or has a
 // value in the range, active or not (float).

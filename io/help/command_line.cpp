@@ -273,11 +273,11 @@ void add_layout(CLI::App* command, Layout* layout) {
       ->type_name("LAYOUT");
 }
 
-void add_layer(CLI::App* command, std::optional<std::string>* layer) {
+void add_layer(CLI::App* command, std::vector<std::string>* layers) {
   command
-      ->add_option_function<std::string>(
-          "--layer", [layer](const std::string& name) { *layer = name; },
-          "Only this layer (svdag info --layers lists them)")
+      ->add_option("--layer", *layers,
+                   "Only this layer (svdag info --layers lists them); may be repeated")
+      ->allow_extra_args(false)
       ->type_name("NAME");
 }
 

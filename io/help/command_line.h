@@ -44,7 +44,7 @@ void add_memory_budget(CLI::App* command, uint64_t* bytes,
 void add_layout(CLI::App* command, Layout* layout);
 
 // Adds --layer.
-void add_layer(CLI::App* command, std::optional<std::string>* layer);
+void add_layer(CLI::App* command, std::vector<std::string>* layers);
 
 // Sets the notes of a command: `before`, examples (one command line each), and the exit codes.
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,

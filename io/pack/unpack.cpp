@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "io/dag/check.h"
+#include "io/dag/chosen_layers.h"
 #include "io/dag/dag_writer.h"
 #include "io/dag/layer_alone.h"
 #include "io/dag/plain_form.h"
@@ -250,15 +251,17 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
   return writer.header();
 }
 
-DagFile open_dag(const std::string& path, const std::optional<std::string>& layer) {
+DagFile open_dag(const std::string& path, const std::vector<std::string>& layers) {
   MemoryBudget budget(memory_or_default(0));
   const WorkRoom room = temporary_room(&budget);
   ParallelExecutor executor(available_processors());
   DagFile file = is_packed(path) ? unpack(path, room, &executor) : DagFile::open(path);
-  if (!layer) return file;
-  const size_t number = layer_named(file.layers(), *layer);
+  if (layers.empty()) return file;
+  const std::vector<size_t> chosen = layers_named(file.layers(), layers);
   const std::optional<DagFile> converted = plain_form(file, room);
-  return layer_alone(converted ? *converted : file, number, room);
+  const DagFile& plain = converted ? *converted : file;
+  return chosen.size() == 1 ? layer_alone(plain, chosen[0], room)
+                            : chosen_layers(plain, chosen, room);
 }
 
 }  // namespace svdag

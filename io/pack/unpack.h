@@ -4,8 +4,8 @@
 // say. The plain file must have the size and the content hash of the header.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "io/dag/dag_file.h"
 #include "streaming/process/executor.h"
@@ -25,7 +25,8 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
                  Executor* executor);
 
 // Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a temporary file. With
-// `layer`: that layer alone, which is written to a temporary file.
-DagFile open_dag(const std::string& path, const std::optional<std::string>& layer = {});
+// names of layers: only these, written to a temporary file; one alone is a file without layers, of
+// several the first root is their union.
+DagFile open_dag(const std::string& path, const std::vector<std::string>& layers = {});
 
 }  // namespace svdag

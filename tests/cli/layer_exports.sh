@@ -102,7 +102,19 @@ svdag export frames.svdag -q -o frames.npz
 /usr/bin/python3 -B -c 'import numpy
 frames, one = numpy.load("frames.npz"), numpy.load("one_9.npz")
 print("frames:", bool((frames["coordinates"] == one["coordinates"]).all()), numpy.unique(frames["label"]).tolist())'
-# A .vox holds 255 layers.
+# Six faces enclose a solid, whose inside is in no layer.
+printf 'v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nv 0 0 8\nv 8 0 8\nv 8 8 8\nv 0 8 8\n' > faces.obj
+for face in '1 4 3 2' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8'; do printf "o $face\nf $face\n"; done >> faces.obj
+svdag build faces.obj -q -o solid.svdag -r 16 --layers object --rule solid
+for format in vox npz; do svdag export solid.svdag -q -o solid.$format; done
+/usr/bin/python3 -B -c 'import numpy, vox_models
+labels, vox = numpy.load("solid.npz")["label"], open("solid.vox", "rb").read()
+[model] = vox_models.models(vox)
+print("no layer:", numpy.sum(labels == 65535), numpy.sum(model[:, 3] == 7), vox_models.palette(vox)[6])'
+# A .vox holds 255 layers, or 254 and voxels of no layer.
+for i in $(seq 249); do printf 'o part%d\nf 1 2 3\nf 1 3 2\n' $i; done > more && cat faces.obj more > full.obj
+svdag build full.obj -q -o full.svdag -r 16 --layers object --rule solid
+svdag export full.svdag -o full.vox || echo "exit $?"
 for i in $(seq 256); do printf 'o part%d\nv %d 0 0\nv %d 1 0\nv %d 0 1\nf -1 -2 -3\n' $i $i $i $i; done > many.obj
 svdag build many.obj -q -o many.svdag -r 512 --layers object
 svdag export many.svdag -o many.vox || echo "exit $?"

@@ -9,6 +9,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 from typing import NamedTuple
 
@@ -123,6 +124,25 @@ def refusal_failures(fixture, case):
     return [] if done.returncode == 4 and done.stderr.startswith(expected) else [f"{done.returncode} {done}"]
 
 
+def colours_failures():
+    """The colours of a HashDAG take 4 bytes a voxel: too small a disk is reported before a byte is written."""
+    with tempfile.TemporaryDirectory(prefix="svdag-fault-") as name:
+        folder = pathlib.Path(name)
+        (folder / "disk").mkdir()
+        subprocess.run([bakes.BUILD / "svdag-scene", "rectangle", "-q", "-o", "a.ply"], cwd=folder, check=True)
+        subprocess.run([bakes.BUILD / "svdag", "build", "a.ply", "-o", "a.svdag", "-q", "-r", "256", "--layers", "file"],
+                       cwd=folder, check=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", folder / "disk"], check=True)
+        try:
+            done = subprocess.run([bakes.BUILD / "svdag", "export", "a.svdag", "--format", "hashdag", "--colours", "-o",
+                                   "disk/a.basic_dag.dag.bin"], cwd=folder, capture_output=True, text=True)
+            left = list((folder / "disk").iterdir())
+        finally:
+            subprocess.run(["umount", folder / "disk"], check=True)
+    good = done.returncode == 4 and "the DAG and its colours take" in done.stderr and not left
+    return bakes.check_message(done.stderr) + ([] if good else [f"{done} {left}"])
+
+
 def run_case(report, case):
     with bakes.BakeFixture(case.bake) as fixture:
         old, both = pages(fixture.old), pages(fixture.old) + pages(fixture.new)
@@ -147,6 +167,7 @@ def main():
     else:
         for case in CASES:
             run_case(report, case)
+        report.record("colours of an export: refused early", colours_failures())
     report.finish()
 
 

@@ -210,7 +210,7 @@ int run(const DiffConfig& config) {
   check_outputs(config);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile a = open_dag(config.a, config.layer), b = open_dag(config.b, config.layer);
+  const DagFile a = open_dag(config.a, config.layers), b = open_dag(config.b, config.layers);
   if (!config.by_index) require_same_place(a, b);
   if (!config.render.empty() && a.view().levels != b.view().levels)
     fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");

@@ -49,7 +49,7 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
                "or primary without layers)"),
            {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps", "colour"})
       ->type_name("MODE");
-  add_layer(command, &config->layer);
+  add_layer(command, &config->layers);
   command->add_option("--size", config->size, "Pixels, 1 to 16384 each way (default 1280x720)")
       ->type_name("WxH");
   command

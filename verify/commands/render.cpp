@@ -194,7 +194,7 @@ int run(const RenderCommandConfig& config) {
   if (config.up.size() != 1 || up == std::string::npos)
     fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   if (!config.mode.empty()) parse_mode(config.mode);
-  const DagFile file = open_dag(config.file, config.layer);
+  const DagFile file = open_dag(config.file, config.layers);
   const bool layered = !file.layers().empty() && !config.frames;
   if (config.frames && file.layers().empty())
     fail_usage("--frames: " + file.path() + " has no layers (svdag build --layers)");

@@ -15,8 +15,8 @@ struct RenderCommandConfig {
   CommonConfig common;
   std::string file;
   std::string output;
-  std::string mode;                  // a ShadeMode; empty: colour, or primary without layers
-  std::optional<std::string> layer;  // only this one
+  std::string mode;                 // a ShadeMode; empty: colour, or primary without layers
+  std::vector<std::string> layers;  // only these
   std::string size = "1280x720";
   std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in scene units; empty: the preset
   std::string preset = "iso";  // of preset_camera

@@ -38,7 +38,11 @@ struct WholeDag {
 uint64_t export_hashdag(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
   const WholeDag whole(*selection, config, "HashDAG", budget);
   const LevelDag& dag = whole.dag;
-  write_hashdag(dag, selection->grid, config.output);
+  if (config.colours)
+    write_coloured_hashdag(dag, selection->grid, selection->file, config.output,
+                           {budget, folder_of(config.output)});
+  else
+    write_hashdag(dag, selection->grid, config.output);
   return dag.voxels();
 }
 

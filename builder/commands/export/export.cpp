@@ -72,13 +72,16 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
   const std::string format = row.format.name;
   if (config.vdb_type && row.write != export_vdb)
     fail_usage("--vdb-type: only vdb has grids of several types, the format is " + format);
+  if (config.colours && row.write != export_hashdag)
+    fail_usage("--colours: only hashdag has a second file of colours, the format is " + format);
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
   if (config.max_voxels && std::find(lists.begin(), lists.end(), row.write) == lists.end())
     fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, the format is " + format);
 }
 
 void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
-  const auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
+  auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
+  if (config.colours) files.push_back(hashdag_colours_path(config.output));
   for (const std::string& file : files) {
     if (same_file(config.file, file))
       fail_usage(file + ": is the input; choose another name for the output");
@@ -113,12 +116,16 @@ std::vector<ExportFormat> export_formats() {
 int run(const ExportConfig& options) {
   const FormatRow& row = choose(options);
   reject_options_of_other_formats(row, options);
-  const DagFile file = open_dag(options.file, options.layer);
+  const DagFile file = open_dag(options.file, options.layers);
+  if (options.colours && file.layers().empty())
+    fail_usage("--colours: " + file.path() + " has no layers" +
+               (options.layers.empty() ? " (svdag build --layers)" : " when one is chosen"));
   Selection selection(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
   reject_input_as_output(row, config);
   AtomicFile::check(config.output, config.no_clobber);
+  if (config.colours) AtomicFile::check(hashdag_colours_path(config.output), config.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (config.json)

@@ -19,10 +19,11 @@ struct ExportConfig {
   std::string output;
   std::string format;        // a name in export_formats(); empty: from the output's extension
   std::optional<int> level;  // the level whose nodes are exported as voxels; none: L, the finest
-  std::optional<std::string> layer;    // only this one
+  std::vector<std::string> layers;     // only these
   std::optional<Box> bounds;           // only the voxels whose interior meets this box
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
   std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
+  bool colours = false;                // --colours: hashdag gets a second file, of colours
   uint64_t memory = 0;                 // 0: half of the machine's memory
   bool no_clobber = false;             // -n: an existing output is an error
   bool quiet = false;

@@ -30,7 +30,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
          "--level", config->level,
          "Write the nodes of this level, from 3 on, as voxels (default: the voxels themselves)")
       ->type_name("K");
-  add_layer(app, &config->layer);
+  add_layer(app, &config->layers);
   app->add_option_function<std::string>(
          "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
          "Write only this box, in scene units")
@@ -51,6 +51,8 @@ void set_up(CLI::App* app, ExportConfig* config) {
              "a fog volume of 1 in 0"),
          {"bool", "mask", "float"})
       ->type_name("TYPE");
+  app->add_flag("--colours", config->colours,
+                "hashdag: write the colours of layers beside it, 4 bytes a voxel");
   add_memory_budget(app, &config->memory);
   add_no_clobber(app, &config->no_clobber);
   app->add_flag("--json", config->json, "Print what was written as JSON");

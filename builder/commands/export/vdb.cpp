@@ -1,8 +1,10 @@
 #include "io/formats/vdb.h"
 #include "builder/commands/export/selection.h"
+#include "io/formats/window.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -18,8 +20,8 @@ VdbMetadata grid_metadata(const Selection& selection) {
           {"svdag_content_hash", to_hex(h.content_hash)}};
 }
 
-// Reserves the memory of the grid before it is allocated.
-MemoryBudget::Reservation reserve(VdbFormat format, Selection* selection, MemoryBudget* budget) {
+// Error (kMemory) if the grid does not fit in the budget.
+CubeCounts count_cubes(VdbFormat format, Selection* selection, MemoryBudget* budget) {
   const uint64_t max_leaves = budget->limit() / vdb_bytes(format, 1, 0, 0);
   const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, max_leaves);
   if (counts.blocks > max_leaves)
@@ -27,14 +29,81 @@ MemoryBudget::Reservation reserve(VdbFormat format, Selection* selection, Memory
                 "the grid would have more than " + format_count(max_leaves) +
                     " leaves, too many for --memory: export a coarser --level, or a part with "
                     "--bounds");
-  return budget->reserve(vdb_bytes(format, counts.blocks, counts.middle, counts.large),
-                         "leaves of the grid");
+  return counts;
+}
+
+// The names and colours of the layers. Keys are valid names of Houdini's attributes.
+VdbMetadata layer_metadata(const std::vector<Layer>& layers) {
+  VdbMetadata entries{{"layer_count", std::to_string(layers.size())}};
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string key = "layer_" + std::to_string(i);
+    entries[key + "_name"] = printable(layers[i].name);
+    entries[key + "_colour"] = colour_text(layers[i].colour);
+  }
+  return entries;
+}
+
+// The cubes and blocks of labels (LayerLabels::divide).
+template <class Visit>
+void for_each_label(Selection* selection, const LayerLabels& labels, const Visit& visit) {
+  uint64_t cubes = 0;
+  selection->walk.visit(selection->grid.selection, [&](const VoxelCube& cube) {
+    if (++cubes % 4096 == 0) check_interrupt();
+    return labels.divide(cube, &selection->walk, visit);
+  });
+}
+
+// Reserves the memory of the labels. A full cube of one label takes no leaf.
+MemoryBudget::Reservation reserve_labels(const CubeCounts& counts, Selection* selection,
+                                         const LayerLabels& labels, MemoryBudget* budget) {
+  const uint64_t nodes = vdb_label_bytes(0, counts.middle, counts.large);
+  const uint64_t room = std::max(budget->limit(), nodes) - nodes;
+  const uint64_t max_leaves = room / vdb_label_bytes(1, 0, 0);
+  uint64_t leaves = 0;
+  for_each_label(selection, labels, [&](const VoxelCube&, std::optional<uint32_t> label) {
+    leaves += !label;
+    return leaves <= max_leaves;
+  });
+  if (leaves > max_leaves)
+    throw Error(ExitCode::kMemory, "the grid of layers would have more than " +
+                                       format_count(max_leaves) +
+                                       " leaves, too many for --memory: export a coarser --level, "
+                                       "a part with --bounds, or one layer with --layer");
+  return budget->reserve(vdb_label_bytes(leaves, counts.middle, counts.large),
+                         "leaves of the grid of layers");
+}
+
+void add_labels(Selection* selection, const LayerLabels& labels, VdbWriter* writer) {
+  writer->begin_labels("layer", voxel_centres(selection->grid));
+  writer->metadata(grid_metadata(*selection));
+  writer->metadata(layer_metadata(labels.layers()));
+  VdbWriter::BlockLabels numbers;
+  for_each_label(selection, labels, [&](const VoxelCube& cube, std::optional<uint32_t> label) {
+    if (label) {
+      writer->add_label(cube.origin, cube.side, int32_t(*label));
+      return true;
+    }
+    for_each_voxel(cube, [&](const Voxel& voxel) {
+      const size_t at = 64 * (voxel[0] % 8) + 8 * (voxel[1] % 8) + voxel[2] % 8;
+      numbers[at] = int32_t(labels.of(voxel));  // kNoLayer is -1, the background
+    });
+    writer->add_labels(cube, numbers);
+    return true;
+  });
 }
 
 uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& config,
                    MemoryBudget* budget) {
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
-  const auto reservation = reserve(format, selection, budget);
+  const CubeCounts counts = count_cubes(format, selection, budget);
+  const auto of_grid = budget->reserve(
+      vdb_bytes(format, counts.blocks, counts.middle, counts.large), "leaves of the grid");
+  std::optional<LayerLabels> labels;
+  MemoryBudget::Reservation of_labels;
+  if (!selection->file.layers().empty() && format != VdbFormat::kNano) {
+    labels.emplace(selection->file, selection->grid.levels);
+    of_labels = reserve_labels(counts, selection, *labels, budget);
+  }
   writer->begin("occupancy", voxel_centres(selection->grid));
   writer->metadata(grid_metadata(*selection));
   uint64_t voxels = 0, cubes = 0;
@@ -44,6 +113,7 @@ uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& c
     writer->add(cube);
     return true;
   });
+  if (labels) add_labels(selection, *labels, writer.get());
   writer->write(config.output, format);
   return voxels;
 }

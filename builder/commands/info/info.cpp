@@ -97,12 +97,6 @@ void print_levels(const DagFile& file, const DagStats& stats, uint64_t memory) {
               format_count(stats.unique_blocks).c_str(), "", "");
 }
 
-std::string colour_text(const Colour& colour) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.r, colour.g, colour.b);
-  return text;
-}
-
 std::vector<LayerStats> stats_of_layers(const DagFile& file, uint64_t memory) {
   MemoryBudget budget(memory_or_default(memory));
   return layer_stats(file, temporary_room(&budget));

@@ -4,9 +4,12 @@
 #include <cstring>
 
 #include "io/formats/graph_window.h"
+#include "io/formats/layer_labels.h"
 #include "io/formats/output.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/file_folder.h"
+#include "streaming/file/file_names.h"
 
 namespace svdag {
 namespace {
@@ -14,6 +17,7 @@ namespace {
 constexpr const char* kNameEnding = ".basic_dag.dag.bin";
 constexpr int kMaxHashDagLevels = 17;  // 128K: the limit of the programs
 constexpr uint64_t kHeaderBytes = 60;
+constexpr uint32_t kCountedLevels = 7;  // levels whose nodes always have less than 2^24 voxels
 
 class HashDagGraph : public NodeGraph {
  public:
@@ -80,6 +84,115 @@ std::string strip_ending(const std::string& path, const std::string& ending) {
   return path.ends_with(ending) ? path.substr(0, path.size() - ending.size()) : path;
 }
 
+// Index of the first word of each level, and of the end. Errors: kUsage.
+std::array<uint64_t, kMaxSections + 1> word_offsets(const LevelDag& dag, const Grid& grid) {
+  if (grid.levels > kMaxHashDagLevels)
+    fail_usage("HashDAG holds grids up to 128K^3, this one has " +
+               format_resolution(uint64_t(grid.resolution())) + "^3: export a coarser --level");
+  std::array<uint64_t, kMaxSections + 1> base{};
+  for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
+  const uint64_t words = base[dag.brick_level()] + 2 * dag.bricks();
+  if (words >= kNoChild)
+    fail_usage("HashDAG holds at most 2^32 - 2 words, this DAG needs " + format_count(words) +
+               ": export a coarser --level");
+  base[dag.brick_level() + 1] = words;
+  return base;
+}
+
+// The voxels below each node.
+struct Enclosed {
+  uint32_t top_levels;
+  std::vector<uint64_t> top;                    // of the top levels, in the order of the file
+  std::vector<WorkArray<uint32_t>> upper_bits;  // [level][word] of a mask
+};
+
+Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
+  constexpr uint64_t kMaxTop = uint64_t(1) << 24;
+  Enclosed enclosed{std::max(dag.levels(), kCountedLevels + 1) - kCountedLevels, {}, {}};
+  uint64_t top = 0;
+  for (uint32_t k = 0; k < enclosed.top_levels; ++k) top += dag.nodes(k);
+  if (top > kMaxTop)
+    fail_usage(
+        "--colours: HashDAG counts voxels below at most 2^24 nodes of the upper levels, "
+        "this DAG has " +
+        format_count(top) + ": export a coarser --level");
+  enclosed.top.resize(top);
+  enclosed.upper_bits.resize(dag.brick_level());
+  WorkArray<uint64_t> below(dag.bricks(), room);
+  uint64_t number = 0;
+  dag.for_each_brick([&](Brick brick) { below[number++] = uint64_t(std::popcount(brick)); });
+  for (uint32_t k = dag.brick_level(); k-- > 0;) {
+    const bool to_bricks = k + 1 == dag.brick_level(), is_top = k < enclosed.top_levels;
+    WorkArray<uint64_t> here(dag.words(k), room);
+    WorkArray<uint32_t> upper_bits(dag.words(k), room);
+    if (is_top) top -= dag.nodes(k);
+    uint64_t word = 0, next = top;
+    dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
+      for (int i = 0; i < popcount8(mask); ++i)
+        here[word] += below[to_bricks ? dag.brick_number(children[i]) : children[i]];
+      upper_bits[word] = uint32_t(is_top ? next : here[word]);
+      if (is_top) enclosed.top[next++] = here[word];
+      word += 1 + uint64_t(popcount8(mask));
+    });
+    enclosed.upper_bits[k] = std::move(upper_bits);
+    below = std::move(here);
+  }
+  return enclosed;
+}
+
+// `enclosed` is null without colours.
+void put_dag(const LevelDag& dag, const Grid& grid,
+             const std::array<uint64_t, kMaxSections + 1>& base, const Enclosed* enclosed,
+             Output* out) {
+  const Point corner = grid.corner();
+  for (int a = 0; a < 3; ++a) out->put(corner[a]);
+  for (int a = 0; a < 3; ++a) out->put(corner[a] + double(grid.resolution()) * grid.voxel_size);
+  out->put(uint32_t(grid.levels));
+  out->put(base[dag.brick_level() + 1]);
+  for (uint32_t k = 0; k < dag.brick_level(); ++k) {
+    const uint32_t below = uint32_t(base[k + 1]);
+    const bool to_bricks = k + 1 == dag.brick_level();
+    uint64_t word = 0;
+    dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
+      out->put(enclosed == nullptr ? mask : mask | enclosed->upper_bits[k][word] << 8);
+      for (int i = 0; i < popcount8(mask); ++i)
+        out->put(below + (to_bricks ? 2 * dag.brick_number(children[i]) : children[i]));
+      word += 1 + uint64_t(popcount8(mask));
+    });
+  }
+  dag.for_each_brick([&](Brick brick) { out->put(brick); });
+}
+
+// Writes the colours of the voxels of a level, depth first.
+class ColourWriter {
+ public:
+  ColourWriter(const DagFile& layered, uint32_t levels, Output* out)
+      : dag_(layered.view()), levels_(levels), labels_(layered, int(levels)), out_(out) {}
+
+  void put_below(uint32_t level, uint32_t node, const Voxel& corner) {
+    if (level + 2 == levels_) {
+      for (Brick bits = dag_brick_at(dag_, level, node); bits != 0; bits &= bits - 1) {
+        const auto [x, y, z] = brick_voxel(unsigned(std::countr_zero(bits)));
+        const Colour colour = labels_.colour_of({corner[0] + x, corner[1] + y, corner[2] + z});
+        out_->put(0xff000000U | uint32_t(colour.b) << 16 | uint32_t(colour.g) << 8 | colour.r);
+      }
+      return;
+    }
+    const uint32_t bit = levels_ - 1 - level;
+    dag_for_children(dag_, level, node, [&](unsigned c, uint32_t child) {
+      put_below(level + 1, child,
+                {corner[0] + (c >> 2 << bit), corner[1] + ((c >> 1 & 1) << bit),
+                 corner[2] + ((c & 1) << bit)});
+    });
+  }
+
+ private:
+  const DagView& dag_;
+  uint32_t levels_;
+  LayerLabels labels_;
+  Output* out_;
+};
+
 }  // namespace
 
 std::string hashdag_path(const std::string& path, int levels) {
@@ -96,31 +209,43 @@ std::string hashdag_path(const std::string& path, int levels) {
 }
 
 void write_hashdag(const LevelDag& dag, const Grid& grid, const std::string& path) {
-  if (grid.levels > kMaxHashDagLevels)
-    fail_usage("HashDAG holds grids up to 128K^3, this one has " +
-               format_resolution(uint64_t(grid.resolution())) + "^3: export a coarser --level");
-  std::array<uint64_t, kMaxSections> base{};  // [level]: index of its first word
-  for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
-  const uint64_t words = base[dag.brick_level()] + 2 * dag.bricks();
-  if (words >= kNoChild)
-    fail_usage("HashDAG holds at most 2^32 - 2 words, this DAG needs " + format_count(words) +
-               ": export a coarser --level");
+  const auto base = word_offsets(dag, grid);
   Output out(path);
-  const Point corner = grid.corner();
-  for (int a = 0; a < 3; ++a) out.put(corner[a]);
-  for (int a = 0; a < 3; ++a) out.put(corner[a] + double(grid.resolution()) * grid.voxel_size);
-  out.put(uint32_t(grid.levels));
-  out.put(words);
-  for (uint32_t k = 0; k < dag.brick_level(); ++k) {
-    const uint32_t below = uint32_t(base[k + 1]);
-    const bool to_bricks = k + 1 == dag.brick_level();
-    dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
-      out.put(mask);
-      for (int i = 0; i < popcount8(mask); ++i)
-        out.put(below + (to_bricks ? 2 * dag.brick_number(children[i]) : children[i]));
-    });
-  }
-  dag.for_each_brick([&](Brick brick) { out.put(brick); });
+  put_dag(dag, grid, base, nullptr, &out);
+  out.commit();
+}
+
+std::string hashdag_colours_path(const std::string& path) {
+  return strip_ending(path, ".dag.bin") + ".uncompressed_colors.bin";
+}
+
+void write_coloured_hashdag(const LevelDag& dag, const Grid& grid, const DagFile& layered,
+                            const std::string& path, const WorkRoom& room) {
+  constexpr uint64_t kMaxColours = uint64_t(1) << 32;
+  const auto base = word_offsets(dag, grid);
+  const Enclosed enclosed = count_enclosed(dag, room);
+  const uint64_t voxels = enclosed.top[0];
+  if (voxels == 0) fail_usage("--colours: there is no voxel to colour");
+  if (voxels > kMaxColours)
+    fail_usage("--colours: HashDAG holds at most 2^32 colours, there are " + format_count(voxels) +
+               " voxels: export a coarser --level, or leave --colours out");
+  const std::string colours_path = hashdag_colours_path(path);
+  const uint64_t bytes =
+      kHeaderBytes + 4 * base[dag.brick_level() + 1] + 20 + 8 * enclosed.top.size() + 4 * voxels;
+  const uint64_t free = free_bytes_of(folder_of(path));
+  if (bytes > free)
+    throw Error(ExitCode::kOutput,
+                "the DAG and its colours take " + format_bytes(bytes) + ", and " +
+                    format_bytes(free) + " are free: export a coarser --level",
+                path);
+  Output out(path), colours(colours_path);
+  put_dag(dag, grid, base, &enclosed, &out);
+  colours.put(enclosed.top_levels);
+  colours.put(uint64_t(enclosed.top.size()));
+  colours.put(std::as_bytes(std::span(enclosed.top)));
+  colours.put(voxels);
+  ColourWriter(layered, dag.levels(), &colours).put_below(0, 0, {0, 0, 0});
+  colours.commit();
   out.commit();
 }
 

@@ -59,8 +59,20 @@ class Archive final : public openvdb::io::Archive {
     }
     return entry->grid;
   }
-  GridBase::Ptr first() {
-    return grid(GridDescriptor::nameAsString(grids_[0].descriptor.uniqueName()));
+  // The only grid, or the only one of a supported type; null if there are several.
+  GridBase::Ptr only() {
+    const GridEntry* found = grids_.size() == 1 ? &grids_[0] : nullptr;
+    for (const GridEntry& entry : grids_) {
+      const openvdb::Name& type = entry.descriptor.gridType();
+      if (grids_.size() == 1 ||
+          (type != openvdb::MaskGrid::gridType() && type != openvdb::BoolGrid::gridType() &&
+           type != openvdb::FloatGrid::gridType()))
+        continue;
+      if (found != nullptr) return nullptr;
+      found = &entry;
+    }
+    if (found == nullptr) return nullptr;
+    return grid(GridDescriptor::nameAsString(found->descriptor.uniqueName()));
   }
 
  private:
@@ -212,9 +224,9 @@ void send_supported_grid(const std::string& path, const GridBase::Ptr& base,
 GridBase::Ptr select_grid(const std::string& path, const std::string& name, Archive* archive) {
   archive->open();
   if (archive->count() == 0) fail_input(path, "contains no grid");
-  if (name.empty() && archive->count() > 1)
+  const GridBase::Ptr grid = name.empty() ? archive->only() : archive->grid(name);
+  if (!grid && name.empty())
     fail_usage(path + ": contains more than one grid: choose one with --grid: " + archive->names());
-  const GridBase::Ptr grid = name.empty() ? archive->first() : archive->grid(name);
   if (!grid)
     fail_usage(path + ": has no grid " + name + ": choose one with --grid: " + archive->names());
   return grid;

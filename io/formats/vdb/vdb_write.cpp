@@ -1,3 +1,4 @@
+#include <bit>
 #include <fstream>
 #include <sstream>
 
@@ -66,35 +67,40 @@ class WritableGrid final : public GridType {
   }
 };
 
-// True if the file at `path` contains these grids.
+// True if the file contains this grid.
 template <class GridType>
-bool reads_back(const std::string& path, const openvdb::GridPtrVec& grids) {
-  openvdb::io::File file(path);
-  file.setCopyMaxBytes(0);
-  file.open(/*delayLoad=*/false);
-  for (const openvdb::GridBase::Ptr& grid : grids) {
-    const auto& mine = static_cast<const GridType&>(*grid);
-    const auto back = openvdb::gridPtrCast<GridType>(file.readGrid(mine.getName()));
-    if (!back || !back->transform().isLinear() ||
-        centres_of(back->transform()) != centres_of(mine.transform()) ||
-        !back->constTree().hasSameTopology(mine.constTree()))
-      return false;
-    for (auto value = back->cbeginValueOn(); value; ++value)
-      if (!*value) return false;
-  }
+bool reads_back(openvdb::io::File* file, const GridType& mine) {
+  const auto back = openvdb::gridPtrCast<GridType>(file->readGrid(mine.getName()));
+  if (!back || !back->transform().isLinear() ||
+      centres_of(back->transform()) != centres_of(mine.transform()) ||
+      !back->constTree().hasSameTopology(mine.constTree()))
+    return false;
+  auto value = mine.cbeginValueOn();
+  for (auto found = back->cbeginValueOn(); found; ++found, ++value)
+    if (*found != *value) return false;
   return true;
 }
 
+// Writes the grids, and those of labels, if there are any.
 template <class GridType>
-void write_grids(const std::string& path, const openvdb::GridPtrVec& grids) {
+void write_grids(const std::string& path, openvdb::GridPtrVec grids,
+                 const openvdb::Int32Grid::Ptr& labels) {
+  const size_t count = grids.size();
+  if (labels) grids.push_back(labels);
   openvdb::io::File(path).write(grids);
-  if (!reads_back<GridType>(path, grids)) throw openvdb::IoError("reads back differently");
+  openvdb::io::File file(path);
+  file.setCopyMaxBytes(0);
+  file.open(/*delayLoad=*/false);
+  bool same = !labels || reads_back(&file, *labels);
+  for (size_t i = 0; i < count; ++i)
+    same = same && reads_back(&file, static_cast<const GridType&>(*grids[i]));
+  if (!same) throw openvdb::IoError("reads back differently");
 }
 
 // Writes the grids with values of another type: 1 (true) where `masks` are active, else 0 (false).
 template <class GridType>
 void write_as(const std::string& path, const std::vector<openvdb::MaskGrid::Ptr>& masks,
-              openvdb::GridClass grid_class) {
+              openvdb::GridClass grid_class, const openvdb::Int32Grid::Ptr& labels) {
   using Value = typename GridType::ValueType;
   openvdb::GridPtrVec grids;
   for (const openvdb::MaskGrid::Ptr& mask : masks) {
@@ -106,7 +112,7 @@ void write_as(const std::string& path, const std::vector<openvdb::MaskGrid::Ptr>
     grid->setGridClass(grid_class);
     grids.push_back(grid);
   }
-  write_grids<GridType>(path, grids);
+  write_grids<GridType>(path, std::move(grids), labels);
 }
 
 class Writer final : public VdbWriter {
@@ -119,8 +125,8 @@ class Writer final : public VdbWriter {
   }
 
   void metadata(const VdbMetadata& entries) override {
-    for (const auto& [key, value] : entries)
-      grids_.back()->insertMeta(key, openvdb::StringMetadata(value));
+    openvdb::GridBase& grid = labels_ ? static_cast<openvdb::GridBase&>(*labels_) : *grids_.back();
+    for (const auto& [key, value] : entries) grid.insertMeta(key, openvdb::StringMetadata(value));
   }
 
   void add(const VoxelCube& cube) override {
@@ -139,18 +145,38 @@ class Writer final : public VdbWriter {
     grids_.back()->tree().setValueOn(coord(voxel));
   }
 
+  void begin_labels(const std::string& name, const IndexToWorld& centres) override {
+    labels_ = std::make_shared<WritableGrid<openvdb::Int32Grid>>(-1);
+    labels_->setName(name);
+    labels_->setTransform(transform_of(centres));
+  }
+
+  void add_label(const LatticePoint& origin, int64_t side, int32_t label) override {
+    labels_->tree().sparseFill({coord(origin), coord(origin + (side - 1))}, label, true);
+  }
+
+  void add_labels(const VoxelCube& block, const BlockLabels& labels) override {
+    openvdb::Int32Tree::LeafNodeType& leaf = *labels_->tree().touchLeaf(coord(block.origin));
+    for (openvdb::Index x = 0; x < 8; ++x) {
+      for (uint64_t plane = block.block.words[x]; plane != 0; plane &= plane - 1) {
+        const openvdb::Index at = 64 * x + openvdb::Index(std::countr_zero(plane));
+        leaf.setValueOn(at, labels[at]);
+      }
+    }
+  }
+
   void write(const std::string& path, VdbFormat format) override {
     AtomicFile file(path);
     try {
       if (format == VdbFormat::kNano) {
-        SVDAG_ASSERT(grids_.size() == 1);
+        SVDAG_ASSERT(grids_.size() == 1 && !labels_);
         write_nano(*grids_.front(), file.open_name());
       } else if (format == VdbFormat::kBool) {
-        write_as<openvdb::BoolGrid>(file.open_name(), grids_, openvdb::GRID_UNKNOWN);
+        write_as<openvdb::BoolGrid>(file.open_name(), grids_, openvdb::GRID_UNKNOWN, labels_);
       } else if (format == VdbFormat::kFloat) {
-        write_as<openvdb::FloatGrid>(file.open_name(), grids_, openvdb::GRID_FOG_VOLUME);
+        write_as<openvdb::FloatGrid>(file.open_name(), grids_, openvdb::GRID_FOG_VOLUME, labels_);
       } else {
-        write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()});
+        write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()}, labels_);
       }
     } catch (const Error&) {
       throw;
@@ -164,6 +190,7 @@ class Writer final : public VdbWriter {
 
  private:
   std::vector<openvdb::MaskGrid::Ptr> grids_;
+  openvdb::Int32Grid::Ptr labels_;  // null: none
 };
 
 }  // namespace

@@ -3,8 +3,8 @@
 // An archive is a zip file of uncompressed `.npy` arrays. Written: `coordinates` (N x 3, int32: x,
 // y, z from the corner of the grid, in any order), `resolution` (int64), `corner` (3 x float64,
 // world position of the corner of voxel (0, 0, 0)) and `voxel_size` (float64). With layers also
-// `label` (N, uint16: the number of each voxel's layer), and of each layer `layer_colours` (uint32,
-// 0xRRGGBB) and `layer_names` (bytes; a zero byte after each name).
+// `label` (N, uint16: the number of each voxel's layer, 0xffff for voxels of no layer), and of each
+// layer `layer_colours` (uint32, 0xRRGGBB) and `layer_names` (bytes; a zero byte after each name).
 // Read: the same, or any archive (or single `.npy`) with one array of N x 3 integers, or one
 // 3-dimensional array of bool or uint8, whose nonzero elements are set. `resolution` and
 // `voxel_size` hold one number, `corner` three, as float32, float64 or integers of 1 to 8 bytes;

@@ -20,7 +20,7 @@ void write_ply_points(const VoxelWindow& window, const std::string& path) {
     for (int a = 0; a < 3; ++a)
       out.put(corner[a] + (double(voxel[size_t(a)]) + 0.5) * window.grid.voxel_size);
     if (window.labels == nullptr) return;
-    const Colour& colour = window.labels->colour_of(voxel);
+    const Colour colour = window.labels->colour_of(voxel);
     for (const uint8_t channel : {colour.r, colour.g, colour.b}) out.put(channel);
   });
   SVDAG_ASSERT(written == window.voxels);

@@ -6,8 +6,8 @@
 // nTRN (translation), nGRP (group), nSHP (shape). A model is placed by the position of its voxel
 // size/2. A window is written as tiles of 256^3 without the empty ones. Axes are not swapped (z is
 // up in MagicaVoxel). Every voxel has colour 1, white; with layers, the colour 1 + the number of
-// its layer, and RGBA (256 x {r, g, b, 255}) the colours from 1 on. World coordinates are not
-// stored.
+// its layer, and RGBA (256 x {r, g, b, 255}) the colours from 1 on; the one after the last layer's
+// is for voxels of no layer. World coordinates are not stored.
 #pragma once
 
 #include <string>

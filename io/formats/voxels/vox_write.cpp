@@ -59,6 +59,16 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
+// The number in the palette: that of the layer, or the one after the last for voxels of no layer.
+uint8_t colour_number(const LayerLabels& labels, const Voxel& voxel) {
+  const size_t layers = labels.layers().size();
+  const size_t number = 1 + std::min<size_t>(labels.of(voxel), layers);
+  if (number > kMaxVoxLayers)
+    fail_usage("vox holds " + format_count(kMaxVoxLayers) + " colours, the file has " +
+               format_count(layers) + " layers and voxels of no layer: export one with --layer");
+  return uint8_t(number);
+}
+
 // Returns the number of voxels of the model.
 uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side, Output* out) {
   Chunk size("SIZE", out);
@@ -69,7 +79,7 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
   out->put(uint32_t(0));
   const uint64_t count = for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
     for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
-    out->put(uint8_t(1 + (window.labels != nullptr ? window.labels->of(voxel) : 0)));
+    out->put(window.labels != nullptr ? colour_number(*window.labels, voxel) : uint8_t(1));
   });
   out->patch(count_at, uint32_t(count));  // at most 256^3
   chunk.end();
@@ -79,7 +89,9 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
 void put_palette(const std::vector<Layer>& layers, Output* out) {
   Chunk chunk("RGBA", out);
   for (size_t i = 0; i < 256; ++i) {
-    const Colour colour = i < layers.size() ? layers[i].colour : Colour();
+    const Colour colour = i < layers.size()    ? layers[i].colour
+                          : i == layers.size() ? kNoLayerColour
+                                               : Colour();
     for (const uint8_t channel : {colour.r, colour.g, colour.b, uint8_t(255)}) out->put(channel);
   }
   chunk.end();

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <random>
 
 #include "builder/build.h"
 #include "builder/merge/merge_runs.h"
+#include "io/dag/chosen_layers.h"
 #include "io/dag/layer_alone.h"
 #include "io/dag/plain_form.h"
 #include "tests/builder/bakes.h"
@@ -101,6 +103,43 @@ class Layers : public ::testing::Test {
     return nodes_of(DagFile::open(config.output));
   }
 
+  // Some layers together: they are the same, their union is the OR of them, and nothing else is in
+  // the file. All of a file whose union is that of its layers are the file.
+  void check_chosen(const BuildConfig& config, const DagFile& plain) {
+    const std::vector<Layer>& layers = plain.layers().layers;
+    std::vector<size_t> chosen;
+    const bool all = pick(3) == 0;
+    for (size_t i = 0; i < layers.size(); ++i)
+      if (all || pick(2)) chosen.push_back(i);
+    const DagFile file = chosen_layers(plain, chosen, room_);
+    EXPECT_EQ(inspect_file(file, room_).defects, std::vector<std::string>());
+    ASSERT_EQ(file.layers().layers.size(), chosen.size());
+    std::vector<std::string> paths;
+    for (size_t i = 0; i < chosen.size(); ++i) {
+      const Layer &mine = file.layers().layers[i], &its = layers[chosen[i]];
+      EXPECT_TRUE(mine.name == its.name && mine.colour == its.colour && mine.voxels == its.voxels);
+      EXPECT_EQ(nodes_of(layer_alone(file, i, room_)),
+                nodes_of(layer_alone(plain, chosen[i], room_)));
+      paths.push_back(folder_.file(its.name));
+    }
+    const bool is_or = !solids_ && config.descent.rule != Rule::kSolid;
+    if (is_or && !paths.empty()) {
+      EXPECT_EQ(nodes_of(layer_alone(file, {}, room_)), alone(config, paths));
+    }
+    if (is_or && all && config.with_union) {
+      EXPECT_EQ(nodes_of(file), nodes_of(plain));
+      EXPECT_EQ(std::memcmp(file.header().content_hash, plain.header().content_hash, 16), 0);
+    }
+    for (int ray = 0; ray < 200; ++ray) {
+      const uint32_t x = uint32_t(pick(file.view().resolution())),
+                     y = uint32_t(pick(file.view().resolution())),
+                     z = uint32_t(pick(file.view().resolution()));
+      bool any = false;
+      for (const size_t layer : chosen) any = any || dag_voxel(plain.view_of(layer), x, y, z);
+      ASSERT_EQ(dag_voxel(file.view(), x, y, z), any);
+    }
+  }
+
   void check(const BuildConfig& config) {
     const DagFile file = DagFile::open(config.output);
     EXPECT_EQ(inspect_file(file, room_).defects, std::vector<std::string>());
@@ -110,6 +149,7 @@ class Layers : public ::testing::Test {
     if (config.with_union) {
       EXPECT_EQ(nodes_of(layer_alone(plain, {}, room_)), alone(config, config.scene.paths));
     }
+    check_chosen(config, plain);
     for (size_t i = 0; i < plain.layers().layers.size(); ++i) {
       const std::string path = folder_.file(plain.layers().layers[i].name);
       EXPECT_EQ(nodes_of(layer_alone(plain, i, room_)), alone(config, {path})) << path;

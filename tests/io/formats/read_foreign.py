@@ -96,6 +96,58 @@ def read_hashdag(path, order=XYZ):
     return Found(2**levels, ordered(expand_bricks(bricks, at, order)), box[:3], max(sides) / 2**levels)
 
 
+def set_bits(numbers):
+    """The number of bits set in each u64."""
+    table = numpy.array([byte.bit_count() for byte in range(256)], "<i8")
+    return table[numpy.ascontiguousarray(numbers).view("u1").reshape(-1, 8)].sum(axis=1)
+
+
+def read_hashdag_colours(path):
+    """Voxels and the colour of each, as r, g, b, as HashDAG finds them: a voxel's colour is behind those of the
+    voxels before it, whose numbers are in the masks of the nodes beside its path."""
+    data = pathlib.Path(path).read_bytes()
+    levels, count = struct.unpack_from("<IQ", data, 48)
+    words = numpy.frombuffer(data, "<u4", offset=60).astype("<i8")
+    demand(len(words) == count, "the number of words")
+    colours = pathlib.Path(str(path).replace(".dag.bin", ".uncompressed_colors.bin")).read_bytes()
+    top_levels, listed = struct.unpack_from("<IQ", colours)
+    enclosed = numpy.frombuffer(colours, "<u8", listed, 12).astype("<i8")
+    [number] = struct.unpack_from("<Q", colours, 12 + 8 * listed)
+    demand(len(colours) == 20 + 8 * listed + 4 * number and 0 < listed <= 1 << 24, "the size of the colours")
+    table = numpy.frombuffer(colours, "<u4", number, 20 + 8 * listed)
+    demand(numpy.all(table >> 24 == 255), "a colour is not opaque")
+
+    def bricks(nodes):
+        return words[nodes].astype("<u8") | words[nodes + 1].astype("<u8") << numpy.uint64(32)
+
+    def voxels_below(level, nodes):
+        if level == levels - 2:
+            return set_bits(bricks(nodes))
+        upper = words[nodes] >> 8
+        return enclosed[upper] if level < top_levels else upper
+
+    nodes, at = start()
+    before = numpy.zeros(1, "<i8")
+    demand(voxels_below(0, nodes)[0] == number, "the number of voxels below the root")
+    for level in range(levels - 2):
+        total, found = numpy.zeros(len(nodes), "<i8"), []
+        for c in range(8):
+            there = (words[nodes] >> c & 1).astype(bool)
+            child = words[nodes[there] + 1 + rank_below(words[nodes[there]] & 255, c)]
+            found.append((child, 2 * at[there] + XYZ[c], (before + total)[there]))
+            total[there] += voxels_below(level + 1, child)
+        demand(numpy.array_equal(total, voxels_below(level, nodes)), "the number of voxels below a node")
+        nodes, at, before = (numpy.concatenate(column) for column in zip(*found))
+    masks, found = bricks(nodes), []
+    for bit in range(64):
+        there = (masks >> numpy.uint64(bit) & numpy.uint64(1)).astype(bool)
+        earlier = set_bits(masks[there] & numpy.uint64((1 << bit) - 1))
+        found.append((4 * at[there] + 2 * XYZ[bit >> 3] + XYZ[bit & 7], before[there] + earlier))
+    voxels, index = (numpy.concatenate(column) for column in zip(*found))
+    demand(numpy.array_equal(numpy.sort(index), numpy.arange(number)), "one colour for each voxel")
+    return voxels, table[index, None] >> numpy.array([0, 8, 16], "<u4") & 255
+
+
 def read_symvox(path, order=XYZ):
     data = pathlib.Path(path).read_bytes()
     low, high = struct.unpack_from("<3f", data), struct.unpack_from("<3f", data, 12)

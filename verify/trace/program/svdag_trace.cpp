@@ -230,7 +230,7 @@ uint64_t memory_for_file(const TraceOptions& options) {
 int run(const TraceOptions& options) {
   check_outputs(options);
   PlainFile file = read_plain_file(options.file, memory_for_file(options));
-  if (options.layer) show_layer(&file, layer_named(file.layers, *options.layer));
+  if (!options.layers.empty()) show_layer(&file, layers_named(file.layers, options.layers)[0]);
   const Workload work = make_workload(options, file);
   Output dump(options.dump), picture(options.picture);
   int exit_code = 0;

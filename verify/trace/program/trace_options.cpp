@@ -120,7 +120,7 @@ void add_options(CLI::App* app, TraceOptions* options) {
   app->add_flag("--compare", options->compare,
                 "Trace on both devices and count the pixels that differ; exit 1 if any does");
   app->add_flag("--json", options->json, "Print one line of JSON instead of the table");
-  add_layer(app, &options->layer);
+  add_layer(app, &options->layers);
   add_view_options(app, options);
   add_ray_options(app, options);
   from_to(app->add_option("--rounds", options->rounds,
@@ -172,6 +172,8 @@ std::optional<TraceOptions> parse_trace_options(int argc, char** argv) {
   TraceOptions options;
   add_options(&app, &options);
   if (read_command_line(&app, argc, argv)) return std::nullopt;
+  if (options.layers.size() > 1)
+    fail_usage("--layer: one layer can be traced: make a file of several with svdag convert");
   return options;
 }
 

@@ -24,7 +24,7 @@ struct TraceOptions {
   bool beams = true;
   bool compare = false;              // trace on both devices, and compare
   bool json = false;                 // print one line of JSON instead of a table
-  std::optional<std::string> layer;  // trace this one alone
+  std::vector<std::string> layers;  // at most one: trace it alone
   std::string dump, picture;         // output files; empty: none
 };
 
