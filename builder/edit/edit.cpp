@@ -8,12 +8,29 @@
 #include "builder/edit/box_graph.h"
 #include "builder/edit/combined_graph.h"
 #include "builder/edit/dag_graph.h"
+#include "builder/edit/layer_pairs.h"
+#include "builder/edit/united_graph.h"
+#include "io/dag/layer_alone.h"
 #include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
+
+// A file and those of its sets that are edited.
+struct Input {
+  Input(const std::string& path, const std::optional<std::string>& layer) : file(open_dag(path)) {
+    if (layer && !file.layers().empty())
+      chosen = layer_named(file.layers(), *layer);
+    else
+      layers = file.layers();
+  }
+
+  DagFile file;
+  std::optional<size_t> chosen;  // --layer
+  LayerTable layers;
+};
 
 void require_same(const DagFile& a, const DagFile& b) {
   const Grid g = a.grid(), h = b.grid();
@@ -59,8 +76,12 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
-  const DagFile first = open_dag(config.first);
-  Grid grid = first.grid();
+  const Input first(config.first, config.layer);
+  std::optional<Input> second;
+  if (config.second) second.emplace(*config.second, config.layer);
+  if (config.layer && !first.chosen && !(second && second->chosen))
+    layer_named(first.layers, *config.layer);  // fails: there are none
+  Grid grid = first.file.grid();
   if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
     fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
                " to " + std::to_string(grid.levels));
@@ -72,26 +93,33 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   import.layout = config.layout;
   import.memory = memory - memory / 2;
   import.scratch = config.scratch;
-  import.rule = first.rule();
-  import.largest_snap = first.header().largest_snap;
+  import.rule = first.file.rule();
+  import.largest_snap = first.file.header().largest_snap;
 
-  DagGraph a(first, config.level.value_or(grid.levels));
+  DagGraph a(first.file, config.level.value_or(grid.levels), first.chosen);
   if (config.level) {
     // Snaps are in voxels, which are larger now.
     import.largest_snap = std::ldexp(import.largest_snap, *config.level - grid.levels);
-    return import_graph(&a, import, executor);
+    return import_graph(&a, import, executor, first.layers);
   }
   NodeGraph* result = &a;
-  std::optional<DagFile> second;
-  std::unique_ptr<NodeGraph> b, both, box, cropped;
-  if (config.second) {
-    second.emplace(open_dag(*config.second));
-    require_same(first, *second);
-    b = std::make_unique<DagGraph>(*second, grid.levels);
-    grid = combined_grid(*config.operation, grid, second->grid());
-    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget);
+  LayerTable layers = first.layers;
+  std::unique_ptr<NodeGraph> b, both, united, box, cropped;
+  if (second) {
+    require_same(first.file, second->file);
+    b = std::make_unique<DagGraph>(second->file, grid.levels, second->chosen);
+    grid = combined_grid(*config.operation, grid, second->file.grid());
+    LayerPairs pairs = pair_layers(*config.operation, {config.first, layers, a.roots()},
+                                   {*config.second, second->layers, b->roots()});
+    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget,
+                                           pairs.roots);
     result = both.get();
-    import.largest_snap = std::max(import.largest_snap, second->header().largest_snap);
+    if (pairs.needs_union) {
+      united = std::make_unique<UnitedGraph>(result, &budget);
+      result = united.get();
+    }
+    layers = std::move(pairs.layers);
+    import.largest_snap = std::max(import.largest_snap, second->file.header().largest_snap);
   }
   if (config.bounds) {
     const VoxelBox before = grid.selection;
@@ -100,11 +128,13 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
     if (grid.selection.empty())
       fail_usage("--bounds: the box meets no voxel of the grid that may be set");
     box = std::make_unique<BoxGraph>(grid, grid.selection);
+    std::vector<NodePair> roots;
+    for (const uint32_t root : result->roots()) roots.push_back({root, box->roots().front()});
     cropped = std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), grid,
-                                              &budget);
+                                              &budget, roots);
     result = cropped.get();
   }
-  return import_graph(result, import, executor);
+  return import_graph(result, import, executor, std::move(layers));
 }
 
 }  // namespace svdag

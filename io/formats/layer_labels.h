@@ -20,6 +20,7 @@ class LayerLabels {
     SVDAG_ASSERT(label != kNoLayer);
     return label;
   }
+  LayerKind kind() const { return file_.layers().kind; }
   const std::vector<Layer>& layers() const { return file_.layers().layers; }
   const Colour& colour_of(const Voxel& voxel) const { return layers()[of(voxel)].colour; }
 

@@ -25,7 +25,7 @@ namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&);
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -53,6 +53,10 @@ bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
+GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*) {
+  return read_binvox(file, sink);
+}
+
 struct FormatRow {
   const char* name;
   bool (*matches)(const File&, FileStart);
@@ -64,7 +68,7 @@ struct FormatRow {
 constexpr FormatRow kFormats[] = {
     {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
     {"npz", looks_like_npz, nullptr, read_npz},
-    {"binvox", looks_like_binvox, nullptr, read_binvox},
+    {"binvox", looks_like_binvox, nullptr, read_binvox_alone},
     {"vox", looks_like_vox, nullptr, read_vox},
     {"vdb", looks_like_vdb, nullptr, nullptr},
     {"hashdag", looks_like_hashdag, read_hashdag, nullptr},
@@ -111,10 +115,11 @@ ImportReport import_as(const FormatRow& row, const File& file, const ImportComma
     return import_graph(graph.get(), import, &executor);
   }
   if (row.voxels != nullptr) {
+    LayerTable layers;
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
-      return row.voxels(file, sink);
+      return row.voxels(file, sink, config.no_layers ? nullptr : &layers);
     };
-    return import_voxels(read, import, &executor);
+    return import_voxels(read, import, &executor, 0, &layers);
   }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
   reject_needless_range(*grid, config.iso);
@@ -150,11 +155,11 @@ int run(const ImportCommandConfig& config) {
   if (config.json)
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)
-    std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
+    std::printf("%s: %s, %s voxels of %s^3%s, %s DAG nodes, %s\n  content hash %s\n",
                 config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),
-                format_count(report.nodes).c_str(), format_bytes(report.file_bytes).c_str(),
-                report.content_hash.c_str());
+                layers_text(report).c_str(), format_count(report.nodes).c_str(),
+                format_bytes(report.file_bytes).c_str(), report.content_hash.c_str());
   return int(ExitCode::kOk);
 }
 

@@ -1,9 +1,12 @@
 #include "io/formats/voxels/npz.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <unordered_set>
 
+#include "io/formats/label_numbers.h"
 #include "io/formats/voxels/zip.h"
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
@@ -122,9 +125,41 @@ uint64_t read_integer(ByteStream* stream, const Array& array) {
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
+// The labels of voxels, row by row.
+class Labels {
+ public:
+  // `array`: as many integers as there are voxels. `count`: of the layers, by number; none: each
+  // integer is a layer of `table`.
+  Labels(const File& file, const Array& array, std::optional<size_t> count, LayerTable* table)
+      : array_(array),
+        stream_(file, array.offset, array.end),
+        count_(count),
+        numbers_(file.path(), table, [is_signed = array.kind == 'i'](uint64_t label) {
+          const std::string name =
+              is_signed ? std::to_string(int64_t(label)) : std::to_string(label);
+          return Layer{name, palette_colour(name)};
+        }) {}
+
+  uint16_t next() {
+    const uint64_t label = read_integer(&stream_, array_);
+    if (!count_) return numbers_.of(label);
+    if (label >= *count_)
+      fail_input(stream_.file().path(),
+                 "a label is not the number of one of the " + std::to_string(*count_) + " layers",
+                 stream_.offset() - array_.bytes);
+    return uint16_t(label);
+  }
+
+ private:
+  const Array& array_;
+  ByteStream stream_;
+  std::optional<size_t> count_;
+  LabelNumbers numbers_;
+};
+
 // In Fortran order, which numpy.argwhere() gives, all x precede all y and all z: one stream per
 // axis.
-void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
+void read_coordinates(const File& file, const Array& array, Labels* labels, const VoxelSink& sink) {
   const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
   std::vector<ByteStream> streams;
   for (uint64_t a = 0; a < (array.fortran_order ? 3 : 1); ++a)
@@ -139,7 +174,7 @@ void read_coordinates(const File& file, const Array& array, const VoxelSink& sin
         fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
       voxel[a] = uint32_t(value);
     }
-    batch.add(voxel);
+    labels != nullptr ? batch.add(voxel, labels->next()) : batch.add(voxel);
   }
   batch.flush();
 }
@@ -260,6 +295,90 @@ class VoxelArrayChoice {
   std::string unread_;  // the first array of an unsupported type
 };
 
+// The arrays of a file that describe its layers; null where it has none.
+struct LayerArrays {
+  std::optional<Array> label, names, colours, kind;
+
+  void consider(std::string_view name, const Array& array) {
+    // An array of more dimensions may hold the voxels.
+    if (name == "label" && array.shape.size() == 1) label = array;
+    if (name == "layer_names") names = array;
+    if (name == "layer_colours") colours = array;
+    if (name == "layer_kind") kind = array;
+  }
+};
+
+// Layers and labels of a file.
+class LayerReader {
+ public:
+  LayerReader(const File& file, const LayerArrays& arrays, LayerTable* table)
+      : file_(file), arrays_(arrays), table_(table) {}
+
+  // Fills the table, but for layers that have no name, which their labels add.
+  Labels read(uint64_t voxels) {
+    const Array& label = *arrays_.label;
+    if (!is_integer(label) || label.elements() != voxels)
+      fail("label",
+           "that is not an integer for each row of \"coordinates\" (--no-layers ignores it)");
+    table_->kind = arrays_.kind ? read_kind(*arrays_.kind) : LayerKind::kMaterial;
+    if (!arrays_.names) return {file_, label, std::nullopt, table_};
+    read_names(*arrays_.names);
+    if (arrays_.colours) read_colours(*arrays_.colours);
+    return {file_, label, table_->layers.size(), table_};
+  }
+
+ private:
+  static constexpr uint64_t kMaxNameBytes = uint64_t(64) << 20;  // of all names
+
+  [[noreturn]] void fail(const char* name, const char* sentence) const {
+    fail_input(file_.path(), std::string("has an array \"") + name + "\" " + sentence);
+  }
+  std::string read_bytes(const char* name, const Array& array) const {
+    if (array.kind != 'u' || array.bytes != 1 || array.shape.size() != 1 ||
+        array.elements() > kMaxNameBytes)
+      fail(name, "that is not a row of uint8, of at most 64 MiB");
+    std::string text(array.elements(), '\0');
+    ByteStream(file_, array.offset, array.end).read(std::as_writable_bytes(std::span(text)));
+    return text;
+  }
+  LayerKind read_kind(const Array& array) const {
+    const std::string text = read_bytes("layer_kind", array);
+    for (const LayerKind kind : {LayerKind::kObject, LayerKind::kMaterial, LayerKind::kFile}) {
+      if (text == layer_kind_name(kind)) return kind;
+    }
+    fail("layer_kind", "that is not object, material or file");
+  }
+  void read_names(const Array& array) {
+    std::string_view text;
+    const std::string bytes = read_bytes("layer_names", array);
+    std::unordered_set<std::string_view> seen;
+    for (text = bytes; !text.empty();) {
+      const size_t end = text.find('\0');
+      if (end == std::string_view::npos) fail("layer_names", "that does not end with a zero byte");
+      const std::string_view name = text.substr(0, end);
+      if (table_->layers.size() == kMaxLayers) fail_many_layers(file_.path());
+      if (!seen.insert(name).second)
+        fail_input(file_.path(), "two layers are named " + shown_layer(std::string(name)));
+      table_->layers.push_back({std::string(name), palette_colour(name)});
+      text.remove_prefix(end + 1);
+    }
+  }
+  void read_colours(const Array& array) {
+    if (!is_integer(array) || array.shape.size() != 1 || array.elements() != table_->layers.size())
+      fail("layer_colours", "that is not an integer for each layer");
+    ByteStream stream(file_, array.offset, array.end);
+    for (Layer& layer : table_->layers) {
+      const uint64_t colour = read_integer(&stream, array);
+      if (colour > 0xffffff) fail("layer_colours", "that is not of colours 0xRRGGBB");
+      layer.colour = {uint8_t(colour >> 16), uint8_t(colour >> 8), uint8_t(colour)};
+    }
+  }
+
+  const File& file_;
+  const LayerArrays& arrays_;
+  LayerTable* table_;
+};
+
 void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   begin_array(zip, "label", "<u2", "(" + std::to_string(window.voxels) + ",)");
   for_each_voxel(window.walk, window.box(),
@@ -276,6 +395,10 @@ void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   for (const Layer& layer : layers) names += layer.name + '\0';
   begin_array(zip, "layer_names", "|u1", "(" + std::to_string(names.size()) + ",)");
   zip->put(names);
+  zip->end();
+  const std::string kind = layer_kind_name(window.labels->kind());
+  begin_array(zip, "layer_kind", "|u1", "(" + std::to_string(kind.size()) + ",)");
+  zip->put(kind);
   zip->end();
 }
 
@@ -303,7 +426,7 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   zip.commit();
 }
 
-GridPlacement read_npz(const File& file, const VoxelSink& sink) {
+GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers) {
   std::vector<ZipEntry> entries;
   std::array<char, 6> start{};
   file.read_some_at(0, std::as_writable_bytes(std::span(start)));
@@ -316,18 +439,23 @@ GridPlacement read_npz(const File& file, const VoxelSink& sink) {
   }
   GridPlacement place;
   VoxelArrayChoice choice(file);
+  LayerArrays layer_arrays;
   for (const ZipEntry& entry : entries) {
     const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_placement(file, name, array, &place);
     choice.consider(name, array);
+    layer_arrays.consider(name, array);
   }
   const Array& voxels = choice.voxels();
   if (is_dense(voxels)) {
     for (const uint64_t side : voxels.shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, voxels, sink);
+  } else if (layers != nullptr && layer_arrays.label) {
+    Labels labels = LayerReader(file, layer_arrays, layers).read(voxels.shape[0]);
+    read_coordinates(file, voxels, &labels, sink);
   } else {
-    read_coordinates(file, voxels, sink);
+    read_coordinates(file, voxels, nullptr, sink);
   }
   for (const ZipEntry& entry : entries) {
     if (zipped) check_crc(file, entry);
