@@ -31,7 +31,7 @@ with zipfile.ZipFile("wrong.npz", "w") as archive:
         archive.writestr(name + ".npy", data.getvalue())
 EOP
 for change in "label=numpy.array([0,2])" "label=numpy.array([0])" "label=numpy.array([0.,1.])" "layer_names=b'a'" "layer_names=b'a\0a\0'" \
-  "layer_names=numpy.array(['a','b'])" "layer_colours=numpy.array([1])" "layer_colours=numpy.array([1,1<<24])" "layer_kind=b'thing'"; do
+  "layer_names=numpy.array([1.,2.])" "layer_colours=numpy.array([1])" "layer_colours=numpy.array([1,1<<24])" "layer_kind=b'thing\0'"; do
   /usr/bin/python3 -B wrong.py "$change"
   svdag import wrong.npz -o x.svdag || echo "exit $?"
 done

@@ -258,12 +258,16 @@ class Import(unittest.TestCase):
         rows += rows[:20]  # also of another layer
         labels += [(label + 1) % 5 for label in labels[:20]]
         of = [[row for row, label in zip(rows, labels) if label == i] for i in range(5)]
-        names = ["b", "a", "wall \u00e9", "", "c"]
+        names = ["b", "a", "wall \u00e9", "", "\u20ac\U0001f600"]
         colours = [0xff8001, 0, 0xffffff, 0x10203, 0xabcdef]
         x, text = numpy.array(rows, "<i4"), "".join(name + "\0" for name in names).encode()
         for kind in ("i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"):
             arrays = {"coordinates": x, "label": numpy.array(labels, kind), "layer_names": numpy.frombuffer(text, "u1"),
-                      "layer_colours": numpy.array(colours, "<u4"), "layer_kind": numpy.frombuffer(b"file", "u1")}
+                      "layer_colours": numpy.array(colours, "<u4"), "layer_kind": numpy.frombuffer(b"file\0", "u1")}
+            if kind == "u1":
+                arrays.update(layer_names=numpy.array(names), layer_kind=numpy.array("file"))
+            if kind == "<i8":
+                arrays.update(layer_names=numpy.array([name.encode() for name in names]), layer_kind=numpy.array([b"file"]))
             with self.subTest(kind=kind):
                 dag = self.read(write_foreign.npz(**arrays), "l.npz", "-r", "32")
                 self.expect_layers(dag, {name: ((c >> 16, c >> 8 & 255, c & 255), of[i])
@@ -317,13 +321,17 @@ class Import(unittest.TestCase):
         rejected("two layers are named a", label=good, layer_names=text(b"a\0b\0a\0"))
         rejected("two layers are named (unnamed)", label=good, layer_names=text(b"\0\0"))
         rejected('"layer_names" that does not end with a zero byte', label=good, layer_names=text(b"a\0b"))
-        rejected('"layer_names" that is not a row of uint8', label=good, layer_names=numpy.array(["a", "b"]))
+        for names in (numpy.array([1.0, 2.0]), numpy.array([["a", "b"]]), numpy.array([0, 1])):
+            rejected('"layer_names" that is not a row of texts', label=good, layer_names=names)
+        for code in (0x110000, 0xd800):
+            rejected('"layer_names" that is not valid Unicode', label=good, layer_names=numpy.array([97, code], "<u4").view("<U1"))
         for colours in (numpy.array([1]), numpy.array([1, 2, 3]), numpy.array([1.0, 2.0])):
             rejected('"layer_colours" that is not an integer for each layer', label=good, layer_names=text(b"a\0b\0"),
                      layer_colours=colours)
         rejected('"layer_colours" that is not of colours 0xRRGGBB', label=good, layer_names=text(b"a\0b\0"),
                  layer_colours=numpy.array([1, 2**24]))
-        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=text(b"none"))
+        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=text(b"none\0"))
+        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=numpy.array(["file", "file"]))
 
     def test_65535_layers_and_no_more(self):
         count = 65535
