@@ -1,6 +1,7 @@
 #include "builder/import/import.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -106,11 +107,9 @@ class LabelledReduction {
     sort->finish([this](const auto& voxels) {
       for (const LabelledVoxel& voxel : voxels) add(voxel);
     });
-    add_brick();
-    bricks_.finish();
+    finish();
   }
-
- private:
+  // In the order of the sort.
   void add(const LabelledVoxel& voxel) {
     if (voxel.brick != code_) {
       add_brick();
@@ -120,7 +119,12 @@ class LabelledReduction {
     if (sets_.empty() || sets_.back().subject != layer) sets_.push_back({layer, 0});
     sets_.back().brick |= voxel.bit();
   }
+  void finish() {
+    add_brick();
+    bricks_.finish();
+  }
 
+ private:
   void add_brick() {
     if (sets_.empty()) return;
     Brick all = 0;
@@ -136,6 +140,38 @@ class LabelledReduction {
   std::vector<SubjectBrick> sets_;  // of each layer in it
 };
 
+// Gives the voxels of a DAG, in Morton order, their labels.
+class LabelledWalk {
+ public:
+  LabelledWalk(const DagView& dag, const LabelSource& labels, LabelledReduction* reduction)
+      : dag_(dag), labels_(labels), reduction_(reduction) {}
+
+  // `code`: Morton code of the cube of `node` among those of its level.
+  void visit(uint32_t level, uint32_t node, uint64_t code) {
+    if (level == dag_.brick_level()) return add_brick(dag_.bricks[node], code);
+    if (level + 4 == dag_.brick_level()) check_interrupt();
+    dag_for_children(dag_, level, node,
+                     [&](unsigned c, uint32_t child) { visit(level + 1, child, code << 3 | c); });
+  }
+
+ private:
+  void add_brick(Brick brick, uint64_t code) {
+    std::array<LabelledVoxel, 64> voxels;
+    size_t count = 0;
+    for (; brick != 0; brick &= brick - 1) {
+      const uint32_t bit = uint32_t(std::countr_zero(brick));
+      voxels[count++] = {code, uint32_t(labels_.next()) << 6 | bit, 0};
+    }
+    std::sort(voxels.begin(), voxels.begin() + count,
+              [](const auto& a, const auto& b) { return a.label_and_bit < b.label_and_bit; });
+    for (size_t i = 0; i < count; ++i) reduction_->add(voxels[i]);
+  }
+
+  const DagView& dag_;
+  const LabelSource& labels_;
+  LabelledReduction* reduction_;
+};
+
 class Import {
  public:
   Import(const ImportConfig& config, Executor* executor)
@@ -148,27 +184,38 @@ class Import {
   }
 
   ImportReport run(NodeGraph* graph, LayerTable layers) {
-    Grid grid = graph->grid();
-    if (config_.levels != 0 && config_.levels != grid.levels)
-      fail_usage("-r: the file has a fixed resolution of " +
-                 format_resolution(uint64_t(grid.resolution())) + ": omit -r");
+    const Grid grid = grid_of(*graph);
     DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
-    const ReductionConfig reduction{workspace_.budget(), workspace_.shares().sort, executor_,
-                                    [this] { return new_file(); }};
-    const uint64_t voxels = set_roots(reduce_graph(graph, reduction, &output), &layers);
+    const uint64_t voxels = set_roots(reduce_graph(graph, reduction(), &output), &layers);
     const size_t count = layers.layers.size();
     finish(&output, {}, voxels, std::move(layers));
     return describe(grid, output, count);
   }
 
+  // The graph is reduced alone first: then its voxels are counted, and can be walked in any order.
+  ImportReport run(NodeGraph* graph, const LabelSource& labels) {
+    const Grid grid = grid_of(*graph);
+    DagOutput plain(config_.output, grid, config_.rule);
+    const uint64_t voxels = reduce_graph(graph, reduction(), &plain).front().voxels;
+    const DagFile dag = plain.finish_unnamed(voxels, config_.source);
+    if (voxels != labels.count)
+      fail_input(labels.path, "has " + format_count(labels.count) + " colours, but the DAG has " +
+                                  format_count(voxels) + " voxels (--no-layers ignores it)");
+    RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
+      LabelledReduction reduction(true, builder);
+      if (voxels != 0) LabelledWalk(dag.view(), labels, &reduction).visit(0, 0, 0);
+      reduction.finish();
+    });
+    return finish_runs(std::move(set), grid, *labels.layers);
+  }
+
   ImportReport run(const VoxelSource& source, uint64_t count, const LayerTable* layers) {
-    MemoryBudget* const budget = workspace_.budget();
-    Scratch* const scratch = workspace_.scratch();
     std::optional<VoxelSort> sort;
     std::optional<LabelledSort> labelled;  // instead of it, from the first voxel on
     sort.emplace(sort_room(), 2, CodeWord());
-    DiskNeed(scratch).expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
-    FullCubes cubes(budget);
+    DiskNeed(workspace_.scratch())
+        .expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
+    FullCubes cubes(workspace_.budget());
     uint32_t highest = 0;  // bitwise or of all coordinates
     const GridPlacement place = source(
         [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels) {
@@ -194,7 +241,6 @@ class Import {
         });
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
-    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
     LayerTable table = layers != nullptr ? *layers : LayerTable();
     RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
       if (labelled)
@@ -204,10 +250,32 @@ class Import {
     });
     sort.reset();  // the merge needs the memory
     labelled.reset();
+    return finish_runs(std::move(set), grid, std::move(table));
+  }
+
+ private:
+  Grid grid_of(const NodeGraph& graph) const {
+    const Grid grid = graph.grid();
+    if (config_.levels != 0 && config_.levels != grid.levels)
+      fail_usage("-r: the file has a fixed resolution of " +
+                 format_resolution(uint64_t(grid.resolution())) + ": omit -r");
+    return grid;
+  }
+
+  ReductionConfig reduction() {
+    return {workspace_.budget(), workspace_.shares().sort, executor_,
+            [this] { return new_file(); }};
+  }
+
+  // `table`: without roots and voxels.
+  ImportReport finish_runs(RunSet set, const Grid& grid, LayerTable table) {
+    Scratch* const scratch = workspace_.scratch();
+    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
     for (size_t i = 0; i < set.layer_voxels.size(); ++i)
       table.layers[i].voxels = set.layer_voxels[i];
-    const MergeConfig merging = share_for_merge(budget, set.spilled ? scratch : nullptr,
-                                                executor_->workers(), 4 * scratch->block_bytes());
+    const MergeConfig merging =
+        share_for_merge(workspace_.budget(), set.spilled ? scratch : nullptr, executor_->workers(),
+                        4 * scratch->block_bytes());
     const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
                              &output, executor_);
     const size_t layer_count = table.layers.size();
@@ -215,7 +283,6 @@ class Import {
     return describe(grid, output, layer_count);
   }
 
- private:
   // Copies the sets to the table, whose order they have. Returns the voxels of the union.
   static uint64_t set_roots(const std::vector<ReducedSet>& sets, LayerTable* layers) {
     auto set = sets.begin();
@@ -308,6 +375,11 @@ class Import {
 ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
                           LayerTable layers) {
   return Import(config, executor).run(graph, std::move(layers));
+}
+
+ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
+                                   const ImportConfig& config, Executor* executor) {
+  return Import(config, executor).run(graph, labels);
 }
 
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,

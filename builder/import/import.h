@@ -54,6 +54,16 @@ using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCube
 // without layers has one root. Roots and voxels of `layers` need not be set.
 ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
                           LayerTable layers = {});
+// The layer of each voxel of a graph, in Morton order, which is that of a depth-first walk.
+struct LabelSource {
+  std::string path;                // for errors
+  uint64_t count;                  // of the labels
+  std::function<uint16_t()> next;  // the number of a layer
+  const LayerTable* layers;        // of the labels that next() has returned
+};
+// Error (kBadInput) if there is not one label for each voxel.
+ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
+                                   const ImportConfig& config, Executor* executor);
 // Throws Error (kUsage) if a voxel is outside of a grid of config.levels. `count` is the number of
 // voxels, 0 if unknown; if the disk is too small to sort them, throws Error (kOutput) before
 // reading any. `layers`: where the source puts the layers of its labels; if there are none after it

@@ -10,6 +10,7 @@
 #include "io/dag/format.h"
 #include "io/dag/symvox_header.h"
 #include "io/formats/dags/hashdag.h"
+#include "io/formats/dags/hashdag_colours.h"
 #include "io/formats/dags/symvox.h"
 #include "io/formats/dags/transform_dag.h"
 #include "io/formats/voxels/binvox.h"
@@ -107,12 +108,17 @@ void require_no_vdb_options(const ImportCommandConfig& config, const FormatRow& 
                row.name);
 }
 
-ImportReport import_as(const FormatRow& row, const File& file, const ImportCommandConfig& config,
-                       const ImportConfig& import) {
+ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
+                       const ImportCommandConfig& config, const ImportConfig& import) {
   ParallelExecutor executor(threads_or_all(config.threads));
   if (row.graph != nullptr) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    return import_graph(graph.get(), import, &executor);
+    if (colours == nullptr) return import_graph(graph.get(), import, &executor);
+    LayerTable layers;
+    HashDagColours labels(*colours, &layers);
+    return import_labelled_graph(
+        graph.get(), {colours->path(), labels.count(), [&] { return labels.next(); }, &layers},
+        import, &executor);
   }
   if (row.voxels != nullptr) {
     LayerTable layers;
@@ -150,8 +156,14 @@ int run(const ImportCommandConfig& config) {
   import.source = config.file;
   import.inputs = &inputs;
   const FormatRow& row = choose(config, file);
+  std::optional<File> colours;
+  if (row.graph == read_hashdag && !config.no_layers) {
+    const std::string path = colours_beside(config.file);
+    if (!path.empty()) inputs.add(colours.emplace(File::open_read(path)));
+  }
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
-  const ImportReport report = inputs.guard([&] { return import_as(row, file, config, import); });
+  const ImportReport report = inputs.guard(
+      [&] { return import_as(row, file, colours ? &*colours : nullptr, config, import); });
   if (config.json)
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)

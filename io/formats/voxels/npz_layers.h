@@ -1,6 +1,7 @@
 // The layers of an imported `.npz` archive, and the labels of its voxels.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
@@ -25,12 +26,13 @@ struct NpzLayerArrays {
 // The labels of voxels, row by row.
 class NpzLabels {
  public:
-  // `array`: as many integers as there are voxels. `count`: of the layers, by number; none: each
-  // integer is a layer of `table`.
+  // `array`: as many integers as there are voxels. `count`: of the layers in `table`, by number;
+  // none: each integer becomes one.
   NpzLabels(const File& file, const NpyArray& array, std::optional<size_t> count, LayerTable* table)
       : array_(array),
         stream_(file, array.offset, array.end),
         count_(count),
+        table_(table),
         numbers_(file.path(), table, [is_signed = array.kind == 'i'](uint64_t label) {
           const std::string name =
               is_signed ? std::to_string(int64_t(label)) : std::to_string(label);
@@ -40,6 +42,7 @@ class NpzLabels {
   uint16_t next() {
     const uint64_t label = read_integer(&stream_, array_);
     if (!count_) return numbers_.of(label);
+    if (label == kNoLabel || label == uint64_t(-1)) return unnamed();
     if (label >= *count_)
       fail_input(stream_.file().path(),
                  "a label is not the number of one of the " + std::to_string(*count_) + " layers",
@@ -48,9 +51,24 @@ class NpzLabels {
   }
 
  private:
+  static constexpr uint64_t kNoLabel = 0xffff;  // of a voxel of no layer, as is -1
+
+  // The unnamed layer, which holds what has no layer.
+  uint16_t unnamed() {
+    if (unnamed_) return *unnamed_;
+    const auto found = std::ranges::find(table_->layers, std::string(), &Layer::name);
+    unnamed_ = uint16_t(found - table_->layers.begin());
+    if (found != table_->layers.end()) return *unnamed_;
+    if (table_->layers.size() == kMaxLayers) fail_many_layers(stream_.file().path());
+    table_->layers.push_back({"", palette_colour("")});
+    return *unnamed_;
+  }
+
   const NpyArray& array_;
   ByteStream stream_;
   std::optional<size_t> count_;
+  LayerTable* table_;
+  std::optional<uint16_t> unnamed_;
   LabelNumbers numbers_;
 };
 

@@ -284,6 +284,14 @@ class Import(unittest.TestCase):
         dag = self.read(write_foreign.npz(**arrays), "l.npz", "-r", "32")
         self.expect_layers(dag, {**{name: (None, of[i]) for i, name in enumerate(names)}, "none": (None, [])})
         self.assertEqual(dag.layer_kind, 2)
+        # What is in no layer becomes the unnamed one, which is there or not.
+        for none in (numpy.uint16(65535), numpy.int8(-1)):
+            for text in (b"a\0b\0", b"a\0\0"):
+                label = numpy.array([none, 0, 1] * len(rows))[:len(rows)]
+                dag = self.read(write_foreign.npz(coordinates=x, label=label, layer_names=numpy.frombuffer(text, "u1")),
+                                "l.npz", "-r", "32")
+                self.expect_layers(dag, {"a": (None, rows[1::3]), **(
+                    {"b": (None, rows[2::3]), "": (None, rows[::3])} if b"b" in text else {"": (None, rows[::3] + rows[2::3])})})
 
     def test_numbers_without_names_are_layers(self):
         rows = [tuple(v) for v in self.few.tolist()]
@@ -313,7 +321,7 @@ class Import(unittest.TestCase):
         good = numpy.arange(count) % 2
         for label in (good[1:], numpy.append(good, 0), good.astype("<f4"), good.astype(bool)):
             rejected('has an array "label" that is not an integer for each row', label=label)
-        for wrong in (2, -1):
+        for wrong in (2, -2, 65534, 65536):
             labels = good.copy()
             labels[-1] = wrong
             rejected("a label is not the number of one of the 2 layers", label=labels, layer_names=text(b"a\0b\0"))
@@ -388,6 +396,37 @@ class Import(unittest.TestCase):
             self.assertEqual(default[f"colour-{number:03}".encode()], colour, number)
         one = write_foreign.vox((self.few, (32, 32, 32)), palette=None)
         self.assertEqual(self.read(one, "o.vox", "-r", "32").layers, [])
+
+    def test_colours_beside_a_hashdag_are_layers(self):
+        def morton(v):
+            return [4 * (v[0] >> k & 1) + 2 * (v[1] >> k & 1) + (v[2] >> k & 1) for k in range(9, -1, -1)]
+
+        def write(rows, colours, levels=5):
+            (BAKERY.folder / "c.dag.bin").write_bytes(write_foreign.hashdag(rows, levels))
+            (BAKERY.folder / "c.uncompressed_colors.bin").write_bytes(colours)
+        rows = sorted((tuple(v) for v in self.few.tolist()), key=morton)
+        kinds = ((1, 2, 3), (255, 0, 16), (0, 0, 0))
+        colours = [kinds[sum(v) * 5 // 3 % 3] for v in rows]
+        write(rows, write_foreign.hashdag_colours(colours))
+        for options in ((), ("-m", "8M", "-j", "2"), ("--layout", "compact")):
+            dag = self.imported("c.dag.bin", *options)
+            self.expect_layers(dag, {"#%02x%02x%02x" % kind: (kind, [v for v, c in zip(rows, colours) if c == kind])
+                                     for kind in kinds})
+            self.assertEqual({tuple(v) for v in dag.voxels().tolist()}, set(rows))
+        without = self.imported("c.dag.bin", "--no-layers")
+        self.assertEqual((nodes_of(without), without.layers), (nodes_of(self.small), []))
+        good = write_foreign.hashdag_colours(colours)
+        for wrong, sentence in ((good[:-4], "its size does not match its counts"), (good + b"1", "its size does not match its counts"),
+                                (good[:11], "its size does not match its counts"), (good[:16], "its size does not match its counts"),
+                                (write_foreign.hashdag_colours(colours[1:]), f"colours, but the DAG has {len(rows):,} voxels")):
+            write(rows, wrong)
+            self.assertIn("c.uncompressed_colors.bin: ", BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
+            self.assertIn(sentence, BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
+        write([], write_foreign.hashdag_colours([]))
+        self.assertEqual(self.imported("c.dag.bin").voxel_count, 0)
+        many = sorted(((x, y, z) for x in range(64) for y in range(64) for z in range(16)), key=morton)
+        write(many, write_foreign.hashdag_colours([(i & 255, i >> 8, 0) for i in range(len(many))]), 6)
+        self.assertIn("has more than 65535 layers", BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
 
     def test_a_flipped_bit_in_an_archive_is_detected(self):
         good = write_foreign.npz(x=numpy.array(self.few, "<i4"), resolution=numpy.array(32))

@@ -45,6 +45,12 @@ def hashdag(voxels, levels, low=(0, 0, 0), side=1.0, empty_nodes=False):
     return struct.pack("<6dIQ", *low, *high, levels, len(words)) + struct.pack(f"<{len(words)}I", *words)
 
 
+def hashdag_colours(colours, top_levels=2, enclosed=(7, 1 << 40, 0)):
+    """colours: (r, g, b) of each voxel, depth first. The counts of voxels below nodes are made up."""
+    return struct.pack("<IQ", top_levels, len(enclosed)) + struct.pack(f"<{len(enclosed)}Q", *enclosed) + struct.pack(
+        "<Q", len(colours)) + b"".join(bytes((*colour, 255)) for colour in colours)
+
+
 def by_level(voxels, levels):
     """Lists of nodes per depth; a node is {child: position in the next list}, without sharing."""
     lists = [[] for _ in range(levels + 1)]
