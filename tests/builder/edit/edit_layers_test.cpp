@@ -264,6 +264,37 @@ TEST_F(EditLayers, ManyLayersHaveTheUnionOfTheirDifferences) {
   EXPECT_EQ(result.of_union, all_of(result.layers));
 }
 
+// Two equal boxes cancel out inside, by the rule of odd windings.
+TEST_F(EditLayers, OfASolidAUnionThatIsEmptyBesideALayerIsLeftOut) {
+  BuildConfig config = random_scene("a", Rule::kSolidOdd, LayerKind::kFile);
+  config.scene.paths = {folder_.file("one.stl"), folder_.file("two.stl")};
+  for (const std::string& path : config.scene.paths)
+    write_stl(path, closed_box(Point(0), Point(1)));
+  config.with_union = true;
+  bake(config);
+  const Content whole = content(config.output);
+  EXPECT_LT(whole.of_union.size(), whole.layers.at("one.stl").size());
+  EditConfig crop;
+  crop.first = config.output;
+  crop.bounds = Box{Point(0.3), Point(0.6)};
+  edit_to(crop, folder_.file("inside.svdag"));
+  const Content inside = content(folder_.file("inside.svdag"));
+  EXPECT_FALSE(inside.has_union);
+  EXPECT_FALSE(inside.layers.at("one.stl").empty());
+  EXPECT_EQ(inside.layers.at("one.stl"), inside.layers.at("two.stl"));
+  crop.bounds = Box{Point(-0.05), Point(0.6)};  // with a part of the surface
+  edit_to(crop, folder_.file("corner.svdag"));
+  EXPECT_TRUE(content(folder_.file("corner.svdag")).has_union);
+  // The union of the layerwise difference is their OR.
+  EditConfig difference;
+  difference.first = config.output;
+  difference.second = folder_.file("corner.svdag");
+  difference.operation = SetOperation::kDifference;
+  edit_to(difference, folder_.file("rest.svdag"));
+  const Content rest = content(folder_.file("rest.svdag"));
+  EXPECT_EQ(rest.of_union, all_of(rest.layers));
+}
+
 TEST(LayerPairs, UnionsHaveAtMost65535Layers) {
   LayerSets a{"a.svdag", {LayerKind::kObject, false, 0, {}}, {}}, b = a;
   for (uint32_t i = 0; i < kMaxLayers; ++i) {
