@@ -2,7 +2,7 @@
 //
 // A reader of voxel lists (npz, binvox, vox) passes voxels to a sink in batches, in file order,
 // with repetitions; their placement is known at the end. Sparse volumes (vdb) also contain full
-// cubes.
+// cubes. Voxels of layers have labels, the numbers of their layers.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@
 namespace svdag {
 
 using Voxel = std::array<uint32_t, 3>;  // x, y, z, below 2^20 each
-using VoxelSink = std::function<void(std::span<const Voxel>)>;
+// Takes voxels and, of a file with layers, as many labels; of other files none.
+using VoxelSink = std::function<void(std::span<const Voxel>, std::span<const uint16_t>)>;
 
 // A cube of voxels that are all set; its origin is a multiple of its side.
 struct FullCube {
@@ -41,9 +42,15 @@ class VoxelBatch {
     if (voxels_.size() == kBatch) flush();
     voxels_.push_back(voxel);
   }
+  // Of a file with layers, for all of its voxels.
+  void add(const Voxel& voxel, uint16_t label) {
+    add(voxel);
+    labels_.push_back(label);
+  }
   void flush() {
-    if (!voxels_.empty()) sink_(voxels_);
+    if (!voxels_.empty()) sink_(voxels_, labels_);
     voxels_.clear();
+    labels_.clear();
   }
 
  private:
@@ -51,6 +58,7 @@ class VoxelBatch {
 
   const VoxelSink& sink_;
   std::vector<Voxel> voxels_;
+  std::vector<uint16_t> labels_;
 };
 
 }  // namespace svdag

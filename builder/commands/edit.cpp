@@ -26,8 +26,9 @@ void check_operations(const EditConfig& edit) {
     fail_usage("a union, intersection or difference needs a second .svdag");
   if (edit.level && (edit.second || edit.bounds))
     fail_usage("--level: coarsen the result in a second edit");
-  if (!edit.second && !edit.bounds && !edit.level)
-    fail_usage("nothing to do: give --level, --bounds, or a second .svdag and an operation");
+  if (!edit.second && !edit.bounds && !edit.level && edit.layers.empty())
+    fail_usage(
+        "nothing to do: give --level, --bounds, --layer, or a second .svdag and an operation");
 }
 
 }  // namespace
@@ -41,9 +42,10 @@ int run(const EditCommand& config) {
     std::fputs(report_json(r, config.edit.output).c_str(), stdout);
   else if (!config.output.quiet)
     std::printf(
-        "%s: %s^3, %s voxels, %s nodes, %s\n  content hash %s\n", config.edit.output.c_str(),
+        "%s: %s^3, %s voxels%s, %s nodes, %s\n  content hash %s\n", config.edit.output.c_str(),
         format_resolution(uint64_t(r.grid.resolution())).c_str(), format_count(r.voxels).c_str(),
-        format_count(r.nodes).c_str(), format_bytes(r.file_bytes).c_str(), r.content_hash.c_str());
+        layers_text(r).c_str(), format_count(r.nodes).c_str(), format_bytes(r.file_bytes).c_str(),
+        r.content_hash.c_str());
   return int(ExitCode::kOk);
 }
 

@@ -38,6 +38,7 @@ void add_edit(CLI::App* program, Command* command) {
   app->add_option("--level", edit->level,
                   "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
       ->type_name("K");
+  add_layer(app, &edit->layers);
   add_layout(app, &edit->layout);
   add_no_clobber(app, &config->output.no_clobber);
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);

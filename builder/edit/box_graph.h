@@ -15,10 +15,10 @@ class BoxGraph final : public NodeGraph {
   BoxGraph(const Grid& grid, const VoxelBox& box) : grid_(grid), box_(box) {}
 
   Grid grid() const override { return grid_; }
-  uint32_t root() const override {
+  std::vector<uint32_t> roots() const override {
     uint32_t id = 0;
     for (int a = 0; a < 3; ++a) id |= cut(a, box_.min[a] > 0, box_.max[a] < grid_.resolution());
-    return id;
+    return {id};
   }
   std::array<uint32_t, 8> children(int level, uint32_t id) override {
     std::array<uint32_t, 8> children;

@@ -8,12 +8,21 @@
 #include "builder/edit/box_graph.h"
 #include "builder/edit/combined_graph.h"
 #include "builder/edit/dag_graph.h"
+#include "builder/edit/layer_pairs.h"
+#include "builder/edit/united_graph.h"
 #include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
+
+// The file, or of one that has layers only these.
+DagFile open_input(const std::string& path, const std::vector<std::string>& layers) {
+  DagFile file = open_dag(path);
+  if (layers.empty() || file.layers().empty()) return file;
+  return open_dag(path, layers);
+}
 
 void require_same(const DagFile& a, const DagFile& b) {
   const Grid g = a.grid(), h = b.grid();
@@ -59,7 +68,9 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
-  const DagFile first = open_dag(config.first);
+  const DagFile first = open_input(config.first, config.layers);
+  std::optional<DagFile> second;
+  if (config.second) second.emplace(open_input(*config.second, config.layers));
   Grid grid = first.grid();
   if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
     fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
@@ -79,18 +90,25 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   if (config.level) {
     // Snaps are in voxels, which are larger now.
     import.largest_snap = std::ldexp(import.largest_snap, *config.level - grid.levels);
-    return import_graph(&a, import, executor);
+    return import_graph(&a, import, executor, first.layers());
   }
   NodeGraph* result = &a;
-  std::optional<DagFile> second;
-  std::unique_ptr<NodeGraph> b, both, box, cropped;
-  if (config.second) {
-    second.emplace(open_dag(*config.second));
+  LayerTable layers = first.layers();
+  std::unique_ptr<NodeGraph> b, both, united, box, cropped;
+  if (second) {
     require_same(first, *second);
     b = std::make_unique<DagGraph>(*second, grid.levels);
     grid = combined_grid(*config.operation, grid, second->grid());
-    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget);
+    LayerPairs pairs = pair_layers(*config.operation, {config.first, layers, a.roots()},
+                                   {*config.second, second->layers(), b->roots()});
+    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget,
+                                           pairs.roots);
     result = both.get();
+    if (pairs.needs_union) {
+      united = std::make_unique<UnitedGraph>(result, &budget);
+      result = united.get();
+    }
+    layers = std::move(pairs.layers);
     import.largest_snap = std::max(import.largest_snap, second->header().largest_snap);
   }
   if (config.bounds) {
@@ -100,11 +118,13 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
     if (grid.selection.empty())
       fail_usage("--bounds: the box meets no voxel of the grid that may be set");
     box = std::make_unique<BoxGraph>(grid, grid.selection);
+    std::vector<NodePair> roots;
+    for (const uint32_t root : result->roots()) roots.push_back({root, box->roots().front()});
     cropped = std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), grid,
-                                              &budget);
+                                              &budget, roots);
     result = cropped.get();
   }
-  return import_graph(result, import, executor);
+  return import_graph(result, import, executor, std::move(layers));
 }
 
 }  // namespace svdag

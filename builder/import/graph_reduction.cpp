@@ -49,18 +49,28 @@ class GraphReduction {
   GraphReduction(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output)
       : graph_(graph), config_(config), output_(output), brick_level_(graph->grid().levels - 2) {}
 
-  uint64_t run() {
-    mark();
+  std::vector<ReducedSet> run() {
+    const std::vector<uint32_t> roots = graph_->roots();
+    mark(roots);
     ReducedLevel below = reduce_bricks();
     for (int level = brick_level_ - 1; level >= 0; --level) below = reduce_nodes(level, below);
-    return below.voxels[0];
+    std::vector<ReducedSet> sets;
+    for (const uint32_t root : roots) {
+      sets.push_back({kNoRoot, 0});
+      if (root == kNoChild) continue;
+      const uint32_t rank = marks_[0].rank(root);
+      if (below.index[rank] != 0) sets.back() = {below.index[rank] - 1, below.voxels[rank]};
+    }
+    return sets;
   }
 
  private:
-  void mark() {
+  void mark(const std::vector<uint32_t>& roots) {
     for (int level = 0; level <= brick_level_; ++level)
       marks_.emplace_back(config_.budget, "marks of reached nodes");
-    marks_[0].set(graph_->root());
+    for (const uint32_t root : roots) {
+      if (root != kNoChild) marks_[0].set(root);
+    }
     for (int level = 0; level <= brick_level_; ++level) {
       marks_[size_t(level)].seal();
       if (level == brick_level_) break;
@@ -153,12 +163,13 @@ class GraphReduction {
   const ReductionConfig& config_;
   BakeOutput* output_;
   int brick_level_;
-  std::vector<RankBitmap> marks_;  // [level]: ids that the root reaches
+  std::vector<RankBitmap> marks_;  // [level]: ids that the roots reach
 };
 
 }  // namespace
 
-uint64_t reduce_graph(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output) {
+std::vector<ReducedSet> reduce_graph(NodeGraph* graph, const ReductionConfig& config,
+                                     BakeOutput* output) {
   return GraphReduction(graph, config, output).run();
 }
 

@@ -1,7 +1,7 @@
 // Reduces a DAG of another program to the minimal one, level by level, without expanding it.
 //
 // This is the reduction of Kämpe et al. 2013, section 4, applied to a graph instead of a tree.
-// First the nodes reachable from the root are marked, top-down. Then each level, bricks first, is
+// First the nodes reachable from the roots are marked, top-down. Then each level, bricks first, is
 // sorted by content, equal nodes get one index and are written, and the level above looks up the
 // indices of its children. Sorted content is the canonical order, so the result has the same bytes
 // as a bake of these voxels. Empty nodes, and nodes that lead only to empty nodes, are dropped.
@@ -12,6 +12,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "builder/run/bake_output.h"
 #include "io/dag/node_graph.h"
@@ -27,7 +28,14 @@ struct ReductionConfig {
   std::function<File()> new_file;  // creates a scratch file for sorted runs
 };
 
-// Writes all levels to `output`, which the caller finishes. Returns the number of set voxels.
-uint64_t reduce_graph(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output);
+// A set of voxels of the graph.
+struct ReducedSet {
+  uint32_t root;  // what add_node() returned; kNoRoot if no voxel is set
+  uint64_t voxels;
+};
+
+// Writes all levels to `output`, which the caller finishes. Returns a set for each root.
+std::vector<ReducedSet> reduce_graph(NodeGraph* graph, const ReductionConfig& config,
+                                     BakeOutput* output);
 
 }  // namespace svdag

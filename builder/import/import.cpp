@@ -1,6 +1,7 @@
 #include "builder/import/import.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -78,6 +79,99 @@ class VoxelReduction {
   Brick brick_ = 0;
 };
 
+// A voxel of a layer, sorted by its brick, then its layer.
+struct LabelledVoxel {
+  uint64_t brick;  // Morton code
+  uint32_t label_and_bit;
+  uint32_t unused;
+
+  uint32_t label() const { return label_and_bit >> 6; }
+  Brick bit() const { return Brick(1) << (label_and_bit & 63); }
+};
+static_assert(sizeof(LabelledVoxel) == 16);
+
+struct LabelledWord {
+  uint32_t operator()(const LabelledVoxel& voxel, size_t i) const {
+    return i == 2 ? voxel.label_and_bit : uint32_t(voxel.brick >> (i == 0 ? 32 : 0));
+  }
+};
+using LabelledSort = ExternalSort<LabelledVoxel, LabelledWord>;
+
+// Reduces sorted voxels of layers; without `has_layers`, their union alone.
+class LabelledReduction {
+ public:
+  LabelledReduction(bool has_layers, SubDagBuilder* builder)
+      : has_layers_(has_layers), bricks_(builder, has_layers) {}
+
+  void run(LabelledSort* sort) {
+    sort->finish([this](const auto& voxels) {
+      for (const LabelledVoxel& voxel : voxels) add(voxel);
+    });
+    finish();
+  }
+  // In the order of the sort.
+  void add(const LabelledVoxel& voxel) {
+    if (voxel.brick != code_) {
+      add_brick();
+      code_ = voxel.brick;
+    }
+    const Subject layer = subject_of(voxel.label()) | kApart;
+    if (sets_.empty() || sets_.back().subject != layer) sets_.push_back({layer, 0});
+    sets_.back().brick |= voxel.bit();
+  }
+  void finish() {
+    add_brick();
+    bricks_.finish();
+  }
+
+ private:
+  void add_brick() {
+    if (sets_.empty()) return;
+    Brick all = 0;
+    for (const SubjectBrick& set : sets_) all |= set.brick;
+    sets_.push_back({kUnionSet, all});
+    has_layers_ ? bricks_.add(code_, sets_) : bricks_.add(code_, all);
+    sets_.clear();
+  }
+
+  const bool has_layers_;
+  BrickReduction bricks_;
+  uint64_t code_ = 0;               // of the brick being collected
+  std::vector<SubjectBrick> sets_;  // of each layer in it
+};
+
+// Gives the voxels of a DAG, in Morton order, their labels.
+class LabelledWalk {
+ public:
+  LabelledWalk(const DagView& dag, const LabelSource& labels, LabelledReduction* reduction)
+      : dag_(dag), labels_(labels), reduction_(reduction) {}
+
+  // `code`: Morton code of the cube of `node` among those of its level.
+  void visit(uint32_t level, uint32_t node, uint64_t code) {
+    if (level == dag_.brick_level()) return add_brick(dag_.bricks[node], code);
+    if (level + 4 == dag_.brick_level()) check_interrupt();
+    dag_for_children(dag_, level, node,
+                     [&](unsigned c, uint32_t child) { visit(level + 1, child, code << 3 | c); });
+  }
+
+ private:
+  void add_brick(Brick brick, uint64_t code) {
+    std::array<LabelledVoxel, 64> voxels;
+    size_t count = 0;
+    for (; brick != 0; brick &= brick - 1) {
+      const uint32_t bit = uint32_t(std::countr_zero(brick));
+      voxels[count++] = {code, uint32_t(labels_.next()) << 6 | bit, 0};
+    }
+    std::sort(voxels.begin(), voxels.begin() + count,
+              [](const auto& a, const auto& b) { return a.label_and_bit < b.label_and_bit; });
+    for (size_t i = 0; i < count; ++i) reduction_->add(voxels[i]);
+  }
+
+  const DagView& dag_;
+  const LabelSource& labels_;
+  LabelledReduction* reduction_;
+};
+
 class Import {
  public:
   Import(const ImportConfig& config, Executor* executor)
@@ -89,33 +183,55 @@ class Import {
                      "finish or discard it first with svdag build, or choose another output");
   }
 
-  ImportReport run(NodeGraph* graph) {
-    Grid grid = graph->grid();
-    if (config_.levels != 0 && config_.levels != grid.levels)
-      fail_usage("-r: the file has a fixed resolution of " +
-                 format_resolution(uint64_t(grid.resolution())) + ": omit -r");
+  ImportReport run(NodeGraph* graph, LayerTable layers) {
+    const Grid grid = grid_of(*graph);
     DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
-    const ReductionConfig reduction{workspace_.budget(), workspace_.shares().sort, executor_,
-                                    [this] { return new_file(); }};
-    const uint64_t voxels = reduce_graph(graph, reduction, &output);
-    finish(&output, {}, voxels);
-    return describe(grid, output);
+    const uint64_t voxels = set_roots(reduce_graph(graph, reduction(), &output), &layers);
+    const size_t count = layers.layers.size();
+    finish(&output, {}, voxels, std::move(layers));
+    return describe(grid, output, count);
   }
 
-  ImportReport run(const VoxelSource& source, uint64_t count) {
-    MemoryBudget* const budget = workspace_.budget();
-    Scratch* const scratch = workspace_.scratch();
+  // The graph is reduced alone first: then its voxels are counted, and can be walked in any order.
+  ImportReport run(NodeGraph* graph, const LabelSource& labels) {
+    const Grid grid = grid_of(*graph);
+    DagOutput plain(config_.output, grid, config_.rule);
+    const uint64_t voxels = reduce_graph(graph, reduction(), &plain).front().voxels;
+    const DagFile dag = plain.finish_unnamed(voxels, config_.source);
+    if (voxels != labels.count)
+      fail_input(labels.path, "has " + format_count(labels.count) + " colours, but the DAG has " +
+                                  format_count(voxels) + " voxels (--no-layers ignores it)");
+    RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
+      LabelledReduction reduction(true, builder);
+      if (voxels != 0) LabelledWalk(dag.view(), labels, &reduction).visit(0, 0, 0);
+      reduction.finish();
+    });
+    return finish_runs(std::move(set), grid, *labels.layers);
+  }
+
+  ImportReport run(const VoxelSource& source, uint64_t count, const LayerTable* layers) {
     std::optional<VoxelSort> sort;
+    std::optional<LabelledSort> labelled;  // instead of it, from the first voxel on
     sort.emplace(sort_room(), 2, CodeWord());
-    DiskNeed(scratch).expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
-    FullCubes cubes(budget);
+    DiskNeed(workspace_.scratch())
+        .expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
+    FullCubes cubes(workspace_.budget());
     uint32_t highest = 0;  // bitwise or of all coordinates
     const GridPlacement place = source(
-        [&](std::span<const Voxel> voxels) {
+        [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels) {
           check_interrupt();
-          for (const auto& [x, y, z] : voxels) {
+          if (!labels.empty() && !labelled) {
+            sort.reset();
+            labelled.emplace(sort_room(), 3, LabelledWord());
+          }
+          for (size_t i = 0; i < voxels.size(); ++i) {
+            const auto& [x, y, z] = voxels[i];
             highest |= x | y | z;
-            sort->push(morton(LatticePoint(x, y, z)));
+            const uint64_t code = morton(LatticePoint(x, y, z));
+            if (labelled)
+              labelled->push({code >> 6, uint32_t(labels[i]) << 6 | uint32_t(code & 63), 0});
+            else
+              sort->push(code);
           }
         },
         [&](const FullCube& cube) {
@@ -125,21 +241,73 @@ class Import {
         });
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
-    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
-    RunSet set = reduce(grid.levels, cubes, &*sort);
+    LayerTable table = layers != nullptr ? *layers : LayerTable();
+    RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
+      if (labelled)
+        LabelledReduction(!table.empty(), builder).run(&*labelled);
+      else
+        VoxelReduction(grid.levels, cubes, builder).run(&*sort);
+    });
     sort.reset();  // the merge needs the memory
-    const MergeConfig merging = share_for_merge(budget, set.spilled ? scratch : nullptr,
-                                                executor_->workers(), 4 * scratch->block_bytes());
-    const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
-                             &output, executor_);
-    finish(&output, roots, set.voxels);
-    return describe(grid, output);
+    labelled.reset();
+    return finish_runs(std::move(set), grid, std::move(table));
   }
 
  private:
+  Grid grid_of(const NodeGraph& graph) const {
+    const Grid grid = graph.grid();
+    if (config_.levels != 0 && config_.levels != grid.levels)
+      fail_usage("-r: the file has a fixed resolution of " +
+                 format_resolution(uint64_t(grid.resolution())) + ": omit -r");
+    return grid;
+  }
+
+  ReductionConfig reduction() {
+    return {workspace_.budget(), workspace_.shares().sort, executor_,
+            [this] { return new_file(); }};
+  }
+
+  // `table`: without roots and voxels.
+  ImportReport finish_runs(RunSet set, const Grid& grid, LayerTable table) {
+    Scratch* const scratch = workspace_.scratch();
+    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
+    for (size_t i = 0; i < set.layer_voxels.size(); ++i)
+      table.layers[i].voxels = set.layer_voxels[i];
+    const MergeConfig merging =
+        share_for_merge(workspace_.budget(), set.spilled ? scratch : nullptr, executor_->workers(),
+                        4 * scratch->block_bytes());
+    const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
+                             &output, executor_);
+    const size_t layer_count = table.layers.size();
+    finish(&output, roots, set.voxels, std::move(table));
+    return describe(grid, output, layer_count);
+  }
+
+  // Copies the sets to the table, whose order they have. Returns the voxels of the union.
+  static uint64_t set_roots(const std::vector<ReducedSet>& sets, LayerTable* layers) {
+    auto set = sets.begin();
+    uint64_t voxels = 0;
+    if (layers->has_union) {
+      voxels = set->voxels;
+      if (!layers->empty()) layers->union_root = set->root;
+      ++set;
+    }
+    bool any = false;
+    for (Layer& layer : layers->layers) {
+      layer.root = set->root;
+      layer.voxels = set->voxels;
+      any = any || layer.voxels != 0;
+      ++set;
+    }
+    // Of the solid rules: a file cannot tell that its union is empty and a layer is not.
+    if (any && voxels == 0) layers->has_union = false;
+    return voxels;
+  }
+
   File new_file() { return workspace_.folder()->create("sort" + std::to_string(files_++)); }
 
-  RunSet reduce(int levels, const FullCubes& cubes, VoxelSort* sort) {
+  // The runs of what `fill` adds.
+  RunSet reduce(int levels, const std::function<void(SubDagBuilder*)>& fill) {
     RunSet set;
     std::unique_ptr<SubDagBuilder> builder;
     const auto take_run = [&](bool spill) {
@@ -150,7 +318,7 @@ class Import {
         levels, SubDagBuilderConfig{.budget = workspace_.budget(),
                                     .table_bytes = workspace_.shares().brick_table,
                                     .empty_table = [&] { take_run(true); }});
-    VoxelReduction(levels, cubes, builder.get()).run(sort);
+    fill(builder.get());
     take_run(set.spilled);
     return set;
   }
@@ -178,14 +346,16 @@ class Import {
     return grid;
   }
 
-  void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels) const {
+  void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels,
+              LayerTable layers) const {
     if (config_.inputs != nullptr) config_.inputs->check();
-    output->finish(roots, voxels, config_.largest_snap, {});
+    output->finish(roots, voxels, config_.largest_snap, std::move(layers));
   }
 
-  ImportReport describe(const Grid& grid, const DagOutput& output) const {
+  ImportReport describe(const Grid& grid, const DagOutput& output, size_t layers) const {
     ImportReport report;
     report.grid = grid;
+    report.layers = layers;
     report.voxels = output.voxels();
     for (const uint64_t nodes : output.key_counts()) report.nodes += nodes;
     report.file_bytes = output.file_bytes();
@@ -202,13 +372,19 @@ class Import {
 
 }  // namespace
 
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor) {
-  return Import(config, executor).run(graph);
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
+                          LayerTable layers) {
+  return Import(config, executor).run(graph, std::move(layers));
+}
+
+ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
+                                   const ImportConfig& config, Executor* executor) {
+  return Import(config, executor).run(graph, labels);
 }
 
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
-                           Executor* executor, uint64_t count) {
-  return Import(config, executor).run(source, count);
+                           Executor* executor, uint64_t count, const LayerTable* layers) {
+  return Import(config, executor).run(source, count, layers);
 }
 
 }  // namespace svdag

@@ -4,12 +4,14 @@
 // DAGs are reduced as graphs (builder/import/graph_reduction.h). Lists of voxels are sorted by
 // Morton code, out of core, and reduced brick by brick (builder/reduce/brick_reduction.h,
 // builder/merge/merge.h). Fully set cubes are inserted between them without being expanded
-// (builder/import/full_cubes.h).
+// (builder/import/full_cubes.h). Voxels of layers are sorted by brick and layer, so that each brick
+// comes once, with its voxels of every layer.
 #pragma once
 
 #include <functional>
 #include <string>
 
+#include "io/dag/layer_table.h"
 #include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/file/input_watch.h"
@@ -32,11 +34,15 @@ struct ImportConfig {
 struct ImportReport {
   Grid grid;
   uint64_t voxels = 0;
+  size_t layers = 0;
   uint64_t nodes = 0;  // bricks included
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits
   int spilled = 0;           // number of scratch files of the sort
 };
+
+// ", 3 layers" of a file with layers, else nothing.
+std::string layers_text(const ImportReport& report);
 
 // The report as one JSON object; `output`: path of the file. Keys: docs/reports.md.
 std::string report_json(const ImportReport& report, const std::string& output);
@@ -44,11 +50,26 @@ std::string report_json(const ImportReport& report, const std::string& output);
 // Passes all voxels to the sinks and returns their placement.
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
+// The roots of the graph are that of the union, if `layers` has it, and those of its layers. A file
+// without layers has one root. Roots and voxels of `layers` need not be set.
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
+                          LayerTable layers = {});
+// The layer of each voxel of a graph, in Morton order, which is that of a depth-first walk.
+struct LabelSource {
+  std::string path;                // for errors
+  uint64_t count;                  // of the labels
+  std::function<uint16_t()> next;  // the number of a layer
+  const LayerTable* layers;        // of the labels that next() has returned
+};
+// Error (kBadInput) if there is not one label for each voxel.
+ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
+                                   const ImportConfig& config, Executor* executor);
 // Throws Error (kUsage) if a voxel is outside of a grid of config.levels. `count` is the number of
 // voxels, 0 if unknown; if the disk is too small to sort them, throws Error (kOutput) before
-// reading any.
+// reading any. `layers`: where the source puts the layers of its labels; if there are none after it
+// has returned, the labels have no meaning. Voxels of layers come one by one, not as cubes.
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,
-                           Executor* executor, uint64_t count = 0);
+                           Executor* executor, uint64_t count = 0,
+                           const LayerTable* layers = nullptr);
 
 }  // namespace svdag

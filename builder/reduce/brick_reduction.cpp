@@ -6,15 +6,21 @@
 
 namespace svdag {
 
-BrickReduction::BrickReduction(SubDagBuilder* builder)
-    : builder_(builder), brick_level_(builder->table()->brick_level()) {
+BrickReduction::BrickReduction(SubDagBuilder* builder, bool has_layers)
+    : builder_(builder), brick_level_(builder->table()->brick_level()), has_layers_(has_layers) {
   builder_->begin(Cube());
   builder_->open(Cube());
 }
 
 void BrickReduction::close_last() {
-  const SubDag dag = builder_->close(open_);
-  builder_->add_child(open_ - 1, code_at(open_) & 7, dag);
+  const unsigned c = code_at(open_) & 7;
+  if (has_layers_) {
+    dags_.clear();
+    builder_->close(open_, &dags_);
+    for (const auto& [subject, dag] : dags_) builder_->add_child(open_ - 1, c, subject, dag);
+  } else {
+    builder_->add_child(open_ - 1, c, builder_->close(open_));
+  }
   --open_;
 }
 
@@ -33,15 +39,29 @@ void BrickReduction::open_path(uint64_t code, int level) {
 
 void BrickReduction::add_child(uint64_t code, int level, const SubDag& dag) {
   builder_->add_child(level - 1, code & 7, dag);
+  pause(code, level);
+}
+
+void BrickReduction::pause(uint64_t code, int level) {
   const uint64_t voxels = uint64_t(1) << (3 * (builder_->levels() - level));
   builder_->pause(level, (code + 1) * voxels);
 }
 
 void BrickReduction::add(uint64_t code, Brick brick) {
-  SVDAG_ASSERT(brick != 0);
+  SVDAG_ASSERT(brick != 0 && !has_layers_);
   open_path(code, brick_level_);
   add_child(code, brick_level_,
             {builder_->table()->add_brick(brick), uint64_t(std::popcount(brick))});
+}
+
+void BrickReduction::add(uint64_t code, std::span<const SubjectBrick> bricks) {
+  SVDAG_ASSERT(has_layers_);
+  open_path(code, brick_level_);
+  for (const auto& [subject, brick] : bricks) {
+    const SubDag dag{builder_->table()->add_brick(brick), uint64_t(std::popcount(brick))};
+    builder_->add_child(brick_level_ - 1, code & 7, subject, dag);
+  }
+  pause(code, brick_level_);
 }
 
 SubDag BrickReduction::full_cube(int level) {
@@ -66,7 +86,13 @@ void BrickReduction::add_full(uint64_t code, int level) {
 
 void BrickReduction::finish() {
   while (open_ > 0) close_last();
-  builder_->end(Cube(), builder_->close(0));
+  if (!has_layers_) {
+    builder_->end(Cube(), builder_->close(0));
+    return;
+  }
+  dags_.clear();
+  builder_->close(0, &dags_);
+  builder_->end(Cube(), dags_);
 }
 
 }  // namespace svdag

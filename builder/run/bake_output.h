@@ -45,6 +45,10 @@ class DagOutput final : public BakeOutput {
   uint32_t add_node(const NodeKey& children) override { return writer_.add_node(children); }
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
               LayerTable layers) override;
+  // Completes a file without layers that gets no name, in the plain layout; errors show `shown_as`.
+  DagFile finish_unnamed(uint64_t voxels, const std::string& shown_as) {
+    return writer_.finish_unnamed(voxels, 0, {}, shown_as);
+  }
   uint64_t voxels() const { return writer_.header().voxels; }
   std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }

@@ -12,6 +12,8 @@ class RootViews {
   RootViews() = default;
   explicit RootViews(const DagView& file);
 
+  // The index of a root in level 0.
+  uint32_t index_of(uint32_t root) const { return index_[root]; }
   // The view of root `root` of `file`, valid as long as this object; kNoRoot: without a voxel.
   DagView of(DagView file, uint32_t root) const;
 

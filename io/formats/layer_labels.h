@@ -39,6 +39,7 @@ class LayerLabels {
     }
     return true;
   }
+  LayerKind kind() const { return file_.layers().kind; }
   const std::vector<Layer>& layers() const { return file_.layers().layers; }
   Colour colour_of(const Voxel& voxel) const {
     const uint32_t label = of(voxel);

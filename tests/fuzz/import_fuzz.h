@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/dag/layer_table.h"
 #include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/error.h"
@@ -29,7 +30,7 @@ inline int fuzz_graph(std::unique_ptr<NodeGraph> (*reader)(const File&), const u
     const auto graph = reader(memory.file());
     const int levels = graph->grid().levels;
     if (levels < kMinLevels || levels > kMaxLevels) std::abort();
-    std::vector<uint32_t> nodes{graph->root()};
+    std::vector<uint32_t> nodes = graph->roots();
     for (int level = 0; level < levels - 2; ++level) {
       std::vector<uint32_t> below;
       for (const uint32_t node : nodes) {
@@ -48,19 +49,26 @@ inline int fuzz_graph(std::unique_ptr<NodeGraph> (*reader)(const File&), const u
   return 0;
 }
 
-inline int fuzz_voxels(GridPlacement (*reader)(const File&, const VoxelSink&), const uint8_t* data,
-                       size_t size) {
+// `reader(file, sink, layers)` passes voxels, and their labels if it gives layers.
+template <class Reader>
+int fuzz_voxels(const Reader& reader, const uint8_t* data, size_t size) {
   struct Enough {};
   const MemoryFile memory(std::as_bytes(std::span(data, size)));
   size_t visited = 0;
   try {
-    const GridPlacement place = reader(memory.file(), [&](std::span<const Voxel> voxels) {
+    LayerTable layers;
+    size_t labels_end = 0;  // one past the largest
+    const VoxelSink sink = [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels) {
       uint32_t bits = 0;
       for (const Voxel& voxel : voxels) bits |= voxel[0] | voxel[1] | voxel[2];
       if (voxels.empty() || bits >> kMaxLevels != 0) std::abort();
+      if (!labels.empty() && labels.size() != voxels.size()) std::abort();
+      for (const uint16_t label : labels) labels_end = std::max<size_t>(labels_end, label + 1U);
       visited += voxels.size();
       if (visited > kMaxVisited) throw Enough();
-    });
+    };
+    const GridPlacement place = reader(memory.file(), sink, &layers);
+    if (!layers.empty() && labels_end > layers.layers.size()) std::abort();
     if (place.resolution > uint64_t(1) << kMaxLevels) std::abort();
   } catch (const Error& error) {
     expect_bad_input(error);

@@ -130,7 +130,9 @@ def gzips():
 
 
 def npzs():
-    """Voxels with a placement of every supported number type, and of some unsupported ones."""
+    """Voxels with a placement of every supported number type, and of some unsupported ones; with labels."""
+    layers = {"layer_names": numpy.frombuffer(b"a\0\xff\0", "u1"), "layer_colours": numpy.array([1, 0xffffff], "<u4"),
+              "layer_kind": numpy.frombuffer(b"file\0", "u1")}
     rows, solid = numpy.array([[1, 2, 3], [0, 7, 4]]), numpy.zeros((2, 3, 4), bool)
     solid[1, 2, 0] = True
     for name, arrays in (
@@ -141,7 +143,11 @@ def npzs():
             ("place_integers", {"voxels": solid, "resolution": numpy.uint8(4), "corner": numpy.array([-1, -2, -3], "<i2"),
                                 "voxel_size": numpy.array([2], "<u4")}),
             ("place_wrong", {"coordinates": rows, "resolution": numpy.array([8, 8]), "corner": numpy.array(["a", "b", "c"])}),
-            ("place_beyond", {"coordinates": rows, "resolution": numpy.float64(1.5e9)})):
+            ("place_beyond", {"coordinates": rows, "resolution": numpy.float64(1.5e9)}),
+            ("labels", {"coordinates": rows, "label": numpy.array([1, 0], "<u2"), **layers}),
+            ("label_beyond", {"coordinates": rows, "label": numpy.array([1, 2], "u1"), **layers,
+                              "layer_names": numpy.array(["a", "\u20ac\U0001f600"]), "layer_kind": numpy.array(b"object")}),
+            ("labels_alone", {"coordinates": rows, "label": numpy.array([-1, 2**40])})):
         data = io.BytesIO()
         with zipfile.ZipFile(data, "w") as archive:
             for key, array in arrays.items():

@@ -249,7 +249,8 @@ def foreign():
         word(data, len(data) - back, 1) for back in range(1, 7)]
     data = write_foreign.vox((VOXELS, (8, 8, 8)), places=[(1, 2, 3)])
     yield "a.vox", data, words(data, range(4, min(len(data), 380) - 3, 4))
-    data = write_foreign.npz(coords=numpy.array(VOXELS, "<i4"))
+    data = write_foreign.npz(coords=numpy.array(VOXELS, "<i4"), label=numpy.array([0, 1, 1, 0], "<u2"),
+                             layer_names=numpy.frombuffer(b"a\0b\0", "u1"), layer_colours=numpy.array([1, 2], "<u4"))
     directory = data.index(b"PK\1\2")
     end = data.index(b"PK\5\6")
     shape = [m for m in re.finditer(rb"\d+", data) if b"'shape'" in data[max(0, m.start() - 12):m.start()]]

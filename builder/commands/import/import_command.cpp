@@ -10,6 +10,7 @@
 #include "io/dag/format.h"
 #include "io/dag/symvox_header.h"
 #include "io/formats/dags/hashdag.h"
+#include "io/formats/dags/hashdag_colours.h"
 #include "io/formats/dags/symvox.h"
 #include "io/formats/dags/transform_dag.h"
 #include "io/formats/voxels/binvox.h"
@@ -25,7 +26,7 @@ namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&);
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -53,6 +54,10 @@ bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
+GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*) {
+  return read_binvox(file, sink);
+}
+
 struct FormatRow {
   const char* name;
   bool (*matches)(const File&, FileStart);
@@ -64,7 +69,7 @@ struct FormatRow {
 constexpr FormatRow kFormats[] = {
     {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
     {"npz", looks_like_npz, nullptr, read_npz},
-    {"binvox", looks_like_binvox, nullptr, read_binvox},
+    {"binvox", looks_like_binvox, nullptr, read_binvox_alone},
     {"vox", looks_like_vox, nullptr, read_vox},
     {"vdb", looks_like_vdb, nullptr, nullptr},
     {"hashdag", looks_like_hashdag, read_hashdag, nullptr},
@@ -103,18 +108,24 @@ void require_no_vdb_options(const ImportCommandConfig& config, const FormatRow& 
                row.name);
 }
 
-ImportReport import_as(const FormatRow& row, const File& file, const ImportCommandConfig& config,
-                       const ImportConfig& import) {
+ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
+                       const ImportCommandConfig& config, const ImportConfig& import) {
   ParallelExecutor executor(threads_or_all(config.threads));
   if (row.graph != nullptr) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    return import_graph(graph.get(), import, &executor);
+    if (colours == nullptr) return import_graph(graph.get(), import, &executor);
+    LayerTable layers;
+    HashDagColours labels(*colours, &layers);
+    return import_labelled_graph(
+        graph.get(), {colours->path(), labels.count(), [&] { return labels.next(); }, &layers},
+        import, &executor);
   }
   if (row.voxels != nullptr) {
+    LayerTable layers;
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
-      return row.voxels(file, sink);
+      return row.voxels(file, sink, config.no_layers ? nullptr : &layers);
     };
-    return import_voxels(read, import, &executor);
+    return import_voxels(read, import, &executor, 0, &layers);
   }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
   reject_needless_range(*grid, config.iso);
@@ -145,16 +156,22 @@ int run(const ImportCommandConfig& config) {
   import.source = config.file;
   import.inputs = &inputs;
   const FormatRow& row = choose(config, file);
+  std::optional<File> colours;
+  if (row.graph == read_hashdag && !config.no_layers) {
+    const std::string path = colours_beside(config.file);
+    if (!path.empty()) inputs.add(colours.emplace(File::open_read(path)));
+  }
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
-  const ImportReport report = inputs.guard([&] { return import_as(row, file, config, import); });
+  const ImportReport report = inputs.guard(
+      [&] { return import_as(row, file, colours ? &*colours : nullptr, config, import); });
   if (config.json)
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)
-    std::printf("%s: %s, %s voxels of %s^3, %s DAG nodes, %s\n  content hash %s\n",
+    std::printf("%s: %s, %s voxels of %s^3%s, %s DAG nodes, %s\n  content hash %s\n",
                 config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),
-                format_count(report.nodes).c_str(), format_bytes(report.file_bytes).c_str(),
-                report.content_hash.c_str());
+                layers_text(report).c_str(), format_count(report.nodes).c_str(),
+                format_bytes(report.file_bytes).c_str(), report.content_hash.c_str());
   return int(ExitCode::kOk);
 }
 

@@ -37,6 +37,9 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
          "vdb: the values of a float grid that are set, for example --iso=-inf,0")
       ->type_name("LOW,HIGH");
+  app->add_flag(
+      "--no-layers", config->no_layers,
+      "npz, vox, hashdag: only the voxels, without the layers of their labels or colours");
   app->add_flag("--sandbox", config->sandbox,
                 "vdb: decode in a process that can only compute, for untrusted files");
   add_layout(app, &import->layout);

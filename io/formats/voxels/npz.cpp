@@ -1,17 +1,17 @@
 #include "io/formats/voxels/npz.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "io/formats/voxels/npy_array.h"
+#include "io/formats/voxels/npz_layers.h"
 #include "io/formats/voxels/zip.h"
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
 
 namespace svdag {
 namespace {
-
-constexpr std::string_view kArrayMagic = "\x93NUMPY";
 
 // Begins an archive entry: an array of this type and shape, in NumPy's notation.
 void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
@@ -22,109 +22,24 @@ void begin_array(ZipWriter* zip, const std::string& name, const std::string& typ
   header.resize((kPrefixBytes + header.size() + 1 + 63) / 64 * 64 - kPrefixBytes - 1, ' ');
   header += '\n';
   zip->begin(name + ".npy");
-  zip->put(kArrayMagic);
+  zip->put(kNpyMagic);
   zip->put(uint8_t(1));
   zip->put(uint8_t(0));
   zip->put(uint16_t(header.size()));
   zip->put(header);
 }
 
-// An array in a file: its type, its shape and the offsets of its elements.
-struct Array {
-  char kind = 0;       // 'b' bool, 'u', 'i', 'f'; 0: unsupported type, other members are unset
-  uint64_t bytes = 0;  // of an element
-  bool fortran_order = false;
-  std::vector<uint64_t> shape;
-  uint64_t offset = 0, end = 0;
-
-  uint64_t elements() const {
-    uint64_t n = 1;
-    for (const uint64_t side : shape) n *= side;
-    return n;
-  }
-};
-
-// The text after `key` in a header, which is a Python dictionary as NumPy writes it.
-std::string_view header_value(std::string_view header, std::string_view key, const File& file,
-                              uint64_t offset) {
-  const size_t at = header.find(key);
-  const size_t colon = at == std::string_view::npos ? at : header.find(':', at);
-  if (colon == std::string_view::npos)
-    fail_input(file.path(), "damaged .npy header: no " + std::string(key), offset);
-  header.remove_prefix(colon + 1);
-  header.remove_prefix(std::min(header.find_first_not_of(' '), header.size()));
-  return header;
-}
-
-std::vector<uint64_t> parse_shape(std::string_view text, const File& file, uint64_t offset) {
-  std::vector<uint64_t> shape;
-  const auto bad = [&] { fail_input(file.path(), "damaged .npy header: bad shape", offset); };
-  if (text.empty() || text[0] != '(') bad();
-  unsigned __int128 product = 1;
-  for (text.remove_prefix(1); !text.empty() && text[0] != ')';) {
-    uint64_t side = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || shape.size() == 8) bad();
-    shape.push_back(side);
-    product *= side;
-    if (product >> 62 != 0) bad();
-    text.remove_prefix(size_t(end - text.data()));
-    text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
-  }
-  return shape;
-}
-
-Array read_header(const File& file, uint64_t offset, uint64_t end) {
-  ByteStream stream(file, offset, end);
-  std::array<char, 8> start{};
-  if (stream.remaining() < 12) fail_input(file.path(), "is not a .npy array", offset);
-  stream.read(std::as_writable_bytes(std::span(start)));
-  if (std::string_view(start.data(), 6) != kArrayMagic || start[6] < 1 || start[6] > 3)
-    fail_input(file.path(), "is not a .npy array", offset);
-  uint32_t length = 0;
-  stream.read(std::as_writable_bytes(std::span(&length, 1)).first(start[6] == 1 ? 2 : 4));
-  if (length > 65536 || length > stream.remaining())
-    fail_input(file.path(), "damaged .npy header: impossible length", offset);
-  std::string header(length, '\0');
-  stream.read(std::as_writable_bytes(std::span(header)));
-  Array array;
-  const std::string_view type = header_value(header, "'descr'", file, offset);
-  if (type.size() < 5 || (type[1] != '<' && type[1] != '|') || type[3] < '1' || type[3] > '8' ||
-      type[4] != type[0])
-    return array;
-  array.kind = type[2];
-  array.bytes = uint64_t(type[3] - '0');
-  array.fortran_order = header_value(header, "'fortran_order'", file, offset).starts_with("True");
-  array.shape = parse_shape(header_value(header, "'shape'", file, offset), file, offset);
-  array.offset = stream.offset();
-  array.end = end;
-  if (array.elements() > (end - array.offset) / array.bytes)
-    fail_input(file.path(), "has an array that is larger than the file", offset);
-  return array;
-}
-
-bool is_integer(const Array& a) {
-  const bool size = a.bytes == 1 || a.bytes == 2 || a.bytes == 4 || a.bytes == 8;
-  return (a.kind == 'i' || a.kind == 'u') && size;
-}
-bool is_coordinates(const Array& a) {
+bool is_coordinates(const NpyArray& a) {
   return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3;
 }
-bool is_dense(const Array& a) {
+bool is_dense(const NpyArray& a) {
   return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
-}
-
-// Reads the next integer of the array; a negative one of any width becomes a large number.
-uint64_t read_integer(ByteStream* stream, const Array& array) {
-  uint64_t bits = 0;
-  stream->read(std::as_writable_bytes(std::span(&bits, 1)).first(array.bytes));
-  const int unused = 64 - 8 * int(array.bytes);
-  return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
 // In Fortran order, which numpy.argwhere() gives, all x precede all y and all z: one stream per
 // axis.
-void read_coordinates(const File& file, const Array& array, const VoxelSink& sink) {
+void read_coordinates(const File& file, const NpyArray& array, NpzLabels* labels,
+                      const VoxelSink& sink) {
   const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
   std::vector<ByteStream> streams;
   for (uint64_t a = 0; a < (array.fortran_order ? 3 : 1); ++a)
@@ -139,12 +54,12 @@ void read_coordinates(const File& file, const Array& array, const VoxelSink& sin
         fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
       voxel[a] = uint32_t(value);
     }
-    batch.add(voxel);
+    labels != nullptr ? batch.add(voxel, labels->next()) : batch.add(voxel);
   }
   batch.flush();
 }
 
-void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
+void read_dense(const File& file, const NpyArray& array, const VoxelSink& sink) {
   for (const uint64_t side : array.shape) {
     if (side > uint64_t(1) << kMaxLevels)
       fail_input(file.path(), "has more than 1M voxels on an axis", array.offset);
@@ -174,7 +89,7 @@ void read_dense(const File& file, const Array& array, const VoxelSink& sink) {
 }
 
 // Reads the next number of an array of integers or floats.
-double read_number(ByteStream* stream, const Array& array) {
+double read_number(ByteStream* stream, const NpyArray& array) {
   if (array.kind == 'f' && array.bytes == 4) {
     float number = 0;
     stream->read(std::as_writable_bytes(std::span(&number, 1)));
@@ -190,7 +105,7 @@ bool is_placement(std::string_view name) {
 }
 
 // Reads an array that places the voxels. Such an array is read or rejected, never ignored.
-void read_placement(const File& file, std::string_view name, const Array& array,
+void read_placement(const File& file, std::string_view name, const NpyArray& array,
                     GridPlacement* place) {
   const uint64_t count = name == "corner" ? 3 : 1;
   if (!is_placement(name)) return;
@@ -217,7 +132,7 @@ class VoxelArrayChoice {
  public:
   explicit VoxelArrayChoice(const File& file) : file_(file) {}
 
-  void consider(std::string_view name, const Array& array) {
+  void consider(std::string_view name, const NpyArray& array) {
     if (is_placement(name)) return;
     const bool fits = is_coordinates(array) || is_dense(array);
     if (name == kCoordinates) {
@@ -228,13 +143,13 @@ class VoxelArrayChoice {
       if (found_) several_ = true;
       found_ = array;
     } else if (unread_.empty()) {
-      if (array.kind == 0) unread_ = name;
+      if (array.kind == 0 || is_text(array)) unread_ = name;
       if (array.kind == 'f' && array.shape.size() == 2 && array.shape[1] == 3) points_ = name;
     }
   }
 
   // The array named "coordinates", else the only candidate.
-  const Array& voxels() const {
+  const NpyArray& voxels() const {
     if (named_) return *named_;
     if (several_)
       fail_input(file_.path(),
@@ -254,7 +169,7 @@ class VoxelArrayChoice {
   static constexpr std::string_view kCoordinates = "coordinates";
 
   const File& file_;
-  std::optional<Array> named_, found_;
+  std::optional<NpyArray> named_, found_;
   bool several_ = false;
   std::string points_;
   std::string unread_;  // the first array of an unsupported type
@@ -276,6 +191,10 @@ void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   for (const Layer& layer : layers) names += layer.name + '\0';
   begin_array(zip, "layer_names", "|u1", "(" + std::to_string(names.size()) + ",)");
   zip->put(names);
+  zip->end();
+  const std::string kind = layer_kind_name(window.labels->kind()) + std::string(1, '\0');
+  begin_array(zip, "layer_kind", "|u1", "(" + std::to_string(kind.size()) + ",)");
+  zip->put(kind);
   zip->end();
 }
 
@@ -303,11 +222,11 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   zip.commit();
 }
 
-GridPlacement read_npz(const File& file, const VoxelSink& sink) {
+GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers) {
   std::vector<ZipEntry> entries;
   std::array<char, 6> start{};
   file.read_some_at(0, std::as_writable_bytes(std::span(start)));
-  const bool zipped = std::string_view(start.data(), 6) != kArrayMagic;
+  const bool zipped = std::string_view(start.data(), 6) != kNpyMagic;
   if (zipped) {
     entries = read_zip(file);
     std::erase_if(entries, [](const ZipEntry& entry) { return !entry.name.ends_with(".npy"); });
@@ -316,18 +235,23 @@ GridPlacement read_npz(const File& file, const VoxelSink& sink) {
   }
   GridPlacement place;
   VoxelArrayChoice choice(file);
+  NpzLayerArrays layer_arrays;
   for (const ZipEntry& entry : entries) {
-    const Array array = read_header(file, entry.offset, entry.offset + entry.bytes);
+    const NpyArray array = read_npy_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_placement(file, name, array, &place);
     choice.consider(name, array);
+    layer_arrays.consider(name, array);
   }
-  const Array& voxels = choice.voxels();
+  const NpyArray& voxels = choice.voxels();
   if (is_dense(voxels)) {
     for (const uint64_t side : voxels.shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, voxels, sink);
+  } else if (layers != nullptr && layer_arrays.label) {
+    NpzLabels labels = read_npz_layers(file, layer_arrays, voxels.shape[0], layers);
+    read_coordinates(file, voxels, &labels, sink);
   } else {
-    read_coordinates(file, voxels, sink);
+    read_coordinates(file, voxels, nullptr, sink);
   }
   for (const ZipEntry& entry : entries) {
     if (zipped) check_crc(file, entry);

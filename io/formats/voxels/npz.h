@@ -4,15 +4,19 @@
 // y, z from the corner of the grid, in any order), `resolution` (int64), `corner` (3 x float64,
 // world position of the corner of voxel (0, 0, 0)) and `voxel_size` (float64). With layers also
 // `label` (N, uint16: the number of each voxel's layer, 0xffff for voxels of no layer), and of each
-// layer `layer_colours` (uint32, 0xRRGGBB) and `layer_names` (bytes; a zero byte after each name).
+// layer `layer_colours` (uint32, 0xRRGGBB) and `layer_names` (bytes; a zero byte after each name);
+// `layer_kind` (the same) is what a layer is.
 // Read: the same, or any archive (or single `.npy`) with one array of N x 3 integers, or one
 // 3-dimensional array of bool or uint8, whose nonzero elements are set. `resolution` and
 // `voxel_size` hold one number, `corner` three, as float32, float64 or integers of 1 to 8 bytes;
-// any other array of these names is rejected, and so are compressed archives.
+// any other array of these names is rejected, and so are compressed archives. `label` has an
+// integer for each row of the coordinates. Without names each number is a layer; names may also be
+// an array of texts. Without colours, they are those of the names.
 #pragma once
 
 #include <string>
 
+#include "io/dag/layer_table.h"
 #include "io/formats/window.h"
 #include "streaming/file/file.h"
 
@@ -20,7 +24,8 @@ namespace svdag {
 
 void write_npz(const VoxelWindow& window, const std::string& path);
 
-// Any other file is an Error (kBadInput), and so is a coordinate outside 0 .. 2^20 - 1.
-GridPlacement read_npz(const File& file, const VoxelSink& sink);
+// Any other file is an Error (kBadInput), and so is a coordinate outside 0 .. 2^20 - 1. `layers`,
+// which is empty, gets the layers; null: labels are ignored.
+GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers);
 
 }  // namespace svdag

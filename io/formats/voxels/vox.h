@@ -4,14 +4,16 @@
 // Layout: "VOX ", u32 150, and chunks: 4 letters, u32 bytes, u32 bytes of inner chunks. MAIN holds
 // SIZE (3 x u32) and XYZI (u32 n, n x {x, y, z, colour} bytes) per model, then the scene graph:
 // nTRN (translation), nGRP (group), nSHP (shape). A model is placed by the position of its voxel
-// size/2. A window is written as tiles of 256^3 without the empty ones. Axes are not swapped (z is
-// up in MagicaVoxel). Every voxel has colour 1, white; with layers, the colour 1 + the number of
-// its layer, and RGBA (256 x {r, g, b, 255}) the colours from 1 on; the one after the last layer's
-// is for voxels of no layer. World coordinates are not stored.
+// size/2. RGBA (256 x {r, g, b, a}) holds the colours from 1 on; without it, they are MagicaVoxel's
+// default palette. A window is written as tiles of 256^3 without the empty ones. Axes are not
+// swapped (z is up in MagicaVoxel). Every voxel has colour 1, white; with layers, the colour 1 +
+// the number of its layer, and RGBA (256 x {r, g, b, 255}) the colours from 1 on; the one after the
+// last layer's is for voxels of no layer. World coordinates are not stored.
 #pragma once
 
 #include <string>
 
+#include "io/dag/layer_table.h"
 #include "io/formats/window.h"
 #include "streaming/file/file.h"
 
@@ -26,7 +28,9 @@ constexpr size_t kMaxVoxLayers = 255;
 void write_vox(const VoxelWindow& window, const std::string& path);
 
 // Rotated models are not supported. If coordinates are negative, all voxels are shifted so that the
-// minimum is 0. Any other file is an Error (kBadInput).
-GridPlacement read_vox(const File& file, const VoxelSink& sink);
+// minimum is 0. Any other file is an Error (kBadInput). `layers`, which is empty, gets a layer for
+// each colour in use, but for a file without palette whose voxels have one colour; null: colours
+// are ignored.
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers);
 
 }  // namespace svdag

@@ -1,8 +1,10 @@
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "io/formats/label_numbers.h"
 #include "io/formats/voxels/vox.h"
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
@@ -18,6 +20,21 @@ constexpr uint32_t kNoLayer = ~0u;
 bool is_hidden(const Dictionary& attributes) {
   const auto found = attributes.find("_hidden");
   return found != attributes.end() && found->second == "1";
+}
+
+// Colour `i` of the palette that a file without RGBA has: six steps of red, green and blue from
+// white on, blue fastest, then ramps of red, green, blue and grey. No program uses colour 0.
+Colour default_colour(uint64_t i) {
+  if (i == 0) return {};
+  const auto step = [](uint64_t n) { return uint8_t(255 - 51 * (n % 6)); };
+  if (i < 216) return {step((i - 1) / 36), step((i - 1) / 6), step(i - 1)};
+  constexpr uint8_t kRamp[10] = {0xee, 0xdd, 0xbb, 0xaa, 0x88, 0x77, 0x55, 0x44, 0x22, 0x11};
+  const uint64_t ramp = (i - 216) / 10;
+  const uint8_t bright = kRamp[(i - 216) % 10];
+  const auto channel = [&](uint64_t which) {
+    return ramp == which || ramp == 3 ? bright : uint8_t(0);
+  };
+  return {channel(0), channel(1), channel(2)};
 }
 
 struct Model {
@@ -89,7 +106,10 @@ class ChunkReader {
 
 class VoxReader {
  public:
-  explicit VoxReader(const File& file) : file_(file) {}
+  VoxReader(const File& file, LayerTable* layers)
+      : file_(file),
+        layers_(layers),
+        labels_(file.path(), layers, [this](uint64_t label) { return layer_of(label); }) {}
 
   GridPlacement read(const VoxelSink& sink) {
     read_chunks();
@@ -111,6 +131,11 @@ class VoxReader {
       read_voxels(models_[model], at, &batch);
     }
     batch.flush();
+    const bool has_colours = palette_ || (layers_ != nullptr && layers_->layers.size() > 1);
+    if (layers_ != nullptr && has_colours)
+      layers_->kind = LayerKind::kMaterial;
+    else if (layers_ != nullptr)
+      *layers_ = {};
     return {};
   }
 
@@ -119,6 +144,12 @@ class VoxReader {
   static constexpr size_t kMaxVisits = size_t(1) << 20;
   static constexpr uint64_t kMaxVoxels = uint64_t(1) << 32;
   static constexpr int kMaxDepth = 64;
+
+  Layer layer_of(uint64_t label) const {
+    const std::string number = std::to_string(label);
+    return {"colour-" + std::string(3 - number.size(), '0') + number,
+            palette_ ? (*palette_)[size_t(label)] : default_colour(label)};
+  }
 
   Offset middle_voxel(uint32_t model) const {
     Offset middle;
@@ -152,6 +183,8 @@ class VoxReader {
     } else if (name == "XYZI") {
       const uint32_t count = chunk->count();
       models_.push_back({*size, chunk->offset(), count});
+    } else if (name == "RGBA") {
+      read_palette(chunk);
     } else if (name == "PACK") {
       has_frames_ = true;
     } else if (name == "nTRN") {
@@ -173,6 +206,14 @@ class VoxReader {
     } else if (name == "LAYR") {
       const uint32_t layer = chunk->number();
       if (is_hidden(chunk->dictionary())) hidden_layers_.insert(layer);
+    }
+  }
+
+  void read_palette(ChunkReader* chunk) {
+    palette_.emplace();
+    for (size_t i = 1; i < 256; ++i) {
+      const uint32_t rgba = chunk->number();
+      (*palette_)[i] = {uint8_t(rgba), uint8_t(rgba >> 8), uint8_t(rgba >> 16)};
     }
   }
 
@@ -237,7 +278,7 @@ class VoxReader {
     placed_.emplace_back(model, corner);
   }
 
-  void read_voxels(const Model& model, const Offset& at, VoxelBatch* batch) const {
+  void read_voxels(const Model& model, const Offset& at, VoxelBatch* batch) {
     ByteStream stream(file_, model.offset, model.offset + 4 * model.count);
     while (!stream.at_end()) {
       std::array<uint8_t, 4> record;
@@ -250,11 +291,14 @@ class VoxReader {
                      stream.offset() - 4);
         voxel[a] = uint32_t(x);
       }
-      batch->add(voxel);
+      layers_ != nullptr ? batch->add(voxel, labels_.of(record[3])) : batch->add(voxel);
     }
   }
 
   const File& file_;
+  LayerTable* layers_;
+  LabelNumbers labels_;
+  std::optional<std::array<Colour, 256>> palette_;
   std::vector<Model> models_;
   std::map<uint32_t, SceneNode> nodes_;
   std::set<uint32_t> hidden_layers_;
@@ -265,8 +309,8 @@ class VoxReader {
 
 }  // namespace
 
-GridPlacement read_vox(const File& file, const VoxelSink& sink) {
-  return VoxReader(file).read(sink);
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers) {
+  return VoxReader(file, layers).read(sink);
 }
 
 }  // namespace svdag

@@ -10,7 +10,7 @@ namespace {
 
 bool is_set(NodeGraph* graph, const LatticePoint& v) {
   const int levels = graph->grid().levels;
-  uint32_t id = graph->root();
+  uint32_t id = graph->roots().front();
   for (int level = 0; level < levels - 2; ++level) {
     const int shift = levels - 1 - level;
     id = graph->children(
@@ -60,7 +60,8 @@ TEST(CombinedGraph, DecidesEveryVoxelByBothGraphs) {
     BoxGraph a(grid, p), b(grid, q);
     MemoryBudget budget;
     const SetOperation operation = SetOperation(i % 3);
-    CombinedGraph graph(operation, &a, &b, grid, &budget);
+    const NodePair roots{a.roots().front(), b.roots().front()};
+    CombinedGraph graph(operation, &a, &b, grid, &budget, {&roots, 1});
     expect_voxels(&graph, [&](const LatticePoint& v) {
       const bool in_a = p.holds({v, v + int64_t(1)}), in_b = q.holds({v, v + int64_t(1)});
       return operation == SetOperation::kUnion          ? in_a || in_b
@@ -85,9 +86,10 @@ class ScatteredGraph final : public NodeGraph {
 TEST(CombinedGraph, ItsPairsAreInTheBudget) {
   ScatteredGraph a, b;
   MemoryBudget budget(uint64_t(64) << 10);
-  CombinedGraph graph(SetOperation::kUnion, &a, &b, a.grid(), &budget);
+  const NodePair roots{0, 0};
+  CombinedGraph graph(SetOperation::kUnion, &a, &b, a.grid(), &budget, {&roots, 1});
   const auto expand = [&] {
-    std::vector<uint32_t> ids{graph.root()};
+    std::vector<uint32_t> ids = graph.roots();
     for (int level = 0; level < 6; ++level) {
       std::vector<uint32_t> below;
       for (const uint32_t id : ids) {

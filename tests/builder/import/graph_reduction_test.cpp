@@ -88,7 +88,7 @@ class FullGraph : public NodeGraph {
     all.fill(7);
     return all;
   }
-  uint32_t root() const override { return 7; }
+  std::vector<uint32_t> roots() const override { return {7}; }
   Brick brick(uint32_t) override { return 0xff; }
 };
 

@@ -5,10 +5,12 @@
 
 #include <random>
 
+#include "io/dag/layer_alone.h"
 #include "streaming/file/file_state.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
+#include "verify/integrity/integrity.h"
 
 namespace svdag {
 namespace {
@@ -24,7 +26,7 @@ ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& ou
   SequentialExecutor executor;
   return import_voxels(
       [&](const VoxelSink& sink, const FullCubeSink& cube_sink) {
-        sink(voxels);
+        sink(voxels, {});
         for (const FullCube& cube : cubes) cube_sink(cube);
         return place;
       },
@@ -67,7 +69,7 @@ TEST(ImportVoxels, RejectsASourceThatChangesDuringTheImport) {
   const auto read_while = [&](const std::function<void()>& act) {
     import_voxels(
         [&](const VoxelSink& sink, const FullCubeSink&) {
-          sink(std::vector<Voxel>{{1, 2, 3}});
+          sink(std::vector<Voxel>{{1, 2, 3}}, {});
           act();
           return GridPlacement{};
         },
@@ -111,6 +113,93 @@ TEST(ImportVoxels, ACubeGivesTheBytesOfItsVoxels) {
   }
 }
 
+// The sections and the layer table of a file.
+std::string nodes_of(const DagFile& file) {
+  const Header& h = file.header();
+  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+struct LabelledVoxels {
+  std::vector<Voxel> voxels;
+  std::vector<uint16_t> labels;
+};
+
+ImportReport import_layers(const LabelledVoxels& list, const LayerTable& layers,
+                           const std::string& output, int levels, uint64_t memory = 0) {
+  ImportConfig config;
+  config.output = output;
+  config.levels = levels;
+  config.memory = memory;
+  ParallelExecutor executor(2);
+  return import_voxels(
+      [&](const VoxelSink& sink, const FullCubeSink&) {
+        for (size_t at = 0; at < list.voxels.size(); at += 1000) {
+          const size_t count = std::min<size_t>(1000, list.voxels.size() - at);
+          sink(std::span(list.voxels).subspan(at, count),
+               std::span(list.labels).subspan(at, count));
+        }
+        return GridPlacement{};
+      },
+      config, &executor, 0, &layers);
+}
+
+// Layers in clumps that meet, each in some bricks alone, and voxels of several; one has no voxel.
+TEST(ImportVoxels, EachLayerIsTheImportOfItsVoxelsAndTheUnionThatOfAll) {
+  std::mt19937 random(4);
+  const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
+  const TempFolder folder;
+  MemoryBudget budget;
+  const WorkRoom room{&budget, folder.path()};
+  int spilled = 0;
+  for (int run = 0; run < 20; ++run) {
+    SCOPED_TRACE(run);
+    const int levels = 3 + run % 7;
+    const uint32_t side = 1U << levels, layers = 1 + below(5);
+    LayerTable table{LayerKind::kObject, true, 0, {}};
+    for (uint32_t i = 0; i < layers + 1; ++i)  // not in the order of the file's table
+      table.layers.push_back({std::string(1, char('z' - i)), {uint8_t(i), 2, 3}});
+    LabelledVoxels list;
+    for (uint32_t i = 0, count = run == 19 ? 300'000 : below(20'000); i < count; ++i) {
+      const uint32_t label = below(layers), spread = 1 + side / 2;
+      const uint32_t first = label * (side - spread) / layers;
+      list.voxels.push_back({first + below(spread), below(side), below(1 + side / 4)});
+      list.labels.push_back(uint16_t(label));
+      if (below(10) != 0) continue;  // of another, or repeated
+      list.voxels.push_back(list.voxels.back());
+      list.labels.push_back(uint16_t(below(layers)));
+    }
+    const std::string out = folder.file("layers.svdag");
+    const ImportReport report = import_layers(list, table, out, levels);
+    EXPECT_EQ(report.layers, layers + 1);
+    const DagFile file = DagFile::open(out);
+    EXPECT_EQ(inspect_file(file, room).defects, std::vector<std::string>());
+    EXPECT_EQ(file.layers().kind, LayerKind::kObject);
+    EXPECT_EQ(import_list(list.voxels, folder.file("plain.svdag"), levels).voxels, report.voxels);
+    EXPECT_EQ(nodes_of(layer_alone(file, {}, room)),
+              nodes_of(DagFile::open(folder.file("plain.svdag"))));
+    for (uint32_t label = 0; label < layers + 1; ++label) {
+      std::vector<Voxel> own;
+      for (size_t i = 0; i < list.voxels.size(); ++i) {
+        if (list.labels[i] == label) own.push_back(list.voxels[i]);
+      }
+      const size_t number = layer_named(file.layers(), table.layers[label].name);
+      EXPECT_EQ(file.layers().layers[number].colour, table.layers[label].colour);
+      EXPECT_EQ(import_list(own, folder.file("own.svdag"), levels).voxels,
+                file.layers().layers[number].voxels);
+      EXPECT_EQ(nodes_of(layer_alone(file, number, room)),
+                nodes_of(DagFile::open(folder.file("own.svdag"))));
+    }
+    // In little memory, and without layers in the end.
+    const std::string expected = folder.read("layers.svdag");
+    spilled += import_layers(list, table, out, levels, uint64_t(8) << 20).spilled;
+    EXPECT_EQ(folder.read("layers.svdag"), expected);
+    import_layers(list, {}, out, levels);
+    EXPECT_EQ(folder.read("layers.svdag"), folder.read("plain.svdag"));
+  }
+  EXPECT_GT(spilled, 0);
+}
+
 TEST(ImportVoxels, ACubeAsLargeAsTheGridIsFull) {
   for (const int levels : {3, 4, 5, 20}) {
     const TempFolder folder;
@@ -136,7 +225,7 @@ TEST(ImportVoxels, RejectsMoreVoxelsThanTheDiskCanSortBeforeReading) {
                      "spilling the voxels needs about");
   EXPECT_EQ(folder.entries(), 0U);
   const VoxelSource one = [](const VoxelSink& sink, const FullCubeSink&) {
-    sink(std::vector<Voxel>{{1, 2, 3}});
+    sink(std::vector<Voxel>{{1, 2, 3}}, {});
     return GridPlacement();
   };
   EXPECT_EQ(import_voxels(one, config, &executor, 1).voxels, 1U);

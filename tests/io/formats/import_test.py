@@ -244,6 +244,190 @@ class Import(unittest.TestCase):
             (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(**arrays))
             self.assertIn(sentence, BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
 
+    def expect_layers(self, dag, expected):
+        """expected: {name: (colour or None, voxels)}"""
+        self.assertEqual([layer.name.decode("utf-8", "replace") for layer in dag.layers], sorted(expected))
+        for i, layer in enumerate(dag.layers):
+            colour, voxels = expected[layer.name.decode("utf-8", "replace")]
+            self.assertIn(colour, (None, layer.colour))
+            self.assertEqual({tuple(v) for v in dag.voxels(i).tolist()}, {tuple(v) for v in voxels})
+
+    def test_labels_of_every_type_are_layers(self):
+        rows = [tuple(v) for v in self.few.tolist()]
+        labels = [sum(v) * 7 % 5 for v in rows]
+        rows += rows[:20]  # also of another layer
+        labels += [(label + 1) % 5 for label in labels[:20]]
+        of = [[row for row, label in zip(rows, labels) if label == i] for i in range(5)]
+        names = ["b", "a", "wall \u00e9", "", "\u20ac\U0001f600"]
+        colours = [0xff8001, 0, 0xffffff, 0x10203, 0xabcdef]
+        x, text = numpy.array(rows, "<i4"), "".join(name + "\0" for name in names).encode()
+        for kind in ("i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"):
+            arrays = {"coordinates": x, "label": numpy.array(labels, kind), "layer_names": numpy.frombuffer(text, "u1"),
+                      "layer_colours": numpy.array(colours, "<u4"), "layer_kind": numpy.frombuffer(b"file\0", "u1")}
+            if kind == "u1":
+                arrays.update(layer_names=numpy.array(names), layer_kind=numpy.array("file"))
+            if kind == "<i8":
+                arrays.update(layer_names=numpy.array([name.encode() for name in names]), layer_kind=numpy.array([b"file"]))
+            with self.subTest(kind=kind):
+                dag = self.read(write_foreign.npz(**arrays), "l.npz", "-r", "32")
+                self.expect_layers(dag, {name: ((c >> 16, c >> 8 & 255, c & 255), of[i])
+                                         for i, (name, c) in enumerate(zip(names, colours))})
+                self.assertEqual((dag.layer_kind, dag.has_union), (3, 1))
+        # The voxels are those of an import without layers.
+        BAKERY.run("svdag", "import", "l.npz", "-o", "without.svdag", "-q", "-r", "32", "--no-layers")
+        BAKERY.run("svdag", "convert", "imported.svdag", "-o", "a.svdag", "-q", "--layer", "a")
+        self.assertEqual(nodes_of(BAKERY.dag("without.svdag")), nodes_of(self.small))
+        self.assertEqual({tuple(v) for v in dag.voxels().tolist()}, set(rows))
+        # A name without voxels is an empty layer; the kind and the colours may be absent.
+        del arrays["layer_kind"], arrays["layer_colours"]
+        arrays["layer_names"] = numpy.frombuffer(text + b"none\0", "u1")
+        dag = self.read(write_foreign.npz(**arrays), "l.npz", "-r", "32")
+        self.expect_layers(dag, {**{name: (None, of[i]) for i, name in enumerate(names)}, "none": (None, [])})
+        self.assertEqual(dag.layer_kind, 2)
+        # What is in no layer becomes the unnamed one, which is there or not.
+        for none in (numpy.uint16(65535), numpy.int8(-1)):
+            for text in (b"a\0b\0", b"a\0\0"):
+                label = numpy.array([none, 0, 1] * len(rows))[:len(rows)]
+                dag = self.read(write_foreign.npz(coordinates=x, label=label, layer_names=numpy.frombuffer(text, "u1")),
+                                "l.npz", "-r", "32")
+                self.expect_layers(dag, {"a": (None, rows[1::3]), **(
+                    {"b": (None, rows[2::3]), "": (None, rows[::3])} if b"b" in text else {"": (None, rows[::3] + rows[2::3])})})
+
+    def test_numbers_without_names_are_layers(self):
+        rows = [tuple(v) for v in self.few.tolist()]
+        for kind, numbers in (("<i8", (-5, 7, 10)), ("u1", (0, 7, 255)), ("<u8", (2**64 - 1, 0, 2**63))):
+            with self.subTest(kind=kind):
+                labels = numpy.array([numbers[sum(v) % 3] for v in rows], kind)
+                dag = self.read(write_foreign.npz(coordinates=self.few, label=labels), "l.npz", "-r", "32")
+                self.expect_layers(dag, {str(n): (None, [v for v in rows if sum(v) % 3 == i])
+                                         for i, n in enumerate(numbers)})
+        # Other arrays named label: of something else than rows.
+        for arrays in ({"volume": self.dense(), "label": numpy.array([3])}, {"label": self.few},
+                       {"coordinates": self.few, "label": numpy.array(3)}):
+            self.assertEqual(self.read(write_foreign.npz(**arrays), "l.npz", "-r", "32").layers, [])
+
+    def test_invalid_labels_are_rejected(self):
+        count = len(self.few)
+
+        def rejected(sentence, *options, **arrays):
+            (BAKERY.folder / "w.npz").write_bytes(write_foreign.npz(coordinates=self.few, **arrays))
+            error = BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", *options, code=3)
+            self.assertIn(sentence, error)
+            self.assertEqual(error.count("\n"), 1)
+            BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", "-q", "--no-layers")
+
+        def text(data):
+            return numpy.frombuffer(data, "u1")
+        good = numpy.arange(count) % 2
+        for label in (good[1:], numpy.append(good, 0), good.astype("<f4"), good.astype(bool)):
+            rejected('has an array "label" that is not an integer for each row', label=label)
+        for wrong in (2, -2, 65534, 65536):
+            labels = good.copy()
+            labels[-1] = wrong
+            rejected("a label is not the number of one of the 2 layers", label=labels, layer_names=text(b"a\0b\0"))
+        rejected("a label is not the number of one of the 0 layers", label=good, layer_names=text(b""))
+        rejected("two layers are named a", label=good, layer_names=text(b"a\0b\0a\0"))
+        rejected("two layers are named (unnamed)", label=good, layer_names=text(b"\0\0"))
+        rejected('"layer_names" that does not end with a zero byte', label=good, layer_names=text(b"a\0b"))
+        for names in (numpy.array([1.0, 2.0]), numpy.array([["a", "b"]]), numpy.array([0, 1])):
+            rejected('"layer_names" that is not a row of texts', label=good, layer_names=names)
+        for code in (0x110000, 0xd800):
+            rejected('"layer_names" that is not valid Unicode', label=good, layer_names=numpy.array([97, code], "<u4").view("<U1"))
+        for colours in (numpy.array([1]), numpy.array([1, 2, 3]), numpy.array([1.0, 2.0])):
+            rejected('"layer_colours" that is not an integer for each layer', label=good, layer_names=text(b"a\0b\0"),
+                     layer_colours=colours)
+        rejected('"layer_colours" that is not of colours 0xRRGGBB', label=good, layer_names=text(b"a\0b\0"),
+                 layer_colours=numpy.array([1, 2**24]))
+        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=text(b"none\0"))
+        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=numpy.array(["file", "file"]))
+
+    def test_65535_layers_and_no_more(self):
+        count = 65535
+        numbers = numpy.arange(count + 1)
+        x = numpy.stack([numbers % 64, numbers // 64 % 64, numbers // 4096], 1)
+        names = b"".join(b"%d\0" % n for n in range(count))
+        for arrays in ({}, {"layer_names": numpy.frombuffer(names, "u1")}):
+            self.read(write_foreign.npz(coordinates=x[:-1], label=numbers[:-1], **arrays), "l.npz")
+            self.assertIn('"count": 65535', BAKERY.run("svdag", "info", "imported.svdag", "--json"))
+            if arrays:
+                arrays["layer_names"] = numpy.frombuffer(names + b"one more\0", "u1")
+            (BAKERY.folder / "l.npz").write_bytes(write_foreign.npz(coordinates=x, label=numbers, **arrays))
+            self.assertIn("l.npz: has more than 65535 layers\n",
+                          BAKERY.run("svdag", "import", "l.npz", "-o", "w.svdag", code=3))
+
+    def test_layers_come_back_byte_for_byte(self):
+        """Where no voxel is in two layers. A .vox has no names, but numbers of colours in the order of the table."""
+        scene = b"v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n"
+        for i, name in enumerate((b"roof", b"\xff\xfe", b"wall \xc3\xa9")):
+            scene += b"o %s\nv 0 0 %d\nv 9 0 %d\nv 0 9 %d\nf -1 -2 -3\n" % (name, *3 * [10 * i + 10])
+        (BAKERY.folder / "parts.obj").write_bytes(scene)
+        for kind in ("object", "material"):
+            BAKERY.run("svdag", "build", "parts.obj", "-o", "parts.svdag", "-q", "-r", "128", "--layers", kind)
+            dag = BAKERY.dag("parts.svdag")
+            BAKERY.run("svdag", "export", "parts.svdag", "-o", "parts.npz", "-q")
+            back = self.imported("parts.npz")
+            self.assertEqual((nodes_of(back), back.layers, back.layer_kind), (nodes_of(dag), dag.layers, dag.layer_kind))
+        BAKERY.run("svdag", "build", "parts.obj", "-o", "parts.svdag", "-q", "-r", "128", "--layers", "object")
+        dag = BAKERY.dag("parts.svdag")
+        BAKERY.run("svdag", "export", "parts.svdag", "-o", "parts.vox", "-q")
+        back = self.imported("parts.vox", "-r", "128")
+        self.assertEqual([layer.name for layer in back.layers], [b"colour-00%d" % (1 + i) for i in range(4)])
+        self.assertEqual([layer[1:] for layer in back.layers], [layer[1:] for layer in dag.layers])
+        self.assertEqual(nodes_of(back), nodes_of(dag))
+
+    def test_colours_of_a_vox_are_layers(self):
+        rows = [tuple(v) for v in self.few.tolist()]
+        used = (1, 79, 255)
+        coloured = numpy.array([(*v, used[sum(v) % 3]) for v in rows])
+        of = {f"colour-{c:03}": [v for v in rows if used[sum(v) % 3] == c] for c in used}
+        palette = bytes(range(256)) * 4
+        colours = {c: tuple(palette[4 * c - 4:4 * c - 1]) for c in used}
+        data = write_foreign.vox((coloured, (32, 32, 32)), palette=palette)
+        self.expect_layers(self.read(data, "c.vox", "-r", "32"),
+                           {f"colour-{c:03}": (colours[c], of[f"colour-{c:03}"]) for c in used})
+        self.assertEqual(self.read(data, "c.vox", "-r", "32", "--no-layers").layers, [])
+        # Without a palette, that of MagicaVoxel; a single colour is then none.
+        coloured[:, 3] = 1 + numpy.arange(len(rows)) % 255
+        dag = self.read(write_foreign.vox((coloured, (32, 32, 32)), palette=None), "d.vox", "-r", "32")
+        default = {layer.name: layer.colour for layer in dag.layers}
+        for number, colour in {1: (255, 255, 255), 2: (255, 255, 204), 7: (255, 204, 255), 37: (204, 255, 255),
+                               215: (0, 0, 51), 216: (238, 0, 0), 226: (0, 238, 0), 236: (0, 0, 238), 246: (238, 238, 238),
+                               255: (17, 17, 17)}.items():
+            self.assertEqual(default[f"colour-{number:03}".encode()], colour, number)
+        one = write_foreign.vox((self.few, (32, 32, 32)), palette=None)
+        self.assertEqual(self.read(one, "o.vox", "-r", "32").layers, [])
+
+    def test_colours_beside_a_hashdag_are_layers(self):
+        def morton(v):
+            return [4 * (v[0] >> k & 1) + 2 * (v[1] >> k & 1) + (v[2] >> k & 1) for k in range(9, -1, -1)]
+
+        def write(rows, colours, levels=5):
+            (BAKERY.folder / "c.dag.bin").write_bytes(write_foreign.hashdag(rows, levels))
+            (BAKERY.folder / "c.uncompressed_colors.bin").write_bytes(colours)
+        rows = sorted((tuple(v) for v in self.few.tolist()), key=morton)
+        kinds = ((1, 2, 3), (255, 0, 16), (0, 0, 0))
+        colours = [kinds[sum(v) * 5 // 3 % 3] for v in rows]
+        write(rows, write_foreign.hashdag_colours(colours))
+        for options in ((), ("-m", "8M", "-j", "2"), ("--layout", "compact")):
+            dag = self.imported("c.dag.bin", *options)
+            self.expect_layers(dag, {"#%02x%02x%02x" % kind: (kind, [v for v, c in zip(rows, colours) if c == kind])
+                                     for kind in kinds})
+            self.assertEqual({tuple(v) for v in dag.voxels().tolist()}, set(rows))
+        without = self.imported("c.dag.bin", "--no-layers")
+        self.assertEqual((nodes_of(without), without.layers), (nodes_of(self.small), []))
+        good = write_foreign.hashdag_colours(colours)
+        for wrong, sentence in ((good[:-4], "its size does not match its counts"), (good + b"1", "its size does not match its counts"),
+                                (good[:11], "its size does not match its counts"), (good[:16], "its size does not match its counts"),
+                                (write_foreign.hashdag_colours(colours[1:]), f"colours, but the DAG has {len(rows):,} voxels")):
+            write(rows, wrong)
+            self.assertIn("c.uncompressed_colors.bin: ", BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
+            self.assertIn(sentence, BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
+        write([], write_foreign.hashdag_colours([]))
+        self.assertEqual(self.imported("c.dag.bin").voxel_count, 0)
+        many = sorted(((x, y, z) for x in range(64) for y in range(64) for z in range(16)), key=morton)
+        write(many, write_foreign.hashdag_colours([(i & 255, i >> 8, 0) for i in range(len(many))]), 6)
+        self.assertIn("has more than 65535 layers", BAKERY.run("svdag", "import", "c.dag.bin", "-o", "w.svdag", code=3))
+
     def test_a_flipped_bit_in_an_archive_is_detected(self):
         good = write_foreign.npz(x=numpy.array(self.few, "<i4"), resolution=numpy.array(32))
         begin = good.index(b"\x93NUMPY") + 128
@@ -263,6 +447,12 @@ class Import(unittest.TestCase):
             self.assertEqual((BAKERY.folder / "much.svdag").read_bytes(), (BAKERY.folder / "little.svdag").read_bytes())
             self.assertFalse((BAKERY.folder / "little.svdag.scratch").exists())
             self.assertEqual(nodes_of(BAKERY.dag("little.svdag")), nodes_of(BAKERY.dag("large.svdag")))
+        x = numpy.load(BAKERY.folder / EXPORTED["npz"])["coordinates"]
+        label = (x[:, 0] // 100 + x[:, 1] // 50).astype("u1")
+        (BAKERY.folder / "l.npz").write_bytes(write_foreign.npz(coordinates=x, label=label))
+        BAKERY.run("svdag", "import", "l.npz", "-o", "much.svdag", "-q", "-r", "1K")
+        BAKERY.run("svdag", "import", "l.npz", "-o", "little.svdag", "-q", "-r", "1K", "-m", "16M", "-j", "2")
+        self.assertEqual((BAKERY.folder / "much.svdag").read_bytes(), (BAKERY.folder / "little.svdag").read_bytes())
 
     def test_damaged_files_give_one_message(self):
         good = {"t.dag.bin": write_foreign.hashdag(self.few.tolist(), 5), "t.svdag": write_foreign.symvox(self.few.tolist(), 5),

@@ -45,6 +45,12 @@ def hashdag(voxels, levels, low=(0, 0, 0), side=1.0, empty_nodes=False):
     return struct.pack("<6dIQ", *low, *high, levels, len(words)) + struct.pack(f"<{len(words)}I", *words)
 
 
+def hashdag_colours(colours, top_levels=2, enclosed=(7, 1 << 40, 0)):
+    """colours: (r, g, b) of each voxel, depth first. The counts of voxels below nodes are made up."""
+    return struct.pack("<IQ", top_levels, len(enclosed)) + struct.pack(f"<{len(enclosed)}Q", *enclosed) + struct.pack(
+        "<Q", len(colours)) + b"".join(bytes((*colour, 255)) for colour in colours)
+
+
 def by_level(voxels, levels):
     """Lists of nodes per depth; a node is {child: position in the next list}, without sharing."""
     lists = [[] for _ in range(levels + 1)]
@@ -146,13 +152,15 @@ def dictionary(**entries):
 
 def vox_model(voxels, size):
     return chunk(b"SIZE", struct.pack("<3I", *size)) + chunk(
-        b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79]) for v in voxels))
+        b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79][:4]) for v in voxels))
 
 
-def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_shapes=(), frames=1, pack=True):
-    """models: (voxels, size); places: the translation _t of each, or None: no scene graph; each model has its own
+def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_shapes=(), frames=1, pack=True,
+        palette=bytes(1024)):
+    """models: (voxels, size), colour 79 unless voxels have a fourth number; places: the translation _t of each, or None: no scene graph; each model has its own
     layer; hidden, hidden_layers, rotated, hidden_shapes: indices into places; frames: number of models per shape,
-    its own first; pack: writes the number of models, which without a scene graph makes them frames of an animation."""
+    its own first; pack: writes the number of models, which without a scene graph makes them frames of an animation; palette: None: no
+    chunk."""
     body = chunk(b"PACK", struct.pack("<I", len(models))) if pack else b""
     body += b"".join(vox_model(*m) for m in models)
     if places is not None:
@@ -170,5 +178,5 @@ def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_sh
         for i in range(len(places)):
             layer = dictionary(_name="layer", _hidden="1" if i in hidden_layers else "0")
             body += chunk(b"LAYR", struct.pack("<I", i) + layer + struct.pack("<i", -1))
-    body += chunk(b"RGBA", bytes(1024))
+    body += chunk(b"RGBA", palette) if palette is not None else b""
     return b"VOX " + struct.pack("<I", 200) + chunk(b"MAIN", b"", body)

@@ -1,0 +1,60 @@
+#include "builder/edit/pair_numbers.h"
+
+#include <algorithm>
+
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+constexpr const char* kPurpose = "pairs of nodes of the edit";
+constexpr size_t kFirstSlots = 64;
+
+uint64_t hash(uint64_t pair) {
+  const unsigned __int128 product =
+      static_cast<unsigned __int128>(pair ^ 0x9e3779b97f4a7c15) * 0xd6e8feb86659fd93;
+  return uint64_t(product) ^ uint64_t(product >> 64);
+}
+
+}  // namespace
+
+PairNumbers::PairNumbers(MemoryBudget* budget) : memory_(budget->reserve(0, kPurpose)) {
+  slots_.resize(kFirstSlots);
+  std::fill(slots_.begin(), slots_.end(), 0);
+}
+
+size_t PairNumbers::slot_of(NodePair pair) const {
+  size_t slot = hash(uint64_t(pair.a) << 32 | pair.b) & (slots_.size() - 1);
+  for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
+    const NodePair& found = pairs_[slots_[slot] - 1];
+    if (found.a == pair.a && found.b == pair.b) break;
+  }
+  return slot;
+}
+
+uint32_t PairNumbers::number(NodePair pair) {
+  size_t slot = slot_of(pair);
+  if (slots_[slot] != 0) return slots_[slot] - 1;
+  if (2 * (pairs_.size() + 1) > slots_.size()) {
+    grow();
+    slot = slot_of(pair);
+  }
+  pairs_.push_back(pair);
+  slots_[slot] = uint32_t(pairs_.size());
+  return slots_[slot] - 1;
+}
+
+void PairNumbers::grow() {
+  if (pairs_.size() >= kMaxPairs)
+    throw Error(ExitCode::kOutput, "the edit has more than 2^30 nodes on one level");
+  const size_t slots = 2 * slots_.size();
+  // The old and the new arrays are both in memory while they are copied.
+  memory_.resize(slots / 2 * sizeof(NodePair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2, kPurpose);
+  pairs_.reserve(slots / 2);
+  HugeVector<uint32_t>().swap(slots_);
+  slots_.resize(slots);
+  std::fill(slots_.begin(), slots_.end(), 0);
+  for (size_t i = 0; i < pairs_.size(); ++i) slots_[slot_of(pairs_[i])] = uint32_t(i + 1);
+}
+
+}  // namespace svdag
