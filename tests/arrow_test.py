@@ -129,7 +129,7 @@ LIBRARIES = {
     r"zlib": r"io/scene/readers/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/readers/gzip_test\.cpp",
     r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/readers/draco\.cpp|tests/.*",
-    r"stb_?|stb/": r"verify/trace/image\.cpp",
+    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/readers/image\.cpp|tests/io/scene/image_files\.h",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h",
