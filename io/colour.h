@@ -28,7 +28,7 @@ inline double light_of(double code) {
 
 // Linear light in units of 2^-32, so that sums and comparisons are exact. The units of the codes
 // and of the values halfway between them are the same with every std::pow: before they are rounded,
-// none is within 0.001 of the middle between two whole numbers.
+// none is within 0.0005 of the middle between two whole numbers.
 constexpr uint64_t kWhiteUnits = uint64_t(1) << 32;
 
 // The nearest units of light of 0 .. 1; what is outside is clamped, NaN is 0.
@@ -46,7 +46,7 @@ inline uint8_t code_of_units(uint64_t units) {
 }
 
 // Linear light of the three channels; white unless set.
-struct Light {
+struct LinearColour {
   std::array<uint64_t, 3> units{kWhiteUnits, kWhiteUnits, kWhiteUnits};
 
   // `factor` is linear light.

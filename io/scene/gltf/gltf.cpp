@@ -82,12 +82,12 @@ class GltfReader {
     const JsonObject material = document_.element("materials", index);
     if (!material.has("pbrMetallicRoughness")) return {};
     const JsonObject pbr = material.object("pbrMetallicRoughness");
-    std::optional<Light> mean;
+    std::optional<LinearColour> mean;
     if (pbr.has("baseColorTexture"))
       mean = mean_of_texture(document_, pbr.object("baseColorTexture"), &buffers_, options_.images);
     std::array<double, 4> factor{1, 1, 1, 1};
     if (!pbr.numbers("baseColorFactor", factor) && !mean) return {};
-    return mean.value_or(Light()).times({factor[0], factor[1], factor[2]});
+    return mean.value_or(LinearColour()).times({factor[0], factor[1], factor[2]});
   }
 
   // `included`: whether the node is.

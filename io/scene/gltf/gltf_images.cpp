@@ -18,8 +18,8 @@ std::vector<File> image_files(const GltfDocument& document) {
   return files;
 }
 
-std::optional<Light> mean_of_texture(const GltfDocument& document, const JsonObject& info,
-                                     GltfBuffers* buffers, ImageMeans* means) {
+std::optional<LinearColour> mean_of_texture(const GltfDocument& document, const JsonObject& info,
+                                            GltfBuffers* buffers, ImageMeans* means) {
   const std::string& path = document.file->path();
   const uint64_t number = info.count("index");
   const auto textures = document.root().array("textures");

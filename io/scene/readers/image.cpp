@@ -53,7 +53,7 @@ ImageSize size_of(const ImageSource& source) {
 }
 
 // `channels`: grey, grey and alpha, RGB, or RGB and alpha.
-Light mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
+LinearColour mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
   std::array<std::array<uint64_t, 256>, 3> weights{};  // [channel][code]: of all texels
   uint64_t whole = 0;
   for (size_t i = 0; i < texels.size(); i += channels) {
@@ -62,7 +62,7 @@ Light mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
     whole += weight;
   }
   if (whole == 0) return mean_of(texels, channels, false);
-  Light mean;
+  LinearColour mean;
   for (size_t c = 0; c < 3; ++c) {
     unsigned __int128 sum = whole / 2;
     for (size_t code = 0; code < 256; ++code)
@@ -72,7 +72,7 @@ Light mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
   return mean;
 }
 
-Light decode(const ImageSource& source) {
+LinearColour decode(const ImageSource& source) {
   ImageSize size;
   int channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
@@ -110,7 +110,7 @@ void check_image_bytes(uint64_t bytes, const std::string& path) {
   if (bytes > kMaxImageBytes) fail_input(path, "is an image of more than 1 GiB, which is not read");
 }
 
-Light mean_of_image(const ImageSource& source, MemoryBudget* budget) {
+LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget) {
   check_image_bytes(source.bytes.size(), source.path);
   const uint64_t seconds = 30 + source.bytes.size() / 65536;
   const ImageSize size = in_child<ImageSize>(source, {kBesideTexels, seconds, source.sandbox},
@@ -122,7 +122,7 @@ Light mean_of_image(const ImageSource& source, MemoryBudget* budget) {
                                 std::to_string(kMaxImageSide) + " a side");
   const uint64_t bytes = kBytesPerTexel * size.texels() + 2 * source.bytes.size();
   const auto memory = budget->reserve(bytes, "texels of a texture");
-  const Light mean = in_child<Light>(
+  const LinearColour mean = in_child<LinearColour>(
       source, {kBesideTexels + bytes, seconds + (size.texels() >> 20), source.sandbox},
       [&] { return decode(source); });
   for (const uint64_t units : mean.units) {

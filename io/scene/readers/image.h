@@ -31,6 +31,6 @@ void check_image_bytes(uint64_t bytes, const std::string& path);
 // The mean of the texels in linear light, weighted by their alpha unless that is zero everywhere.
 // Of 16 bits a channel, the upper eight count. An image that is broken, too large or of another
 // format is an Error (kBadInput).
-Light mean_of_image(const ImageSource& source, MemoryBudget* budget);
+LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget);
 
 }  // namespace svdag

@@ -5,7 +5,7 @@
 
 namespace svdag {
 
-std::optional<Light> ImageMeans::mean(const std::string& name, const Read& read) {
+std::optional<LinearColour> ImageMeans::mean(const std::string& name, const Read& read) {
   const auto [known, is_new] = means_.try_emplace(name);
   if (!is_new) return known->second;
   try {
@@ -19,7 +19,7 @@ std::optional<Light> ImageMeans::mean(const std::string& name, const Read& read)
   return known->second;
 }
 
-std::optional<Light> ImageMeans::mean_of_file(const std::string& path) {
+std::optional<LinearColour> ImageMeans::mean_of_file(const std::string& path) {
   return mean(path, [&](MemoryBudget::Reservation* memory) {
     return bytes_of(File::open_read(path), memory);
   });

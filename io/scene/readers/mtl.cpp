@@ -138,7 +138,7 @@ std::vector<std::string> mtl_files(const File& obj) {
 
 std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images) {
   if (material.texture.empty()) return material.diffuse;
-  const std::optional<Light> mean = images->mean_of_file(material.texture);
+  const std::optional<LinearColour> mean = images->mean_of_file(material.texture);
   if (!mean) return material.diffuse;
   const Colour kd = material.diffuse.value_or(Colour{255, 255, 255});
   const auto factor = [](uint8_t code) {
