@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -27,14 +29,42 @@ inline std::string colour_text(const Colour& colour) {
 inline uint8_t colour_code(double srgb) {
   return srgb > 0 ? uint8_t(std::lround(255 * std::min(srgb, 1.0))) : uint8_t(0);
 }
-// Of linear light (IEC 61966-2-1).
-inline uint8_t colour_code_of_light(double light) {
-  return colour_code(light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
-}
-// Linear light of a code.
-inline double light_of(uint8_t code) {
-  const double v = code / 255.0;
+// Linear light of a code (IEC 61966-2-1), or of a value between two codes.
+inline double light_of(double code) {
+  const double v = code / 255;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
+
+// Linear light in units of 2^-32, so that sums and comparisons are exact. The units of the codes
+// and of the values halfway between them are the same with every std::pow: before they are rounded,
+// none is within 0.0005 of the middle between two whole numbers.
+constexpr uint64_t kWhiteUnits = uint64_t(1) << 32;
+
+// The nearest units of light of 0 .. 1; what is outside is clamped, NaN is 0.
+inline uint64_t light_units(double light) {
+  return light > 0 ? uint64_t(std::llround(std::min(light, 1.0) * double(kWhiteUnits))) : 0;
+}
+// The nearest code.
+inline uint8_t code_of_units(uint64_t units) {
+  static const std::array<uint64_t, 255> kBorders = [] {
+    std::array<uint64_t, 255> borders;
+    for (size_t i = 0; i < borders.size(); ++i) borders[i] = light_units(light_of(double(i) + 0.5));
+    return borders;
+  }();
+  return uint8_t(std::upper_bound(kBorders.begin(), kBorders.end(), units) - kBorders.begin());
+}
+
+// Linear light of the three channels; white unless set.
+struct LinearColour {
+  std::array<uint64_t, 3> units{kWhiteUnits, kWhiteUnits, kWhiteUnits};
+
+  // `factor` is linear light.
+  Colour times(const std::array<double, 3>& factor) const {
+    const auto code = [&](size_t c) {
+      return code_of_units(light_units(factor[c] * double(units[c]) / double(kWhiteUnits)));
+    };
+    return {code(0), code(1), code(2)};
+  }
+};
 
 }  // namespace svdag

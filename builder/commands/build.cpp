@@ -94,6 +94,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"triangles_invalid", r.split.scene.invalid},
                {"triangles_undeformed", r.split.scene.undeformed},
                {"patterns_unmatched", r.split.scene.unmatched},
+               {"images_unread", r.split.scene.unread_images},
                {"largest_snap_voxels", r.split.largest_snap},
                {"quantisation_voxels", r.split.scene.quantisation / r.grid.voxel_size},
                {"decisions", r.decisions.total},

@@ -5,8 +5,8 @@
 
 namespace svdag {
 
-// Prints a line on stdout for each pattern that matches no part, and one if triangles are
-// undeformed (skins and morph targets are not applied).
+// Prints a line on stdout for each pattern that matches no part and each texture that cannot be
+// read, and one if triangles are undeformed (skins and morph targets are not applied).
 void print_scene_notes(const SceneCounts& counts);
 
 }  // namespace svdag

@@ -74,8 +74,8 @@ void add_scene_options(CLI::App* app, SceneConfig* scene) {
                 "Drop triangles with NaN or infinite coordinates");
   app->add_flag(
       "--sandbox", scene->sandbox,
-      "Run Assimp, Draco, meshoptimizer and OpenMesh in a process that can only compute: for "
-      "untrusted scenes");
+      "Run Assimp, Draco, meshoptimizer, OpenMesh and stb_image in a process that can only "
+      "compute: for untrusted scenes");
   app->add_option_function<std::string>(
          "--transform", [scene](const std::string& s) { scene->transform = parse_transform(s); },
          "Transform the scene by a 4x4 matrix, row by row; bounds and sizes are those after it")

@@ -10,8 +10,7 @@ namespace svdag {
 class DagGraph final : public NodeGraph {
  public:
   // `levels`: 3 .. L; L for the file's own resolution. `file` must outlive this.
-  DagGraph(const DagFile& file, int levels)
-      : view_(file.view()), grid_(file.grid()) {
+  DagGraph(const DagFile& file, int levels) : view_(file.view()), grid_(file.grid()) {
     if (levels < grid_.levels) grid_ = level_grid(grid_, levels);
     const LayerTable& table = file.layers();
     if (table.has_union) roots_.push_back(view_.empty() ? kNoChild : 0);

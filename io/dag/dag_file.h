@@ -35,7 +35,9 @@ class DagFile {
   // Empty in a file without layers.
   const LayerTable& layers() const { return layers_; }
   // The index in level 0 of view() of a root of the table; kNoChild for kNoRoot.
-  uint32_t root_node(uint32_t root) const { return root == kNoRoot ? kNoChild : roots_.index_of(root); }
+  uint32_t root_node(uint32_t root) const {
+    return root == kNoRoot ? kNoChild : roots_.index_of(root);
+  }
   // The view of layer `layer` of the table; empty if it has no voxels. The file must outlive it.
   DagView view_of(size_t layer) const { return roots_.of(view_, layers_.layers[layer].root); }
   LayerIndex layer_index() const;

@@ -8,6 +8,7 @@
 
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/gltf_images.h"
 #include "io/scene/readers/gzip.h"
 #include "io/scene/readers/mtl.h"
 #include "io/scene/readers/ply_header.h"
@@ -166,7 +167,10 @@ std::string lower_extension(const std::string& path) {
 }  // namespace
 
 Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
-    : config_(std::move(config)), budget_(budget), spill_(spill) {}
+    : config_(std::move(config)),
+      budget_(budget),
+      spill_(spill),
+      images_(budget, config_.sandbox) {}
 
 const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;
@@ -196,8 +200,13 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     const File& file = content_of(packed);
     FiniteFilter filter(path, config_, sink, &counts);
     const TriangleSink filtered = std::ref(filter);
-    ReadOptions options{&names,    by_name,         budget_,        spill_,
-                        box_alone, config_.sandbox, config_.colours};
+    ReadOptions options{&names,
+                        by_name,
+                        budget_,
+                        spill_,
+                        box_alone,
+                        config_.sandbox,
+                        config_.colours ? &images_ : nullptr};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       read_file(file, options, filtered);
@@ -209,6 +218,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   const bool allowed = config_.allow_unmatched;
   append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
   append_unmatched("--exclude", names.exclude, use.exclude, use, allowed, &counts.unmatched);
+  counts.unread_images = images_.notes();
   return counts;
 }
 
@@ -254,11 +264,12 @@ void Scene::visit_files(const std::function<void(const File&)>& visit) const {
     visit(file);
     const SceneFormat format = detect_format(file);
     if (format == SceneFormat::kObj && config_.colours) {
-      for (const std::string& mtl : mtl_paths(content_of(file))) visit(File::open_read(mtl));
+      for (const std::string& beside : mtl_files(content_of(file))) visit(File::open_read(beside));
     }
     if (format != SceneFormat::kGltf) continue;
-    const GltfDocument document = load_gltf(content_of(file), budget_);
+    const GltfDocument document = load_gltf(content_of(file), budget_, config_.colours);
     for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
+    for (const File& image : image_files(document)) visit(image);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "io/affine.h"
 #include "io/dag/format.h"
 #include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/readers/image_means.h"
 #include "streaming/file/input_watch.h"
 
 namespace svdag {
@@ -55,7 +56,8 @@ struct SceneCounts {
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
-  std::vector<std::string> unmatched;  // "--include 'sky*'": with allow_unmatched
+  std::vector<std::string> unmatched;      // "--include 'sky*'": with allow_unmatched
+  std::vector<std::string> unread_images;  // "PATH: why": with colours
 };
 
 class Scene {
@@ -76,7 +78,7 @@ class Scene {
   [[noreturn]] void fail_empty(const SceneCounts& counts) const;
 
   // All files that determine the triangles: those of the scene, and the buffers that a .gltf names;
-  // with `colours`, the .mtl files that an .obj names.
+  // with `colours`, the images of both, and the .mtl files that an .obj names.
   void visit_files(const std::function<void(const File&)>& visit) const;
   // Records the state of all these files. Call before the scene is read.
   InputWatch watch() const;
@@ -92,6 +94,7 @@ class Scene {
   MemoryBudget* budget_;
   const SpillSpace* spill_;
   mutable std::map<std::string, File> unpacked_;  // by path
+  mutable ImageMeans images_;
 };
 
 // Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off). Of

@@ -114,6 +114,28 @@ def plys():
             yield f"types_{name}_{first}.ply", head.encode() + body + face
 
 
+def images():
+    """PNGs of each kind, one of them interlaced, and a JPEG."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    def png(depth, kind, row, more=b"", interlaced=0):
+        rows = b"\0" + row if interlaced else 2 * (b"\1" + row)
+        return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", 1 if interlaced else 2, 1 if interlaced else 2,
+                                                                  depth, kind, 0, 0, interlaced))
+                + more + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+    yield "grey.png", png(1, 0, b"\x80")
+    yield "rgb.png", png(8, 2, bytes(range(6)))
+    yield "palette.png", png(4, 3, b"\1", chunk(b"PLTE", bytes(range(6))) + chunk(b"tRNS", b"\x80"))
+    yield "grey_alpha.png", png(16, 4, bytes(range(8)))
+    yield "interlaced.png", png(8, 6, bytes(range(4)), b"", 1)
+    # A baseline JPEG of 8 x 8 texels: one component, tables of one code each.
+    yield "grey.jpg", (b"\xff\xd8" + b"\xff\xdb\0\x43\0" + 64 * b"\1" + b"\xff\xc0\0\x0b\x08\0\x08\0\x08\1\1\x11\0"
+                       + b"".join(b"\xff\xc4\0\x14" + bytes([table]) + b"\1" + bytes(16) for table in (0, 16))
+                       + b"\xff\xda\0\x08\1\1\0\0\x3f\0" + b"\x3f" + b"\xff\xd9")
+
+
 def gzips():
     """Stored, fixed and dynamic blocks, all fields of a header, two members, and bytes behind them."""
     text = b"solid a\nendsolid a\n" * 9
@@ -265,6 +287,8 @@ def main(programs, corpus):
             keep("npz", name, data)
         for name, data in gzips():
             keep("gzip", name, data)
+        for name, data in images():
+            keep("image", name, data)
         foreign_scenes.main(str(folder / "s"))
         for number, name in enumerate(("s_z.fbx", "s.dae", "s.3mf", "s.3ds")):
             keep("assimp", name, bytes([number]) + (folder / name).read_bytes())

@@ -16,6 +16,7 @@
 #include "io/scene/gltf/gltf_corners.h"
 #include "io/scene/gltf/gltf_document.h"
 #include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "io/scene/mesh/mesh_reader.h"
@@ -28,7 +29,7 @@ namespace {
 class GltfReader {
  public:
   GltfReader(const File& file, const ReadOptions& options, const TriangleSink& sink)
-      : document_(load_gltf(file, options.budget)),
+      : document_(load_gltf(file, options.budget, options.images != nullptr)),
         options_(options),
         buffers_(document_, options.budget, options.spill, options.sandbox),
         kept_(options.budget),
@@ -73,17 +74,20 @@ class GltfReader {
     return document_.element("materials", index).text("name");
   }
 
-  // The base colour of the material, without its texture.
-  std::optional<Colour> colour_of(const JsonObject& primitive) const {
-    if (!primitive.has("material")) return {};
+  // The base colour of the material, times the mean of its texture.
+  std::optional<Colour> colour_of(const JsonObject& primitive) {
+    if (options_.images == nullptr || !primitive.has("material")) return {};
     const uint64_t index = primitive.count("material");
     if (index >= document_.root().array("materials").size()) return {};
     const JsonObject material = document_.element("materials", index);
     if (!material.has("pbrMetallicRoughness")) return {};
+    const JsonObject pbr = material.object("pbrMetallicRoughness");
+    std::optional<LinearColour> mean;
+    if (pbr.has("baseColorTexture"))
+      mean = mean_of_texture(document_, pbr.object("baseColorTexture"), &buffers_, options_.images);
     std::array<double, 4> factor{1, 1, 1, 1};
-    if (!material.object("pbrMetallicRoughness").numbers("baseColorFactor", factor)) return {};
-    return Colour{colour_code_of_light(factor[0]), colour_code_of_light(factor[1]),
-                  colour_code_of_light(factor[2])};
+    if (!pbr.numbers("baseColorFactor", factor) && !mean) return {};
+    return mean.value_or(LinearColour()).times({factor[0], factor[1], factor[2]});
   }
 
   // `included`: whether the node is.

@@ -97,7 +97,7 @@ Blob GltfBuffers::open(uint64_t index) {
     fail_input(path, "needs buffers[" + std::to_string(index) + "], which has no data");
   }
   const std::string& uri = buffer.text("uri");
-  if (!is_data_uri(uri)) return Blob::in_own_file(open_beside(path, uri));
+  if (!is_data_uri(uri)) return Blob::in_own_file(open_beside(path, uri, "buffer"));
   auto memory = budget_->reserve(uri.size(), "embedded glTF buffers");
   return Blob::in_memory(decode_data_uri(uri, path), std::move(memory));
 }
@@ -109,7 +109,7 @@ std::vector<File> GltfBuffers::files() const {
     const std::string& uri = document_.element("buffers", i).text("uri");
     if (uri.empty() || is_data_uri(uri)) continue;
     try {
-      files.push_back(open_beside(path, uri));
+      files.push_back(open_beside(path, uri, "buffer"));
     } catch (const Error&) {  // reported when the buffer is needed
     }
   }
@@ -223,7 +223,7 @@ std::vector<std::byte> GltfBuffers::view_bytes(uint64_t index, MemoryBudget::Res
 }
 
 std::vector<std::byte> GltfBuffers::bytes_of(const View& view, MemoryBudget::Reservation* memory) {
-  *memory = budget_->reserve(view.size, "compressed glTF meshes");
+  *memory = budget_->reserve(view.size, "parts of glTF files");
   std::vector<std::byte> bytes(size_t(view.size));
   view.blob->read_at(view.begin, bytes);
   return bytes;

@@ -40,14 +40,14 @@ Chunk chunk_at(const File& file, uint64_t offset, uint64_t end) {
 }
 
 // Header (magic, version, length), then the JSON chunk, then at most one BIN chunk.
-void load_glb(GltfDocument* document) {
+void load_glb(GltfDocument* document, bool images) {
   const File& file = *document->file;
   if (u32_at(file, 4) != 2) fail_input(file.path(), "is not a GLB file of version 2", 4);
   const uint64_t end = u32_at(file, 8);
   if (end > file.size()) fail_input(file.path(), "is cut off: GLB file shorter than it says", 8);
   const Chunk text = chunk_at(file, 12, std::max<uint64_t>(end, 12));
   if (text.type != kJsonChunk) fail_input(file.path(), "does not begin with a JSON chunk", 12);
-  document->json = parse_gltf_json(file, text.begin, text.end(), &document->memory);
+  document->json = parse_gltf_json(file, text.begin, text.end(), images, &document->memory);
   if (text.end() == end) return;
   const Chunk binary = chunk_at(file, text.end(), end);
   if (binary.type != kBinChunk) return;
@@ -168,16 +168,16 @@ JsonObject GltfDocument::element(const char* key, uint64_t index) const {
   return JsonObject(elements[size_t(index)], file->path());
 }
 
-GltfDocument load_gltf(const File& file, MemoryBudget* budget) {
+GltfDocument load_gltf(const File& file, MemoryBudget* budget, bool images) {
   GltfDocument document;
   document.file = &file;
   document.memory = budget->reserve(0, "parsed glTF nodes");
   std::array<char, 4> magic{};
   file.read_some_at(0, std::as_writable_bytes(std::span(magic)));
   if (std::memcmp(magic.data(), "glTF", 4) == 0) {
-    load_glb(&document);
+    load_glb(&document, images);
   } else {
-    document.json = parse_gltf_json(file, 0, file.size(), &document.memory);
+    document.json = parse_gltf_json(file, 0, file.size(), images, &document.memory);
   }
   check_document(document);
   return document;

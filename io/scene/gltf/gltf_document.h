@@ -63,6 +63,7 @@ struct GltfDocument {
 
 // `file` must outlive the document. A file that is not glTF 2.x, is truncated, nests deeper than
 // 256 levels, or requires an extension that would change the geometry is an Error (kBadInput).
-GltfDocument load_gltf(const File& file, MemoryBudget* budget);
+// `images`: the document has textures and images, too.
+GltfDocument load_gltf(const File& file, MemoryBudget* budget, bool images = false);
 
 }  // namespace svdag

@@ -42,7 +42,8 @@ class WindowBuffer : public std::streambuf {
   size_t shown_ = 0;
 };
 
-bool is_read(std::string_view key) {
+bool is_read(std::string_view key, bool images) {
+  if (images && (key == "textures" || key == "images")) return true;
   constexpr std::array<std::string_view, 10> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",
@@ -54,8 +55,8 @@ bool is_read(std::string_view key) {
 // Receives the parser's events (nlohmann::json_sax) and builds the tree.
 class TreeBuilder {
  public:
-  TreeBuilder(const File& file, uint64_t text_bytes, MemoryBudget::Reservation* memory)
-      : path_(file.path()), used_(text_bytes), memory_(memory) {
+  TreeBuilder(const File& file, uint64_t text_bytes, bool images, MemoryBudget::Reservation* memory)
+      : path_(file.path()), images_(images), used_(text_bytes), memory_(memory) {
     // The longest string may pass through the parser's token buffer.
     memory_->resize(used_, kPurpose);
   }
@@ -73,7 +74,7 @@ class TreeBuilder {
   bool end_array() { return end(); }
   // The member of that name, for the value that follows; the later of two.
   bool key(const std::string& name) {
-    if (depth_ == 1) skipping_ = !is_read(name);
+    if (depth_ == 1) skipping_ = !is_read(name, images_);
     note(name.size());
     if (!skipping_) member_ = &open_.back()->get_ref<json::object_t&>()[name];
     return true;
@@ -122,6 +123,7 @@ class TreeBuilder {
   }
 
   const std::string& path_;
+  bool images_;
   uint64_t used_;
   MemoryBudget::Reservation* memory_;
   json root_;
@@ -133,9 +135,9 @@ class TreeBuilder {
 
 }  // namespace
 
-json parse_gltf_json(const File& file, uint64_t begin, uint64_t end,
+json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, bool images,
                      MemoryBudget::Reservation* memory) {
-  TreeBuilder tree(file, end - begin, memory);
+  TreeBuilder tree(file, end - begin, images, memory);
   WindowBuffer buffer(file, begin, end);
   std::istream text(&buffer);
   try {

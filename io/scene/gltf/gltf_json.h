@@ -1,5 +1,5 @@
 // Parses the JSON text of a glTF file into a tree of values, without members that are not read
-// (images, animations, skins).
+// (animations, skins, and images unless colours are wanted).
 //
 // The text is read through a window; the memory of the values is reserved in the budget. The tree
 // is built from the parser's events. Rejected: the parser's own callback filter, which searches
@@ -15,8 +15,8 @@
 namespace svdag {
 
 // Bytes [begin, end) of `file`. What is not JSON or nests deeper than 256 levels is an Error
-// (kBadInput). `memory` grows with the values.
-nlohmann::json parse_gltf_json(const File& file, uint64_t begin, uint64_t end,
+// (kBadInput). `memory` grows with the values. `images`: textures and images are read, too.
+nlohmann::json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, bool images,
                                MemoryBudget::Reservation* memory);
 
 }  // namespace svdag

@@ -33,7 +33,7 @@ std::string percent_decode(std::string_view uri, const std::string& path) {
     }
     const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
     const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) fail_input(path, "has the broken buffer URI " + shown(uri));
+    if (high < 0 || low < 0) fail_input(path, "has the broken URI " + shown(uri));
     text += char(high * 16 + low);
     i += 2;
   }
@@ -93,22 +93,21 @@ std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& 
   return bytes;
 }
 
-File open_beside(const std::string& scene_path, std::string_view uri) {
+File open_beside(const std::string& scene_path, std::string_view uri, const std::string& kind) {
   const std::string text = percent_decode(uri, scene_path);
+  const std::string refers = "refers to the " + kind + " " + shown(uri);
   const bool leaves = text.empty() || text.front() == '/' || has_scheme(text) ||
                       has_parent_part(text) || text.find('\0') != std::string::npos;
   if (leaves) {
-    fail_input(scene_path, "refers to the buffer " + shown(uri) +
-                               ", but a buffer must be a file in the scene's folder");
+    fail_input(scene_path, refers + ", but it must be a file in the scene's folder");
   }
   const std::string folder = real_path(folder_of(scene_path));
   const std::string target = real_path(folder_of(scene_path) + "/" + text);
   if (target.empty()) {
-    fail_input(scene_path, "refers to the buffer " + shown(uri) + ", which does not exist");
+    fail_input(scene_path, refers + ", which does not exist");
   }
   if (!target.starts_with(folder == "/" ? folder : folder + "/")) {
-    fail_input(scene_path, "refers to the buffer " + shown(uri) +
-                               ", a link that leads out of the scene's folder");
+    fail_input(scene_path, refers + ", a link that leads out of the scene's folder");
   }
   return File::open_read(target);
 }

@@ -45,6 +45,7 @@ inline std::string_view part_name(const TriangleBatch& batch, PartKind kind) {
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
+class ImageMeans;
 class SpillFile;
 
 // Spill space for the vertex positions of a mesh that do not fit in memory. STL needs none; Draco
@@ -78,8 +79,8 @@ struct ReadOptions {
   MeshBox* box_alone = nullptr;
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
-  // The colours of materials are wanted, though they need further files.
-  bool colours = false;
+  // Not null: the colours of materials are wanted, though they need further files.
+  ImageMeans* images = nullptr;
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {

@@ -8,12 +8,17 @@
 // Files that name their vertical axis are turned so that y is up: COLLADA and 3DS by Assimp, FBX
 // here. COLLADA comes in metres, the others in the units of the file.
 //
-// The child sends blocks: a tag, then a header (flags, the material, the names of the nodes from
+// The colour of a material is its base or diffuse colour, which is sRGB; its textures are not read.
+//
+// The child sends blocks: a tag, then a header (MeshHead, the material, the names of the nodes from
 // the root on, separated by zero bytes) or the triangles that belong to the last header.
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "io/affine.h"
@@ -27,6 +32,13 @@ namespace {
 
 enum class Tag : unsigned char { kHeader, kTriangles };
 
+// The first bytes of a header.
+struct MeshHead {
+  uint8_t undeformed = 0;
+  uint8_t has_colour = 0;
+  Colour colour;
+};
+
 constexpr int kMaxDepth = 512;  // of nodes; the walk recurses
 
 Affine affine_of(const aiMatrix4x4& m) {
@@ -35,6 +47,21 @@ Affine affine_of(const aiMatrix4x4& m) {
     for (unsigned c = 0; c < 4; ++c) affine.m[r][c] = double(m[r][c]);
   }
   return affine;
+}
+
+// The base or diffuse colour. A material with a texture has none: the factor of an unknown mean
+// says nothing. Nor has the grey that Assimp gives to materials of COLLADA and 3DS without one.
+std::optional<Colour> colour_of(const aiMaterial& material) {
+  constexpr float kAssimpsGrey = 0.6F;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (material.GetTextureCount(type) > 0) return {};
+  }
+  aiColor3D c;
+  if (material.Get(AI_MATKEY_BASE_COLOR, c) != AI_SUCCESS &&
+      material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != AI_SUCCESS)
+    return {};
+  if (c.r == kAssimpsGrey && c.g == kAssimpsGrey && c.b == kAssimpsGrey) return {};
+  return Colour{colour_code(double(c.r)), colour_code(double(c.g)), colour_code(double(c.b))};
 }
 
 // Sends the meshes of a scene, node by node.
@@ -57,12 +84,19 @@ class Sender {
  private:
   void send_mesh(const aiMesh& mesh, const Affine& to_world, const std::string& names) {
     std::string material;
-    if (mesh.mMaterialIndex < scene_.mNumMaterials)
+    std::optional<Colour> colour;
+    if (mesh.mMaterialIndex < scene_.mNumMaterials) {
       material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-    if (material == AI_DEFAULT_MATERIAL_NAME || material == "%%%DEFAULT") material.clear();
+      colour = colour_of(*scene_.mMaterials[mesh.mMaterialIndex]);
+    }
+    if (material == AI_DEFAULT_MATERIAL_NAME || material == "%%%DEFAULT") {
+      material.clear();
+      colour.reset();
+    }
     const bool undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
+    const MeshHead head{undeformed, colour.has_value(), colour.value_or(Colour())};
     block_.assign(1, char(Tag::kHeader));
-    block_ += char(undeformed);
+    block_.append(reinterpret_cast<const char*>(&head), sizeof head);
     block_ += material + names;
     flush();
 
@@ -148,9 +182,11 @@ class Receiver {
 
  private:
   void take_header(std::span<const std::byte> block) {
-    if (block.size() < 2) fail();
-    const bool undeformed = block[0] != std::byte(0);
-    std::string_view text(reinterpret_cast<const char*>(block.data()) + 1, block.size() - 1);
+    MeshHead head;
+    if (block.size() <= sizeof head) fail();
+    std::memcpy(&head, block.data(), sizeof head);
+    block = block.subspan(sizeof head);
+    const std::string_view text(reinterpret_cast<const char*>(block.data()), block.size());
     const std::string material(text.substr(0, text.find('\0')));
     const NameFilter& filter = *options_.names;
     // All are called in any case: they record which patterns match.
@@ -163,8 +199,8 @@ class Receiver {
       excluded |= filter.excludes(PartKind::kObject, name);
     }
     wanted_ = included && !excluded;
-    out_.mesh(name, undeformed);
-    out_.material(material);
+    out_.mesh(name, head.undeformed != 0);
+    out_.material(material, head.has_colour != 0 ? std::optional(head.colour) : std::nullopt);
   }
 
   void take_triangles(std::span<const std::byte> block) {

@@ -1,19 +1,31 @@
-// The colours of the materials of an OBJ file, from the .mtl files that it names.
+// The materials of an OBJ file, from the .mtl files that it names.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/colour.h"
+#include "io/scene/readers/image_means.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
 
-// The .mtl files named by `mtllib` in the first 64 KiB of `obj`, beside it, as far as they exist.
-std::vector<std::string> mtl_paths(const File& obj);
+struct MtlMaterial {
+  std::optional<Colour> diffuse;  // Kd, which is sRGB
+  std::string texture;            // path of map_Kd; empty: none
+};
 
-// By name: the diffuse colour Kd, which is sRGB. What cannot be read has no colour.
-std::map<std::string, Colour> read_mtl_colours(const File& obj);
+// By name. The .mtl files are those named by `mtllib` in the first 64 KiB of `obj`, beside it, as
+// far as they exist. What cannot be read in them is as if it were missing.
+std::map<std::string, MtlMaterial> read_mtl(const File& obj);
+
+// Paths of these .mtl files and of the textures that they name, as far as they exist.
+std::vector<std::string> mtl_files(const File& obj);
+
+// Kd times the mean of map_Kd; nothing if the material has neither, or no texture that can be read
+// and no Kd.
+std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images);
 
 }  // namespace svdag

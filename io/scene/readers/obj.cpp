@@ -41,10 +41,10 @@ template <class Corners>
 class ObjLines {
  public:
   ObjLines(const File& file, const ReadOptions& options,
-           const std::map<std::string, Colour>& colours, const ObjPlace& from, Corners* positions,
-           BatchWriter* writer)
+           const std::map<std::string, MtlMaterial>& materials, const ObjPlace& from,
+           Corners* positions, BatchWriter* writer)
       : options_(options),
-        colours_(colours),
+        materials_(materials),
         stream_(file, from.offset),
         scanner_(&stream_, {'#', true}, from.line),
         at_(from),
@@ -185,13 +185,14 @@ class ObjLines {
     const std::string& mesh = names.front();
     if (mesh != at_.mesh) writer_.mesh(mesh);
     at_.mesh = mesh;
-    const auto colour = colours_.find(at_.material);
-    writer_.material(at_.material,
-                     colour != colours_.end() ? std::optional(colour->second) : std::nullopt);
+    const auto material = materials_.find(at_.material);
+    writer_.material(at_.material, at_.wanted && material != materials_.end()
+                                       ? colour_of(material->second, options_.images)
+                                       : std::nullopt);
   }
 
   const ReadOptions& options_;
-  const std::map<std::string, Colour>& colours_;
+  const std::map<std::string, MtlMaterial>& materials_;
   ByteStream stream_;
   TextScanner scanner_;
   ObjPlace at_;
@@ -206,10 +207,10 @@ void read_obj(const File& file, const ReadOptions& options, const TriangleSink& 
   Positions positions(options, Positions::Precision::kDouble, file.size());
   BatchWriter writer(sink);
   ObjPlace from;
-  const std::map<std::string, Colour> colours =
-      options.colours ? read_mtl_colours(file) : std::map<std::string, Colour>();
+  std::map<std::string, MtlMaterial> materials;
+  if (options.images != nullptr) materials = read_mtl(file);
   read_corners(&positions, writer, [&](auto& corners, BatchWriter& out) {
-    ObjLines lines(file, options, colours, from, &corners, &out);
+    ObjLines lines(file, options, materials, from, &corners, &out);
     const ObjPlace end = lines.read();
     if constexpr (std::is_same_v<decltype(corners), Positions&>) from = end;
   });

@@ -216,7 +216,7 @@ TEST_F(EditLayers, ACoarserLevelAndOneLayerAreThoseOfEachLayer) {
       const std::string& name = file.layers().layers[i].name;
       EXPECT_EQ(coarse.layers().layers[i].name, name);
       EXPECT_EQ(coarse.layers().layers[i].colour, file.layers().layers[i].colour);
-      config.layer = name;
+      config.layers = {name};
       edit_to(config, folder_.file("one.svdag"));
       const std::string one = nodes_of(DagFile::open(folder_.file("one.svdag")));
       EXPECT_EQ(nodes_of(layer_alone(coarse, i, room_)), one);
@@ -225,7 +225,7 @@ TEST_F(EditLayers, ACoarserLevelAndOneLayerAreThoseOfEachLayer) {
       level.first = folder_.file("alone.svdag");
       EditConfig alone;
       alone.first = config.first;
-      alone.layer = name;
+      alone.layers = {name};
       edit_to(alone, level.first);
       EXPECT_EQ(nodes_of(layer_alone(plain, i, room_)), nodes_of(DagFile::open(level.first)));
       edit_to(level, folder_.file("two.svdag"));

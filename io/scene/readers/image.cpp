@@ -1,0 +1,134 @@
+#include "io/scene/readers/image.h"
+
+#include <array>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include "streaming/error.h"
+#include "streaming/process/limited_child.h"
+
+// Without SIMD: the same texels on every machine.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNG
+#define STBI_NO_SIMD
+#define STBI_NO_STDIO
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace svdag {
+namespace {
+
+// The most that stb_image holds of a texel: an interlaced PNG with 16 bits a channel.
+constexpr uint64_t kBytesPerTexel = 20;
+constexpr uint64_t kBesideTexels = uint64_t(64) << 20;
+
+struct ImageSize {
+  int width = 0, height = 0;
+  uint64_t texels() const { return uint64_t(width) * uint64_t(height); }
+};
+
+[[noreturn]] void fail(const ImageSource& source) {
+  fail_input(source.path,
+             std::string("is not a readable PNG or JPEG image: ") + stbi_failure_reason());
+}
+
+const stbi_uc* data_of(const ImageSource& source) {
+  return reinterpret_cast<const stbi_uc*>(source.bytes.data());
+}
+
+ImageSize size_of(const ImageSource& source) {
+  ImageSize size;
+  int channels = 0;
+  if (stbi_info_from_memory(data_of(source), int(source.bytes.size()), &size.width, &size.height,
+                            &channels) == 0)
+    fail(source);
+  return size;
+}
+
+// `channels`: grey, grey and alpha, RGB, or RGB and alpha.
+LinearColour mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
+  std::array<std::array<uint64_t, 256>, 3> weights{};  // [channel][code]: of all texels
+  uint64_t whole = 0;
+  for (size_t i = 0; i < texels.size(); i += channels) {
+    const uint64_t weight = by_alpha ? texels[i + channels - 1] : 1;
+    for (size_t c = 0; c < 3; ++c) weights[c][texels[i + (channels < 3 ? 0 : c)]] += weight;
+    whole += weight;
+  }
+  if (whole == 0) return mean_of(texels, channels, false);
+  LinearColour mean;
+  for (size_t c = 0; c < 3; ++c) {
+    unsigned __int128 sum = whole / 2;
+    for (size_t code = 0; code < 256; ++code)
+      sum += (unsigned __int128)(weights[c][code]) * light_units(light_of(double(code)));
+    mean.units[c] = uint64_t(sum / whole);
+  }
+  return mean;
+}
+
+LinearColour decode(const ImageSource& source) {
+  ImageSize size;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
+      stbi_load_from_memory(data_of(source), int(source.bytes.size()), &size.width, &size.height,
+                            &channels, 0),
+      &stbi_image_free);
+  if (!texels) fail(source);
+  return mean_of({texels.get(), size_t(size.texels()) * size_t(channels)}, size_t(channels),
+                 channels % 2 == 0);
+}
+
+// What work() returns in a limited child.
+template <class Result>
+Result in_child(const ImageSource& source, const ChildLimits& limits,
+                const std::function<Result()>& work) {
+  Result result;
+  uint64_t received = 0;
+  run_limited(
+      limits, source.path,
+      [&](const BlockSink& send) {
+        const Result sent = work();
+        send(std::as_bytes(std::span(&sent, 1)));
+      },
+      [&](std::span<const std::byte> block) {
+        received += block.size();
+        if (block.size() == sizeof result) std::memcpy(&result, block.data(), sizeof result);
+      });
+  if (received != sizeof result) fail_input(source.path, "its decoder sent an invalid block");
+  return result;
+}
+
+}  // namespace
+
+void check_image_bytes(uint64_t bytes, const std::string& path) {
+  if (bytes > kMaxImageBytes) fail_input(path, "is an image of more than 1 GiB, which is not read");
+}
+
+LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget) {
+  check_image_bytes(source.bytes.size(), source.path);
+  const uint64_t seconds = 30 + source.bytes.size() / 65536;
+  const ImageSize size = in_child<ImageSize>(source, {kBesideTexels, seconds, source.sandbox},
+                                             [&] { return size_of(source); });
+  const auto is_side = [](int n) { return n > 0 && uint64_t(n) <= kMaxImageSide; };
+  if (!is_side(size.width) || !is_side(size.height))
+    fail_input(source.path, "is an image of " + std::to_string(size.width) + " x " +
+                                std::to_string(size.height) + " texels, more than " +
+                                std::to_string(kMaxImageSide) + " a side");
+  const uint64_t bytes = kBytesPerTexel * size.texels() + 2 * source.bytes.size();
+  const auto memory = budget->reserve(bytes, "texels of a texture");
+  const LinearColour mean = in_child<LinearColour>(
+      source, {kBesideTexels + bytes, seconds + (size.texels() >> 20), source.sandbox},
+      [&] { return decode(source); });
+  for (const uint64_t units : mean.units) {
+    if (units > kWhiteUnits) fail_input(source.path, "its decoder sent an invalid block");
+  }
+  return mean;
+}
+
+}  // namespace svdag
