@@ -140,7 +140,7 @@ bench-cache: build
 bench-accuracy: deps
 	$(call install,$(BENCH_PACKAGES))
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
-	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene accuracy_bench accuracy_volume
+	@cmake --build --preset $(PRESET) --target svdag svdag-verify svdag-scene accuracy_bench
 	@$(PYTHON) tests/bench/accuracy.py --programs $(PROGRAMS)
 
 bench-vdb: build

@@ -252,7 +252,7 @@ class PyFile {
     interruptible([&] {
       if (find_layers) {
         const std::lock_guard lock(mutex_);
-        if (!index_) index_.emplace(*file_);
+        if (!index_) index_.emplace(file_->layer_index());
       }
       trace_rays(dag, n, t_max, make, take, executor_.get());
     });

@@ -1,5 +1,6 @@
 #include "builder/split/scene_layers.h"
 
+#include "io/dag/palette.h"
 #include "streaming/error.h"
 
 namespace svdag {

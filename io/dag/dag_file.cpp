@@ -1,7 +1,5 @@
 #include "io/dag/dag_file.h"
 
-#include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "io/dag/check.h"
@@ -49,47 +47,11 @@ DagFile::DagFile(MappedFile file, std::string path, LayerTable layers)
       file_(std::move(file)),
       view_(dag_view(file_.data())),
       layers_(std::move(layers)) {
-  if (layers_.empty()) return;
-  for (uint64_t index = 0; index < view_.index_end[0]; index = dag_next(view_, 0, index)) {
-    root_index_.push_back(uint32_t(index));
-    if (layout() == Layout::kCompact)
-      root_lines_.push_back(root_line(view_.compact[0], uint32_t(index)));
-  }
+  if (!layers_.empty()) roots_ = RootViews(view_);
 }
 
-// A node's references are counted from the bases of its line, so the line of a node alone has its
-// two bytes, and as bases the references to each class before it.
-DagFile::RootLine DagFile::root_line(const CompactLevel& level, uint32_t node) {
-  RootLine root;
-  const auto* const line =
-      reinterpret_cast<const unsigned char*>(level.lines + node / kLineNodes * 8);
-  std::copy_n(level.bases + node / kLineNodes * kClasses, kClasses, root.bases);
-  for (uint32_t i = 0; i < node % kLineNodes; ++i) {
-    const unsigned m0 = line[i], m1 = line[kLineNodes + i];
-    root.bases[0] += uint32_t(std::popcount(m0 & ~m1));
-    root.bases[1] += uint32_t(std::popcount(~m0 & m1));
-    root.bases[2] += uint32_t(std::popcount(m0 & m1));
-  }
-  root.line[0] = line[node % kLineNodes];
-  root.line[kLineNodes] = line[kLineNodes + node % kLineNodes];
-  return root;
-}
-
-DagView DagFile::view_of(size_t layer) const {
-  const uint32_t root = layers_.layers[layer].root;
-  DagView view = view_;
-  if (root == kNoRoot) {
-    view.brick_count = 0;
-    std::fill(std::begin(view.index_end), std::end(view.index_end), 0);
-  } else if (layout() == Layout::kPlain) {
-    view.words[0] += root_index_[root];
-    view.index_end[0] = 1 + uint64_t(popcount8(view.words[0][0]));
-  } else {
-    view.compact[0].lines = reinterpret_cast<const uint64_t*>(root_lines_[root].line);
-    view.compact[0].bases = root_lines_[root].bases;
-    view.index_end[0] = 1;
-  }
-  return view;
+LayerIndex DagFile::layer_index() const {
+  return {view_.levels, layers_.layers.size(), [this](size_t layer) { return view_of(layer); }};
 }
 
 Grid DagFile::grid() const {

@@ -4,10 +4,11 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "io/dag/dag_view.h"
+#include "io/dag/layer_index.h"
 #include "io/dag/layer_table.h"
+#include "io/dag/root_views.h"
 #include "io/grid.h"
 #include "streaming/file/mapped_file.h"
 
@@ -34,9 +35,12 @@ class DagFile {
   // Empty in a file without layers.
   const LayerTable& layers() const { return layers_; }
   // The index in level 0 of view() of a root of the table; kNoChild for kNoRoot.
-  uint32_t root_node(uint32_t root) const { return root == kNoRoot ? kNoChild : root_index_[root]; }
+  uint32_t root_node(uint32_t root) const {
+    return root == kNoRoot ? kNoChild : roots_.index_of(root);
+  }
   // The view of layer `layer` of the table; empty if it has no voxels. The file must outlive it.
-  DagView view_of(size_t layer) const;
+  DagView view_of(size_t layer) const { return roots_.of(view_, layers_.layers[layer].root); }
+  LayerIndex layer_index() const;
   Grid grid() const;
   Rule rule() const { return Rule(header().rule); }
   std::string_view metadata() const;  // the JSON text
@@ -48,15 +52,7 @@ class DagFile {
   MappedFile file_;
   DagView view_;
   LayerTable layers_;
-  // With layers, level 0 as levels of a single node each. [number]: the node's index (plain), or
-  // its line and bases (compact).
-  struct RootLine {
-    alignas(8) unsigned char line[2 * kLineNodes] = {};
-    uint32_t bases[kClasses];
-  };
-  static RootLine root_line(const CompactLevel& level, uint32_t node);
-  std::vector<uint32_t> root_index_;
-  std::vector<RootLine> root_lines_;
+  RootViews roots_;  // with layers
 };
 
 // The grid that a header describes.

@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "io/dag/dag_writer.h"
-#include "io/suggest.h"
-#include "streaming/error.h"
 #include "streaming/memory/rank_bitmap.h"
-#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -31,18 +28,6 @@ std::vector<RankBitmap> reached_nodes(const DagView& dag, MemoryBudget* budget) 
 }
 
 }  // namespace
-
-size_t layer_named(const LayerTable& table, const std::string& name) {
-  const auto found = std::ranges::find(table.layers, name, &Layer::name);
-  if (found != table.layers.end()) return size_t(found - table.layers.begin());
-  if (table.empty()) fail_usage("--layer: the file has no layers");
-  std::vector<std::string> names;
-  for (const Layer& layer : table.layers) names.push_back(layer.name);
-  const std::string near = nearest(name, names);
-  fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
-             (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
-             " (svdag info --layers lists them)");
-}
 
 DagFile layer_alone(const DagFile& file, std::optional<size_t> layer, const WorkRoom& room) {
   SVDAG_ASSERT(file.layout() == Layout::kPlain);

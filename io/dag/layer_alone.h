@@ -10,9 +10,6 @@
 
 namespace svdag {
 
-// The number of the layer `name`; Error (kUsage), with the nearest names, if there is none.
-size_t layer_named(const LayerTable& table, const std::string& name);
-
 // The nodes of `file`, which is plain, that a layer's root reaches; without `layer`, those of the
 // union, or of the first layer of a file without union. Its sections are those of a bake of this
 // layer alone on the same grid: removing nodes of a sorted level keeps it sorted.

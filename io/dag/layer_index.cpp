@@ -25,10 +25,12 @@ void collect(const DagView& dag, uint32_t level, uint32_t node, uint32_t last, u
 
 }  // namespace
 
-LayerIndex::LayerIndex(const DagFile& file) : level_(std::min(kLevel, file.view().brick_level())) {
+LayerIndex::LayerIndex(uint32_t levels, size_t layers,
+                       const std::function<DagView(size_t)>& view_of)
+    : level_(std::min(kLevel, levels - 2)) {
   std::vector<Found> found;
-  for (uint32_t layer = 0; layer < file.layers().layers.size(); ++layer) {
-    const DagView dag = file.view_of(layer);
+  for (uint32_t layer = 0; layer < layers; ++layer) {
+    const DagView dag = view_of(layer);
     if (!dag.empty()) collect(dag, 0, 0, level_, 0, layer, &found);
   }
   begin_.assign((size_t(1) << 3 * level_) + 1, 0);

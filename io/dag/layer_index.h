@@ -7,9 +7,11 @@
 // (thousands of descents), a layer per voxel (no file would be small).
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
-#include "io/dag/dag_file.h"
+#include "io/dag/dag_view.h"
 
 namespace svdag {
 
@@ -22,6 +24,14 @@ struct LayerIndexView {
   uint32_t level = 0;               // of the cubes
   const uint32_t* begin = nullptr;  // [cube], and one past the last: position in entries
   const Entry* entries = nullptr;   // ascending by layer in each cube
+
+  // The Morton number of the cube that holds voxel (x, y, z) of 2^levels per axis.
+  SVDAG_HD uint32_t cube_of(uint32_t levels, uint32_t x, uint32_t y, uint32_t z) const {
+    uint32_t cube = 0;
+    for (uint32_t shift = levels; shift-- > levels - level;)
+      cube = cube << 3 | (x >> shift & 1U) << 2 | (y >> shift & 1U) << 1 | (z >> shift & 1U);
+    return cube;
+  }
 };
 
 // Whether the cube of level `to` that holds voxel (x, y, z) has a voxel; `node`, of `level` <= the
@@ -41,15 +51,23 @@ SVDAG_HD inline bool dag_cube_is_set(const DagView& dag, uint32_t level, uint32_
   return to < dag.levels ? block != 0 : (block >> octant(0) & 1U) != 0;
 }
 
+// Whether `layer` has the voxel (x, y, z).
+SVDAG_HD inline bool layer_has_voxel(const DagView& dag, const LayerIndexView& index,
+                                     uint32_t layer, uint32_t x, uint32_t y, uint32_t z) {
+  const uint32_t cube = index.cube_of(dag.levels, x, y, z);
+  for (uint32_t i = index.begin[cube]; i < index.begin[cube + 1]; ++i) {
+    const LayerIndexView::Entry& entry = index.entries[i];
+    if (entry.layer == layer)
+      return dag_cube_is_set(dag, index.level, entry.node, dag.levels, x, y, z);
+  }
+  return false;
+}
+
 // The first layer with a voxel in the cube of level `to` <= L that holds voxel (x, y, z); kNoLayer
 // if there is none. `dag`: the view of the file.
 SVDAG_HD inline uint32_t layer_of_cube(const DagView& dag, const LayerIndexView& index, uint32_t to,
                                        uint32_t x, uint32_t y, uint32_t z) {
-  uint32_t cube = 0;
-  for (uint32_t level = 0; level < index.level; ++level) {
-    const uint32_t shift = dag.levels - 1 - level;
-    cube = cube << 3 | (x >> shift & 1U) << 2 | (y >> shift & 1U) << 1 | (z >> shift & 1U);
-  }
+  const uint32_t cube = index.cube_of(dag.levels, x, y, z);
   uint32_t found = kNoLayer;
   if (to < index.level) {  // a cube of several of the index
     const uint32_t shift = 3 * (index.level - to), first = cube >> shift << shift;
@@ -66,10 +84,13 @@ SVDAG_HD inline uint32_t layer_of_cube(const DagView& dag, const LayerIndexView&
 
 class LayerIndex {
  public:
-  // `file` has layers, and must outlive this.
-  explicit LayerIndex(const DagFile& file);
+  // `view_of(layer)`: the views of `layers` layers of a file of `levels` levels, which must outlive
+  // this.
+  LayerIndex(uint32_t levels, size_t layers, const std::function<DagView(size_t)>& view_of);
 
   LayerIndexView view() const { return {level_, begin_.data(), entries_.data()}; }
+  std::span<const uint32_t> begin() const { return begin_; }
+  std::span<const LayerIndexView::Entry> entries() const { return entries_; }
 
  private:
   uint32_t level_;

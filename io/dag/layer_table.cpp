@@ -1,30 +1,28 @@
 #include "io/dag/layer_table.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
-#include "streaming/file/checksum.h"
+#include "io/suggest.h"
+#include "streaming/error.h"
 #include "streaming/printable.h"
 
 namespace svdag {
 
-Colour palette_colour(std::string_view name) {
-  constexpr uint64_t kHues = 48;
-  constexpr double kTones[3][2] = {{0.85, 0.5}, {0.62, 0.5}, {0.95, 0.72}};  // bright; pale
-  const uint64_t hash = checksum64(std::as_bytes(std::span(name)));
-  const double hue = 6 * double(hash % kHues) / double(kHues);
-  const auto& tone = kTones[hash / kHues % 3];
-  const double bright = tone[0], pale = tone[1];
-  const auto channel = [&](double offset) {
-    const double k = std::fmod(offset + hue, 6.0);
-    return colour_code(bright * (1 - (1 - pale) * std::clamp(std::min(k, 4 - k), 0.0, 1.0)));
-  };
-  return {channel(5), channel(3), channel(1)};
-}
-
 std::string shown_layer(const std::string& name) {
   return name.empty() ? "(unnamed)" : printable(name);
+}
+
+size_t layer_named(const LayerTable& table, const std::string& name) {
+  const auto found = std::ranges::find(table.layers, name, &Layer::name);
+  if (found != table.layers.end()) return size_t(found - table.layers.begin());
+  if (table.empty()) fail_usage("--layer: the file has no layers");
+  std::vector<std::string> names;
+  for (const Layer& layer : table.layers) names.push_back(layer.name);
+  const std::string near = nearest(name, names);
+  fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
+             (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
+             " (svdag info --layers lists them)");
 }
 
 uint32_t LayerTable::default_root() const {

@@ -15,9 +15,6 @@
 
 namespace svdag {
 
-// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name.
-Colour palette_colour(std::string_view name);
-
 constexpr uint32_t kNoRoot = 0xffffffffU;
 
 struct Layer {
@@ -43,6 +40,9 @@ struct LayerTable {
   // Its voxels, if the union has `of_union`.
   uint64_t default_voxels(uint64_t of_union) const;
 };
+
+// The number of the layer `name`; Error (kUsage), with the nearest names, if there is none.
+size_t layer_named(const LayerTable& table, const std::string& name);
 
 std::vector<std::byte> encode_layers(const LayerTable& table);
 

@@ -1,7 +1,7 @@
 // The layer of each exported voxel, for formats that store colours or labels (ply, npz, vox).
 #pragma once
 
-#include "io/dag/layer_index.h"
+#include "io/dag/dag_file.h"
 #include "io/voxel_source.h"
 
 namespace svdag {
@@ -10,7 +10,7 @@ class LayerLabels {
  public:
   // `file` has layers, and must outlive this. `level`: of the exported voxels.
   LayerLabels(const DagFile& file, int level)
-      : file_(file), index_(file), view_(index_.view()), level_(uint32_t(level)) {}
+      : file_(file), index_(file.layer_index()), view_(index_.view()), level_(uint32_t(level)) {}
 
   // The number of the first layer, in the order of the table, that has a voxel in this one.
   uint32_t of(const Voxel& voxel) const {

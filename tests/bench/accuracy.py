@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`make bench-accuracy`: measures run time against error, and volume error against resolution.
 
-Runs accuracy_bench, accuracy_volume and `svdag-verify trace`. Writes build/bench/accuracy.csv, volume.csv and rays.csv,
+Runs accuracy_bench, `svdag build` and `svdag-verify trace`. Writes build/bench/accuracy.csv, volume.csv and rays.csv,
 the plots docs/images/accuracy_*.svg, and the tables between the markers in docs/accuracy.md. Real scenes are in the
 folder SVDAG_SCENES; if it is not set, docs/ is not changed.
 """
@@ -19,6 +19,7 @@ from bench import ROOT, fill  # noqa: E402
 from bench_tables import table  # noqa: E402
 import accuracy_plots  # noqa: E402
 import accuracy_rays  # noqa: E402
+import accuracy_volume  # noqa: E402
 
 OUT = ROOT / "build" / "bench"
 PAGE = ROOT / "docs" / "accuracy.md"
@@ -115,15 +116,6 @@ def bake_table(rows, program):
                   "CPU seconds", "misses", "extras"], lines)
 
 
-def volume_table(rows):
-    meshes = dict.fromkeys(r["mesh"] for r in rows)
-    grids = dict.fromkeys(r["grid"] for r in rows)
-    cell = {(r["mesh"], r["grid"]): r for r in rows}
-    head = ["grid"] + [f"{m}: {kind}" for m in meshes for kind in ("solid", "corrected")]
-    return table(head, [[f"{g}³"] + [f"{cell[m, g][k]:+.1e}" for m in meshes
-                                    for k in ("solid_error", "corrected_error")] for g in grids])
-
-
 def machine():
     cpu = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")),
                platform.machine())
@@ -131,33 +123,47 @@ def machine():
     return f"Processor: {cpu}, {os.cpu_count()} cores. Compiler: {compiler}, release build."
 
 
-def rays(programs, tables_only):
-    """Measures rays, or reads the last measurements, and fills in the page; returns whether there is an error."""
-    path = OUT / "rays.csv"
+def rows_of(part, name, programs, tables_only):
+    """The rows that `part` measures, or those of the last run."""
+    path = OUT / f"{name}.csv"
     if not tables_only:
-        accuracy_rays.write(accuracy_rays.measure(programs, OUT), path)
+        part.write(part.measure(programs, OUT), path)
     with open(path, newline="") as file:
-        rows = [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def rays(programs, tables_only):
+    """Fills in the table and the plot of rays; returns whether there is an error."""
+    rows = rows_of(accuracy_rays, "rays", programs, tables_only)
     if "SVDAG_SCENES" in os.environ:
         fill(PAGE, {"rays": accuracy_rays.rays_table(rows)})
         accuracy_plots.rays_plot(rows, "accuracy_rays")
     return any(row["late"] + row["far"] + row.get("uncovered", 0) for row in rows)
 
 
+def volume(programs, tables_only):
+    rows = rows_of(accuracy_volume, "volume", programs, tables_only)
+    if "SVDAG_SCENES" in os.environ:
+        fill(PAGE, {"volume": accuracy_volume.volume_table(rows)})
+        accuracy_plots.volume_plot(rows, "accuracy_volume")
+    return False
+
+
+PARTS = {"rays": rays, "volume": volume}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--tables-only", action="store_true", help="make the tables from the CSV files of the last run")
-    parser.add_argument("--rays-only", action="store_true", help="only the table and the plot of rays")
+    parser.add_argument("--only", choices=PARTS, help="only this table and its plot")
     options = parser.parse_args()
     programs = options.programs.resolve()
     OUT.mkdir(parents=True, exist_ok=True)
-    if options.rays_only:
-        return rays(programs, options.tables_only)
+    if options.only:
+        return PARTS[options.only](programs, options.tables_only)
     rows = run_to_csv(programs / "tests" / "bench" / "accuracy_bench", OUT / "accuracy.csv",
                       not options.tables_only)
-    volumes = run_to_csv(programs / "tests" / "bench" / "accuracy_volume", OUT / "volume.csv",
-                         not options.tables_only)
     ours = [r for r in rows if r["method"].startswith(OURS)]
     wrong = sum(r["misses"] + r["extras"] for r in ours)
     print(f"svdag: {wrong} errors in {sum(r['voxels'] for r in ours):,} voxels judged")
@@ -168,11 +174,11 @@ def main():
                 "errors": matrix(rows, "world", error_cell, {"svdag + reduction"}),
                 "errors snapped": matrix(rows, "snapped", error_cell, {"svdag + reduction"}),
                 "times": matrix(rows, "world", lambda r: f"{r['ns_per_pair']:.0f}"),
-                "bake": bake_table(rows, programs / "svdag"), "volume": volume_table(volumes)})
+                "bake": bake_table(rows, programs / "svdag")})
     accuracy_plots.error_plot(grouped(rows, "scene"), "accuracy_scenes", columns=3)
     accuracy_plots.error_plot(grouped(rows, "family"), "accuracy_families", columns=3)
-    accuracy_plots.volume_plot(volumes, "accuracy_volume")
-    return rays(programs, options.tables_only) or wrong != 0
+    failed = [part(programs, options.tables_only) for part in PARTS.values()]
+    return any(failed) or wrong != 0
 
 
 if __name__ == "__main__":

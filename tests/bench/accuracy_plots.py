@@ -73,33 +73,36 @@ def draw_panel(panel, title, methods):
 
 
 def volume_plot(rows, name):
-    """Relative error of the solid and of the corrected volume, with the slopes h and h²."""
-    figure, panel = pyplot.subplots(figsize=(6.4, 4))
-    colours = ["#1f77b4", "#2ca02c", "#d62728", "#ff7f0e"]
-    for colour, mesh in zip(colours, dict.fromkeys(r["mesh"] for r in rows)):
-        own = [r for r in rows if r["mesh"] == mesh]
-        x = [64 * 2**i for i in range(len(own))]
-        panel.plot(x, [abs(r["solid_error"]) for r in own], "-o", color=colour, markersize=4, label=f"{mesh}")
-        panel.plot(x, [abs(r["corrected_error"]) for r in own], "--o", color=colour, markersize=4,
-                   markerfacecolor="white")
-    x = [64, 4096]
-    panel.plot(x, [0.25, 0.25 / 64], color="#999", linewidth=0.8)
-    panel.plot(x, [0.002, 0.002 / 64**2], color="#999", linewidth=0.8)
-    panel.annotate("∝ voxel", (4096, 0.25 / 64), xytext=(4, -3), textcoords="offset points", color="#777")
-    panel.annotate("∝ voxel²", (4096, 0.002 / 64**2), xytext=(4, -3), textcoords="offset points", color="#777")
-    panel.set_xscale("log", base=2)
-    panel.set_yscale("log")
-    panel.set_xticks(x := [64 * 2**i for i in range(7)], [f"{n}" if n < 1024 else f"{n // 1024}K" for n in x])
-    panel.set_xlim(56, 7500)
-    panel.set_xlabel("resolution")
-    panel.set_ylabel("|volume / exact − 1|")
-    panel.grid(alpha=0.25)
-    legend = panel.legend(frameon=False, fontsize=7.5, loc="lower left")
-    panel.add_artist(legend)
-    line = matplotlib.lines.Line2D
-    panel.legend([line([], [], color="#444", marker="o", markersize=4),
-                  line([], [], color="#444", marker="o", markersize=4, linestyle="--", markerfacecolor="white")],
-                 ["solid", "half of the surface voxels"], frameon=False, fontsize=7.5, loc="upper right")
+    """Left: the volume of the surface rules and the errors of the solid ones, of one mesh; right: those errors of all."""
+    figure, (rules, meshes) = pyplot.subplots(1, 2, figsize=(9.6, 4), sharey=True)
+    series = {}
+    for row in rows:
+        series.setdefault(row["mesh"], []).append(row)
+    own = next((r for mesh, r in series.items() if "elephant" in mesh), next(iter(series.values())))
+    x = [2 ** r["log2"] for r in own]
+    for kind, less, colour in (("conservative", 0, "#1f77b4"), ("thin", 0, "#2ca02c"), ("solid", 1, "#d62728"), ("corrected", 1, "#d62728")):
+        rules.plot(x, [abs(r[kind] - less) for r in own], "--o" if kind == "corrected" else "-o", color=colour, markersize=4,
+                   markerfacecolor="white" if kind == "corrected" else colour,
+                   label={"solid": "|solid − 1|", "corrected": "|solid − ½ conservative − 1|"}.get(kind, kind))
+    rules.set_title(own[0]["mesh"], fontsize=9, loc="left")
+    rules.set_ylabel("volume of the voxels / volume of the solid")
+    for colour, (mesh, own) in zip(("#1f77b4", "#2ca02c", "#9467bd", "#ff7f0e", "#d62728", "#8c564b"), series.items()):
+        meshes.plot(x, [abs(r["solid"] - 1) for r in own], "-o", color=colour, markersize=4, label=mesh)
+        meshes.plot(x, [abs(r["corrected"] - 1) for r in own], "--o", color=colour, markersize=4, markerfacecolor="white")
+    meshes.set_title("all meshes: |solid − 1|, dashed |solid − ½ conservative − 1|", fontsize=9, loc="left")
+    for panel in (rules, meshes):
+        ends = [x[0], x[-1]]
+        for start, power, text in ((0.5, 1, "∝ voxel"), (0.002, 2, "∝ voxel²")):
+            last = start * (ends[0] / ends[1])**power
+            panel.plot(ends, [start, last], color="#999", linewidth=0.8)
+            panel.annotate(text, (ends[1], last), xytext=(4, -3), textcoords="offset points", color="#777")
+        panel.set_xscale("log", base=2)
+        panel.set_yscale("log")
+        panel.set_xticks(x[::2], [f"{n}" if n < 1024 else f"{n // 1024}K" for n in x[::2]])
+        panel.set_xlim(x[0] / 1.15, x[-1] * 3)
+        panel.set_xlabel("resolution")
+        panel.grid(alpha=0.25)
+        panel.legend(frameon=False, fontsize=7.5, loc="lower left")
     figure.tight_layout()
     save(figure, name)
 

@@ -5,9 +5,12 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
+
+import numpy
 
 from bench import fill
 from bench_tables import table
@@ -46,12 +49,12 @@ class Layers:
         return [name, f"{resolution}³", f"{count:,}", f"{a / 1e6:.2f}", f"{b / 1e6:.2f}", f"{b / a:.3f}", f"{best['layers'] / best['union']:.2f}",
                 f"{best['open']:.2f}", f"{(best['plain'] - best['open']) / (best['colour'] - best['open']):.2f}"]
 
-    def frames(self, what, *words):
-        """A row: bytes of one file with a layer for each frame, beside a file for each."""
+    def frames(self, what, write):
+        """A row: bytes of one file with a layer for each frame that write(folder) writes, beside a file for each."""
         pieces = self.folder / what.replace(" ", "-")
         pieces.mkdir()
-        self.run("svdag-scene", "scan", "-n", "100K", "--frames", FRAMES, *words, "-q", "-o", pieces / "f.ply")
-        files, both, one = sorted(pieces.glob("f_*.ply")), self.folder / "frames.svdag", self.folder / "one.svdag"
+        write(pieces)
+        files, both, one = sorted(pieces.glob("f_*")), self.folder / "frames.svdag", self.folder / "one.svdag"
         seconds = self.run("svdag", "build", *files, "-o", both, "-r", "2K", "-q", "--layers", "file", "--no-union")[1]
         grid = json.loads(self.run("svdag", "info", both, "--json")[0])["grid"]
         cube = ",".join(repr(v) for v in [*grid["corner"], 2048 * grid["voxel_size"]])
@@ -60,7 +63,39 @@ class Layers:
             cpu += self.run("svdag", "build", file, "-o", one, "-r", "2K", "-q", f"--cube={cube}")[1]
             total += one.stat().st_size
         size = both.stat().st_size
+        shutil.rmtree(pieces)
         return [what, str(FRAMES), f"{total / 1e6:.1f}", f"{size / 1e6:.1f}", f"{size / total:.3f}", f"{seconds / cpu:.2f}"]
+
+
+    def scan(self, *words):
+        return lambda folder: self.run("svdag-scene", "scan", "-n", "100K", "--frames", FRAMES, *words, "-q", "-o", folder / "f.ply")
+
+
+def swaying(scene, tenth):
+    """Writes the frames of an OFF mesh that sways as the scans of svdag-scene do (tests/scenes/moving.cpp)."""
+    lines = scene.read_text().split("\n", 2)
+    vertices, faces, _ = map(int, lines[1].split())
+    values = lines[2].split()
+    points = numpy.array(values[:3 * vertices], float).reshape(-1, 3)
+    rest = numpy.array(values[3 * vertices:3 * vertices + 4 * faces]).reshape(-1, 4)
+    end = "\n".join(" ".join(face) for face in rest) + "\n"
+    y = points[:, 1]
+    extent = numpy.abs(y).max()
+    above = (y - numpy.quantile(y, 0.9)) / extent
+    share = numpy.where(above > 0, above / (above + 1 / 32), 0) if tenth else 1
+
+    def write(folder):
+        for frame in range(FRAMES):
+            angle = 2 * numpy.pi * (frame / FRAMES + y / (4 * extent))
+            moved = points.copy()
+            moved[:, 0] += extent / 16 * share * numpy.sin(angle)
+            moved[:, 2] += extent / 16 * share * numpy.cos(angle)
+            with open(folder / f"f_{frame:04d}.off", "w") as file:
+                file.write(f"OFF\n{vertices} {faces} 0\n")
+                numpy.savetxt(file, moved, "%.17g")
+                file.write(end)
+
+    return write
 
 
 def main():
@@ -75,7 +110,10 @@ def main():
         layers.run("svdag-scene", "city", "-n", "120K", "-q", "-o", city)
         objects = [layers.objects(*row) for row in
                    [("sponza", sponza, r) for r in ("4K", "8K", "16K", "32K", "64K")] + [("city", city, "4K")]]
-        frames = [layers.frames("all of a scan moves"), layers.frames("a tenth of it moves", "--tenth")]
+        elephant = pathlib.Path(os.environ["SVDAG_SCENES"], "cgal_refined_elephant.off")
+        frames = [layers.frames("all of a scan moves", layers.scan()), layers.frames("a tenth of it moves", layers.scan("--tenth")),
+                  layers.frames("all of an elephant moves", swaying(elephant, False)),
+                  layers.frames("a tenth of it moves", swaying(elephant, True))]
     fill(ROOT / "docs" / "performance.md", {
         "layers": table(["scene", "grid", "layers", "union alone, MB", "with layers, MB", "ratio", "CPU of the bake, ratio",
                          "opened, s", "rays per second, ratio"], objects),

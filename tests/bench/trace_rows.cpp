@@ -221,7 +221,7 @@ std::vector<FloatTriangle> load(const char* path, const Grid& grid, const Vec3& 
   config.paths = {path};
   MemoryBudget budget;
   std::vector<FloatTriangle> triangles;
-  stream_snapped(Scene(config, &budget), grid, [&](std::span<const LatticeTriangle> batch) {
+  stream_snapped(Scene(config, &budget), grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
     for (const LatticeTriangle& lattice : batch) {
       const VoxelTriangle t = in_voxels(lattice, grid.fraction());
       FloatTriangle& to = triangles.emplace_back();

@@ -17,6 +17,7 @@ namespace svdag {
 namespace {
 
 constexpr uint32_t kSide = 8;  // of the picture
+constexpr size_t kLayers = 4;  // that are traced alone
 
 bool is_sound(std::string bytes) {
   repair_checksums(&bytes);
@@ -57,9 +58,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MemoryFile memory(bytes);
   bool taken = false;
   expect_only_errors([&] {
-    const PlainFile file = read_plain_file(memory.file().path());
+    PlainFile file = read_plain_file(memory.file().path());
     taken = true;
     if (!file.view.empty()) trace(file.view);
+    for (size_t layer = 0; layer < file.layers.layers.size() && layer < kLayers; ++layer) {
+      show_layer(&file, layer);
+      if (!file.view.empty()) trace(file.view);
+    }
   });
   if (!taken && is_sound(bytes)) std::abort();
   return 0;

@@ -18,6 +18,12 @@
 
 namespace svdag {
 
+struct RawLayer {
+  std::string name;
+  uint64_t voxels;
+  uint32_t root;  // 0xffffffff without voxels
+};
+
 // What a file says, level by level, open to vandalism.
 struct RawDag {
   Grid grid;
@@ -27,6 +33,7 @@ struct RawDag {
   uint64_t voxels = 0;
   double largest_snap = 0;
   Rule rule = Rule::kConservative;
+  std::vector<RawLayer> layers = {};  // materials, with their union
 };
 
 // The minimal DAG of `voxels` in canonical order, by sets and maps.
@@ -72,6 +79,53 @@ inline RawDag raw_dag(const Grid& grid, const VoxelSet& voxels) {
   return raw;
 }
 
+// The DAG of a file with the layers "a", "b", ... of `sets`, at most seven of them, not all empty.
+// The sets, and their union first, are octants of a grid twice as fine, whose level 1 becomes level
+// 0.
+inline RawDag raw_layers(const Grid& grid, const std::vector<VoxelSet>& sets) {
+  std::vector<VoxelSet> all{{}};
+  for (const VoxelSet& set : sets) all[0].insert(set.begin(), set.end());
+  all.insert(all.end(), sets.begin(), sets.end());
+  const int64_t side = grid.resolution();
+  VoxelSet octants;
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (const auto& [x, y, z] : all[i])
+      octants.emplace(x + side * int64_t(i >> 2), y + side * int64_t(i >> 1 & 1),
+                      z + side * int64_t(i & 1));
+  }
+  Grid finer = grid;
+  ++finer.levels;
+  RawDag raw = raw_dag(finer, octants);
+  std::map<uint32_t, uint32_t> number;  // of the word where a root begins
+  std::vector<std::vector<uint32_t>> roots;
+  const std::vector<uint32_t> top = raw.words[0], words = raw.words[1];
+  const uint32_t first = top[1];  // the union is in octant 0
+  const auto node_at = [&](uint32_t at) {
+    return std::vector<uint32_t>(words.begin() + at,
+                                 words.begin() + at + 1 + __builtin_popcount(words[at]));
+  };
+  number[first] = 0;
+  roots.push_back(node_at(first));
+  for (uint32_t at = 0; at < words.size(); at += uint32_t(node_at(at).size())) {
+    if (!number.emplace(at, uint32_t(roots.size())).second) continue;
+    roots.push_back(node_at(at));
+  }
+  raw.grid = grid;
+  raw.voxels = all[0].size();
+  raw.words.erase(raw.words.begin());
+  raw.nodes.erase(raw.nodes.begin());
+  raw.words[0].clear();
+  for (const auto& root : roots) raw.words[0].insert(raw.words[0].end(), root.begin(), root.end());
+  size_t child = 1;
+  for (size_t i = 1; i < all.size(); ++i) {
+    const bool empty = all[i].empty();
+    if (!empty) ++child;
+    raw.layers.push_back({std::string(1, char('a' + i - 1)), all[i].size(),
+                          empty ? 0xffffffffU : number[top[child]]});
+  }
+  return raw;
+}
+
 inline Grid test_grid(int levels) {
   Grid grid;
   grid.levels = levels;
@@ -98,14 +152,19 @@ inline std::string raw_metadata(const RawDag& raw) {
   const std::array<int64_t, 3> k0{g.k0.x, g.k0.y, g.k0.z};
   const std::array<int64_t, 6> selection{g.selection.min.x, g.selection.min.y, g.selection.min.z,
                                          g.selection.max.x, g.selection.max.y, g.selection.max.z};
-  return "{\"format\":\"svdag\",\"version\":1,\"levels\":" + std::to_string(g.levels) +
+  return std::string("{\"format\":\"svdag\",\"version\":") + (raw.layers.empty() ? "1" : "2") +
+         ",\"levels\":" + std::to_string(g.levels) +
          ",\"resolution\":" + std::to_string(g.resolution()) + ",\"rule\":\"" +
          rule_name(raw.rule) + "\",\"fraction_bits\":" + std::to_string(g.fraction()) +
-         ",\"grid\":{\"kind\":\"" + kind_name(g.kind) +
-         "\",\"corner\":" + list(corner) + ",\"voxel_size\":" + number(g.voxel_size) +
-         ",\"k0\":" + list(k0) + ",\"bounded\":" + (g.bounded ? "true" : "false") +
-         ",\"selection\":" + list(selection) + "},\"voxels\":" + std::to_string(raw.voxels) +
-         ",\"nodes\":" + list(raw.nodes) + ",\"largest_snap\":" + number(raw.largest_snap) + "}\n";
+         ",\"grid\":{\"kind\":\"" + kind_name(g.kind) + "\",\"corner\":" + list(corner) +
+         ",\"voxel_size\":" + number(g.voxel_size) + ",\"k0\":" + list(k0) +
+         ",\"bounded\":" + (g.bounded ? "true" : "false") + ",\"selection\":" + list(selection) +
+         "},\"voxels\":" + std::to_string(raw.voxels) + ",\"nodes\":" + list(raw.nodes) +
+         ",\"largest_snap\":" + number(raw.largest_snap) +
+         (raw.layers.empty() ? ""
+                             : ",\"layers\":{\"kind\":\"material\",\"count\":" +
+                                   std::to_string(raw.layers.size()) + ",\"union\":true}") +
+         "}\n";
 }
 
 // A file in memory, 8-byte aligned.
@@ -114,7 +173,7 @@ class RawFile {
   explicit RawFile(const RawDag& raw) : metadata_(raw_metadata(raw)) {
     Header h{};
     std::memcpy(h.magic, kMagic, sizeof kMagic);
-    h.version = 1;
+    h.version = raw.layers.empty() ? 1 : 2;
     h.header_bytes = 1024;
     h.levels = uint32_t(raw.grid.levels);
     h.fraction = uint32_t(raw.grid.fraction());
@@ -138,6 +197,14 @@ class RawFile {
                                : std::as_bytes(std::span(raw.words[level]));
       h.sections[level] = {place(part), part.size(), raw.nodes[level]};
     }
+    if (!raw.layers.empty()) {
+      const std::vector<std::byte> table = raw_layer_table(raw.layers);
+      h.layers_offset = place(table);
+      h.layers_bytes = table.size();
+      h.layer_count = uint32_t(raw.layers.size());
+      h.layer_kind = 2;
+      h.has_union = 1;
+    }
     h.metadata_offset = place(std::as_bytes(std::span(metadata_)));
     h.metadata_bytes = metadata_.size();
     finish(h);
@@ -153,6 +220,22 @@ class RawFile {
   }
 
  private:
+  static std::vector<std::byte> raw_layer_table(const std::vector<RawLayer>& layers) {
+    std::vector<std::byte> bytes;
+    const auto put = [&](uint64_t value, int size) {
+      for (int i = 0; i < size; ++i) bytes.push_back(std::byte(value >> 8 * i));
+    };
+    for (const RawLayer& layer : layers) {
+      put(layer.voxels, 8);
+      put(layer.root, 4);
+      put(layer.name.size(), 4);
+      put(0, 8);  // black
+    }
+    for (const RawLayer& layer : layers) {
+      for (const char c : layer.name) put(uint8_t(c), 1);
+    }
+    return bytes;
+  }
   uint64_t place(std::span<const std::byte> part) {
     bytes_.resize((bytes_.size() + 63) / 64 * 64);
     const uint64_t offset = bytes_.size();

@@ -43,19 +43,20 @@ std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
                                        const BoundsWindows& windows, bool all,
                                        MemoryBudget::Reservation* held, SnapCounts* snapped) {
   std::vector<LatticeTriangle> near;
-  *snapped = stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    for (const LatticeTriangle& t : batch) {
-      bool keep = all;
-      for (uint64_t i = 0; !keep && i < windows.size(); ++i)
-        keep = is_near(t, windows[i], grid.fraction());
-      if (keep && near.size() == near.capacity()) {
-        const size_t more = std::max<size_t>(4096, near.capacity() * 2);
-        held->resize((more + near.capacity()) * sizeof t, "snapped triangles");
-        near.reserve(more);
-      }
-      if (keep) near.push_back(t);
-    }
-  });
+  *snapped = stream_snapped(
+      scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+        for (const LatticeTriangle& t : batch) {
+          bool keep = all;
+          for (uint64_t i = 0; !keep && i < windows.size(); ++i)
+            keep = is_near(t, windows[i], grid.fraction());
+          if (keep && near.size() == near.capacity()) {
+            const size_t more = std::max<size_t>(4096, near.capacity() * 2);
+            held->resize((more + near.capacity()) * sizeof t, "snapped triangles");
+            near.reserve(more);
+          }
+          if (keep) near.push_back(t);
+        }
+      });
   return near;
 }
 

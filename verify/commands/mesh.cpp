@@ -43,7 +43,7 @@ std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint6
   triangles.reserve(count);
   *snapped = stream_snapped(
       scene, file.grid(),
-      [&](std::span<const LatticeTriangle> batch) {
+      [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
         triangles.insert(triangles.end(), batch.begin(), batch.end());
       },
       file.rule(), layer);

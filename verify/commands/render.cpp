@@ -145,11 +145,6 @@ VoxelBounds clipped_bounds(VoxelBounds box, const VoxelBox& voxels) {
   return shown;
 }
 
-// In linear light.
-Vec3 albedo_of(const Colour& colour) {
-  return {{light_of(colour.r), light_of(colour.g), light_of(colour.b)}};
-}
-
 // The output, or with --fly or --frames that of a frame: "fly_0007.png" for "fly.png" and frame 6.
 std::string picture_name(const RenderCommandConfig& config, int frame) {
   const std::string& path = config.output;
@@ -165,7 +160,7 @@ std::string picture_name(const RenderCommandConfig& config, int frame) {
 
 LayerColours::LayerColours(const DagFile& file) {
   if (file.layers().empty()) return;
-  index_.emplace(file);
+  index_.emplace(file.layer_index());
   for (const Layer& layer : file.layers().layers) albedos_.push_back(albedo_of(layer.colour));
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
@@ -51,16 +52,25 @@ std::vector<LatticePoint> draw_voxels(const DagView& dag, uint64_t count, Random
   return voxels;
 }
 
-// Loads the snapped triangles into the tracer and builds its tree. Returns how many meet the
+// Loads the snapped triangles into the tracer and builds its tree. `layer_of` gets the number of
+// the layer of each triangle, kNoLayer if `layers` has none of its name. Returns how many meet the
 // selection.
-uint64_t load_triangles(TriangleTracer* tracer, JudgedScene* judged, const Grid& grid) {
+uint64_t load_triangles(TriangleTracer* tracer, JudgedScene* judged, const Grid& grid,
+                        const LayerTable& layers, std::vector<uint32_t>* layer_of) {
+  std::map<std::string_view, uint32_t> numbers;
+  for (const Layer& layer : layers.layers) numbers.emplace(layer.name, uint32_t(numbers.size()));
   const LatticeBox selection = grid.closed(grid.selection);
   uint64_t near = 0;
   judged->progress.phase("reading the scene", 0);
-  stream_snapped(judged->scene, grid, [&](std::span<const LatticeTriangle> batch) {
-    for (const LatticeTriangle& t : batch) near += selection.meets(box_of(t));
-    tracer->add(batch, grid.fraction());
-  });
+  stream_snapped(judged->scene, grid,
+                 [&](std::span<const LatticeTriangle> triangles, const TriangleBatch& batch) {
+                   for (const LatticeTriangle& t : triangles) near += selection.meets(box_of(t));
+                   tracer->add(triangles, grid.fraction());
+                   if (layers.empty()) return;
+                   const auto number = numbers.find(part_name(batch, part_of(layers.kind)));
+                   layer_of->resize(tracer->triangles().size(),
+                                    number == numbers.end() ? kNoLayer : number->second);
+                 });
   judged->progress.phase("building Embree's tree", 0);
   tracer->build();
   return grid.selection.empty() ? 0 : near;
@@ -92,9 +102,17 @@ TraceJudgement trace(const TraceConfig& config, const DagFile& file) {
   TraceJudgement judgement{judged.facts};
   TriangleTracer tracer(middle_of(grid.selection), judgement.counts.triangles, executor.workers(),
                         &judged.budget);
-  judgement.near = load_triangles(&tracer, &judged, grid);
+  const uint64_t of_layers = file.layers().empty() ? 0 : judgement.counts.triangles;
+  const auto reserved = judged.budget.reserve(of_layers * sizeof(uint32_t), "layers of triangles");
+  std::vector<uint32_t> layer_of;
+  layer_of.reserve(of_layers);
+  judgement.near = load_triangles(&tracer, &judged, grid, file.layers(), &layer_of);
   judgement.triangles = tracer.triangles().size();
-  const RayJudge judge(file.view(), tracer, {file.rule(), grid.selection, config.rays, config.seed},
+  std::optional<LayerIndex> index;
+  if (!file.layers().empty()) index.emplace(file.layer_index());
+  const RayJudge judge(file.view(), tracer,
+                       {file.rule(), grid.selection, config.rays, config.seed,
+                        index ? index->view() : LayerIndexView(), layer_of},
                        &judged.budget);
   judgement.result = judge_all(judge, config, file.view(), executor, judged.progress);
   judged.progress.finish();
@@ -120,7 +138,8 @@ std::string bin_name(size_t bin) {
   return format_double(kDepthBins[bin - 1]) + " .. " + format_double(kDepthBins[bin]);
 }
 
-void print_offender(const Grid& grid, const RayOffender& offender) {
+void print_offender(const DagFile& file, const RayOffender& offender) {
+  const Grid grid = file.grid();
   const Point corner = grid.corner();
   const auto world = [&](int a) { return corner[a] + offender.point[a] * grid.voxel_size; };
   if (offender.what == RayOffender::What::kFar) {
@@ -142,6 +161,16 @@ void print_offender(const Grid& grid, const RayOffender& offender) {
     } else {
       std::printf("is %.6g voxels from the nearest voxel\n", offender.by);
     }
+    return;
+  }
+  if (offender.what == RayOffender::What::kLayer) {
+    const auto& layers = file.layers().layers;
+    const std::string name = offender.by < double(layers.size())
+                                 ? "layer " + shown_layer(layers[size_t(offender.by)].name)
+                                 : "no layer of the file";
+    std::printf("  ray %llu hits a triangle of %s at (%.9g, %.9g, %.9g); its voxel is not in it\n",
+                static_cast<unsigned long long>(offender.ray), name.c_str(), world(0), world(1),
+                world(2));
     return;
   }
   std::printf("  ray %llu hits a triangle at (%.9g, %.9g, %.9g), ",
@@ -171,6 +200,9 @@ void print_text(const DagFile& file, const TraceConfig& config, const TraceJudge
               count(r.late).c_str(), count(r.judged).c_str());
   std::printf(" (%s more pass within %.2g voxels of an edge)\n", count(r.doubtful).c_str(),
               t.doubt);
+  if (!file.layers().empty())
+    std::printf("layers     %s of %s triangle hits are in voxels that are not in their layer\n",
+                count(r.wrong_layer).c_str(), count(r.layered).c_str());
   if (!is_solid(file.rule()))
     std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
                 count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
@@ -181,7 +213,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const TraceJudge
     std::printf(
         "uncovered  %s of %s points of the surface are more than %.4f voxels from a voxel\n",
         count(r.uncovered).c_str(), count(r.points_judged).c_str(), t.largest_distance);
-  for (const RayOffender& offender : r.first) print_offender(file.grid(), offender);
+  for (const RayOffender& offender : r.first) print_offender(file, offender);
   std::printf("nearer     the voxel's hit is nearer than the triangle's by ... voxels:\n");
   for (size_t bin = 0; bin < r.depth.size(); ++bin)
     std::printf("  %-9s %s\n", bin_name(bin).c_str(), count(r.depth[bin]).c_str());
@@ -200,7 +232,7 @@ void print_text(const DagFile& file, const TraceConfig& config, const TraceJudge
 nlohmann::json first_json(const RayJudgement& result) {
   nlohmann::json first = nlohmann::json::array();
   for (const RayOffender& o : result.first) {
-    constexpr const char* kNames[] = {"late", "far", "outside", "uncovered"};
+    constexpr const char* kNames[] = {"late", "far", "outside", "uncovered", "layer"};
     first.push_back({{"what", kNames[size_t(o.what)]},
                      {"ray", o.ray},
                      {"point", {o.point[0], o.point[1], o.point[2]}},
@@ -242,6 +274,8 @@ void print_json(const DagFile& file, const TraceConfig& config, const TraceJudge
                                {"judged", r.judged},
                                {"late", r.late},
                                {"doubtful", r.doubtful},
+                               {"layered", r.layered},
+                               {"wrong_layer", r.wrong_layer},
                                {"doubt", t.doubt},
                                {"float_error", t.float_error},
                                {"voxels", r.voxels},

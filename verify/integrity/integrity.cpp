@@ -11,6 +11,7 @@
 #include "io/dag/plain_form.h"
 #include "io/grid.h"
 #include "streaming/printable.h"
+#include "verify/integrity/union_check.h"
 
 namespace svdag {
 namespace {
@@ -147,13 +148,13 @@ class OutsideSearch {
  public:
   explicit OutsideSearch(const DagView& dag) : dag_(dag), searched_(dag.levels) {}
 
-  bool find(const Header& h) {
+  bool find(const Header& h, uint32_t root) {
     VoxelBox selection;
     for (int a = 0; a < 3; ++a) {
       selection.min[a] = h.selection_min[a];
       selection.max[a] = h.selection_max[a];
     }
-    return !dag_.empty() && find(0, 0, selection);
+    return find(0, root, selection);
   }
 
  private:
@@ -214,6 +215,31 @@ class OutsideSearch {
   std::vector<std::unordered_map<uint32_t, uint64_t>> searched_;
 };
 
+// Checks what the roots reach. Descending is only safe in a DAG whose pointers are valid.
+void check_roots(const Header& header, const DagView& dag, const LayerTable& layers,
+                 std::vector<std::string>* defects) {
+  std::vector<uint32_t> roots;  // [number]: the index
+  for (uint64_t index = 0; index < dag.index_end[0]; index = dag_next(dag, 0, index))
+    roots.push_back(uint32_t(index));
+  if (roots.empty()) return;
+  // The union of a solid rule is the solid of all triangles, which follows from no layer.
+  const bool has_or = !layers.empty() && layers.has_union && !is_solid(Rule(header.rule));
+  if (has_or) {
+    std::vector<uint32_t> of_layers;
+    for (const Layer& layer : layers.layers) {
+      if (layer.root != kNoRoot) of_layers.push_back(roots[layer.root]);
+    }
+    if (!is_union_of(dag, roots[0], std::move(of_layers)))
+      defects->push_back("the union is not exactly the voxels of the layers");
+  }
+  if (header.bounded == 0) return;
+  OutsideSearch search(dag);
+  const size_t searched = has_or ? 1 : roots.size();
+  if (std::any_of(roots.begin(), roots.begin() + std::ptrdiff_t(searched),
+                  [&](uint32_t root) { return search.find(header, root); }))
+    defects->push_back("a voxel outside the selection is set");
+}
+
 // Checks the corner's lattice plane k0, a multiple of corner_step(). A box has no such planes.
 void check_lattice(const Header& header, std::vector<std::string>* defects) {
   const bool lattice = header.grid_kind != uint32_t(Grid::Kind::kBox);
@@ -238,9 +264,7 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
                         const LayerTable& layers) {
   IntegrityReport report;
   Inspection(header, dag, layers, &report).run();
-  // Descending is only safe in a DAG whose pointers are valid.
-  if (report.defects.empty() && header.bounded != 0 && OutsideSearch(dag).find(header))
-    report.defects.push_back("a voxel outside the selection is set");
+  if (report.defects.empty()) check_roots(header, dag, layers, &report.defects);
   if (report.voxels != header.voxels)
     report.defects.push_back("the header counts " + std::to_string(header.voxels) +
                              " voxels, the DAG holds " + std::to_string(report.voxels));

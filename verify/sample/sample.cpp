@@ -120,7 +120,7 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
   progress.phase("judging triangles", 0);
   stream_snapped(
       scene, grid,
-      [&](std::span<const LatticeTriangle> batch) {
+      [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
         gathered.insert(gathered.end(), batch.begin(), batch.end());
         if (gathered.size() >= kBatchTriangles) flush();
       },

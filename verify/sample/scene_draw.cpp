@@ -161,7 +161,7 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
   if (grid.selection.empty()) return result;
   const LatticeBox selection = grid.closed(grid.selection);
   std::array<MeasureDraws, kMeasures> draws;
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
     for (const LatticeTriangle& t : batch) {
       if (!selection.meets(box_of(t))) continue;
       ++result.near;
@@ -170,7 +170,7 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
     }
   });
   draw_positions(&draws, count, random);
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch) {
+  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
     for (const LatticeTriangle& t : batch) {
       if (!selection.meets(box_of(t))) continue;
       const ClippedTriangle clipped(t, grid);

@@ -51,7 +51,7 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
       counts.outside += !meets;
       if (meets || is_solid(rule)) snapped.push_back(q);
     }
-    if (!snapped.empty()) sink(snapped);
+    if (!snapped.empty()) sink(snapped, batch);
   });
   counts.largest_move /= double(int64_t(1) << grid.fraction());
   return counts;

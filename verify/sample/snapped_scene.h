@@ -17,7 +17,8 @@ struct SnapCounts {
   double largest_move = 0;  // by the snap, in voxels, of triangles whose box meets the selection
 };
 
-using SnappedSink = std::function<void(std::span<const LatticeTriangle>)>;
+// Gets snapped triangles of a batch.
+using SnappedSink = std::function<void(std::span<const LatticeTriangle>, const TriangleBatch&)>;
 
 // Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; for the
 // solid rules, whose winding numbers need them, all triangles, and those of open parts as sheets.

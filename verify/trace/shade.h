@@ -1,6 +1,7 @@
 // The colour of a camera ray, by what it hits.
 #pragma once
 
+#include "io/colour.h"
 #include "verify/trace/kernel/traverse.h"
 #include "verify/trace/kernel/workload.h"
 
@@ -40,6 +41,10 @@ struct Shading {
 
 // The part of light that surfaces without a colour reflect.
 constexpr Vec3 kClay{{0.50, 0.46, 0.40}};
+
+inline Vec3 albedo_of(const Colour& colour) {
+  return {{light_of(colour.r), light_of(colour.g), light_of(colour.b)}};
+}
 
 // The distances of `box`, and a light over the left shoulder of the camera. A camera that cannot
 // see that light, in a room for example, gets a lamp near it.

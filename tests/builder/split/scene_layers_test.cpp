@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/dag/palette.h"
 #include "tests/expect_error.h"
 
 namespace svdag {

@@ -27,7 +27,9 @@ RawDag good_dag() {
 
 IntegrityReport inspect_raw(const RawDag& raw) {
   const RawFile file(raw);
-  return inspect(file.header(), file.view(), file.metadata());
+  const Header& h = file.header();
+  const auto table = std::span(file.bytes()).subspan(h.layers_offset, h.layers_bytes);
+  return inspect(h, file.view(), file.metadata(), decode_layers(h, table).value());
 }
 
 // Succeeds if one of the defects contains `words`.
@@ -55,6 +57,49 @@ TEST(Integrity, MinimalDagIsSoundAndCounted) {
 
 TEST(Integrity, EmptyGridIsSound) {
   EXPECT_TRUE(inspect_raw(raw_dag(test_grid(5), {})).sound());
+}
+
+// Layers that meet in voxels, in bricks and in cubes only, one that is empty, two that are equal.
+std::vector<VoxelSet> layers_of(int levels, uint64_t seed) {
+  std::vector<VoxelSet> sets{random_voxels(levels, 300, seed),
+                             random_voxels(levels, 300, seed + 1),
+                             random_voxels(levels, 3, seed + 2),
+                             {}};
+  sets.push_back(sets[0]);
+  return sets;
+}
+
+TEST(Integrity, FilesWithLayersAreSound) {
+  for (int levels = 3; levels <= 8; ++levels) {
+    const IntegrityReport report = inspect_raw(raw_layers(test_grid(levels), layers_of(levels, 3)));
+    EXPECT_TRUE(report.sound()) << levels << ": " << report.defects.front();
+  }
+}
+
+// The union as it is, beside layers of which one lacks a voxel, or has one more.
+TEST(Integrity, ReportsAUnionThatIsNotTheVoxelsOfTheLayers) {
+  for (int levels = 3; levels <= 8; ++levels) {
+    std::vector<VoxelSet> sets = layers_of(levels, 3);
+    sets.pop_back();
+    VoxelSet all = sets[0];
+    for (const VoxelSet& set : sets) all.insert(set.begin(), set.end());
+    auto only = sets[1].begin();  // in no other layer
+    while (sets[0].count(*only) + sets[2].count(*only) > 0) ++only;
+    for (const bool lacks : {true, false}) {
+      std::vector<VoxelSet> wrong = sets;
+      wrong.push_back(all);  // a layer that makes raw_layers() write this union
+      if (lacks) wrong[1].erase(only);
+      RawDag raw = raw_layers(test_grid(levels), wrong);
+      raw.layers.pop_back();
+      if (lacks) {
+        EXPECT_TRUE(reports(inspect_raw(raw), "the union is not exactly the voxels of the layers"));
+      } else {
+        EXPECT_TRUE(inspect_raw(raw).sound());
+      }
+      raw.rule = Rule::kSolid;  // whose union follows from no layer
+      EXPECT_TRUE(inspect_raw(raw).sound()) << inspect_raw(raw).defects.front();
+    }
+  }
 }
 
 TEST(Integrity, HandMadeFileIsAcceptedByTheReader) {

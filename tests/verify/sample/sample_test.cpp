@@ -89,7 +89,7 @@ class SampledScene : public ::testing::Test {
   // The expected voxels, by clipping every triangle over the whole selection.
   VoxelSet voxels(const Grid& grid) {
     VoxelSet set;
-    stream_snapped(scene(), grid, [&](std::span<const LatticeTriangle> batch) {
+    stream_snapped(scene(), grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
       for (const LatticeTriangle& t : batch)
         set.merge(clipped_voxels(t, grid.fraction(), grid.selection));
     });

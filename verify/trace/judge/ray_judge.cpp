@@ -91,6 +91,8 @@ void RayJudgement::append(const RayJudgement& later) {
   judged += later.judged;
   late += later.late;
   doubtful += later.doubtful;
+  layered += later.layered;
+  wrong_layer += later.wrong_layer;
   voxels += later.voxels;
   far += later.far;
   outside += later.outside;
@@ -174,11 +176,34 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
   }
   if (!is_judged(index)) return;
   ++result->judged;
+  if (!config_.layer_of.empty() && !triangle->doubtful)
+    judge_layer(index, ray, voxel, *triangle, result);
   if (nearer >= -tracer_.doubt() / triangle->cosine) return;
   ++(triangle->doubtful ? result->doubtful : result->late);
   if (!triangle->doubtful)
     add_offender(result, {RayOffender::What::kLate, index, ray.origin + ray.direction * triangle->t,
                           -nearer});
+}
+
+void RayJudge::judge_layer(uint64_t index, const Ray& ray, const Hit& voxel,
+                           const TriangleHit& triangle, RayJudgement* result) const {
+  const Vec3 point = ray.origin + ray.direction * triangle.t;
+  const double margin = tracer_.doubt() / triangle.cosine;
+  uint32_t at[3];
+  for (int a = 0; a < 3; ++a) {
+    const double low = std::floor(point[a] - margin);
+    if (low != std::floor(point[a] + margin)) return;  // which of two voxels is not certain
+    at[a] = uint32_t(low);
+  }
+  const uint32_t layer = config_.layer_of[triangle.triangle];
+  const auto [x, y, z] = at;
+  const bool is_hit = voxel.found && std::ranges::equal(voxel.voxel, at);
+  ++result->layered;
+  if (layer_has_voxel(dag_, config_.layers, layer, x, y, z) &&
+      (!is_hit || layer_of_cube(dag_, config_.layers, dag_.levels, x, y, z) <= layer))
+    return;
+  ++result->wrong_layer;
+  add_offender(result, {RayOffender::What::kLayer, index, point, double(layer)});
 }
 
 void RayJudge::judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const {

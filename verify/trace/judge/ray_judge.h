@@ -15,6 +15,10 @@
 //       border of the selection may round to the outside, where nothing is set, and is not judged.
 //       Thin: a triangle that crosses no centre segment sets no voxel, so no bound exists.
 //
+//   (d) The voxel that holds a hit of a triangle, further than doubt() from its border, is in the
+//       layer of the triangle, and no later layer is found for it. So if one layer alone holds it,
+//       that is the layer of the ray. Tested where (a) is, by the same rules.
+//
 // Rays miss triangles of zero area; (c) tests their points, too.
 //
 // Measured only: hits of one side alone, how much nearer the DAG's hit is, and the distance between
@@ -26,7 +30,7 @@
 #include <array>
 #include <optional>
 
-#include "io/dag/format.h"
+#include "io/dag/layer_index.h"
 #include "io/grid.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
@@ -40,14 +44,17 @@ struct RayJudgeConfig {
   VoxelBox selection;  // triangle hits outside of it are ignored, as they set no voxel
   uint64_t rays = 0;
   uint64_t seed = 1;
+  LayerIndexView layers = {};               // of a file with layers
+  std::span<const uint32_t> layer_of = {};  // [triangle]; empty without layers
 };
 
 struct RayOffender {
-  enum class What { kLate, kFar, kOutside, kUncovered };
+  enum class What { kLate, kFar, kOutside, kUncovered, kLayer };
   What what;
   uint64_t ray;  // index of the ray, or of the drawn voxel or surface point
-  Vec3 point;    // kLate, kUncovered: on the triangle; else the centre of the voxel
-  double by;     // kLate: voxels between the hits; else the distance. Infinite: no voxel at all
+  Vec3 point;    // kLate, kUncovered, kLayer: on the triangle; else the centre of the voxel
+  double by;     // kLate: voxels between the hits; else the distance. Infinite: no voxel at all;
+                 // kLayer: the number of the triangle's layer
 };
 
 // Upper ends of the bins of how much nearer the DAG's hit is than the triangle's, in voxels.
@@ -61,6 +68,8 @@ struct RayJudgement {
   uint64_t judged = 0;                         // triangle hits to which (a) applies
   uint64_t late = 0;                           // of these, violations of (a)
   uint64_t doubtful = 0;                       // would be late, but within doubt() of an edge
+  uint64_t layered = 0;                        // triangle hits to which (d) applies
+  uint64_t wrong_layer = 0;                    // of these, violations of (d)
   uint64_t voxels = 0;                         // tested for (b)
   uint64_t far = 0;                            // of these, too far from the scene
   uint64_t outside = 0;                        // of these, outside the selection
@@ -71,7 +80,9 @@ struct RayJudgement {
   double voxels_to_scene = 0, scene_to_voxels = 0;  // the largest distances, in voxels
   std::vector<RayOffender> first;                   // at most kShown
 
-  bool ok() const { return late == 0 && far == 0 && outside == 0 && uncovered == 0; }
+  bool ok() const {
+    return late == 0 && wrong_layer == 0 && far == 0 && outside == 0 && uncovered == 0;
+  }
   // False if no claim applied to anything: the judgement is empty.
   bool tested() const { return judged > 0 || voxels > 0 || points_judged > 0; }
   void append(const RayJudgement& later);
@@ -98,6 +109,8 @@ class RayJudge {
   void judge_ray(uint64_t index, RayJudgement* result) const;
   void compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
                     const std::optional<TriangleHit>& triangle, RayJudgement* result) const;
+  void judge_layer(uint64_t index, const Ray& ray, const Hit& voxel, const TriangleHit& triangle,
+                   RayJudgement* result) const;
   void judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const;
   void judge_point(uint64_t number, const Vec3& point, RayJudgement* result) const;
   bool is_judged(uint64_t index) const;

@@ -76,6 +76,13 @@ __global__ void surfel_kernel(const __grid_constant__ DagView dag,
   surfels[pixel] = make_surfel(dag, work.picture.ray(x, y), hits[pixel]);
 }
 
+__global__ void layer_kernel(const __grid_constant__ DagView dag,
+                             const __grid_constant__ LayerIndexView index, uint32_t pixels,
+                             const Hit* hits, uint32_t* layers) {
+  const uint32_t pixel = blockIdx.x * blockDim.x + threadIdx.x;
+  if (pixel < pixels) layers[pixel] = layer_of_hit(dag, index, hits[pixel]);
+}
+
 // One thread per ray; the rays of a pixel are adjacent.
 __global__ void secondary_kernel(const __grid_constant__ DagView dag,
                                  const __grid_constant__ Workload work, int kind,
@@ -140,6 +147,20 @@ void require_free_memory(uint64_t bytes) {
                                      " MiB are free: choose a coarser DAG or a smaller --size");
 }
 
+void trace_layers(const LayerIndex& index, const DagView& dag, const DeviceArray<Hit>& hits,
+                  size_t pixels, std::vector<uint32_t>* layers) {
+  const DeviceArray<uint32_t> begin(index.begin().size());
+  const DeviceArray<LayerIndexView::Entry> entries(index.entries().size());
+  const DeviceArray<uint32_t> found(pixels);
+  begin.upload(index.begin().data());
+  entries.upload(index.entries().data());
+  layer_kernel<<<blocks_for(pixels), kBlock>>>(dag,
+                                               {index.view().level, begin.data(), entries.data()},
+                                               uint32_t(pixels), hits.data(), found.data());
+  check(cudaGetLastError(), "starting a kernel");
+  found.download(layers);
+}
+
 }  // namespace
 
 TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
@@ -151,7 +172,11 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
   const uint32_t tiles = columns * ((picture.height + kTile - 1) / kTile);
   if (pixels * work.secondary.samples / kBlock >= 0x7fffffffU)
     fail_usage("--size, --samples: too many rays for a GPU: choose fewer");
-  require_free_memory(file.words.size() * 8 + tiles * sizeof(Span) +
+  const uint64_t index_bytes = file.index ? file.index->begin().size_bytes() +
+                                                file.index->entries().size_bytes() +
+                                                pixels * sizeof(uint32_t)
+                                          : 0;
+  require_free_memory(file.words.size() * 8 + index_bytes + tiles * sizeof(Span) +
                       pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const DeviceArray<uint64_t> copy(file.words.size());
   copy.upload(file.words.data());
@@ -170,6 +195,8 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
   check(cudaGetLastError(), "starting a kernel");
   hits.download(&results.hits);
   surfels.download(&results.surfels);
+  results.layers.assign(pixels, kNoLayer);
+  if (file.index) trace_layers(*file.index, dag, hits, pixels, &results.layers);
   const auto found = uint64_t(std::count_if(results.hits.begin(), results.hits.end(),
                                             [](const Hit& hit) { return hit.found; }));
   for (int kind = kShadowRays; kind < kWorkloads; ++kind) {

@@ -110,6 +110,14 @@ TraceResults trace_on_cpu(const PlainFile& file, const Workload& work) {
         trace_tile(dag, tree, work, x, row * kTile, &results.hits);
     });
   });
+  results.layers.assign(pixels, kNoLayer);
+  if (file.index) {
+    for_each_row(executor, picture, [&](uint32_t row) {
+      const size_t end = std::min<size_t>((row + 1) * kTile, picture.height) * picture.width;
+      for (size_t i = size_t(row) * kTile * picture.width; i < end; ++i)
+        results.layers[i] = layer_of_hit(dag, file.index->view(), results.hits[i]);
+    });
+  }
   uint64_t found = 0;
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t x = uint32_t(i % picture.width), y = uint32_t(i / picture.width);

@@ -27,19 +27,27 @@ struct TraceResults {
   std::string device;     // for people
   std::vector<Hit> hits;  // of the primary rays
   std::vector<Surfel> surfels;
+  std::vector<uint32_t> layers;  // the first that holds the voxel hit; kNoLayer: no hit, or the
+                                 // file has no layers
   std::vector<uint32_t> blocked[kWorkloads];  // number of secondary rays that hit something
   double seconds[kWorkloads] = {};
   uint64_t rays[kWorkloads] = {};
 };
 
 // Memory of the results of a pixel.
-constexpr uint64_t kResultBytesPerPixel = sizeof(Hit) + sizeof(Surfel) + 3 * sizeof(uint32_t);
+constexpr uint64_t kResultBytesPerPixel = sizeof(Hit) + sizeof(Surfel) + 4 * sizeof(uint32_t);
 
 TraceResults trace_on_cpu(const PlainFile& file, const Workload& work);
 
 // Error: kUsage without a device or in a build without CUDA; kMemory if the device's memory does
 // not suffice.
 TraceResults trace_on_cuda(const PlainFile& file, const Workload& work);
+
+SVDAG_HD inline uint32_t layer_of_hit(const DagView& dag, const LayerIndexView& index,
+                                      const Hit& hit) {
+  if (!hit.found) return kNoLayer;
+  return layer_of_cube(dag, index, hit.level, hit.voxel[0], hit.voxel[1], hit.voxel[2]);
+}
 
 // Secondary ray i of workload `kind` from a surfel, ...
 SVDAG_HD inline Ray secondary_ray(const Workload& work, int kind, const Surfel& surfel,

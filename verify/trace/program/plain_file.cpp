@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include "io/dag/compact_check.h"
+#include "io/dag/root_views.h"
 #include "io/pack/pack_format.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
@@ -12,6 +14,8 @@
 
 namespace svdag {
 namespace {
+
+constexpr size_t kRootWords = sizeof(RootViews::Line) / sizeof(uint64_t);
 
 void require(bool condition, const std::string& path, const char* sentence) {
   if (!condition) fail_input(path, std::string("damaged file: ") + sentence);
@@ -42,7 +46,7 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
   if (size > max_bytes)
     throw Error(ExitCode::kMemory,
                 "does not fit in memory: use svdag-verify render, which maps the file", path);
-  std::vector<uint64_t> words((size + 7) / 8);
+  std::vector<uint64_t> words((size + 7) / 8 + kRootWords);
   file.read_at(0, std::as_writable_bytes(std::span(words)).first(size));
   inputs.check();
   return words;
@@ -73,6 +77,9 @@ void check_header(const Header& h, const std::string& path) {
     require(!bricks || s.nodes == s.bytes / 8, path, "impossible number of bricks");
     require((s.bytes == 0) == (h.sections[h.section_count - 1].bytes == 0), path, "an empty level");
   }
+  require(h.layer_count <= kMaxLayers && h.has_union <= 1 && h.layers_offset <= h.file_bytes &&
+              h.layers_bytes <= h.file_bytes - h.layers_offset,
+          path, "impossible layers");
 }
 
 void check_bricks(const DagView& view, const std::string& path) {
@@ -118,11 +125,35 @@ PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
       require(false, path, defect->sentence);
   }
   file.view = dag_view(file.words.data());
+  const auto* const table =
+      reinterpret_cast<const std::byte*>(file.words.data()) + file.header().layers_offset;
+  auto layers = decode_layers(file.header(), {table, size_t(file.header().layers_bytes)});
+  require(layers.has_value(), path, "an impossible layer table");
+  file.layers = std::move(*layers);
   if (file.view.layout == Layout::kPlain) {
     check_bricks(file.view, path);
     check_pointers(file.header(), file.view, path);
   }
+  if (!file.layers.empty()) {
+    const RootViews roots(file.view);
+    file.index.emplace(file.view.levels, file.layers.layers.size(), [&](size_t layer) {
+      return roots.of(file.view, file.layers.layers[layer].root);
+    });
+  }
   return file;
+}
+
+void show_layer(PlainFile* file, size_t layer) {
+  const DagView all = dag_view(file->words.data());
+  const RootViews roots(all);
+  file->view = roots.of(all, file->layers.layers[layer].root);
+  if (all.layout == Layout::kCompact && !file->view.empty()) {
+    auto* const room = &*(file->words.end() - kRootWords);
+    RootViews::move_line(&file->view, reinterpret_cast<RootViews::Line*>(room));
+  }
+  file->index.emplace(all.levels, file->layers.layers.size(), [&](size_t other) {
+    return other == layer ? file->view : roots.of(all, kNoRoot);
+  });
 }
 
 }  // namespace svdag

@@ -5,16 +5,20 @@
 // them. A file that is written while it is read is therefore detected by its time of modification.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "io/dag/dag_view.h"
+#include "io/dag/layer_index.h"
+#include "io/dag/layer_table.h"
 
 namespace svdag {
 
 struct PlainFile {
-  std::vector<uint64_t> words;  // the bytes of the file, aligned
-  DagView view;
+  std::vector<uint64_t> words;      // the bytes of the file, aligned, and room for a root
+  DagView view;                     // of what is traced: the first root, or a layer
+  LayerTable layers;                // empty in a file without
+  std::optional<LayerIndex> index;  // of a file with layers: of those that are traced
 
   const Header& header() const { return *reinterpret_cast<const Header*>(words.data()); }
   uint64_t bytes() const { return header().file_bytes; }
@@ -23,5 +27,8 @@ struct PlainFile {
 // Error: kBadInput if the file cannot be read, is damaged, or is written while it is read; kMemory
 // if it is larger than `max_bytes`.
 PlainFile read_plain_file(const std::string& path, uint64_t max_bytes = UINT64_MAX);
+
+// Makes `view` and `index` those of layer `layer` of the table. The view stays within `words`.
+void show_layer(PlainFile* file, size_t layer);
 
 }  // namespace svdag

@@ -71,8 +71,7 @@ InsidePoint score_point(const DagView& dag, const VoxelBounds& box, int up, cons
     if (views.back() == *std::max_element(views.begin(), views.end())) scored.view = view;
   }
   std::nth_element(views.begin(), views.begin() + kViews / 2, views.end());
-  const double space =
-      std::min(1.0, views[kViews / 2] / (kAmple * std::max(size[x], size[y])));
+  const double space = std::min(1.0, views[kViews / 2] / (kAmple * std::max(size[x], size[y])));
   Vec3 down{};
   down[up] = -1;
   const double floor = trace_any(dag, {point, down}) ? 1 : 0.3;

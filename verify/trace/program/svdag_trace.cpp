@@ -11,6 +11,7 @@
 #include "streaming/process/program.h"
 #include "verify/trace/program/device.h"
 #include "verify/trace/program/trace_options.h"
+#include "verify/trace/shade.h"
 
 namespace svdag {
 namespace {
@@ -19,15 +20,19 @@ namespace {
 struct PixelRecord {
   uint32_t found, voxel[3], level, axis;
   double t;
-  uint32_t blocked[3], zero[3];
+  uint32_t blocked[3], layer_and_one, zero[2];
 };
 static_assert(sizeof(PixelRecord) == 56);
 
 PixelRecord record_of(const TraceResults& results, size_t pixel) {
   const Hit& hit = results.hits[pixel];
-  PixelRecord record{hit.found, {hit.voxel[0], hit.voxel[1], hit.voxel[2]},
-                     hit.level, uint32_t(hit.axis),
-                     hit.t,     {},
+  PixelRecord record{hit.found,
+                     {hit.voxel[0], hit.voxel[1], hit.voxel[2]},
+                     hit.level,
+                     uint32_t(hit.axis),
+                     hit.t,
+                     {},
+                     results.layers[pixel] + 1,
                      {}};
   for (int i = 0; i < 3; ++i) record.blocked[i] = results.blocked[kShadowRays + i][pixel];
   return record;
@@ -86,14 +91,28 @@ std::string quoted(const std::string& name) {
   return text + '"';
 }
 
-void print_json(const TraceResults& results) {
+void print_layers_json(const TraceResults& results, const LayerTable& table) {
+  std::vector<uint64_t> hits(table.layers.size());
+  for (const uint32_t layer : results.layers) {
+    if (layer != kNoLayer) ++hits[layer];
+  }
+  std::printf(", \"layers\": [");
+  for (size_t i = 0; i < hits.size(); ++i)
+    std::printf("%s{\"name\": %s, \"hit\": %llu}", i == 0 ? "" : ", ",
+                quoted(table.layers[i].name).c_str(), whole(hits[i]));
+  std::printf("]");
+}
+
+void print_json(const TraceResults& results, const LayerTable& table) {
   std::printf("{\"device\": %s, \"results\": \"%016llx\", \"workloads\": [",
               quoted(results.device).c_str(), whole(hash_of(results)));
   for (int kind = 0; kind < kWorkloads; ++kind)
     std::printf("%s{\"workload\": \"%s\", \"rays\": %llu, \"hit\": %llu, \"seconds\": %.6f}",
                 kind == 0 ? "" : ", ", kWorkloadNames[kind], whole(results.rays[kind]),
                 whole(hits_of(results, kind)), results.seconds[kind]);
-  std::printf("]}");
+  std::printf("]");
+  if (!table.empty()) print_layers_json(results, table);
+  std::printf("}");
 }
 
 // An optional output file, opened before the work, so that no work is lost if it cannot be written.
@@ -123,21 +142,24 @@ std::string dump_of(const TraceResults& results) {
   return bytes;
 }
 
-// Lambert shading by the soft light, plus ambient occlusion, in grey.
-std::string picture_of(const TraceResults& results, const Workload& work) {
+// Lambert shading by the soft light, plus ambient occlusion, in the colours of the layers, or grey.
+std::string picture_of(const TraceResults& results, const Workload& work, const LayerTable& table) {
   std::string bytes = "P6\n" + std::to_string(work.picture.width) + " " +
                       std::to_string(work.picture.height) + "\n255\n";
   const double n = work.secondary.samples;
   for (size_t pixel = 0; pixel < results.hits.size(); ++pixel) {
     const Surfel& surfel = results.surfels[pixel];
-    double grey = 0.75;
+    Vec3 colour{{0.75, 0.75, 0.75}};
     if (surfel.found) {
       const double facing = dot(surfel.normal, normalized(work.light.centre - surfel.point));
       const double sun = (1 - results.blocked[kSoftRays][pixel] / n) * (facing > 0 ? facing : 0);
       const double sky = 1 - results.blocked[kOcclusionRays][pixel] / n;
-      grey = square_root(0.45 * sun + 0.5 * sky);
+      const uint32_t layer = results.layers[pixel];
+      const Vec3 albedo =
+          layer == kNoLayer ? Vec3{{1, 1, 1}} : albedo_of(table.layers[layer].colour);
+      for (int c = 0; c < 3; ++c) colour[c] = square_root(albedo[c] * (0.45 * sun + 0.5 * sky));
     }
-    bytes.append(3, char(uint8_t(255 * (grey < 1 ? grey : 1))));
+    for (int c = 0; c < 3; ++c) bytes += char(uint8_t(255 * (colour[c] < 1 ? colour[c] : 1)));
   }
   return bytes;
 }
@@ -167,11 +189,11 @@ void print_comparison(const TraceResults& cpu, const TraceResults& gpu, const Co
 }
 
 void print_comparison_json(const TraceResults& cpu, const TraceResults& gpu,
-                           const Comparison& found) {
+                           const Comparison& found, const LayerTable& table) {
   std::printf("{\"cpu\": ");
-  print_json(cpu);
+  print_json(cpu, table);
   std::printf(", \"cuda\": ");
-  print_json(gpu);
+  print_json(gpu, table);
   std::printf(", \"pixels\": %zu, \"different\": %zu}\n", cpu.hits.size(), found.different);
 }
 
@@ -207,7 +229,8 @@ uint64_t memory_for_file(const TraceOptions& options) {
 
 int run(const TraceOptions& options) {
   check_outputs(options);
-  const PlainFile file = read_plain_file(options.file, memory_for_file(options));
+  PlainFile file = read_plain_file(options.file, memory_for_file(options));
+  if (options.layer) show_layer(&file, layer_named(file.layers, *options.layer));
   const Workload work = make_workload(options, file);
   Output dump(options.dump), picture(options.picture);
   int exit_code = 0;
@@ -216,15 +239,23 @@ int run(const TraceOptions& options) {
     const TraceResults gpu = trace_on_cuda(file, work);
     results = trace_on_cpu(file, work);
     const Comparison found = compare(results, gpu);
-    (options.json ? print_comparison_json : print_comparison)(results, gpu, found);
+    if (options.json) {
+      print_comparison_json(results, gpu, found, file.layers);
+    } else {
+      print_comparison(results, gpu, found);
+    }
     if (found.different != 0) exit_code = int(ExitCode::kDiffers);
   } else {
     results = options.device == "cuda" ? trace_on_cuda(file, work) : trace_on_cpu(file, work);
-    (options.json ? print_json : print)(results);
-    if (options.json) std::printf("\n");
+    if (options.json) {
+      print_json(results, file.layers);
+      std::printf("\n");
+    } else {
+      print(results);
+    }
   }
   dump.write([&] { return dump_of(results); });
-  picture.write([&] { return picture_of(results, work); });
+  picture.write([&] { return picture_of(results, work, file.layers); });
   dump.commit();
   picture.commit();
   return exit_code;

@@ -96,7 +96,8 @@ void add_output_options(CLI::App* app, TraceOptions* options) {
   takes_files(
       app->add_option("--dump", options->dump,
                       "Write 56 bytes per pixel, little-endian: u32 found, x, y, z, level, axis; "
-                      "f64 t; u32 blocked rays of shadow, soft, ao; u32 0, 0, 0"),
+                      "f64 t; u32 blocked rays of shadow, soft, ao; "
+                      "u32 1 + layer (0: none), 0, 0"),
       {"*"})
       ->type_name("FILE");
   takes_files(app->add_option_function<std::string>(
@@ -119,6 +120,7 @@ void add_options(CLI::App* app, TraceOptions* options) {
   app->add_flag("--compare", options->compare,
                 "Trace on both devices and count the pixels that differ; exit 1 if any does");
   app->add_flag("--json", options->json, "Print one line of JSON instead of the table");
+  add_layer(app, &options->layer);
   add_view_options(app, options);
   add_ray_options(app, options);
   from_to(app->add_option("--rounds", options->rounds,

@@ -22,9 +22,10 @@ struct TraceOptions {
   double reach = 0;      // length of ambient occlusion rays, in scene units; 0: unlimited
   double cone = 0;       // half the angle of their cones, in degrees; 0: exact
   bool beams = true;
-  bool compare = false;       // trace on both devices, and compare
-  bool json = false;          // print one line of JSON instead of a table
-  std::string dump, picture;  // output files; empty: none
+  bool compare = false;              // trace on both devices, and compare
+  bool json = false;                 // print one line of JSON instead of a table
+  std::optional<std::string> layer;  // trace this one alone
+  std::string dump, picture;         // output files; empty: none
 };
 
 // Returns nothing if there is nothing to trace (--help, --version). Error: kUsage.

@@ -5,6 +5,8 @@
 
 #include <numeric>
 
+#include "io/dag/dag_file.h"
+#include "tests/temp_folder.h"
 #include "tests/verify/judged_voxels.h"
 #include "tests/verify/soup.h"
 
@@ -28,14 +30,28 @@ struct Case {
   }
 };
 
-RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays) {
-  const RawFile file(raw_dag(c.grid, voxels));
+// `layers`: triangle i is in layer i % layers.size().
+RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays,
+                    const std::vector<VoxelSet>& layers = {}) {
+  const TempFolder folder;
+  const RawFile raw(layers.empty() ? raw_dag(c.grid, voxels) : raw_layers(c.grid, layers));
+  raw.write(folder.file("a.svdag"));
+  const DagFile file = DagFile::open(folder.file("a.svdag"));
+  std::optional<LayerIndex> index;
+  std::vector<uint32_t> layer_of;
+  if (!layers.empty()) {
+    index.emplace(file.layer_index());
+    for (size_t i = 0; i < c.soup.size(); ++i) layer_of.push_back(uint32_t(i % layers.size()));
+  }
   MemoryBudget budget;
   const double half = double(c.grid.resolution() / 2);
   TriangleTracer tracer({{half, half, half}}, c.soup.size(), 1, &budget);
   tracer.add(c.soup, c.grid.fraction());
   tracer.build();
-  const RayJudge judge(file.view(), tracer, {c.rule, c.grid.selection, rays, 1}, &budget);
+  const RayJudge judge(
+      file.view(), tracer,
+      {c.rule, c.grid.selection, rays, 1, index ? index->view() : LayerIndexView(), layer_of},
+      &budget);
   ParallelExecutor executor(2);
   Progress progress;
   RayJudgement result = judge.judge_rays(executor, progress);
@@ -73,6 +89,33 @@ TEST(RayJudge, AcceptsCorrectDags) {
         }
       }
     }
+  }
+}
+
+TEST(RayJudge, LayersAreThoseOfTheTriangles) {
+  for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
+    const Grid grid = test_grid(6);
+    const Case all{grid, rule, random_soup(grid, 30, 7, 20)};
+    std::vector<VoxelSet> layers;
+    for (size_t layer = 0; layer < 3; ++layer) {
+      Case own{grid, rule, {}};
+      for (size_t i = layer; i < all.soup.size(); i += 3) own.soup.push_back(all.soup[i]);
+      layers.push_back(own.voxels());
+    }
+    const RayJudgement right = judged(all, all.voxels(), kRays, layers);
+    EXPECT_TRUE(right.ok());
+    EXPECT_GT(right.layered, right.judged / 2);
+    for (auto voxel = layers[1].begin(); voxel != layers[1].end();)
+      voxel = std::get<0>(*voxel) % 4 == 0 ? layers[1].erase(voxel) : std::next(voxel);
+    const RayJudgement wrong = judged(all, all.voxels(), kRays, layers);
+    EXPECT_FALSE(wrong.ok());
+    EXPECT_GT(wrong.wrong_layer, 0U);
+    EXPECT_LT(wrong.wrong_layer, wrong.layered / 3);
+    ASSERT_FALSE(wrong.first.empty());
+    const auto layer =
+        std::ranges::find(wrong.first, RayOffender::What::kLayer, &RayOffender::what);
+    ASSERT_NE(layer, wrong.first.end());
+    EXPECT_EQ(layer->by, 1);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/dag/compact_writer.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 #include "tests/verify/trace/ray_families.h"
@@ -38,6 +39,40 @@ TEST_F(PlainFileTest, ReadsTheVoxelsThatWereWritten) {
         ASSERT_EQ(dag_voxel(file.view, x, y, z), voxels.count({x, y, z}) > 0);
     }
   }
+}
+
+TEST_F(PlainFileTest, ShowsOneLayerAlone) {
+  const std::vector<VoxelSet> sets{clustered_voxels(6, 3, 5), clustered_voxels(6, 2, 6), {}};
+  RawFile(raw_layers(test_grid(6), sets)).write(path());
+  const std::string compact = folder_.path() + "/compact.svdag";
+  MemoryBudget budget;
+  const WorkRoom room{&budget, folder_.path()};
+  write_compact(DagFile::open(path()), compact, room);
+  for (const std::string& name : {path(), compact}) {
+    PlainFile file = read_plain_file(name);
+    ASSERT_EQ(file.layers.layers.size(), sets.size());
+    for (size_t layer = 0; layer < sets.size(); ++layer) {
+      show_layer(&file, layer);
+      EXPECT_EQ(file.view.empty(), sets[layer].empty());
+      for (uint32_t x = 0; x < 64; ++x) {
+        for (uint32_t y = 0; y < 64; ++y) {
+          for (uint32_t z = 0; z < 64; ++z) {
+            const bool set = sets[layer].count({x, y, z}) > 0;
+            ASSERT_EQ(dag_voxel(file.view, x, y, z), set);
+            ASSERT_EQ(layer_of_cube(file.view, file.index->view(), 6, x, y, z),
+                      set ? layer : kNoLayer);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(PlainFileTest, RejectsAnImpossibleLayerTable) {
+  RawDag raw = raw_layers(test_grid(5), {clustered_voxels(5, 3, 5), clustered_voxels(5, 2, 6)});
+  raw.layers[1].root = 7;
+  RawFile(raw).write(path());
+  EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput, "an impossible layer table");
 }
 
 TEST_F(PlainFileTest, ReadsTheEmptyGrid) {
