@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "builder/import/import.h"
-#include "io/dag/layer_index.h"
+#include "io/dag/layers/layer_index.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/pack/unpack.h"
 #include "python/queries.h"

@@ -5,7 +5,7 @@
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
-#include "io/dag/plain_form.h"
+#include "io/dag/compact/plain_form.h"
 #include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"

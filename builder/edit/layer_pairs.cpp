@@ -4,7 +4,7 @@
 #include <map>
 
 #include "io/dag/dag_view.h"
-#include "io/dag/palette.h"
+#include "io/dag/layers/palette.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -11,7 +11,7 @@
 
 #include "builder/edit/edit.h"
 #include "builder/edit/pair_numbers.h"
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 
 namespace svdag {
 

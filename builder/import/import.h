@@ -11,7 +11,7 @@
 #include <functional>
 #include <string>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/file/input_watch.h"

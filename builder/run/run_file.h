@@ -15,7 +15,7 @@
 #include "builder/octree/sub_dag_root.h"
 #include "builder/run/run_format.h"
 #include "io/dag/format.h"
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/memory/memory_budget.h"

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/scene/scene.h"
 
 namespace svdag {

@@ -1,6 +1,6 @@
 // Validates a `.svdag` file with pread alone, so that a reader may then map it and follow its
-// pointers without checks. Of a compact file only the checksums: io/dag/compact_check.h checks the
-// structure of what is mapped.
+// pointers without checks. Of a compact file only the checksums: io/dag/compact/compact_check.h
+// checks the structure of what is mapped.
 //
 // One pass in file order verifies the checksums of all blocks and the structure. The deepest
 // section is first, so a bitmap of the node starts of one level suffices to check the pointers of

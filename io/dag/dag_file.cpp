@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "io/dag/check.h"
-#include "io/dag/compact_check.h"
+#include "io/dag/compact/compact_check.h"
 #include "io/dag/grid_fields.h"
 
 namespace svdag {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "io/dag/dag_view.h"
-#include "io/dag/layer_index.h"
-#include "io/dag/layer_table.h"
-#include "io/dag/root_views.h"
+#include "io/dag/layers/layer_index.h"
+#include "io/dag/layers/layer_table.h"
+#include "io/dag/layers/root_views.h"
 #include "io/grid.h"
 #include "streaming/file/mapped_file.h"
 

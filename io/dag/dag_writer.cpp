@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_writer.h"
 #include "io/dag/grid_fields.h"
 #include "io/dag/metadata.h"
 #include "streaming/error.h"

@@ -1,5 +1,5 @@
 // Writes a `.svdag` file level by level, deepest first, in one sequential pass. The compact layout
-// is then made from the plain one (io/dag/compact_writer.h), which has no name.
+// is then made from the plain one (io/dag/compact/compact_writer.h), which has no name.
 //
 // Nodes arrive in canonical order (docs/format.md, "Order"), so the writer holds only one block of
 // 64 KiB and the checksum table. The file appears under its name only after finish().
@@ -12,7 +12,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"

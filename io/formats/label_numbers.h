@@ -6,7 +6,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "streaming/error.h"
 
 namespace svdag {

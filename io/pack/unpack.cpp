@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "io/dag/check.h"
-#include "io/dag/chosen_layers.h"
+#include "io/dag/compact/plain_form.h"
 #include "io/dag/dag_writer.h"
-#include "io/dag/layer_alone.h"
-#include "io/dag/plain_form.h"
+#include "io/dag/layers/chosen_layers.h"
+#include "io/dag/layers/layer_alone.h"
 #include "io/pack/node_streams.h"
 #include "io/pack/pack_format.h"
 #include "io/pack/zstd.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/error.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "io/dag/check.h"
-#include "io/dag/compact_check.h"
+#include "io/dag/compact/compact_check.h"
 #include "io/dag/dag_view.h"
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 #include "tests/repair_checksums.h"

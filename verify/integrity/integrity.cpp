@@ -6,9 +6,9 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_writer.h"
+#include "io/dag/compact/plain_form.h"
 #include "io/dag/node_starts.h"
-#include "io/dag/plain_form.h"
 #include "io/grid.h"
 #include "streaming/printable.h"
 #include "verify/integrity/union_check.h"

@@ -1,7 +1,7 @@
 // Renders pictures on the processor, a row of tiles per task.
 #pragma once
 
-#include "io/dag/layer_index.h"
+#include "io/dag/layers/layer_index.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
 #include "verify/trace/clip.h"

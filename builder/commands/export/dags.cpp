@@ -1,6 +1,6 @@
 #include "builder/commands/export/selection.h"
-#include "io/dag/layer_alone.h"
-#include "io/dag/plain_form.h"
+#include "io/dag/compact/plain_form.h"
+#include "io/dag/layers/layer_alone.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
 #include "io/formats/dags/symvox.h"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 
 #include "builder/commands/import/vdb.h"
@@ -158,8 +159,10 @@ int run(const ImportCommandConfig& config) {
   const FormatRow& row = choose(config, file);
   std::optional<File> colours;
   if (row.graph == read_hashdag && !config.no_layers) {
-    const std::string path = colours_beside(config.file);
-    if (!path.empty()) inputs.add(colours.emplace(File::open_read(path)));
+    const std::string path = hashdag_colours_path(config.file);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error))
+      inputs.add(colours.emplace(File::open_read(path)));
   }
   if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
   const ImportReport report = inputs.guard(

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_writer.h"
 #include "io/dag/dag_stats.h"
-#include "io/dag/layer_stats.h"
+#include "io/dag/layers/layer_stats.h"
 #include "io/dag/metadata.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/dag/symvox_header.h"

@@ -1,7 +1,6 @@
 #include "io/formats/dags/hashdag_colours.h"
 
 #include <cstdio>
-#include <filesystem>
 
 #include "io/formats/graph_window.h"
 
@@ -17,15 +16,6 @@ Layer layer_of(uint64_t label) {
 }
 
 }  // namespace
-
-std::string colours_beside(const std::string& path) {
-  constexpr std::string_view kEnding = ".dag.bin";
-  if (!path.ends_with(kEnding)) return {};
-  const std::string name =
-      path.substr(0, path.size() - kEnding.size()) + ".uncompressed_colors.bin";
-  std::error_code error;
-  return std::filesystem::is_regular_file(name, error) ? name : std::string();
-}
 
 HashDagColours::HashDagColours(const File& file, LayerTable* layers)
     : stream_(file), numbers_(file.path(), layers, layer_of) {

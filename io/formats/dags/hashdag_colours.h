@@ -12,9 +12,6 @@
 
 namespace svdag {
 
-// The name of the colours beside the DAG `path`; empty if there is no such file.
-std::string colours_beside(const std::string& path);
-
 class HashDagColours {
  public:
   // Any other file is an Error (kBadInput). `layers`, which is empty, gets a layer for each colour.

@@ -13,7 +13,7 @@
 
 #include <string>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/formats/window.h"
 #include "streaming/file/file.h"
 

@@ -9,9 +9,9 @@
 
 #include "builder/build.h"
 #include "builder/merge/merge_runs.h"
-#include "io/dag/chosen_layers.h"
-#include "io/dag/layer_alone.h"
-#include "io/dag/plain_form.h"
+#include "io/dag/compact/plain_form.h"
+#include "io/dag/layers/chosen_layers.h"
+#include "io/dag/layers/layer_alone.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"

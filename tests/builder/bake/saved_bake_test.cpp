@@ -24,7 +24,7 @@ Grid small_grid() {
 
 SplitScene small_split() {
   SplitScene split;
-  split.counts.scene = {18, 0.5, 2, 3, {}};
+  split.counts.scene = {18, 0.5, 2, 3, {}, {}};
   split.counts.clipped = 4;
   split.counts.outside = 5;
   split.counts.degenerate = 6;

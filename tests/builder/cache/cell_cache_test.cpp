@@ -38,8 +38,8 @@ class Cache : public ::testing::Test {
     config.bounds = Box{Point(0), Point(1)};  // the grid stays where it is
     bake(config);
     expected_ = read_bytes(config.output);
-    config.open_store = [this](const Grid& grid, Rule rule, MemoryBudget* budget) {
-      return std::make_unique<CellCache>(cache_, grid, rule, budget);
+    config.open_store = [this](const Grid& grid, Rule own, MemoryBudget* budget) {
+      return std::make_unique<CellCache>(cache_, grid, own, budget);
     };
     return config;
   }

@@ -7,8 +7,8 @@
 
 #include "builder/edit/edit.h"
 #include "builder/edit/layer_pairs.h"
-#include "io/dag/layer_alone.h"
-#include "io/dag/plain_form.h"
+#include "io/dag/compact/plain_form.h"
+#include "io/dag/layers/layer_alone.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/reference_reduction.h"

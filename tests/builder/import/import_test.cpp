@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "io/dag/layer_alone.h"
+#include "io/dag/layers/layer_alone.h"
 #include "streaming/file/file_state.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/expect_error.h"
@@ -183,7 +183,7 @@ TEST(ImportVoxels, EachLayerIsTheImportOfItsVoxelsAndTheUnionThatOfAll) {
       for (size_t i = 0; i < list.voxels.size(); ++i) {
         if (list.labels[i] == label) own.push_back(list.voxels[i]);
       }
-      const size_t number = layer_named(file.layers(), table.layers[label].name);
+      const size_t number = layers_named(file.layers(), {table.layers[label].name}).front();
       EXPECT_EQ(file.layers().layers[number].colour, table.layers[label].colour);
       EXPECT_EQ(import_list(own, folder.file("own.svdag"), levels).voxels,
                 file.layers().layers[number].voxels);

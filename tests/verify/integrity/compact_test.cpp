@@ -7,10 +7,10 @@
 #include <bit>
 #include <random>
 
-#include "io/dag/compact_classes.h"
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_classes.h"
+#include "io/dag/compact/compact_writer.h"
+#include "io/dag/compact/plain_form.h"
 #include "io/dag/dag_stats.h"
-#include "io/dag/plain_form.h"
 #include "streaming/error.h"
 #include "tests/expect_error.h"
 #include "tests/repair_checksums.h"

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "builder/build.h"
-#include "io/dag/compact_writer.h"
-#include "io/dag/layer_index.h"
+#include "io/dag/compact/compact_writer.h"
+#include "io/dag/layers/layer_index.h"
 #include "tests/builder/bakes.h"
 #include "tests/soup.h"
 #include "tests/temp_folder.h"

@@ -30,7 +30,7 @@
 #include <array>
 #include <optional>
 
-#include "io/dag/layer_index.h"
+#include "io/dag/layers/layer_index.h"
 #include "io/grid.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"

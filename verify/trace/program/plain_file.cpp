@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "io/dag/compact_check.h"
-#include "io/dag/root_views.h"
+#include "io/dag/compact/compact_check.h"
+#include "io/dag/layers/root_views.h"
 #include "io/pack/pack_format.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"

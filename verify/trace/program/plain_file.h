@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/dag/layer_index.h"
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_index.h"
+#include "io/dag/layers/layer_table.h"
 
 namespace svdag {
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_writer.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 #include "tests/verify/trace/ray_families.h"

@@ -1,4 +1,4 @@
-#include "io/dag/palette.h"
+#include "io/dag/layers/palette.h"
 
 #include <span>
 

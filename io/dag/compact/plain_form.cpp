@@ -1,4 +1,4 @@
-#include "io/dag/plain_form.h"
+#include "io/dag/compact/plain_form.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "io/dag/layer_alone.h"
+#include "io/dag/layers/layer_alone.h"
 
 #include <algorithm>
 

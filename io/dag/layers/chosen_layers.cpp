@@ -1,4 +1,4 @@
-#include "io/dag/chosen_layers.h"
+#include "io/dag/layers/chosen_layers.h"
 
 #include <algorithm>
 #include <bit>

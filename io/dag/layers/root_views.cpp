@@ -1,9 +1,9 @@
-#include "io/dag/root_views.h"
+#include "io/dag/layers/root_views.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 
 namespace svdag {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/dag/layer_table.h"
+#include "io/dag/layers/layer_table.h"
 
 #include <algorithm>
 #include <cstring>

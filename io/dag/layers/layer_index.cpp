@@ -1,4 +1,4 @@
-#include "io/dag/layer_index.h"
+#include "io/dag/layers/layer_index.h"
 
 #include <algorithm>
 

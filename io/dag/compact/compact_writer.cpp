@@ -1,4 +1,4 @@
-#include "io/dag/compact_writer.h"
+#include "io/dag/compact/compact_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "io/dag/compact_classes.h"
+#include "io/dag/compact/compact_classes.h"
 #include "io/dag/metadata.h"
 #include "io/dag/node_starts.h"
 #include "streaming/file/atomic_file.h"

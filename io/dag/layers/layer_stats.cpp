@@ -1,4 +1,4 @@
-#include "io/dag/layer_stats.h"
+#include "io/dag/layers/layer_stats.h"
 
 #include <algorithm>
 

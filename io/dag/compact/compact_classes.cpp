@@ -1,4 +1,4 @@
-#include "io/dag/compact_classes.h"
+#include "io/dag/compact/compact_classes.h"
 
 #include <algorithm>
 #include <bit>
