@@ -17,13 +17,6 @@
 namespace svdag {
 namespace {
 
-// The file, or of one that has layers only these.
-DagFile open_input(const std::string& path, const std::vector<std::string>& layers) {
-  DagFile file = open_dag(path);
-  if (layers.empty() || file.layers().empty()) return file;
-  return open_dag(path, layers);
-}
-
 void require_same(const DagFile& a, const DagFile& b) {
   const Grid g = a.grid(), h = b.grid();
   const auto differ = [&](const char* what, const std::string& first, const std::string& second) {
@@ -68,9 +61,17 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
-  const DagFile first = open_input(config.first, config.layers);
+  bool chosen = config.layers.empty();
+  const auto open = [&](const std::string& path) {  // of a file that has layers, only the chosen
+    DagFile file = open_dag(path);
+    if (config.layers.empty() || file.layers().empty()) return file;
+    chosen = true;
+    return open_dag(path, config.layers);
+  };
+  const DagFile first = open(config.first);
   std::optional<DagFile> second;
-  if (config.second) second.emplace(open_input(*config.second, config.layers));
+  if (config.second) second.emplace(open(*config.second));
+  if (!chosen) layers_named(first.layers(), config.layers);  // an Error: there are none
   Grid grid = first.grid();
   if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
     fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +

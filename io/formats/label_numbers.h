@@ -13,7 +13,8 @@ namespace svdag {
 
 // For a file with more than kMaxLayers layers: Error (kBadInput).
 [[noreturn]] inline void fail_many_layers(const std::string& path) {
-  fail_input(path, "has more than " + std::to_string(kMaxLayers) + " layers");
+  fail_input(path,
+             "has more than " + std::to_string(kMaxLayers) + " layers (--no-layers ignores them)");
 }
 
 class LabelNumbers {

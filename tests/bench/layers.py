@@ -101,23 +101,26 @@ def swaying(scene, tenth):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--only", choices=["layers", "frames"], help="only this table")
     options = parser.parse_args()
     if "SVDAG_SCENES" not in os.environ:
         sys.exit("SVDAG_SCENES is not set: there are no scenes to measure")
+    tables, scenes = {}, pathlib.Path(os.environ["SVDAG_SCENES"])
     with tempfile.TemporaryDirectory(prefix="svdag-layers-") as folder:
         layers = Layers(options.programs.resolve(), folder)
-        sponza, city = pathlib.Path(os.environ["SVDAG_SCENES"], "crytek_sponza.glb"), pathlib.Path(folder, "city.obj")
-        layers.run("svdag-scene", "city", "-n", "120K", "-q", "-o", city)
-        objects = [layers.objects(*row) for row in
-                   [("sponza", sponza, r) for r in ("4K", "8K", "16K", "32K", "64K")] + [("city", city, "4K")]]
-        elephant = pathlib.Path(os.environ["SVDAG_SCENES"], "cgal_refined_elephant.off")
-        frames = [layers.frames("all of a scan moves", layers.scan()), layers.frames("a tenth of it moves", layers.scan("--tenth")),
-                  layers.frames("all of an elephant moves", swaying(elephant, False)),
-                  layers.frames("a tenth of it moves", swaying(elephant, True))]
-    fill(ROOT / "docs" / "performance.md", {
-        "layers": table(["scene", "grid", "layers", "union alone, MB", "with layers, MB", "ratio", "CPU of the bake, ratio",
-                         "opened, s", "rays per second, ratio"], objects),
-        "frames": table(["scene", "frames", "a file each, MB", "one file, MB", "ratio", "CPU, ratio"], frames)})
+        if options.only != "frames":
+            city = pathlib.Path(folder, "city.obj")
+            layers.run("svdag-scene", "city", "-n", "120K", "-q", "-o", city)
+            rows = [layers.objects("sponza", scenes / "crytek_sponza.glb", r) for r in ("4K", "8K", "16K", "32K", "64K")]
+            tables["layers"] = table(["scene", "grid", "layers", "union alone, MB", "with layers, MB", "ratio", "CPU of the bake, ratio",
+                                      "opened, s", "rays per second, ratio"], [*rows, layers.objects("city", city, "4K")])
+        if options.only != "layers":
+            elephant = scenes / "cgal_refined_elephant.off"
+            rows = [layers.frames("all of a scan moves", layers.scan()), layers.frames("a tenth of the scan moves", layers.scan("--tenth")),
+                    layers.frames("all of an elephant moves", swaying(elephant, False)),
+                    layers.frames("a tenth of the elephant moves", swaying(elephant, True))]
+            tables["frames"] = table(["scene", "frames", "a file each, MB", "one file, MB", "ratio", "CPU, ratio"], rows)
+    fill(ROOT / "docs" / "performance.md", tables)
 
 
 if __name__ == "__main__":

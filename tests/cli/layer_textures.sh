@@ -14,7 +14,7 @@ data = "data:image/png;base64," + base64.b64encode(png((0, 0, 255), (0, 255, 255
 names = ["checker", "half checker", "leaf", "data", "factor", "palette", "broken", "broken with factor", "ktx"]
 texture = lambda i, **more: {"pbrMetallicRoughness": {"baseColorTexture": {"index": i}, **more}}
 half = {"baseColorFactor": [0.5, 0, 1, 1]}
-materials = [texture(0), texture(0, **half), texture(1), texture(2), {"pbrMetallicRoughness": half}, {}, texture(3), texture(3, **half), texture(4)]
+materials = [texture(0), texture(0, **half), {**texture(1), "alphaMode": "MASK"}, texture(2), {"pbrMetallicRoughness": half}, {}, texture(3), texture(3, **half), texture(4)]
 points = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 json.dump({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": i} for i in range(len(materials))]}],

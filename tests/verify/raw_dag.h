@@ -82,9 +82,13 @@ inline RawDag raw_dag(const Grid& grid, const VoxelSet& voxels) {
 // The DAG of a file with the layers "a", "b", ... of `sets`, at most seven of them, not all empty.
 // The sets, and their union first, are octants of a grid twice as fine, whose level 1 becomes level
 // 0.
-inline RawDag raw_layers(const Grid& grid, const std::vector<VoxelSet>& sets) {
-  std::vector<VoxelSet> all{{}};
-  for (const VoxelSet& set : sets) all[0].insert(set.begin(), set.end());
+// `as_union`: instead of it.
+inline RawDag raw_layers(const Grid& grid, const std::vector<VoxelSet>& sets,
+                         const VoxelSet& as_union = {}) {
+  std::vector<VoxelSet> all{as_union};
+  for (const VoxelSet& set : sets) {
+    if (as_union.empty()) all[0].insert(set.begin(), set.end());
+  }
   all.insert(all.end(), sets.begin(), sets.end());
   const int64_t side = grid.resolution();
   VoxelSet octants;

@@ -110,10 +110,11 @@ TraceJudgement trace(const TraceConfig& config, const DagFile& file) {
   judgement.triangles = tracer.triangles().size();
   std::optional<LayerIndex> index;
   if (!file.layers().empty()) index.emplace(file.layer_index());
-  const RayJudge judge(file.view(), tracer,
-                       {file.rule(), grid.selection, config.rays, config.seed,
-                        index ? index->view() : LayerIndexView(), layer_of},
-                       &judged.budget);
+  const RayJudge judge(
+      file.view(), tracer,
+      {file.rule(), grid.selection, config.rays, config.seed, index ? &file : nullptr,
+       index ? index->view() : LayerIndexView(), layer_of},
+      &judged.budget);
   judgement.result = judge_all(judge, config, file.view(), executor, judged.progress);
   judged.progress.finish();
   if (judgement.near > 0 && judgement.ok() && !judgement.result.tested()) fail_nothing_judged();

@@ -229,7 +229,10 @@ void check_roots(const Header& header, const DagView& dag, const LayerTable& lay
     for (const Layer& layer : layers.layers) {
       if (layer.root != kNoRoot) of_layers.push_back(roots[layer.root]);
     }
-    if (!is_union_of(dag, roots[0], std::move(of_layers)))
+    const std::optional<bool> holds = is_union_of(dag, roots[0], std::move(of_layers));
+    if (!holds)
+      defects->push_back("the union is not proved: its layers meet in too many ways");
+    else if (!*holds)
       defects->push_back("the union is not exactly the voxels of the layers");
   }
   if (header.bounded == 0) return;

@@ -11,29 +11,34 @@ namespace {
 
 class UnionCheck {
  public:
-  UnionCheck(const DagView& dag, std::vector<uint32_t> layers)
-      : dag_(dag), nodes_(std::move(layers)), answered_(kAnswers) {
+  UnionCheck(const DagView& dag, std::vector<uint32_t> layers, uint64_t max_nodes)
+      : dag_(dag), nodes_(std::move(layers)), known_(kKnown), left_(max_nodes) {
     keep_distinct(0);
   }
 
-  bool run(uint32_t first) { return holds(0, first, 0); }
+  std::optional<bool> run(uint32_t first) {
+    const bool holds_all = holds(0, first, 0);
+    return left_ > 0 ? std::optional(holds_all) : std::nullopt;
+  }
 
  private:
-  static constexpr size_t kAnswers = size_t(1) << 18;
+  static constexpr size_t kKnown = size_t(1) << 18;
 
-  // Whether `node` has the voxels of the nodes from nodes_[begin] on.
+  // Whether `node` has the voxels of the nodes from nodes_[begin] on; false if none are left to
+  // visit.
   bool holds(uint32_t level, uint32_t node, size_t begin) {
     const size_t end = nodes_.size();
     if (end - begin == 1 && nodes_[begin] == node) return true;
+    left_ -= std::min<uint64_t>(left_, end - begin);
+    if (left_ == 0) return false;
     if (level == dag_.brick_level()) {
       uint64_t brick = 0;
       for (size_t i = begin; i < end; ++i) brick |= dag_.bricks[nodes_[i]];
       return brick == dag_.bricks[node];
     }
     check_interrupt();
-    const Hash128 question = hash_of(level, node, begin);
-    Hash128& answered = answered_[question[0] % kAnswers];
-    if (answered == question) return true;
+    const Hash128 key = hash_of(level, node, begin);
+    if (known_[key[0] % kKnown] == key) return true;
     for (unsigned c = 0; c < 8; ++c) {
       const uint32_t child = dag_child(dag_, level, node, c);
       for (size_t i = begin; i < end; ++i) {
@@ -46,7 +51,7 @@ class UnionCheck {
       nodes_.resize(end);
       if (!same) return false;
     }
-    answered = question;
+    known_[key[0] % kKnown] = key;
     return true;
   }
 
@@ -63,13 +68,15 @@ class UnionCheck {
 
   const DagView& dag_;
   std::vector<uint32_t> nodes_;  // of the layers, a list for each level of the descent
-  std::vector<Hash128> answered_;
+  std::vector<Hash128> known_;   // subproblems that hold
+  uint64_t left_;                // nodes of layers to visit
 };
 
 }  // namespace
 
-bool is_union_of(const DagView& dag, uint32_t first, std::vector<uint32_t> layers) {
-  return UnionCheck(dag, std::move(layers)).run(first);
+std::optional<bool> is_union_of(const DagView& dag, uint32_t first, std::vector<uint32_t> layers,
+                                uint64_t max_nodes) {
+  return UnionCheck(dag, std::move(layers), max_nodes).run(first);
 }
 
 }  // namespace svdag

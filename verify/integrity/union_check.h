@@ -2,20 +2,24 @@
 //
 // A joint descent from all roots: a node of the union is compared with the distinct nodes that the
 // layers have in its cube. A node alone with itself is equal, so the descent goes only where layers
-// meet. Bricks are compared as bits. Questions recur in a DAG; a table keeps the last ones
-// answered. Rejected: reducing the layers' OR to a DAG of its own, which needs the memory of a
-// bake.
+// meet. Bricks are compared as bits. Subproblems recur in a DAG; a table keeps the last ones. A
+// hostile file can have very many: after kMaxUnionNodes nodes of layers, nothing is proved.
+// Rejected: reducing the layers' OR to a DAG of its own, which needs the memory of a bake.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "io/dag/dag_view.h"
 
 namespace svdag {
 
+constexpr uint64_t kMaxUnionNodes = uint64_t(1) << 32;
+
 // `first`: the index of the union's root; `layers`: those of the layers, in any order. The file is
-// valid and not empty.
-bool is_union_of(const DagView& dag, uint32_t first, std::vector<uint32_t> layers);
+// valid and not empty. Nothing if it takes more than `max_nodes` nodes.
+std::optional<bool> is_union_of(const DagView& dag, uint32_t first, std::vector<uint32_t> layers,
+                                uint64_t max_nodes = kMaxUnionNodes);
 
 }  // namespace svdag

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/export/selection.h"
@@ -88,6 +89,16 @@ void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
   }
 }
 
+// Colours beside a HashDAG are taken for its own.
+void check_colours_beside(const ExportConfig& config) {
+  const std::string path = hashdag_colours_path(config.output);
+  std::error_code error;
+  if (config.colours)
+    AtomicFile::check(path, config.no_clobber);
+  else if (std::filesystem::exists(path, error))
+    fail_usage(path + ": holds the colours of another file: remove it, or give --colours");
+}
+
 std::string report_json(const ExportConfig& config, const char* format, const Grid& grid,
                         uint64_t voxels) {
   const nlohmann::ordered_json json = {{"output", config.output},
@@ -119,13 +130,14 @@ int run(const ExportConfig& options) {
   const DagFile file = open_dag(options.file, options.layers);
   if (options.colours && file.layers().empty())
     fail_usage("--colours: " + file.path() + " has no layers" +
-               (options.layers.empty() ? " (svdag build --layers)" : " when one is chosen"));
+               (options.layers.empty() ? " (svdag build --layers)"
+                                       : " when one --layer is chosen: choose several, or none"));
   Selection selection(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
   reject_input_as_output(row, config);
   AtomicFile::check(config.output, config.no_clobber);
-  if (config.colours) AtomicFile::check(hashdag_colours_path(config.output), config.no_clobber);
+  if (row.write == export_hashdag) check_colours_beside(config);
   MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (config.json)

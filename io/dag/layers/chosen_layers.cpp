@@ -34,6 +34,8 @@ class NodeSets {
   uint32_t number(std::span<const uint32_t> nodes) {
     // A new set is stored before it is looked up, and dropped if it is known.
     const size_t before = nodes_.size();
+    if (before + nodes.size() > nodes_.capacity() || ends_.size() == ends_.capacity())
+      reserve(nodes.size());
     const uint32_t set = as_u32(ends_.size(), "nodes of a level of the union");
     nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
     ends_.push_back(nodes_.size());
@@ -41,15 +43,18 @@ class NodeSets {
     if (!is_new) {
       ends_.pop_back();
       nodes_.resize(before);
-    } else if (std::has_single_bit(ends_.size())) {
-      // The arrays double when they are full, and are copied then.
-      memory_.resize(3 * nodes_.size() * sizeof(uint32_t) + ends_.size() * 2 * kSetBytes, kPurpose);
     }
     return *found;
   }
 
  private:
   static constexpr size_t kSetBytes = 3 * sizeof(size_t) / 2 + 32;  // of ends_ and numbers_
+
+  // Before arrays double, and are copied.
+  void reserve(size_t more) {
+    const size_t nodes = std::max(2 * nodes_.size(), nodes_.size() + more);
+    memory_.resize(3 * nodes * sizeof(uint32_t) / 2 + 2 * (ends_.size() + 1) * kSetBytes, kPurpose);
+  }
 
   struct Hash {
     const NodeSets* sets;

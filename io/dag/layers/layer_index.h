@@ -51,18 +51,6 @@ SVDAG_HD inline bool dag_cube_is_set(const DagView& dag, uint32_t level, uint32_
   return to < dag.levels ? block != 0 : (block >> octant(0) & 1U) != 0;
 }
 
-// Whether `layer` has the voxel (x, y, z).
-SVDAG_HD inline bool layer_has_voxel(const DagView& dag, const LayerIndexView& index,
-                                     uint32_t layer, uint32_t x, uint32_t y, uint32_t z) {
-  const uint32_t cube = index.cube_of(dag.levels, x, y, z);
-  for (uint32_t i = index.begin[cube]; i < index.begin[cube + 1]; ++i) {
-    const LayerIndexView::Entry& entry = index.entries[i];
-    if (entry.layer == layer)
-      return dag_cube_is_set(dag, index.level, entry.node, dag.levels, x, y, z);
-  }
-  return false;
-}
-
 // The first layer with a voxel in the cube of level `to` <= L that holds voxel (x, y, z); kNoLayer
 // if there is none. `dag`: the view of the file.
 SVDAG_HD inline uint32_t layer_of_cube(const DagView& dag, const LayerIndexView& index, uint32_t to,
@@ -85,7 +73,7 @@ SVDAG_HD inline uint32_t layer_of_cube(const DagView& dag, const LayerIndexView&
 class LayerIndex {
  public:
   // `view_of(layer)`: the views of `layers` layers of a file of `levels` levels, which must outlive
-  // this.
+  // this. Holds at most 33 MiB, whatever the layers.
   LayerIndex(uint32_t levels, size_t layers, const std::function<DagView(size_t)>& view_of);
 
   LayerIndexView view() const { return {level_, begin_.data(), entries_.data()}; }

@@ -102,13 +102,14 @@ std::array<uint64_t, kMaxSections + 1> word_offsets(const LevelDag& dag, const G
 // The voxels below each node.
 struct Enclosed {
   uint32_t top_levels;
+  MemoryBudget::Reservation memory;             // of `top`
   std::vector<uint64_t> top;                    // of the top levels, in the order of the file
   std::vector<WorkArray<uint32_t>> upper_bits;  // [level][word] of a mask
 };
 
 Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
   constexpr uint64_t kMaxTop = uint64_t(1) << 24;
-  Enclosed enclosed{std::max(dag.levels(), kCountedLevels + 1) - kCountedLevels, {}, {}};
+  Enclosed enclosed{std::max(dag.levels(), kCountedLevels + 1) - kCountedLevels, {}, {}, {}};
   uint64_t top = 0;
   for (uint32_t k = 0; k < enclosed.top_levels; ++k) top += dag.nodes(k);
   if (top > kMaxTop)
@@ -116,6 +117,7 @@ Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
         "--colours: HashDAG counts voxels below at most 2^24 nodes of the upper levels, "
         "this DAG has " +
         format_count(top) + ": export a coarser --level");
+  enclosed.memory = room.budget->reserve(top * sizeof(uint64_t), "voxels below nodes");
   enclosed.top.resize(top);
   enclosed.upper_bits.resize(dag.brick_level());
   WorkArray<uint64_t> below(dag.bricks(), room);

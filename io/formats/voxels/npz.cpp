@@ -247,7 +247,8 @@ GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* laye
   if (is_dense(voxels)) {
     for (const uint64_t side : voxels.shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, voxels, sink);
-  } else if (layers != nullptr && layer_arrays.label) {
+  } else if (layers != nullptr && layer_arrays.label &&
+             layer_arrays.label->offset != voxels.offset) {
     NpzLabels labels = read_npz_layers(file, layer_arrays, voxels.shape[0], layers);
     read_coordinates(file, voxels, &labels, sink);
   } else {

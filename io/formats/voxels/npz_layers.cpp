@@ -16,7 +16,7 @@ constexpr uint64_t kMaxNameBytes = uint64_t(64) << 20;  // of all names
   fail_input(file.path(), std::string("has an array \"") + name + "\" " + sentence);
 }
 
-// Appends a code point as UTF-8; returns false if it is none.
+// Appends a code point as UTF-8; returns false if it is not valid.
 bool put_utf8(uint32_t code, std::string* text) {
   if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
   const auto put = [&](uint32_t byte) { *text += char(byte); };
@@ -50,6 +50,7 @@ std::string text_of(const File& file, const char* name, std::string_view element
     if (code != 0) end = text.size();
   }
   text.resize(end);
+  if (text.find('\0') != std::string::npos) fail(file, name, "with a zero inside a text");
   return text;
 }
 
@@ -90,7 +91,8 @@ void read_names(const File& file, const NpyArray& array, LayerTable* table) {
   std::unordered_set<std::string> seen;
   for (std::string& name : read_texts(file, "layer_names", array)) {
     if (!seen.insert(name).second)
-      fail_input(file.path(), "two layers are named " + shown_layer(name));
+      fail_input(file.path(),
+                 "two layers are named " + shown_layer(name) + " (--no-layers ignores them)");
     const Colour colour = palette_colour(name);
     table->layers.push_back({std::move(name), colour});
   }
@@ -112,7 +114,7 @@ void read_colours(const File& file, const NpyArray& array, LayerTable* table) {
 NpzLabels read_npz_layers(const File& file, const NpzLayerArrays& arrays, uint64_t voxels,
                           LayerTable* table) {
   const NpyArray& label = *arrays.label;
-  if (!is_integer(label) || label.elements() != voxels)
+  if (!is_integer(label) || label.shape.size() != 1 || label.elements() != voxels)
     fail(file, "label",
          "that is not an integer for each row of \"coordinates\" (--no-layers ignores it)");
   table->kind = arrays.kind ? read_kind(file, *arrays.kind) : LayerKind::kMaterial;

@@ -16,8 +16,7 @@ struct NpzLayerArrays {
   std::optional<NpyArray> label, names, colours, kind;
 
   void consider(std::string_view name, const NpyArray& array) {
-    // An array of more dimensions may hold the voxels.
-    if (name == "label" && array.shape.size() == 1) label = array;
+    if (name == "label") label = array;
     if (name == "layer_names") names = array;
     if (name == "layer_colours") colours = array;
     if (name == "layer_kind") kind = array;
@@ -46,7 +45,8 @@ class NpzLabels {
     if (label == kNoLabel || label == uint64_t(-1)) return unnamed();
     if (label >= *count_)
       fail_input(stream_.file().path(),
-                 "a label is not the number of one of the " + std::to_string(*count_) + " layers",
+                 "label " + std::to_string(label) + " is not the number of one of the " +
+                     std::to_string(*count_) + " layers",
                  stream_.offset() - array_.bytes);
     return uint16_t(label);
   }
@@ -54,7 +54,7 @@ class NpzLabels {
  private:
   static constexpr uint64_t kNoLabel = 0xffff;  // of a voxel of no layer, as is -1
 
-  // The unnamed layer, which holds what has no layer.
+  // The unnamed layer, for voxels of no layer.
   uint16_t unnamed() {
     if (unnamed_) return *unnamed_;
     const auto found = std::ranges::find(table_->layers, std::string(), &Layer::name);

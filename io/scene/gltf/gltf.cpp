@@ -82,12 +82,15 @@ class GltfReader {
     const JsonObject material = document_.element("materials", index);
     if (!material.has("pbrMetallicRoughness")) return {};
     const JsonObject pbr = material.object("pbrMetallicRoughness");
-    std::optional<LinearColour> mean;
+    std::optional<ImageMean> mean;
     if (pbr.has("baseColorTexture"))
       mean = mean_of_texture(document_, pbr.object("baseColorTexture"), &buffers_, options_.images);
     std::array<double, 4> factor{1, 1, 1, 1};
     if (!pbr.numbers("baseColorFactor", factor) && !mean) return {};
-    return mean.value_or(LinearColour()).times({factor[0], factor[1], factor[2]});
+    const std::string& alpha = material.text("alphaMode");  // absent: OPAQUE, which ignores alpha
+    const bool opaque = alpha.empty() || alpha == "OPAQUE";
+    const LinearColour texels = !mean ? LinearColour() : opaque ? mean->all : mean->visible;
+    return texels.times({factor[0], factor[1], factor[2]});
   }
 
   // `included`: whether the node is.

@@ -18,7 +18,7 @@ std::vector<File> image_files(const GltfDocument& document) {
   return files;
 }
 
-std::optional<LinearColour> mean_of_texture(const GltfDocument& document, const JsonObject& info,
+std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
                                             GltfBuffers* buffers, ImageMeans* means) {
   const std::string& path = document.file->path();
   const uint64_t number = info.count("index");

@@ -16,7 +16,7 @@ std::vector<File> image_files(const GltfDocument& document);
 
 // The mean of the texture that `info` (as baseColorTexture) names; none, and a note of `means`, if
 // it cannot be read.
-std::optional<LinearColour> mean_of_texture(const GltfDocument& document, const JsonObject& info,
+std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
                                             GltfBuffers* buffers, ImageMeans* means);
 
 }  // namespace svdag

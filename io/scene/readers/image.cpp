@@ -1,5 +1,6 @@
 #include "io/scene/readers/image.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <functional>
@@ -26,7 +27,7 @@ namespace svdag {
 namespace {
 
 // The most that stb_image holds of a texel: an interlaced PNG with 16 bits a channel.
-constexpr uint64_t kBytesPerTexel = 20;
+constexpr uint64_t kBytesPerTexel = 28;
 constexpr uint64_t kBesideTexels = uint64_t(64) << 20;
 
 struct ImageSize {
@@ -72,7 +73,7 @@ LinearColour mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_a
   return mean;
 }
 
-LinearColour decode(const ImageSource& source) {
+ImageMean decode(const ImageSource& source) {
   ImageSize size;
   int channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
@@ -80,8 +81,8 @@ LinearColour decode(const ImageSource& source) {
                             &channels, 0),
       &stbi_image_free);
   if (!texels) fail(source);
-  return mean_of({texels.get(), size_t(size.texels()) * size_t(channels)}, size_t(channels),
-                 channels % 2 == 0);
+  const std::span all(texels.get(), size_t(size.texels()) * size_t(channels));
+  return {mean_of(all, size_t(channels), channels % 2 == 0), mean_of(all, size_t(channels), false)};
 }
 
 // What work() returns in a limited child.
@@ -110,7 +111,7 @@ void check_image_bytes(uint64_t bytes, const std::string& path) {
   if (bytes > kMaxImageBytes) fail_input(path, "is an image of more than 1 GiB, which is not read");
 }
 
-LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget) {
+ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
   check_image_bytes(source.bytes.size(), source.path);
   const uint64_t seconds = 30 + source.bytes.size() / 65536;
   const ImageSize size = in_child<ImageSize>(source, {kBesideTexels, seconds, source.sandbox},
@@ -122,11 +123,12 @@ LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget) {
                                 std::to_string(kMaxImageSide) + " a side");
   const uint64_t bytes = kBytesPerTexel * size.texels() + 2 * source.bytes.size();
   const auto memory = budget->reserve(bytes, "texels of a texture");
-  const LinearColour mean = in_child<LinearColour>(
+  const ImageMean mean = in_child<ImageMean>(
       source, {kBesideTexels + bytes, seconds + (size.texels() >> 20), source.sandbox},
       [&] { return decode(source); });
-  for (const uint64_t units : mean.units) {
-    if (units > kWhiteUnits) fail_input(source.path, "its decoder sent an invalid block");
+  for (const LinearColour& one : {mean.visible, mean.all}) {
+    if (std::ranges::any_of(one.units, [](uint64_t units) { return units > kWhiteUnits; }))
+      fail_input(source.path, "its decoder sent an invalid block");
   }
   return mean;
 }

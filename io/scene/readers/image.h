@@ -28,9 +28,14 @@ constexpr uint64_t kMaxImageBytes = uint64_t(1) << 30;  // of the file
 // Error (kBadInput) if a file of `bytes` is too large for an image.
 void check_image_bytes(uint64_t bytes, const std::string& path);
 
-// The mean of the texels in linear light, weighted by their alpha unless that is zero everywhere.
+// Means of the texels of an image in linear light.
+struct ImageMean {
+  LinearColour visible;  // weighted by alpha, unless that is zero everywhere
+  LinearColour all;      // for materials that ignore alpha
+};
+
 // Of 16 bits a channel, the upper eight count. An image that is broken, too large or of another
 // format is an Error (kBadInput).
-LinearColour mean_of_image(const ImageSource& source, MemoryBudget* budget);
+ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget);
 
 }  // namespace svdag

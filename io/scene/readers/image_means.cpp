@@ -1,11 +1,10 @@
 #include "io/scene/readers/image_means.h"
 
-#include "io/scene/readers/image.h"
 #include "streaming/error.h"
 
 namespace svdag {
 
-std::optional<LinearColour> ImageMeans::mean(const std::string& name, const Read& read) {
+std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& read) {
   const auto [known, is_new] = means_.try_emplace(name);
   if (!is_new) return known->second;
   try {
@@ -19,7 +18,7 @@ std::optional<LinearColour> ImageMeans::mean(const std::string& name, const Read
   return known->second;
 }
 
-std::optional<LinearColour> ImageMeans::mean_of_file(const std::string& path) {
+std::optional<ImageMean> ImageMeans::mean_of_file(const std::string& path) {
   return mean(path, [&](MemoryBudget::Reservation* memory) {
     return bytes_of(File::open_read(path), memory);
   });

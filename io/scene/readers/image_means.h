@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/colour.h"
+#include "io/scene/readers/image.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -23,9 +23,9 @@ class ImageMeans {
 
   // The mean of the image `name`, which is unique to it. read() is called the first time. An Error
   // (kBadInput) of it, or an image that cannot be used, gives no mean and a note.
-  std::optional<LinearColour> mean(const std::string& name, const Read& read);
+  std::optional<ImageMean> mean(const std::string& name, const Read& read);
   // Of an image file.
-  std::optional<LinearColour> mean_of_file(const std::string& path);
+  std::optional<ImageMean> mean_of_file(const std::string& path);
   // The bytes of an image file.
   std::vector<std::byte> bytes_of(const File& file, MemoryBudget::Reservation* memory) const;
 
@@ -36,7 +36,7 @@ class ImageMeans {
  private:
   MemoryBudget* budget_;
   bool sandbox_;
-  std::map<std::string, std::optional<LinearColour>> means_;
+  std::map<std::string, std::optional<ImageMean>> means_;
   std::vector<std::string> notes_;
 };
 

@@ -68,8 +68,8 @@ bool is_number(const std::string& word) {
 int option_arguments(const std::string& word) {
   if (word == "-o" || word == "-s" || word == "-t") return 3;
   if (word == "-mm") return 2;
-  for (const char* one :
-       {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"}) {
+  for (const char* one : {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-colorspace",
+                          "-imfchan", "-texres", "-type"}) {
     if (word == one) return 1;
   }
   return -1;
@@ -138,13 +138,13 @@ std::vector<std::string> mtl_files(const File& obj) {
 
 std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images) {
   if (material.texture.empty()) return material.diffuse;
-  const std::optional<LinearColour> mean = images->mean_of_file(material.texture);
+  const std::optional<ImageMean> mean = images->mean_of_file(material.texture);
   if (!mean) return material.diffuse;
   const Colour kd = material.diffuse.value_or(Colour{255, 255, 255});
   const auto factor = [](uint8_t code) {
     return double(light_units(light_of(code))) / double(kWhiteUnits);
   };
-  return mean->times({factor(kd.r), factor(kd.g), factor(kd.b)});
+  return mean->visible.times({factor(kd.r), factor(kd.g), factor(kd.b)});
 }
 
 }  // namespace svdag

@@ -324,8 +324,8 @@ class Import(unittest.TestCase):
         for wrong in (2, -2, 65534, 65536):
             labels = good.copy()
             labels[-1] = wrong
-            rejected("a label is not the number of one of the 2 layers", label=labels, layer_names=text(b"a\0b\0"))
-        rejected("a label is not the number of one of the 0 layers", label=good, layer_names=text(b""))
+            rejected("is not the number of one of the 2 layers", label=labels, layer_names=text(b"a\0b\0"))
+        rejected("is not the number of one of the 0 layers", label=good, layer_names=text(b""))
         rejected("two layers are named a", label=good, layer_names=text(b"a\0b\0a\0"))
         rejected("two layers are named (unnamed)", label=good, layer_names=text(b"\0\0"))
         rejected('"layer_names" that does not end with a zero byte', label=good, layer_names=text(b"a\0b"))
@@ -352,7 +352,7 @@ class Import(unittest.TestCase):
             if arrays:
                 arrays["layer_names"] = numpy.frombuffer(names + b"one more\0", "u1")
             (BAKERY.folder / "l.npz").write_bytes(write_foreign.npz(coordinates=x, label=numbers, **arrays))
-            self.assertIn("l.npz: has more than 65535 layers\n",
+            self.assertIn("l.npz: has more than 65535 layers (--no-layers ignores them)\n",
                           BAKERY.run("svdag", "import", "l.npz", "-o", "w.svdag", code=3))
 
     def test_layers_come_back_byte_for_byte(self):

@@ -9,6 +9,7 @@
 #include "streaming/error.h"
 #include "tests/temp_folder.h"
 #include "tests/verify/raw_dag.h"
+#include "verify/integrity/union_check.h"
 
 namespace svdag {
 namespace {
@@ -29,7 +30,7 @@ IntegrityReport inspect_raw(const RawDag& raw) {
   const RawFile file(raw);
   const Header& h = file.header();
   const auto table = std::span(file.bytes()).subspan(h.layers_offset, h.layers_bytes);
-  return inspect(h, file.view(), file.metadata(), decode_layers(h, table).value());
+  return inspect(h, file.view(), file.metadata(), decode_layers(h, table).value_or(LayerTable()));
 }
 
 // Succeeds if one of the defects contains `words`.
@@ -81,25 +82,35 @@ TEST(Integrity, ReportsAUnionThatIsNotTheVoxelsOfTheLayers) {
   for (int levels = 3; levels <= 8; ++levels) {
     std::vector<VoxelSet> sets = layers_of(levels, 3);
     sets.pop_back();
+    ASSERT_TRUE(inspect_raw(raw_layers(test_grid(levels), sets)).sound());
     VoxelSet all = sets[0];
     for (const VoxelSet& set : sets) all.insert(set.begin(), set.end());
-    auto only = sets[1].begin();  // in no other layer
+    auto only = sets[1].begin();  // will be in no other layer
     while (sets[0].count(*only) + sets[2].count(*only) > 0) ++only;
     for (const bool lacks : {true, false}) {
       std::vector<VoxelSet> wrong = sets;
-      wrong.push_back(all);  // a layer that makes raw_layers() write this union
-      if (lacks) wrong[1].erase(only);
-      RawDag raw = raw_layers(test_grid(levels), wrong);
-      raw.layers.pop_back();
-      if (lacks) {
-        EXPECT_TRUE(reports(inspect_raw(raw), "the union is not exactly the voxels of the layers"));
-      } else {
-        EXPECT_TRUE(inspect_raw(raw).sound());
-      }
+      if (lacks) wrong[1].erase(*only);
+      VoxelSet as_union = all;
+      if (!lacks) as_union.erase(*only);
+      const RawDag raw_union = raw_layers(test_grid(levels), wrong, as_union);
+      EXPECT_TRUE(
+          reports(inspect_raw(raw_union), "the union is not exactly the voxels of the layers"));
+      RawDag raw = raw_union;
       raw.rule = Rule::kSolid;  // whose union follows from no layer
       EXPECT_TRUE(inspect_raw(raw).sound()) << inspect_raw(raw).defects.front();
     }
   }
+}
+
+TEST(Integrity, AUnionOfTooManySubproblemsIsNotProved) {
+  const RawFile file(raw_layers(test_grid(8), layers_of(8, 3)));
+  const DagView dag = file.view();
+  std::vector<uint32_t> roots;
+  for (uint64_t index = 0; index < dag.index_end[0]; index = dag_next(dag, 0, index))
+    roots.push_back(uint32_t(index));
+  const std::vector<uint32_t> layers(roots.begin() + 1, roots.end());
+  EXPECT_EQ(is_union_of(dag, roots[0], layers), true);
+  EXPECT_EQ(is_union_of(dag, roots[0], layers, 20), std::nullopt);
 }
 
 TEST(Integrity, HandMadeFileIsAcceptedByTheReader) {

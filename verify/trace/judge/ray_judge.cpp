@@ -176,8 +176,7 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
   }
   if (!is_judged(index)) return;
   ++result->judged;
-  if (!config_.layer_of.empty() && !triangle->doubtful)
-    judge_layer(index, ray, voxel, *triangle, result);
+  if (!config_.layer_of.empty() && !triangle->doubtful) judge_layer(index, ray, *triangle, result);
   if (nearer >= -tracer_.doubt() / triangle->cosine) return;
   ++(triangle->doubtful ? result->doubtful : result->late);
   if (!triangle->doubtful)
@@ -185,8 +184,8 @@ void RayJudge::compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
                           -nearer});
 }
 
-void RayJudge::judge_layer(uint64_t index, const Ray& ray, const Hit& voxel,
-                           const TriangleHit& triangle, RayJudgement* result) const {
+void RayJudge::judge_layer(uint64_t index, const Ray& ray, const TriangleHit& triangle,
+                           RayJudgement* result) const {
   const Vec3 point = ray.origin + ray.direction * triangle.t;
   const double margin = tracer_.doubt() / triangle.cosine;
   uint32_t at[3];
@@ -197,10 +196,9 @@ void RayJudge::judge_layer(uint64_t index, const Ray& ray, const Hit& voxel,
   }
   const uint32_t layer = config_.layer_of[triangle.triangle];
   const auto [x, y, z] = at;
-  const bool is_hit = voxel.found && std::ranges::equal(voxel.voxel, at);
   ++result->layered;
-  if (layer_has_voxel(dag_, config_.layers, layer, x, y, z) &&
-      (!is_hit || layer_of_cube(dag_, config_.layers, dag_.levels, x, y, z) <= layer))
+  if (layer != kNoLayer && dag_voxel(config_.layers->view_of(layer), x, y, z) &&
+      layer_of_cube(dag_, config_.index, dag_.levels, x, y, z) <= layer)
     return;
   ++result->wrong_layer;
   add_offender(result, {RayOffender::What::kLayer, index, point, double(layer)});

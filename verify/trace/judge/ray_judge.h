@@ -16,8 +16,8 @@
 //       Thin: a triangle that crosses no centre segment sets no voxel, so no bound exists.
 //
 //   (d) The voxel that holds a hit of a triangle, further than doubt() from its border, is in the
-//       layer of the triangle, and no later layer is found for it. So if one layer alone holds it,
-//       that is the layer of the ray. Tested where (a) is, by the same rules.
+//       layer of the triangle, and the index finds no later layer for it. So if one layer alone
+//       holds it, that is the layer of the ray. Tested where (a) is, by the same rules.
 //
 // Rays miss triangles of zero area; (c) tests their points, too.
 //
@@ -30,7 +30,7 @@
 #include <array>
 #include <optional>
 
-#include "io/dag/layers/layer_index.h"
+#include "io/dag/dag_file.h"
 #include "io/grid.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
@@ -44,7 +44,8 @@ struct RayJudgeConfig {
   VoxelBox selection;  // triangle hits outside of it are ignored, as they set no voxel
   uint64_t rays = 0;
   uint64_t seed = 1;
-  LayerIndexView layers = {};               // of a file with layers
+  const DagFile* layers = nullptr;          // the file, if it has layers
+  LayerIndexView index = {};                // of these
   std::span<const uint32_t> layer_of = {};  // [triangle]; empty without layers
 };
 
@@ -109,7 +110,7 @@ class RayJudge {
   void judge_ray(uint64_t index, RayJudgement* result) const;
   void compare_hits(uint64_t index, const Ray& ray, const Hit& voxel,
                     const std::optional<TriangleHit>& triangle, RayJudgement* result) const;
-  void judge_layer(uint64_t index, const Ray& ray, const Hit& voxel, const TriangleHit& triangle,
+  void judge_layer(uint64_t index, const Ray& ray, const TriangleHit& triangle,
                    RayJudgement* result) const;
   void judge_voxel(uint64_t number, const Vec3& centre, RayJudgement* result) const;
   void judge_point(uint64_t number, const Vec3& point, RayJudgement* result) const;

@@ -60,6 +60,19 @@ class GltfImages : public testing::Test {
   std::vector<std::string> notes_, files_;
 };
 
+// Section 3.9.6 of glTF 2.0: alpha is ignored unless the mode is MASK or BLEND.
+TEST_F(GltfImages, AlphaIsIgnoredInOpaqueMaterials) {
+  const std::string red = rgb(255, 0, 0), green = rgb(0, 255, 0);
+  const std::string bytes = png(2, 1, PngKind::kRgba, red + '\xff' + green + '\0');
+  image({{"bufferView", gltf_.view(std::vector<char>(bytes.begin(), bytes.end()))},
+         {"mimeType", "image/png"}});
+  EXPECT_EQ(colour(), (Colour{188, 188, 0}));
+  gltf_.json["materials"][0]["alphaMode"] = "OPAQUE";
+  EXPECT_EQ(colour(), (Colour{188, 188, 0}));
+  gltf_.json["materials"][0]["alphaMode"] = "BLEND";
+  EXPECT_EQ(colour(), (Colour{255, 0, 0}));
+}
+
 TEST_F(GltfImages, AnImageInABufferView) {
   const std::string bytes = one_texel(10, 20, 30);
   image({{"bufferView", gltf_.view(std::vector<char>(bytes.begin(), bytes.end()))},

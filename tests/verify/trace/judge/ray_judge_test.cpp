@@ -48,10 +48,10 @@ RayJudgement judged(const Case& c, const VoxelSet& voxels, uint64_t rays = kRays
   TriangleTracer tracer({{half, half, half}}, c.soup.size(), 1, &budget);
   tracer.add(c.soup, c.grid.fraction());
   tracer.build();
-  const RayJudge judge(
-      file.view(), tracer,
-      {c.rule, c.grid.selection, rays, 1, index ? index->view() : LayerIndexView(), layer_of},
-      &budget);
+  const RayJudge judge(file.view(), tracer,
+                       {c.rule, c.grid.selection, rays, 1, index ? &file : nullptr,
+                        index ? index->view() : LayerIndexView(), layer_of},
+                       &budget);
   ParallelExecutor executor(2);
   Progress progress;
   RayJudgement result = judge.judge_rays(executor, progress);
