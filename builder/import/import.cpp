@@ -299,7 +299,8 @@ class Import {
       any = any || layer.voxels != 0;
       ++set;
     }
-    // Of the solid rules: a file cannot tell that its union is empty and a layer is not.
+    // Of the solid rules: the format cannot represent an empty union beside a layer that is not
+    // empty.
     if (any && voxels == 0) layers->has_union = false;
     return voxels;
   }

@@ -26,7 +26,7 @@ svdag convert a.svdag -q -o unnamed.svdag --layer '(unnamed)' && svdag-verify ch
 printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 1\nf 1 2 3\no (unnamed)\nf 1 2 4\n' > b.obj
 svdag build b.obj -o b.svdag -r 64 --layers object -q && svdag info b.svdag --layers | tail -2
 svdag export b.svdag -o b.npz --layer '(unnamed)'
-# What cannot be.
+# Errors.
 svdag convert a.svdag -o x.svdag --layer wall --layer flor || echo "exit $?"
 svdag convert a.svdag -o x.svdag --layer '(unamed)' || echo "exit $?"
 svdag convert a.svdag -o x.svdag --layer wall floor || echo "exit $?"

@@ -22,7 +22,7 @@ svdag edit half.svdag mask.svdag -o b.svdag --union && svdag info b.svdag --laye
 svdag edit a.svdag half.svdag -o b.svdag --difference --layer roof
 svdag edit rest.svdag -o c.svdag --layer roof -q && svdag-verify diff b.svdag c.svdag -q
 for f in half rest again coarse b; do svdag-verify check $f.svdag | tail -1; done
-# What cannot be.
+# Errors.
 svdag build atrium.obj -o objects.svdag -r 128 $cube --layers object -q
 svdag edit a.svdag objects.svdag -o x.svdag --union || echo "exit $?"
 svdag build atrium.obj -o frames.svdag -r 128 $cube --layers material --no-union -q

@@ -12,7 +12,7 @@ for format in npz vox; do
 done
 svdag-verify diff npz.svdag a.svdag --layer floor.obj -q
 svdag import a.npz -o json.svdag --json | grep layers
-# Other formats tell no layers.
+# Other formats have no layers.
 svdag export a.svdag -q -o a.binvox && svdag import a.binvox -o b.svdag
 # Wrong arrays: one message each.
 cat > wrong.py <<'EOP'

@@ -1,7 +1,7 @@
 // Several layers of a file, and their union, as a file without the others: for --layer, given more
 // than once.
 //
-// The union of the chosen layers is no node of the file, as that of all layers is. A node of it is
+// The union of the chosen layers is not a node of the file, as that of all layers is. A node of it is
 // a set of nodes of the file, whose voxels are together; a set of one is that node. So new nodes
 // are made only where the chosen layers meet. Sets are numbered top-down, level by level, and
 // written bottom-up, in the order of all nodes.

@@ -10,7 +10,7 @@
 //
 // Colours are in a second file, NAME{N/1024}k.basic_dag.uncompressed_colors.bin, one for each
 // voxel in depth-first order: u32 number T of top levels; u64 count and as many u64, the voxels
-// below nodes of the top levels; u64 count and as many u32, the colours 0xffBBGGRR. The upper 24
+// below nodes of the top levels; u64 count and as many u32, the colours 0xAABBGGRR, opaque. The upper 24
 // bits of a mask are then the number of voxels below the node, or in levels 0 .. T-1 the number of
 // an element of that list. So a reader finds the colour of a voxel by the voxels before it, as far
 // as its 32 bits reach. Without colours the upper bits are zero here.

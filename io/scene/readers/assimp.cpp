@@ -49,8 +49,8 @@ Affine affine_of(const aiMatrix4x4& m) {
   return affine;
 }
 
-// The base or diffuse colour. A material with a texture has none: the factor of an unknown mean
-// says nothing. Nor has the grey that Assimp gives to materials of COLLADA and 3DS without one.
+// The base or diffuse colour. A material with a texture has none, since a factor without the mean is
+// meaningless. The grey that Assimp gives to materials of COLLADA and 3DS without a colour is none.
 std::optional<Colour> colour_of(const aiMaterial& material) {
   constexpr float kAssimpsGrey = 0.6F;
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {

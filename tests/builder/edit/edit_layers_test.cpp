@@ -49,7 +49,7 @@ struct Content {
   Layers layers;
 };
 
-// The sections and the layer table of a plain file, without what its header says of the scene.
+// The sections and the layer table of a plain file, without the facts about the scene in its header.
 std::string nodes_of(const DagFile& file) {
   const Header& h = file.header();
   const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
@@ -106,7 +106,7 @@ class EditLayers : public ::testing::Test {
   }
 };
 
-// What docs/commands.md says of set operations of files with layers.
+// Set operations of files with layers, as docs/commands.md defines them.
 Content expected(SetOperation operation, Content a, Content b) {
   Content result;
   const bool is_union = operation == SetOperation::kUnion;
