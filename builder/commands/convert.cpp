@@ -31,7 +31,7 @@ int run(const ConvertCommand& config) {
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
-  const DagFile file = open_dag(config.file, config.layers);
+  const DagFile file = open_dag(config.file, config.layers, &room);
   const uint64_t before = File::open_read(config.file).size();
   const std::optional<DagFile> converted = plain_form(file, room);
   const DagFile& plain = converted ? *converted : file;

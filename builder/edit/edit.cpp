@@ -61,12 +61,15 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
+  const uint64_t memory = memory_or_default(config.memory);
+  MemoryBudget budget(memory / 2);
+  const WorkRoom room{&budget, config.scratch.empty() ? folder_of(config.output) : config.scratch};
   bool chosen = config.layers.empty();
   const auto open = [&](const std::string& path) {  // of a file that has layers, only the chosen
-    DagFile file = open_dag(path);
+    DagFile file = open_dag(path, {}, &room);
     if (config.layers.empty() || file.layers().empty()) return file;
     chosen = true;
-    return open_dag(path, config.layers);
+    return only_layers(file, config.layers, room);
   };
   const DagFile first = open(config.first);
   std::optional<DagFile> second;
@@ -76,8 +79,6 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
     fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
                " to " + std::to_string(grid.levels));
-  const uint64_t memory = memory_or_default(config.memory);
-  MemoryBudget budget(memory / 2);
   ImportConfig import;
   import.source = config.first;
   import.output = config.output;

@@ -251,17 +251,24 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
   return writer.header();
 }
 
-DagFile open_dag(const std::string& path, const std::vector<std::string>& layers) {
-  MemoryBudget budget(memory_or_default(0));
-  const WorkRoom room = temporary_room(&budget);
-  ParallelExecutor executor(available_processors());
-  DagFile file = is_packed(path) ? unpack(path, room, &executor) : DagFile::open(path);
-  if (layers.empty()) return file;
+DagFile only_layers(const DagFile& file, const std::vector<std::string>& layers,
+                    const WorkRoom& room) {
   const std::vector<size_t> chosen = layers_named(file.layers(), layers);
   const std::optional<DagFile> converted = plain_form(file, room);
   const DagFile& plain = converted ? *converted : file;
   return chosen.size() == 1 ? layer_alone(plain, chosen[0], room)
                             : chosen_layers(plain, chosen, room);
+}
+
+DagFile open_dag(const std::string& path, const std::vector<std::string>& layers,
+                 const WorkRoom* room) {
+  const bool packed = is_packed(path);
+  if (!packed && layers.empty()) return DagFile::open(path);
+  MemoryBudget budget(memory_or_default(0));
+  const WorkRoom own = room != nullptr ? *room : temporary_room(&budget);
+  ParallelExecutor executor(available_processors());
+  DagFile file = packed ? unpack(path, own, &executor) : DagFile::open(path);
+  return layers.empty() ? std::move(file) : only_layers(file, layers, own);
 }
 
 }  // namespace svdag

@@ -24,9 +24,14 @@ DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor
 Header unpack_to(const std::string& path, const std::string& output, const WorkRoom& room,
                  Executor* executor);
 
-// Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a temporary file. With
-// names of layers: only these, written to a temporary file; one alone is a file without layers, of
-// several the first root is their union.
-DagFile open_dag(const std::string& path, const std::vector<std::string>& layers = {});
+// Only these layers of `file`, as a file in room.folder without a name. One alone is a file without
+// layers; of several, the first root is their union.
+DagFile only_layers(const DagFile& file, const std::vector<std::string>& layers,
+                    const WorkRoom& room);
+
+// Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a file without a name. With
+// names of layers: only these. `room`: for such files; null: TMPDIR, and half of the memory.
+DagFile open_dag(const std::string& path, const std::vector<std::string>& layers = {},
+                 const WorkRoom* room = nullptr);
 
 }  // namespace svdag

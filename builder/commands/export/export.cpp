@@ -127,7 +127,9 @@ std::vector<ExportFormat> export_formats() {
 int run(const ExportConfig& options) {
   const FormatRow& row = choose(options);
   reject_options_of_other_formats(row, options);
-  const DagFile file = open_dag(options.file, options.layers);
+  MemoryBudget budget(memory_or_default(options.memory));
+  const WorkRoom room{&budget, folder_of(options.output)};
+  const DagFile file = open_dag(options.file, options.layers, &room);
   if (options.colours && file.layers().empty())
     fail_usage("--colours: " + file.path() + " has no layers" +
                (options.layers.empty() ? " (svdag build --layers)"
@@ -138,7 +140,6 @@ int run(const ExportConfig& options) {
   reject_input_as_output(row, config);
   AtomicFile::check(config.output, config.no_clobber);
   if (row.write == export_hashdag) check_colours_beside(config);
-  MemoryBudget budget(memory_or_default(config.memory));
   const uint64_t voxels = row.write(&selection, config, &budget);
   if (config.json)
     std::fputs(report_json(config, row.format.name, selection.grid, voxels).c_str(), stdout);
