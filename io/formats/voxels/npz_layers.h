@@ -16,7 +16,9 @@ struct NpzLayerArrays {
   std::optional<NpyArray> label, names, colours, kind;
 
   void consider(std::string_view name, const NpyArray& array) {
-    if (name == "label") label = array;
+    // A single number is something else than a label of each row.
+    const bool is_number = is_integer(array) && array.shape.empty();
+    if (name == "label" && !is_number) label = array;
     if (name == "layer_names") names = array;
     if (name == "layer_colours") colours = array;
     if (name == "layer_kind") kind = array;

@@ -319,7 +319,8 @@ class Import(unittest.TestCase):
         def text(data):
             return numpy.frombuffer(data, "u1")
         good = numpy.arange(count) % 2
-        for label in (good[1:], numpy.append(good, 0), good.astype("<f4"), good.astype(bool)):
+        for label in (good[1:], numpy.append(good, 0), good.astype("<f4"), good.astype(bool),
+                      good.astype(">i4"), good.reshape(-1, 1)):
             rejected('has an array "label" that is not an integer for each row', label=label)
         for wrong in (2, -2, 65534, 65536):
             labels = good.copy()
