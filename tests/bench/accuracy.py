@@ -123,11 +123,18 @@ def machine():
     return f"Processor: {cpu}, {os.cpu_count()} cores. Compiler: {compiler}, release build."
 
 
+def write(rows, path):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def rows_of(part, name, programs, tables_only):
     """The rows that `part` measures, or those of the last run."""
     path = OUT / f"{name}.csv"
     if not tables_only:
-        part.write(part.measure(programs, OUT), path)
+        write(part.measure(programs, OUT), path)
     with open(path, newline="") as file:
         return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
 

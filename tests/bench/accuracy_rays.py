@@ -1,5 +1,4 @@
 """Measures rays and distances against resolution by `svdag-verify trace`: the table "Rays" of docs/accuracy.md."""
-import csv
 import json
 import subprocess
 
@@ -36,13 +35,6 @@ def measure(programs, folder):
                   f"Hausdorff {answer['scene_to_voxels']:.3f} {answer['voxels_to_scene']:.3f}", flush=True)
     bakes.dag_file().unlink(missing_ok=True)
     return rows
-
-
-def write(rows, path):
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def disagree(row):

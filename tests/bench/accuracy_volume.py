@@ -4,7 +4,6 @@ The volume of a solid rule's voxels converges to that of the points whose windin
 the surface rules converge to 0. `volume_voxels` of a report is the signed volume of the snapped triangles, by the
 divergence theorem. Where triangles wind around points more than once, the limit is a known fraction of it.
 """
-import csv
 import json
 import os
 import pathlib
@@ -90,13 +89,6 @@ def measure(programs, folder):
             rows.append({"mesh": name, "log2": log2, **volume})
     (folder / "volume.svdag").unlink()
     return rows
-
-
-def write(rows, path):
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def volume_table(rows):
