@@ -15,7 +15,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
-SCENE = ["io/scene/mesh", "io/scene/polygons", "io/scene/readers", "io/scene/gltf", "io/scene"]
+SCENE = ["io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
@@ -35,8 +35,9 @@ ALLOWED = {
     "io/help/pages": STREAMING + ["io/help"],
     "io/scene/mesh": STREAMING + ["io"],
     "io/scene/polygons": STREAMING + ["io", "io/scene/mesh"],
-    "io/scene/readers": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons"],
-    "io/scene/gltf": STREAMING + ["io", "io/scene/mesh", "io/scene/readers"],
+    "io/scene/decoders": STREAMING + ["io", "io/scene/mesh"],
+    "io/scene/readers": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
+    "io/scene/gltf": STREAMING + ["io", "io/scene/mesh", "io/scene/decoders", "io/scene/readers"],
     "io/scene": STREAMING + ["io", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
     "io/pack": STREAMING + ["io", *DAG],
@@ -127,11 +128,11 @@ LIBRARIES = {
     r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace/program)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
-    r"meshoptimizer": r"io/scene/readers/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
-    r"zlib": r"io/scene/readers/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(readers/gzip_test\.cpp|png_file\.h)",
+    r"meshoptimizer": r"io/scene/decoders/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
+    r"zlib": r"io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|png_file\.h)",
     r"httplib": r"verify/view/server\.cpp",
-    r"draco/": r"io/scene/readers/draco\.cpp|tests/.*",
-    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/readers/image\.cpp|tests/io/scene/readers/image_test\.cpp",
+    r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
+    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/io/scene/decoders/image_test\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h",

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/scene/decoders/gzip.h"
 #include "io/scene/foreign_formats.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_images.h"
-#include "io/scene/readers/gzip.h"
 #include "io/scene/readers/mtl.h"
 #include "io/scene/readers/ply_header.h"
 #include "io/scene/readers/text_scan.h"

@@ -9,8 +9,8 @@
 
 #include "io/affine.h"
 #include "io/dag/format.h"
+#include "io/scene/decoders/image_means.h"
 #include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/readers/image_means.h"
 #include "streaming/file/input_watch.h"
 
 namespace svdag {

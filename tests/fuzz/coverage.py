@@ -22,7 +22,7 @@ READERS = {
     "obj": ["io/scene/readers/obj.cpp", "io/scene/readers/obj_plain.h", *TEXT],
     "off": ["io/scene/readers/off.cpp"],
     "gltf": GLTF,
-    "draco": ["io/scene/readers/draco.cpp"],
+    "draco": ["io/scene/decoders/draco.cpp"],
     "openmesh": ["io/scene/readers/openmesh.cpp"],
     "svdag": ["io/dag/check.cpp"],
     "plain_file": ["verify/trace/program/plain_file.cpp"],

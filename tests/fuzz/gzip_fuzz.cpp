@@ -1,4 +1,4 @@
-#include "io/scene/readers/gzip.h"
+#include "io/scene/decoders/gzip.h"
 
 #include "io/scene/mesh/mesh_reader.h"
 #include "tests/fuzz/file_fuzz.h"

@@ -1,4 +1,4 @@
-#include "io/scene/readers/image.h"
+#include "io/scene/decoders/image.h"
 
 #include <span>
 

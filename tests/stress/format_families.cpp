@@ -46,7 +46,7 @@ Soup gltf_nodes(const Spot& spot, StressRandom* random) {
 }
 
 // Integers of `bits` bits over a range of the grid's size, dequantised in double as
-// io/scene/readers/draco.cpp does: float minimum and range, min + k * (range / (2^bits - 1)).
+// io/scene/decoders/draco.cpp does: float minimum and range, min + k * (range / (2^bits - 1)).
 Family draco(const char* name, int bits) {
   return {name, [bits](const Spot& spot, StressRandom* random) {
             const double last = double((int64_t(1) << bits) - 1);

@@ -27,7 +27,7 @@ constexpr uint64_t kMinMemory = uint64_t(48) << 20;
 constexpr uint64_t kGridBytesPerByte = 64;
 constexpr uint64_t kMinGridBytes = uint64_t(1) << 20;
 
-// One second per 64 KiB, as for scene decoders (io/scene/readers/limited_decoder.h).
+// One second per 64 KiB, as for scene decoders (io/scene/decoders/limited_decoder.h).
 ChildLimits limits_for(uint64_t bytes, uint64_t machine, bool sandbox) {
   return {kMinMemory + std::min(bytes * kMemoryPerByte, machine), 30 + bytes / 65536, sandbox};
 }

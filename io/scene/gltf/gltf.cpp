@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/scene/decoders/draco.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_corners.h"
 #include "io/scene/gltf/gltf_document.h"
@@ -20,7 +21,6 @@
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/readers/draco.h"
 #include "streaming/error.h"
 
 namespace svdag {

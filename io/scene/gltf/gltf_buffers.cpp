@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "io/scene/decoders/meshopt.h"
 #include "io/scene/gltf/gltf_uri.h"
-#include "io/scene/readers/meshopt.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstring>
 
+#include "io/scene/decoders/draco.h"
+#include "io/scene/decoders/meshopt.h"
 #include "io/scene/gltf/gltf_json.h"
-#include "io/scene/readers/draco.h"
-#include "io/scene/readers/meshopt.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "io/scene/decoders/image_means.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
-#include "io/scene/readers/image_means.h"
 
 namespace svdag {
 
@@ -17,6 +17,6 @@ std::vector<File> image_files(const GltfDocument& document);
 // The mean of the texture that `info` (as baseColorTexture) names; none, and a note of `means`, if
 // it cannot be read.
 std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
-                                            GltfBuffers* buffers, ImageMeans* means);
+                                         GltfBuffers* buffers, ImageMeans* means);
 
 }  // namespace svdag

@@ -22,9 +22,9 @@
 #include <string_view>
 
 #include "io/affine.h"
+#include "io/scene/decoders/limited_decoder.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "io/scene/polygons/triangulate.h"
-#include "io/scene/readers/limited_decoder.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -49,8 +49,9 @@ Affine affine_of(const aiMatrix4x4& m) {
   return affine;
 }
 
-// The base or diffuse colour. A material with a texture has none, since a factor without the mean is
-// meaningless. The grey that Assimp gives to materials of COLLADA and 3DS without a colour is none.
+// The base or diffuse colour. A material with a texture has none, since a factor without the mean
+// is meaningless. The grey that Assimp gives to materials of COLLADA and 3DS without a colour is
+// none.
 std::optional<Colour> colour_of(const aiMaterial& material) {
   constexpr float kAssimpsGrey = 0.6F;
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {

@@ -10,9 +10,9 @@
 #include <exception>
 #include <sstream>
 
+#include "io/scene/decoders/limited_decoder.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "io/scene/polygons/triangulate.h"
-#include "io/scene/readers/limited_decoder.h"
 #include "streaming/error.h"
 
 namespace svdag {

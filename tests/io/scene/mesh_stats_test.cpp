@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "io/scene/decoders/draco.h"
 #include "io/scene/polygons/collinear.h"
-#include "io/scene/readers/draco.h"
 #include "tests/any_of.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
 #include "tests/shared_scenes.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/scene/readers/meshopt.h"
+#include "io/scene/decoders/meshopt.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
 
 namespace svdag {

@@ -3,7 +3,7 @@
 
 #include <cctype>
 
-#include "io/scene/readers/draco.h"
+#include "io/scene/decoders/draco.h"
 #include "io/scene/scene.h"
 #include "tests/shared_scenes.h"
 

@@ -1,6 +1,6 @@
 // Draco meshes: bare files, glTF primitives, hostile data. Files are made by Draco's own encoder.
 #ifdef SVDAG_HAS_DRACO
-#include "io/scene/readers/draco.h"
+#include "io/scene/decoders/draco.h"
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>

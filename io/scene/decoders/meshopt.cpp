@@ -1,10 +1,10 @@
-#include "io/scene/readers/meshopt.h"
+#include "io/scene/decoders/meshopt.h"
 
 #include <meshoptimizer.h>
 
 #include <vector>
 
-#include "io/scene/readers/limited_decoder.h"
+#include "io/scene/decoders/limited_decoder.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -1,8 +1,8 @@
 // Replaces draco.cpp in builds without the Draco library.
 #ifndef SVDAG_HAS_DRACO
 
+#include "io/scene/decoders/draco.h"
 #include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/readers/draco.h"
 #include "streaming/error.h"
 
 namespace svdag {

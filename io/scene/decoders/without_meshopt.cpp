@@ -1,7 +1,7 @@
 // Replaces meshopt.cpp in builds without the meshoptimizer library.
 #ifndef SVDAG_HAS_MESHOPT
 
-#include "io/scene/readers/meshopt.h"
+#include "io/scene/decoders/meshopt.h"
 #include "streaming/error.h"
 
 namespace svdag {

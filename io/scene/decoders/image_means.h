@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/readers/image.h"
+#include "io/scene/decoders/image.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 

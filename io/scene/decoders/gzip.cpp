@@ -1,4 +1,4 @@
-#include "io/scene/readers/gzip.h"
+#include "io/scene/decoders/gzip.h"
 
 #include <zlib.h>
 

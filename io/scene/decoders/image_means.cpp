@@ -1,4 +1,4 @@
-#include "io/scene/readers/image_means.h"
+#include "io/scene/decoders/image_means.h"
 
 #include "streaming/error.h"
 

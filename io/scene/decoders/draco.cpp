@@ -1,4 +1,4 @@
-#include "io/scene/readers/draco.h"
+#include "io/scene/decoders/draco.h"
 
 #include <draco/attributes/attribute_quantization_transform.h>
 #include <draco/compression/decode.h>
@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "io/scene/decoders/limited_decoder.h"
 #include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/readers/limited_decoder.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -1,5 +1,5 @@
 // Gzip files are unpacked as gunzip does.
-#include "io/scene/readers/gzip.h"
+#include "io/scene/decoders/gzip.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

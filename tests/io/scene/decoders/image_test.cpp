@@ -1,5 +1,5 @@
 // The mean colour of an image, against means in long double; damaged and hostile images.
-#include "io/scene/readers/image.h"
+#include "io/scene/decoders/image.h"
 
 #include <gtest/gtest.h>
 
