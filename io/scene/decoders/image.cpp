@@ -10,10 +10,6 @@
 #include "streaming/process/limited_child.h"
 
 // Without SIMD: the same texels on every machine.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_JPEG
@@ -21,7 +17,6 @@
 #define STBI_NO_SIMD
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace svdag {
 namespace {
