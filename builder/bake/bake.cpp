@@ -197,7 +197,8 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
   report.scene_bounds = chosen.scene_bounds;
-  disk_need->expect_triangles(chosen.triangles, workspace->shares().triangles);
+  disk_need->expect_triangles(chosen.triangles,
+                              workspace->shares().triangles / PackedTriangles::kMinBytes);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
   meter.end_phase(&report.seconds.bounds, &report.phase_peaks.bounds);

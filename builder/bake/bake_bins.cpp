@@ -65,7 +65,7 @@ bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const
 
 // Bakes the bin as a tree; false if that is too much.
 bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
-  if (bin.triangles * sizeof(LatticeTriangle) > split_.triangle_bytes) return false;
+  if (bin.triangles * PackedTriangles::kMinBytes > split_.triangle_bytes) return false;
   const int finest = std::max(grid_.levels - kSmallestCellLog2, bin.cube.level);
   const int wanted = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
   const int cell_level = std::min({wanted, finest, grid_.levels - 2});
@@ -132,7 +132,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
 
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
   // A surface in 4^depth parts of as many: deep enough that most fit.
-  const uint64_t fitting = split_.triangle_bytes / (2 * sizeof(LatticeTriangle));
+  const uint64_t fitting = split_.triangle_bytes / (2 * PackedTriangles::kMinBytes);
   const int most =
       TriangleBins::depth_for(split_.triangle_bytes / 2, *split_.scratch, grid_, bin.cube);
   int depth = 1;

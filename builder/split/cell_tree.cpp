@@ -32,7 +32,7 @@ CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBud
       root_cube_(root),
       cell_level_(cell_level),
       root_(std::make_unique<Node>()),
-      triangles_(budget, "triangles"),
+      triangles_(budget),
       reservation_(budget->reserve(0, "triangles")),
       max_inner_triangles_(size_t(cell_level)) {
   SVDAG_ASSERT(cell_level >= root.level && cell_level <= grid.levels - 2);
@@ -92,9 +92,8 @@ uint64_t CellTree::bytes(size_t workers) const {
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
       std::accumulate(max_inner_triangles_.begin(), max_inner_triangles_.end(), uint64_t(0));
-  return 2 * used_ + triangles_.size() * sizeof(LatticeTriangle) +
-         inner_triangles_ * kPreparedBytes + prepared_bytes(workers) +
-         workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
+  return 2 * used_ + triangles_.bytes() + inner_triangles_ * kPreparedBytes +
+         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
 }
 
 void CellTree::seal() {

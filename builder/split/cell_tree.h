@@ -14,8 +14,8 @@
 
 #include "builder/octree/morton.h"
 #include "builder/overlap/kernels/divide_list.h"
+#include "builder/split/packed_triangles.h"
 #include "streaming/memory/memory_budget.h"
-#include "streaming/memory/segmented_array.h"
 
 namespace svdag {
 
@@ -34,7 +34,7 @@ class CellTree {
   int cell_level() const { return cell_level_; }
   const Cube& root() const { return root_cube_; }
   uint64_t triangles() const { return triangles_.size(); }
-  const LatticeTriangle& triangle(uint64_t i) const { return triangles_[i]; }
+  LatticeTriangle triangle(uint64_t i) const { return triangles_[i]; }
   // Memory in bytes of the tree and of `workers` workers, each in the cell with most triangles.
   uint64_t bytes(size_t workers) const;
   // The part of bytes() that the workers allocate while they bake: prepared triangles of the cell.
@@ -57,7 +57,7 @@ class CellTree {
   Cube root_cube_;
   int cell_level_;
   std::unique_ptr<Node> root_;
-  SegmentedArray<LatticeTriangle> triangles_;
+  PackedTriangles triangles_;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
   uint64_t max_cell_triangles_ = 0;            // largest number of triangles stored at one cell

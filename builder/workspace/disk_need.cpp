@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "io/triangle.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
@@ -26,8 +25,8 @@ void DiskNeed::check(uint64_t required, uint64_t estimated, const char* purpose)
               scratch_->folder()->path());
 }
 
-void DiskNeed::expect_triangles(uint64_t count, uint64_t triangle_bytes) {
-  if (count <= triangle_bytes / sizeof(LatticeTriangle)) return;
+void DiskNeed::expect_triangles(uint64_t count, uint64_t in_memory) {
+  if (count <= in_memory) return;
   triangles_ = count * kBytesPerTriangle;
   check(triangles_ / 2, triangles_, "triangles");
 }

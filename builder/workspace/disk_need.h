@@ -19,10 +19,10 @@ class DiskNeed {
  public:
   explicit DiskNeed(Scratch* scratch) : scratch_(scratch) {}
 
-  // Expects `count` triangles to be spilled if they take more than `triangle_bytes` in memory.
-  // They may be spilled below that limit, since the cell tree of the split needs memory too; how
-  // much depends on their positions. 0: the number is unknown, as for the triangles of a grid part.
-  void expect_triangles(uint64_t count, uint64_t triangle_bytes);
+  // Expects `count` triangles to be spilled if no more than `in_memory` fit.
+  // Fewer may be spilled, since the cell tree of the split needs memory too; how much depends on
+  // their positions. 0: the number is unknown, as for the triangles of a grid part.
+  void expect_triangles(uint64_t count, uint64_t in_memory);
   // The first `read` of `count` triangles were spilled and took `bytes`. The others may be smaller.
   void expect_spilled(uint64_t count, uint64_t read, uint64_t bytes);
   // `bytes` of records will be sorted; all are spilled if they take more than `in_memory`. The size

@@ -102,7 +102,7 @@ Survey::~Survey() = default;
 
 bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter,
                    const Visit& visit) {
-  if (bin.triangles * sizeof(LatticeTriangle) > config_.triangle_bytes) return false;
+  if (bin.triangles * PackedTriangles::kMinBytes > config_.triangle_bytes) return false;
   const int shift = fine_.levels + fine_.fraction() - grid_.levels - grid_.fraction();
   const Cube root = ancestor(bin.cube, std::min(bin.cube.level, config_.cell_level));
   CellTree tree(grid_, root, config_.cell_level, budget_);

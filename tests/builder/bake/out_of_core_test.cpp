@@ -189,7 +189,7 @@ TEST_F(OutOfCore, ASolidThatIsStoppedAnywhereIsResumedToTheSameBytes) {
 
 // Leaves an unfinished bake with runs behind.
 void leave_unfinished(BuildConfig config) {
-  config.memory = 6 * kMiB;
+  config.memory = 4 * kMiB;
   config.checkpoint = 0.001;
   config.unfinished = Unfinished::kRestart;
   for (int attempt = 0, milliseconds = 100; attempt < 100; ++attempt) {
@@ -212,7 +212,7 @@ void leave_unfinished(BuildConfig config) {
 
 TEST_F(OutOfCore, AnUnfinishedBakeIsNeitherLostNorMistakenForAnother) {
   BuildConfig config = prepare(random_soup(20'000, 0.1, 13), 8);
-  config.memory = 6 * kMiB;
+  config.memory = 4 * kMiB;
   leave_unfinished(config);
   EXPECT_SVDAG_ERROR(bake(config), ExitCode::kUsage, "--resume");
   config.unfinished = Unfinished::kResume;
@@ -237,7 +237,7 @@ TEST_F(OutOfCore, AnUnfinishedBakeIsNeitherLostNorMistakenForAnother) {
 
 TEST_F(OutOfCore, WhatWasDamagedBeforeAResumeIsFound) {
   BuildConfig config = prepare(random_soup(20'000, 0.1, 15), 8);
-  config.memory = 6 * kMiB;
+  config.memory = 4 * kMiB;
   config.unfinished = Unfinished::kResume;
   std::mt19937 random(17);
   int found = 0;

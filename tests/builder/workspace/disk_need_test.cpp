@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "builder/split/packed_triangles.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
@@ -22,11 +23,11 @@ TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   Scratch scratch(&folder, &budget);
   DiskNeed need(&scratch);
   const uint64_t free = folder.free_bytes();
-  need.expect_triangles(1000, kMiB);  // they stay in memory
+  need.expect_triangles(1000, 2000);  // they stay in memory
   EXPECT_EQ(need.estimate(), 0U);
-  need.expect_triangles(100'000, kMiB);
+  need.expect_triangles(100'000, 2000);
   EXPECT_GT(need.estimate(), 100'000U * 30);
-  EXPECT_SVDAG_ERROR(need.expect_triangles(free, kMiB), ExitCode::kOutput, "only");
+  EXPECT_SVDAG_ERROR(need.expect_triangles(free, 2000), ExitCode::kOutput, "only");
   need.expect_spilled(100'000, 1000, 300'000);  // 300 bytes each
   EXPECT_EQ(need.estimate(), 100'000U * 300);
   EXPECT_SVDAG_ERROR(need.expect_spilled(100'000, 1000, free / 10), ExitCode::kOutput, "only");
@@ -51,8 +52,8 @@ TEST(DiskNeed, RefusesAnOutputThatCannotFit) {
   const DiskNeed need(&scratch);
   const std::string output = folder.file("out.svdag");
   EXPECT_NO_THROW(need.expect_output(output, kMiB));
-  EXPECT_SVDAG_ERROR(need.expect_output(output, 2 * scratch_folder.free_bytes()),
-                     ExitCode::kOutput, "out.svdag: needs at least");
+  EXPECT_SVDAG_ERROR(need.expect_output(output, 2 * scratch_folder.free_bytes()), ExitCode::kOutput,
+                     "out.svdag: needs at least");
 }
 
 // In double the share of all of them may be a byte less than what there is.
@@ -72,7 +73,7 @@ TEST(DiskNeed, IsThatOfLargeTrianglesToo) {
   write_stl(folder.file("scene.stl"), random_soup(8000, 4, 19));
   BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.svdag"), 7);
   config.memory = 10 * kMiB;
-  ASSERT_LT(8000 * sizeof(LatticeTriangle), config.memory / 4);
+  ASSERT_LT(8000 * PackedTriangles::kMinBytes, config.memory / 4);
   const BuildReport report = bake(config);
   EXPECT_GT(report.scratch.written, 4 * 8000 * sizeof(LatticeTriangle));
   EXPECT_GT(report.scratch.estimated, report.scratch.written / 2);
@@ -106,9 +107,9 @@ TEST(DiskNeed, OfAPartThatFitsIsNothing) {
   const TempFolder folder;
   write_stl(folder.file("scene.stl"), random_soup(100'000, 0.02, 23));
   BuildConfig config = config_for(folder.file("scene.stl"), folder.file("out.run"), 7);
-  config.memory = 24 * kMiB;
+  config.memory = 16 * kMiB;
   config.part = GridPart::share(1, 16);
-  ASSERT_GT(100'000 * sizeof(LatticeTriangle), config.memory / 4);
+  ASSERT_GT(100'000 * PackedTriangles::kMinBytes, config.memory / 4);
   const BuildReport report = bake(config);
   EXPECT_EQ(report.scratch.written, 0U);
   EXPECT_EQ(report.scratch.estimated, 0U);
