@@ -24,6 +24,7 @@
 #   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
+#   bench-cuda       rays on an NVIDIA GPU, the same as the processor's bit by bit; its table
 #   bench-layers     bytes and times of files with layers; its tables
 #   bench-solid      bytes and times of solids; its table
 #   bench-python     the Python package beside trimesh and Open3D; the tables of docs/python.md
@@ -52,7 +53,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
   cuda-packages pictures clean
 all: build
 
@@ -165,6 +166,9 @@ bench-solid: build
 bench-trace: build
 	@cmake --build --preset $(PRESET) --target trace_rows
 	@$(PYTHON) tests/bench/bench_trace.py --programs $(PROGRAMS)
+
+bench-cuda: build cuda
+	@$(PYTHON) tests/bench/cuda.py --programs $(PROGRAMS)
 
 bench-plan: build
 	@$(PYTHON) tests/bench/plan.py --programs $(PROGRAMS)
