@@ -68,9 +68,15 @@ SVDAG_HD inline uint64_t compact_bytes(const CompactEntry& entry, uint64_t nodes
 
 // `width` <= 32 bits of a stream, from bit `at` on.
 SVDAG_HD inline uint32_t stream_bits(const unsigned char* stream, uint64_t at, uint32_t width) {
+#if defined(__CUDA_ARCH__)  // which reads aligned words alone
+  const uint32_t* const words = reinterpret_cast<const uint32_t*>(stream) + (at >> 5);
+  const uint32_t bits = __funnelshift_r(words[0], words[1], uint32_t(at & 31));
+  return uint32_t(bits & ((uint64_t(1) << width) - 1));
+#else
   uint64_t word = 0;
   __builtin_memcpy(&word, stream + (at >> 3), sizeof word);
   return uint32_t(word >> (at & 7) & ((uint64_t(1) << width) - 1));
+#endif
 }
 
 struct CompactLevel {
@@ -119,9 +125,15 @@ struct CompactLevel {
     const uint64_t not_0 = uint64_t(in_state & 1U) - 1, not_1 = uint64_t(in_state >> 1) - 1;
     const uint32_t bit = node % kLineNodes * 8 + c, last = bit / 64;
     uint32_t t = bases[uint64_t(node / kLineNodes) * kClasses + s];
-    for (uint32_t i = 0; i < last; ++i) t += popcount64((m0[i] ^ not_0) & (m0[4 + i] ^ not_1));
+    const auto here = [&](uint32_t i) { return (m0[i] ^ not_0) & (m0[4 + i] ^ not_1); };
     const uint64_t before = (uint64_t(1) << bit % 64) - 1;
-    t += popcount64((m0[last] ^ not_0) & (m0[4 + last] ^ not_1) & before);
+#if defined(__CUDA_ARCH__)  // a warp's threads wait for each other, so all read all words at once
+    for (uint32_t i = 0; i < 4; ++i)
+      t += popcount64(here(i) & (i < last ? ~uint64_t(0) : i == last ? before : 0));
+#else
+    for (uint32_t i = 0; i < last; ++i) t += popcount64(here(i));
+    t += popcount64(here(last) & before);
+#endif
     if (s == 0 && has_private) return t;
     return first[s] + stream_bits(streams[s], uint64_t(t) * widths[s], widths[s]);
   }

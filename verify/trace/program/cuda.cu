@@ -11,6 +11,9 @@ namespace svdag {
 namespace {
 
 constexpr unsigned kBlock = kTile * kTile;  // threads; a tile's pixels share a block
+// Blocks per multiprocessor: a thread has 72 registers. With the 80 to 96 that it would take, too
+// few rays are under way to hide the memory; 64 are no faster.
+constexpr unsigned kBlocks = 14;
 
 void check(cudaError_t status, const char* doing) {
   if (status == cudaSuccess) return;
@@ -57,9 +60,9 @@ __global__ void beam_kernel(const __grid_constant__ DagView dag,
 }
 
 // One block per tile.
-__global__ void primary_kernel(const __grid_constant__ DagView dag,
-                               const __grid_constant__ Workload work, uint32_t columns,
-                               const Span* spans, Hit* hits) {
+__global__ void __launch_bounds__(kBlock, kBlocks)
+    primary_kernel(const __grid_constant__ DagView dag, const __grid_constant__ Workload work,
+                   uint32_t columns, const Span* spans, Hit* hits) {
   const uint32_t x = blockIdx.x % columns * kTile + threadIdx.x % kTile;
   const uint32_t y = blockIdx.x / columns * kTile + threadIdx.x / kTile;
   if (x >= work.picture.width || y >= work.picture.height) return;
@@ -84,9 +87,9 @@ __global__ void layer_kernel(const __grid_constant__ DagView dag,
 }
 
 // One thread per ray; the rays of a pixel are adjacent.
-__global__ void secondary_kernel(const __grid_constant__ DagView dag,
-                                 const __grid_constant__ Workload work, int kind,
-                                 uint32_t per_pixel, const Surfel* surfels, uint32_t* blocked) {
+__global__ void __launch_bounds__(kBlock, kBlocks)
+    secondary_kernel(const __grid_constant__ DagView dag, const __grid_constant__ Workload work,
+                     int kind, uint32_t per_pixel, const Surfel* surfels, uint32_t* blocked) {
   const uint64_t ray = uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
   const uint64_t pixel = ray / per_pixel;
   if (pixel >= uint64_t(work.picture.width) * work.picture.height) return;
