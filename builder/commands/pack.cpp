@@ -33,7 +33,7 @@ int run(const PackCommand& config) {
   const std::optional<DagFile> converted = plain_form(file, {&budget, folder_of(path)});
   const DagFile& plain = converted ? *converted : file;
   ParallelExecutor executor(threads_or_all(config.threads));
-  const uint64_t bytes = pack(plain, path, config.level, &executor);
+  const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
   if (!config.output.quiet)
     std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", path.c_str(),
                 format_bytes(bytes).c_str(), 100 * double(bytes) / double(plain.bytes().size()),

@@ -28,11 +28,13 @@ std::vector<std::byte> chunk_of(const std::array<Stream, count>& streams, int le
 
 class Packer {
  public:
-  Packer(const DagFile& plain, const std::string& path, int level, Executor* executor)
+  Packer(const DagFile& plain, const std::string& path, int level, MemoryBudget* budget,
+         Executor* executor)
       : plain_(plain),
         dag_(plain.view()),
         header_(plain.header()),
         zstd_(level),
+        budget_(budget),
         executor_(executor),
         file_(path) {
     SVDAG_ASSERT(plain.layout() == Layout::kPlain);
@@ -56,10 +58,9 @@ class Packer {
   };
 
   void write_level(uint32_t level, uint64_t nodes) {
-    MemoryBudget budget;
     const bool inner = level + 1 < dag_.brick_level();
-    RankBitmap below(&budget, "numbers of nodes");
-    if (inner) below = node_starts(dag_, level + 1, &budget);
+    RankBitmap below(budget_, "numbers of nodes");
+    if (inner) below = node_starts(dag_, level + 1, budget_);
     const auto rank = [&](uint32_t index) { return inner ? below.rank(index) : index; };
     uint64_t index = 0;
     std::vector<Chunk> batch;
@@ -125,6 +126,7 @@ class Packer {
   const DagView& dag_;
   const Header& header_;
   int zstd_;
+  MemoryBudget* budget_;
   Executor* executor_;
   AtomicFile file_;
   std::vector<ChunkEntry> index_;
@@ -132,8 +134,9 @@ class Packer {
 
 }  // namespace
 
-uint64_t pack(const DagFile& plain, const std::string& path, int level, Executor* executor) {
-  return Packer(plain, path, level, executor).run();
+uint64_t pack(const DagFile& plain, const std::string& path, int level, MemoryBudget* budget,
+              Executor* executor) {
+  return Packer(plain, path, level, budget, executor).run();
 }
 
 }  // namespace svdag

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/dag/dag_file.h"
+#include "streaming/memory/memory_budget.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {
@@ -14,7 +15,9 @@ namespace svdag {
 constexpr int kDefaultPackLevel = 5, kMaxPackLevel = 19;
 
 // Writes a file in the plain layout to `path`; `level`: of zstd, 1 to kMaxPackLevel. Returns the
-// size of the output in bytes.
-uint64_t pack(const DagFile& plain, const std::string& path, int level, Executor* executor);
+// size of the output in bytes. `budget`: for a bit per word of a level; Error (kMemory) if it has
+// too little.
+uint64_t pack(const DagFile& plain, const std::string& path, int level, MemoryBudget* budget,
+              Executor* executor);
 
 }  // namespace svdag

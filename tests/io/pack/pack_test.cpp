@@ -76,7 +76,7 @@ class Pack : public ::testing::Test {
   }
   std::string packed(const DagFile& plain, int level = 1, Executor* executor = nullptr) {
     SequentialExecutor one;
-    pack(plain, folder_.file("a.pack"), level, executor != nullptr ? executor : &one);
+    pack(plain, folder_.file("a.pack"), level, &budget_, executor != nullptr ? executor : &one);
     return folder_.read("a.pack");
   }
   DagFile unpacked() { return unpack(folder_.file("a.pack"), room_, &executor_); }
@@ -130,6 +130,15 @@ TEST_F(Pack, UnpacksToTheSameBytes) {
     EXPECT_FALSE(is_packed(folder_.file("b.svdag")));
     EXPECT_TRUE(std::ranges::equal(open_dag(folder_.file("a.pack")).bytes(), file.bytes()));
   }
+}
+
+TEST_F(Pack, NeedsNoMoreThanItsMemory) {
+  const DagFile file = plain(6, 40'000);
+  MemoryBudget little(1000);
+  SequentialExecutor one;
+  EXPECT_SVDAG_ERROR(pack(file, folder_.file("a.pack"), 1, &little, &one), ExitCode::kMemory,
+                     "numbers of nodes");
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("a.pack")));
 }
 
 TEST_F(Pack, EveryFlippedBitIsFoundAndLeavesNoFile) {
