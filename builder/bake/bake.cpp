@@ -112,7 +112,7 @@ void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, S
               const MortonSet& done, Voxelizer* voxelizer) {
   Workspace* const workspace = tools.workspace;
   if (split->tree) {
-    voxelizer->bake(*split->tree, split->windings.get(), morton_range(Cube(), grid.levels),
+    voxelizer->bake(split->tree.get(), split->windings.get(), morton_range(Cube(), grid.levels),
                     tools.progress);
     split->tree.reset();  // the sort needs the memory
     return;

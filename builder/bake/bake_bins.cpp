@@ -81,7 +81,7 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWind
   if (!fits) return false;
   tree.seal();
   if (own) own->finish(windings->at(bin.cube));
-  voxelizer_->bake(tree, own ? own.get() : windings, bin.range, progress_);
+  voxelizer_->bake(&tree, own ? own.get() : windings, bin.range, progress_);
   return true;
 }
 

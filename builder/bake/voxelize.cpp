@@ -1,6 +1,8 @@
 #include "builder/bake/voxelize.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <optional>
 
 #include "builder/descend/self_test.h"
@@ -124,18 +126,22 @@ Voxelizer::Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budg
 
 Voxelizer::~Voxelizer() = default;
 
-void Voxelizer::bake(const CellTree& tree, const CellWindings* windings, const MortonRange& range,
+void Voxelizer::bake(CellTree* tree, const CellWindings* windings, const MortonRange& range,
                      Progress* progress) {
-  const uint64_t share = tree.triangles() / (kTasksPerWorker * workers_.size());
-  const std::vector<Cube> cells = tree.occupied_cells(std::max(share, kMinDividedCell));
+  const uint64_t share = tree->triangles() / (kTasksPerWorker * workers_.size());
+  const std::vector<Cube> cells = tree->occupied_cells(std::max(share, kMinDividedCell));
   std::vector<MortonRange> ranges;
-  for (const Cube& cell : cells) ranges.push_back(morton_range(cell, grid_.levels));
+  std::array<std::atomic<size_t>, CellTree::kOctants + 1> left{};  // cells not baked, of an octant
+  for (const Cube& cell : cells) {
+    ranges.push_back(morton_range(cell, grid_.levels));
+    ++left[tree->octant(cell)];
+  }
   // Counted, but not refused: the tree exists because its share of the budget holds it.
   MemoryBudget::Reservation lists(budget_, 0);
-  lists.try_resize(tree.prepared_bytes(workers_.size()));
+  lists.try_resize(tree->prepared_bytes(workers_.size()));
   progress->phase("voxelize", cells.size(), "voxels");
   cells_ += cells.size();
-  for (const auto& worker : workers_) worker->begin(tree);
+  for (const auto& worker : workers_) worker->begin(*tree);
   if (cells.empty()) workers_[0]->bake_untouched(range, windings);
   executor_->for_each(cells.size(), [&](size_t w, size_t i) {
     Worker& worker = *workers_[w];
@@ -144,6 +150,8 @@ void Voxelizer::bake(const CellTree& tree, const CellWindings* windings, const M
     const uint64_t next = i + 1 < cells.size() ? ranges[i + 1].begin : range.end;
     worker.bake_untouched({ranges[i].end, next}, windings);
     progress->advance(1, worker.new_voxels());
+    const size_t octant = tree->octant(cells[i]);
+    if (--left[octant] == 0) tree->release(octant);
   });
   for (const auto& worker : workers_) worker->end();
 }

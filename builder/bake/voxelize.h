@@ -13,9 +13,9 @@
 
 #include "builder/cache/cell_store.h"
 #include "builder/descend/descend.h"
-#include "builder/winding/cell_windings.h"
 #include "builder/reduce/baked_run.h"
 #include "builder/split/cell_tree.h"
+#include "builder/winding/cell_windings.h"
 #include "builder/workspace/scratch.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
@@ -44,9 +44,9 @@ class Voxelizer {
   Voxelizer(const Grid& grid, VoxelizeConfig config, MemoryBudget* budget, Executor* executor);
   ~Voxelizer();
 
-  // Bakes all cells of a sealed tree, which holds all triangles of `range`. `windings`: of the
-  // cells, for the solid rules; else null.
-  void bake(const CellTree& tree, const CellWindings* windings, const MortonRange& range,
+  // Bakes all cells of a sealed tree, which holds all triangles of `range`, and frees them.
+  // `windings`: of the cells, for the solid rules; else null.
+  void bake(CellTree* tree, const CellWindings* windings, const MortonRange& range,
             Progress* progress);
   // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is untouched.
   void bake(const Cube& cube, const CellWindings* windings, const MortonRange& range,

@@ -91,31 +91,34 @@ class Freezer {
   template <class Key>
   void sort(int level, SegmentedArray<Key> keys, RunLevel<Key>* out) {
     check_interrupt();
-    const HugeVector<SortRecord> sorted = sort_records(level, keys);
+    const HugeVector<uint32_t> order = sorted_numbers(level, keys);
+    const size_t numbers = keys.size();
     MemoryBudget* const budget = table_->budget();
     std::optional<SpillWriter> writer;
     if (target_ != nullptr) {
       writer.emplace(target_->file, target_->first_stream + uint64_t(level), budget);
     } else {
-      out->reservation = budget->reserve(sorted.size() * sizeof(Key), kPurpose);
-      out->keys.resize(sorted.size());
+      out->reservation = budget->reserve(order.size() * sizeof(Key), kPurpose);
+      out->keys.resize(order.size());
     }
-    ranks_ = HugeVector<uint32_t>(keys.size());
-    for (size_t i = 0; i < sorted.size(); ++i) {
+    for (size_t i = 0; i < order.size(); ++i) {
       constexpr size_t kAhead = 16;
-      if (i + kAhead < sorted.size()) keys.prefetch(sorted[i + kAhead].number);
-      const Key& key = keys[sorted[i].number];
+      if (i + kAhead < order.size()) keys.prefetch(order[i + kAhead]);
+      const Key& key = keys[order[i]];
       writer ? writer->append(std::as_bytes(std::span(&key, 1))) : void(out->keys[i] = key);
-      ranks_[sorted[i].number] = uint32_t(i);
     }
     if (writer) out->spilled = writer->finish();
+    keys.clear();
+    ranks_ = HugeVector<uint32_t>(numbers);
+    for (size_t i = 0; i < order.size(); ++i) ranks_[order[i]] = uint32_t(i);
     for (SubDagRoot& root : roots_) {
       if (root.level == level) root.rank = ranks_[root.rank];
     }
   }
 
+  // The numbers of the marked keys, in the order of the keys. The last use of ranks_.
   template <class Key>
-  HugeVector<SortRecord> sort_records(int level, const SegmentedArray<Key>& keys) {
+  HugeVector<uint32_t> sorted_numbers(int level, const SegmentedArray<Key>& keys) {
     const std::vector<bool>& marks = marks_[size_t(level)];
     const int rank_bits = int(std::bit_width(ranks_.size()));
     const size_t count = size_t(std::count(marks.begin(), marks.end(), true));
@@ -134,9 +137,13 @@ class Freezer {
       for (end = begin + 1; end < count && records[end].prefix == records[begin].prefix;) ++end;
       if (end - begin > 1) std::sort(&records[begin], &records[begin] + (end - begin), less);
     }
+    ranks_ = {};
     scratch = {};
-    room_.resize(count * sizeof(SortRecord), kPurpose);
-    return records;
+    HugeVector<uint32_t> numbers(count);
+    for (size_t i = 0; i < count; ++i) numbers[i] = records[i].number;
+    records = {};
+    room_.resize(2 * count * sizeof(uint32_t), kPurpose);  // these, and the ranks
+    return numbers;
   }
 
   NodeTable* table_;

@@ -23,7 +23,7 @@ void group_by_layer(TriangleList* list) {
 
 struct CellTree::Node {
   std::array<std::unique_ptr<Node>, 8> children;
-  std::vector<uint32_t> triangles;    // indices into triangles_
+  std::vector<uint32_t> triangles;    // indices into triangles_[octant]
   std::vector<TriangleSetup> setups;  // the same triangles, prepared; inner nodes only
 };
 
@@ -32,7 +32,9 @@ CellTree::CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBud
       root_cube_(root),
       cell_level_(cell_level),
       root_(std::make_unique<Node>()),
-      triangles_(budget),
+      triangles_{PackedTriangles(budget), PackedTriangles(budget), PackedTriangles(budget),
+                 PackedTriangles(budget), PackedTriangles(budget), PackedTriangles(budget),
+                 PackedTriangles(budget), PackedTriangles(budget), PackedTriangles(budget)},
       reservation_(budget->reserve(0, "triangles")),
       max_inner_triangles_(size_t(cell_level)) {
   SVDAG_ASSERT(cell_level >= root.level && cell_level <= grid.levels - 2);
@@ -49,16 +51,43 @@ void CellTree::charge(uint64_t bytes) {
 }
 
 void CellTree::add(const LatticeTriangle& triangle) {
-  if (triangles_.size() >= 0xffffffffU)
+  ++added_;
+  const LatticeBox box = box_of(triangle);
+  const unsigned met = children_of(root_cube_, box);
+  if (met == 0) insert(root_.get(), root_cube_, store(kNoOctant, triangle), box);
+  for (unsigned left = met; left != 0; left &= left - 1) {
+    const unsigned c = unsigned(std::countr_zero(left));
+    insert(child(root_.get(), c), root_cube_.child(c), store(c, triangle), box);
+  }
+}
+
+uint32_t CellTree::store(size_t octant, const LatticeTriangle& triangle) {
+  PackedTriangles& triangles = triangles_[octant];
+  if (triangles.size() >= 0xffffffffU)
     throw Error(ExitCode::kMemory, "more than 2^32 triangles at once: bake parts with --bounds");
-  triangles_.push_back(triangle);
-  insert(root_.get(), root_cube_, uint32_t(triangles_.size() - 1), box_of(triangle));
+  triangles.push_back(triangle);
+  return uint32_t(triangles.size() - 1);
+}
+
+CellTree::Node* CellTree::child(Node* node, unsigned c) {
+  if (!node->children[c]) {
+    charge(sizeof(Node));
+    node->children[c] = std::make_unique<Node>();
+  }
+  return node->children[c].get();
+}
+
+unsigned CellTree::children_of(const Cube& cube, const LatticeBox& box) const {
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const LatticePoint size = box.max - box.min;
+  if (cube.level == cell_level_ || std::max({size.x, size.y, size.z}) > side / 2) return 0;
+  const LatticePoint middle = cube.corner(grid_.levels) + LatticePoint(side / 2);
+  return children_in_box(box, middle.x, middle.y, middle.z);
 }
 
 void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const LatticeBox& box) {
-  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
-  const LatticePoint size = box.max - box.min;
-  if (cube.level == cell_level_ || std::max({size.x, size.y, size.z}) > side / 2) {
+  const unsigned met = children_of(cube, box);
+  if (met == 0) {
     charge(sizeof triangle);
     node->triangles.push_back(triangle);
     if (cube.level == cell_level_) {
@@ -70,15 +99,9 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Lat
     }
     return;
   }
-  const LatticePoint middle = cube.corner(grid_.levels) + LatticePoint(side / 2);
-  const unsigned met = children_in_box(box, middle.x, middle.y, middle.z);
   for (unsigned left = met; left != 0; left &= left - 1) {
     const unsigned c = unsigned(std::countr_zero(left));
-    if (!node->children[c]) {
-      charge(sizeof(Node));
-      node->children[c] = std::make_unique<Node>();
-    }
-    insert(node->children[c].get(), cube.child(c), triangle, box);
+    insert(child(node, c), cube.child(c), triangle, box);
   }
 }
 
@@ -92,21 +115,24 @@ uint64_t CellTree::bytes(size_t workers) const {
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
       std::accumulate(max_inner_triangles_.begin(), max_inner_triangles_.end(), uint64_t(0));
-  return 2 * used_ + triangles_.bytes() + inner_triangles_ * kPreparedBytes +
-         prepared_bytes(workers) + workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
+  uint64_t stored = 0;
+  for (const PackedTriangles& triangles : triangles_) stored += triangles.bytes();
+  return 2 * used_ + stored + inner_triangles_ * kPreparedBytes + prepared_bytes(workers) +
+         workers * on_a_path * levels * 8 * sizeof(ListedTriangle);
 }
 
 void CellTree::seal() {
-  prepare(root_.get(), root_cube_.level);
+  prepare(root_.get(), root_cube_);
 }
 
-void CellTree::prepare(Node* node, int level) {
-  if (level == cell_level_) return;  // the worker that bakes the cell prepares these
+void CellTree::prepare(Node* node, const Cube& cube) {
+  if (cube.level == cell_level_) return;  // the worker that bakes the cell prepares these
   charge(node->triangles.size() * sizeof(TriangleSetup));
   node->setups.reserve(node->triangles.size());
-  for (const uint32_t i : node->triangles) node->setups.push_back(make_setup(triangles_[i]));
-  for (const auto& child : node->children) {
-    if (child) prepare(child.get(), level + 1);
+  const PackedTriangles& stored = triangles_[octant(cube)];
+  for (const uint32_t i : node->triangles) node->setups.push_back(make_setup(stored[i]));
+  for (unsigned c = 0; c < 8; ++c) {
+    if (node->children[c]) prepare(node->children[c].get(), cube.child(c));
   }
 }
 
@@ -190,9 +216,10 @@ void CellCursor::prepare(const CursorLevel& cell) {
   list_ = cell.list;
   setups_.clear();
   if (cell.node == nullptr) return group_by_layer(&list_);
+  const PackedTriangles& stored = tree_.triangles_[tree_.octant(cell.cube)];
   setups_.reserve(cell.node->triangles.size());  // list entries point into it
   for (const uint32_t i : cell.node->triangles) {
-    setups_.push_back(make_setup(tree_.triangles_[i]));
+    setups_.push_back(make_setup(stored[i]));
     list_.push_back({&setups_.back(), setups_.back().edges});
   }
   group_by_layer(&list_);

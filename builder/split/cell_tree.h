@@ -5,9 +5,13 @@
 // the others go down to each child that their box meets. A CellCursor divides the lists of inner
 // nodes on the way to a cell. Rejected: a flat list per cell (a floor of two triangles would be in
 // every cell that it crosses).
+//
+// What is baked is freed: each octant, a child of the root, has the triangles that it meets in an
+// array of its own, so a bake holds fewer triangles as its tables grow.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -21,6 +25,8 @@ namespace svdag {
 
 class CellTree {
  public:
+  static constexpr size_t kOctants = 8, kNoOctant = kOctants;
+
   // The tree covers the octree below `root`; root.level <= cell_level.
   CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget);
   ~CellTree();
@@ -33,8 +39,10 @@ class CellTree {
   const Grid& grid() const { return grid_; }
   int cell_level() const { return cell_level_; }
   const Cube& root() const { return root_cube_; }
-  uint64_t triangles() const { return triangles_.size(); }
-  LatticeTriangle triangle(uint64_t i) const { return triangles_[i]; }
+  uint64_t triangles() const { return added_; }
+  // Calls visit(triangle) once for each triangle.
+  template <class Visit>
+  void for_each_triangle(const Visit& visit) const;
   // Memory in bytes of the tree and of `workers` workers, each in the cell with most triangles.
   uint64_t bytes(size_t workers) const;
   // The part of bytes() that the workers allocate while they bake: prepared triangles of the cell.
@@ -43,12 +51,25 @@ class CellTree {
   // `max_triangles` is replaced by its children, so that one worker does not delay the others.
   std::vector<Cube> occupied_cells(uint64_t max_triangles = UINT64_MAX) const;
 
+  // The octant of a cube, or kNoOctant of the root.
+  size_t octant(const Cube& cube) const {
+    return cube.level == root_cube_.level
+               ? kNoOctant
+               : morton(ancestor(cube, root_cube_.level + 1).coordinate) & 7;
+  }
+  // Frees the triangles of an octant, in which no list may be asked for any more.
+  void release(size_t octant) { triangles_[octant].clear(); }
+
  private:
   friend class CellCursor;
   struct Node;
 
+  // The children of an inner cube that a box meets, as bits; 0 if the triangle stays at the cube.
+  unsigned children_of(const Cube& cube, const LatticeBox& box) const;
+  uint32_t store(size_t octant, const LatticeTriangle& triangle);
+  Node* child(Node* node, unsigned c);
   void insert(Node* node, const Cube& cube, uint32_t triangle, const LatticeBox& box);
-  void prepare(Node* node, int level);
+  void prepare(Node* node, const Cube& cube);
   void collect(const Node* node, const Cube& cube, TriangleList list, uint64_t max_triangles,
                std::vector<Cube>* cells) const;
   void charge(uint64_t bytes);
@@ -57,13 +78,26 @@ class CellTree {
   Cube root_cube_;
   int cell_level_;
   std::unique_ptr<Node> root_;
-  PackedTriangles triangles_;
+  std::array<PackedTriangles, kOctants + 1> triangles_;  // [octant]; the last: of the root itself
+  uint64_t added_ = 0;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;
   uint64_t max_cell_triangles_ = 0;            // largest number of triangles stored at one cell
   uint64_t inner_triangles_ = 0;               // number of triangles stored at inner nodes
   std::vector<uint64_t> max_inner_triangles_;  // [level]: largest number at one inner node
 };
+
+template <class Visit>
+void CellTree::for_each_triangle(const Visit& visit) const {
+  for (size_t octant = 0; octant <= kOctants; ++octant) {
+    const PackedTriangles& stored = triangles_[octant];
+    for (uint64_t i = 0; i < stored.size(); ++i) {
+      const LatticeTriangle triangle = stored[i];
+      const unsigned met = children_of(root_cube_, box_of(triangle));
+      if (octant == kNoOctant || octant == size_t(std::countr_zero(met))) visit(triangle);
+    }
+  }
+}
 
 // Computes the triangle lists of cells for a worker, one cell after the other. Consecutive cells in
 // Morton order share most of their path, so the divided lists along the path are reused.

@@ -34,6 +34,11 @@ class PackedTriangles {
   void push_back(const LatticeTriangle& triangle);
   LatticeTriangle operator[](uint64_t i) const;
   uint64_t size() const { return records_.size(); }
+  // Frees all memory.
+  void clear() {
+    records_.clear();
+    large_.clear();
+  }
   uint64_t bytes() const {
     return records_.size() * sizeof(Record) + large_.size() * sizeof(LatticeTriangle);
   }

@@ -70,7 +70,7 @@ class TriangleStore {
     const int depth =
         TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
-    for (uint64_t i = 0; i < tree_->triangles(); ++i) bins_->add(tree_->triangle(i));
+    tree_->for_each_triangle([&](const LatticeTriangle& t) { bins_->add(t); });
     if (config_.on_spill) config_.on_spill(tree_->triangles() + counts_.outside, bins_->bytes());
     tree_.reset();
   }

@@ -21,7 +21,7 @@ class LeafBinner {
       return;
     }
     TriangleBins bins = bins_below(Cube(), scene->tree->triangles());
-    for (uint64_t i = 0; i < scene->tree->triangles(); ++i) bins.add(scene->tree->triangle(i));
+    scene->tree->for_each_triangle([&](const LatticeTriangle& t) { bins.add(t); });
     scene->tree.reset();
     divide_all(bins.finish());
   }

@@ -1,7 +1,10 @@
-// The memory that CellTree::bytes() reports, against the lists that a descent holds.
+// The memory that CellTree::bytes() reports, against the lists that a descent holds; and what it
+// stores: each triangle, until its octant is baked.
 #include "builder/split/cell_tree.h"
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 namespace svdag {
 namespace {
@@ -46,6 +49,51 @@ TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
   ASSERT_GT(held, uint64_t(10) * 500 * sizeof(ListedTriangle));  // they are in lists of every level
   EXPECT_GE(tree.bytes(1) - tree.bytes(0), held);
   EXPECT_EQ(tree.bytes(9) - tree.bytes(8), tree.bytes(1) - tree.bytes(0));
+}
+
+LatticeTriangle triangle_at(LatticePoint corner, int64_t size) {
+  return {{corner, corner + LatticePoint(size, 0, 0), corner + LatticePoint(0, size, size)}};
+}
+
+// Near the middle a triangle is stored in up to eight octants, a large one at the root.
+TEST(CellTree, VisitsEachTriangleOnceThoughSeveralOctantsStoreIt) {
+  Grid grid;
+  grid.levels = 12;
+  grid.selection = grid.whole();
+  const int64_t side = grid.resolution() << grid.fraction();
+  MemoryBudget budget;
+  CellTree tree(grid, Cube(), 4, &budget);
+  std::multiset<int64_t> added, visited;
+  for (int64_t i = 0; i < 1000; ++i) {
+    const LatticePoint corner(side / 2 - 500 + i, side / 2 - i % 7, i % 3 * side / 3);
+    const LatticeTriangle t = triangle_at(corner, i % 10 == 0 ? side / 2 + 1 : 600 + i);
+    tree.add(t);
+    added.insert(t.v[0].x);
+  }
+  tree.for_each_triangle([&](const LatticeTriangle& t) { visited.insert(t.v[0].x); });
+  EXPECT_EQ(visited, added);
+  EXPECT_EQ(tree.triangles(), added.size());
+}
+
+TEST(CellTree, FreesABakedOctantAndKeepsTheOthers) {
+  Grid grid;
+  grid.levels = 12;
+  grid.selection = grid.whole();
+  const int64_t side = grid.resolution() << grid.fraction();
+  MemoryBudget budget;
+  CellTree tree(grid, Cube(), 4, &budget);
+  for (int64_t i = 0; i < 1000; ++i)
+    tree.add(triangle_at(LatticePoint(i % 2 * (side / 2) + 1000 + i), 100));
+  tree.seal();
+  const std::vector<Cube> cells = tree.occupied_cells();
+  ASSERT_EQ(cells.size(), 2U);
+  ASSERT_NE(tree.octant(cells[0]), tree.octant(cells[1]));
+  CellCursor cursor(tree, {});
+  EXPECT_EQ(cursor.list(cells[0]).size(), 500U);
+  const uint64_t before = tree.bytes(1);
+  tree.release(tree.octant(cells[0]));
+  EXPECT_EQ(tree.bytes(1), before - 500 * PackedTriangles::kMinBytes);
+  EXPECT_EQ(cursor.list(cells[1]).size(), 500U);
 }
 
 }  // namespace
