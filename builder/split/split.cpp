@@ -10,6 +10,7 @@
 #include "io/lattice.h"
 #include "io/scene/open_parts.h"
 #include "streaming/error.h"
+#include "streaming/process/stage.h"
 
 namespace svdag {
 namespace {
@@ -34,21 +35,31 @@ bool has_zero_area(const LatticeTriangle& t) {
   return true;
 }
 
+struct SnappedBatch {
+  static constexpr size_t kSize = 1024;
+
+  std::vector<LatticeTriangle> triangles;  // that are kept
+  uint64_t outside = 0;                    // dropped since the scene's first triangle
+};
+
 // Collects the triangles: in the cell tree until they exceed their memory, then in bins.
 class TriangleStore {
  public:
-  // `counts` holds the number of triangles dropped so far.
-  TriangleStore(const Grid& grid, const SplitConfig& config, const SplitCounts& counts,
-                MemoryBudget* budget)
+  TriangleStore(const Grid& grid, const SplitConfig& config, MemoryBudget* budget)
       : grid_(grid),
         config_(config),
-        counts_(counts),
         tree_(std::make_unique<CellTree>(grid, Cube(), config.cell_level, budget)) {}
 
-  void add(const LatticeTriangle& triangle) {
-    if (bins_) return bins_->add(triangle);
-    tree_->add(triangle);
-    if (tree_->triangles() % kTrianglesPerCheck == 0) spill_if_full();
+  void add(const SnappedBatch& batch) {
+    outside_ = batch.outside;
+    for (const LatticeTriangle& triangle : batch.triangles) {
+      if (bins_) {
+        bins_->add(triangle);
+        continue;
+      }
+      tree_->add(triangle);
+      if (tree_->triangles() % kTrianglesPerCheck == 0) spill_if_full();
+    }
   }
 
   void finish(SplitScene* scene) {
@@ -71,15 +82,15 @@ class TriangleStore {
         TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
     tree_->for_each_triangle([&](const LatticeTriangle& t) { bins_->add(t); });
-    if (config_.on_spill) config_.on_spill(tree_->triangles() + counts_.outside, bins_->bytes());
+    if (config_.on_spill) config_.on_spill(tree_->triangles() + outside_, bins_->bytes());
     tree_.reset();
   }
 
   const Grid& grid_;
   const SplitConfig& config_;
-  const SplitCounts& counts_;
   std::unique_ptr<CellTree> tree_;
   std::optional<TriangleBins> bins_;
+  uint64_t outside_ = 0;
 };
 
 // A layer of a file has its name without the folder.
@@ -130,7 +141,17 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   const Lattice lattice(grid);
   SplitScene result;
   SplitCounts& counts = result.counts;
-  TriangleStore store(grid, config, counts, budget);
+  TriangleStore store(grid, config, budget);
+  Stage<SnappedBatch> storing(config.workers > 1,
+                              [&](const SnappedBatch& batch) { store.add(batch); });
+  SnappedBatch kept;
+  const auto keep = [&](const LatticeTriangle& triangle) {
+    kept.triangles.push_back(triangle);
+    if (kept.triangles.size() < SnappedBatch::kSize) return;
+    kept.outside = counts.outside;
+    storing.put(&kept);
+    kept.triangles.clear();
+  };
   double largest_move = 0;
   result.layers = SceneLayers(config.layers);
   std::shared_ptr<CellWindings> windings;
@@ -167,15 +188,18 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
         counts.volume += volume_of(snapped, grid.fraction());
       }
       if (placement == BoxPlacement::kOutside) {
-        if (windings && box_of(snapped).meets(whole)) store.add(snapped);
+        if (windings && box_of(snapped).meets(whole)) keep(snapped);
         continue;
       }
       counts.degenerate += has_zero_area(snapped);
       largest_move = std::max(largest_move, move);
-      store.add(snapped);
+      keep(snapped);
     }
     if (config.on_batch) config.on_batch(batch.triangles.size());
   });
+  kept.outside = counts.outside;
+  storing.put(&kept);
+  storing.finish();
   store.finish(&result);
   // Of open parts the others were tested alone.
   if (is_solid(config.rule) && open.size() == 0) require_closed(scene, grid, config.rule, edges);
