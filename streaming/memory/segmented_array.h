@@ -7,6 +7,7 @@
 // (rejected by systems with strict overcommit).
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,7 @@ class SegmentedArray {
 
  private:
   static constexpr size_t kFirst = 1024;
-  static constexpr uint64_t kStep = uint64_t(1) << 20;  // bytes charged at once
+  static constexpr uint64_t kMinStep = 1 << 12, kMaxStep = 1 << 20;  // bytes charged at once
 
   T* address(size_t i) const {
     const size_t j = i + kFirst;
@@ -59,8 +60,8 @@ class SegmentedArray {
     capacity_ += elements;
   }
   void charge() {
-    const uint64_t step = size_ * sizeof(T) < kStep ? kFirst * sizeof(T) : kStep;
-    reservation_.resize(reservation_.bytes() + step, purpose_);
+    const uint64_t bytes = reservation_.bytes();
+    reservation_.resize(bytes + std::clamp(bytes / 8, kMinStep, kMaxStep), purpose_);
   }
 
   const char* purpose_;
