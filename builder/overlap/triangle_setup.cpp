@@ -57,13 +57,15 @@ void set_edges(TriangleSetup* t, const int sign[3]) noexcept {
     const LatticePoint& from = t->triangle.v[t->from[e]];
     const LatticePoint d = t->triangle.v[t->to[e]] - from;
     const double edge[3] = {double(d.x), double(d.y), double(d.z)};
-    for (int a = 0; a < 3; ++a) t->vertex[e][a] = double(from[a]);
+    for (int a = 0; a < 3; ++a) t->vertex[a][e] = double(from[a]);
     for (int w = 0; w < 3; ++w) {
       along_u[3 * w + e] = edge[kNext[w]];
       along_v[3 * w + e] = edge[kNext[kNext[w]]];
       scale[3 * w + e] = sign[w] < 0 ? -1 : 1;
     }
   }
+  for (auto& of_axis : t->vertex) of_axis[3] = 0;
+  t->edge_u[9] = t->edge_v[9] = 0;
   for (int k = 0; k < 9; ++k) {
     const double sum = std::abs(along_u[k]) + std::abs(along_v[k]);
     const double inverse =

@@ -38,10 +38,11 @@ namespace svdag {
 using EdgeMask = uint16_t;
 
 struct TriangleSetup {
-  double vertex[3][3];  // [e]: start of edge e; exact unless wide
+  double vertex[3][4];  // [axis][e]: start of edge e, [3] is 0; exact unless wide
   double normal[3];     // n, exact in integers, rounded and divided by |n|_1
-  double edge_u[9];     // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v),
-  double edge_v[9];     // divided by the sum of their magnitudes (both 0 if the edge is a point)
+  double edge_u[10];    // coefficients of f: edge_u * (x_u - a_u) + edge_v * (x_v - a_v),
+  double edge_v[10];    // divided by the sum of their magnitudes (both 0 if the edge is a point);
+                        // a tenth, so that vectors of four begin at each projection's first
   double extent;        // largest side of the bounding box
   LatticeBox box;       // bounding box
   EdgeMask edges;       // edge functions that this triangle has

@@ -31,24 +31,24 @@ HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
 
 using EdgeMasks = hn::Vec<hn::RebindToUnsigned<Eight>>[8 / kEight];  // of the children
 
-// Removes the children outside the edges of the projection along W from *touched, and switches an
-// edge off in the children where it holds everywhere.
-template <int W>
+// Removes the children outside the edges from *touched, and switches an edge off in the children
+// where it holds everywhere.
 HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, float error,
                                   unsigned* touched, EdgeMasks& edges) noexcept {
   const Eight d;
   const hn::RebindToUnsigned<Eight> du;
-  const TriangleSetup& t = *entry.triangle;
+  EdgeValues values;
+  edge_values(*entry.triangle, c, &values);
   const auto low = hn::Set(d, -(0.5f + error)), high = hn::Set(d, 0.5f + error);
-  for (unsigned left = entry.edges >> (3 * W) & 7; left != 0; left &= left - 1) {
-    const int e = __builtin_ctz(left), k = 3 * W + e;
-    const auto f = hn::Set(d, edge_at<W>(t, e, c));
-    const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
+  for (unsigned left = entry.edges; left != 0; left &= left - 1) {
+    const int k = __builtin_ctz(left);
+    const float *const at_u = kCoordinates[kAxisU[k]], *const at_v = kCoordinates[kAxisV[k]];
+    const auto f = hn::Set(d, values.f[k]);
+    const auto u = hn::Set(d, values.u[k]), v = hn::Set(d, values.v[k]);
     unsigned outside = 0;
     for (size_t i = 0; i < 8; i += kEight) {
-      const auto u = hn::Mul(hn::Load(d, kCoordinates[(W + 1) % 3] + i), su);
-      const auto v = hn::Mul(hn::Load(d, kCoordinates[(W + 2) % 3] + i), sv);
-      const auto value = hn::Add(f, hn::Add(u, v));
+      const auto value =
+          hn::MulAdd(hn::Load(d, at_u + i), u, hn::MulAdd(hn::Load(d, at_v + i), v, f));
       outside |= bits(d, hn::Lt(value, low)) << i;
       const auto holds =
           hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
@@ -75,9 +75,8 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
     if (!few || t.extent >= half) {
       const float error = error_of(t, 4 * half, c);
       touched &= children_on_plane(t, c, error);
-      if (touched != 0) children_at_edges<0>(*entries, c, error, &touched, edges);
-      if (touched != 0) children_at_edges<1>(*entries, c, error, &touched, edges);
-      if (touched != 0) children_at_edges<2>(*entries, c, error, &touched, edges);
+      if (touched != 0 && entries->edges != 0)
+        children_at_edges(*entries, c, error, &touched, edges);
     }
     for (size_t i = 0; i < 8; i += kEight) hn::StoreU(edges[i / kEight], du, out->edges + i);
     out->touched = uint8_t(touched);

@@ -44,34 +44,56 @@ HWY_INLINE BrickPlacement make_placement(const LatticePoint& corner, int fractio
   return {corner, fraction, side, make_corner(corner, side), counts};
 }
 
-// The columns 4i + j along W at whose centre every undecided edge function is at least -reach.
-// Values that are unsure in float are decided by decide(k, column).
-template <int W, class Decide>
-HWY_INLINE unsigned columns_at_edges(const ListedTriangle& entry, const BrickPlacement& p,
-                                     float reach, float error, const Decide& decide) noexcept {
+// The values at the 16 columns 4i + j, plus `reach`, of edge function k.
+HWY_INLINE hn::Vec<Sixteen> edge_at_columns(const EdgeValues& values, int k, float reach,
+                                            size_t i) noexcept {
   const Sixteen d;
-  const TriangleSetup& t = *entry.triangle;
-  const auto sure = hn::Set(d, error - reach), maybe = hn::Set(d, -(error + reach));
-  unsigned columns = 0xffff;
-  for (unsigned left = entry.edges >> (3 * W) & 7; left != 0; left &= left - 1) {
-    const int e = __builtin_ctz(left), k = 3 * W + e;
-    const auto f = hn::Set(d, edge_at<W>(t, e, p.c));
-    const auto su = hn::Set(d, float(t.edge_u[k])), sv = hn::Set(d, float(t.edge_v[k]));
-    unsigned above = 0, not_below = 0;
+  return hn::MulAdd(hn::Load(d, kRow + i), hn::Set(d, values.u[k]),
+                    hn::MulAdd(hn::Load(d, kColumn + i), hn::Set(d, values.v[k]),
+                               hn::Set(d, values.f[k] + reach)));
+}
+
+// columns[w]: the columns 4i + j along w at whose centre every edge function of `edges` that
+// projects along w is at least -reach. Values that are unsure in float are decided by decide(k,
+// column): if there are any, all is done again. One loop over the edges of all projections, since
+// each end of a loop is mispredicted.
+template <class Decide>
+HWY_INLINE void columns_at_edges(const TriangleSetup& t, unsigned edges, const BrickPlacement& p,
+                                 float reach, float error, const Decide& decide,
+                                 unsigned columns[3]) noexcept {
+  const Sixteen d;
+  EdgeValues values;
+  edge_values(t, p.c, &values);
+  const auto limit = hn::Set(d, error);
+  auto closest = hn::Set(d, 1.0f);
+  for (int w = 0; w < 3; ++w) columns[w] = 0xffff;
+  for (unsigned left = edges; left != 0; left &= left - 1) {
+    const int k = __builtin_ctz(left);
+    unsigned above = 0;
     for (size_t i = 0; i < 16; i += kSixteen) {
-      const auto value = hn::Add(
-          f, hn::Add(hn::Mul(hn::Load(d, kRow + i), su), hn::Mul(hn::Load(d, kColumn + i), sv)));
-      above |= bits(d, hn::Gt(value, sure)) << i;
-      not_below |= bits(d, hn::Ge(value, maybe)) << i;
+      const auto value = edge_at_columns(values, k, reach, i);
+      closest = hn::Min(closest, hn::Abs(value));
+      above |= bits(d, hn::Gt(value, limit)) << i;
     }
-    for (unsigned unsure = columns & not_below & ~above; unsure != 0; unsure &= unsure - 1) {
+    columns[kAxis[k]] &= above;
+  }
+  if (HWY_LIKELY(hn::AllTrue(d, hn::Gt(closest, limit)))) return;
+  for (int w = 0; w < 3; ++w) columns[w] = 0xffff;
+  for (unsigned left = edges; left != 0; left &= left - 1) {
+    const int k = __builtin_ctz(left);
+    unsigned above = 0, unsure = 0;
+    for (size_t i = 0; i < 16; i += kSixteen) {
+      const auto value = edge_at_columns(values, k, reach, i);
+      above |= bits(d, hn::Gt(value, limit)) << i;
+      unsure |= bits(d, hn::Le(hn::Abs(value), limit)) << i;
+    }
+    for (unsure &= columns[kAxis[k]]; unsure != 0; unsure &= unsure - 1) {
       const unsigned column = unsigned(__builtin_ctz(unsure));
       ++p.counts->exact;
       above |= unsigned(decide(k, column)) << column;
     }
-    columns &= above;
+    columns[kAxis[k]] &= above;
   }
-  return columns;
 }
 
 // Values of the plane at the centres of the 64 voxels: quarter[j] + first[i] for bit 16j + i.
@@ -138,14 +160,18 @@ HWY_INLINE Brick voxels_on_plane(const TriangleSetup& t, const BrickPlacement& p
   return voxels & on;
 }
 
-template <int W>
 HWY_INLINE Brick reached_columns(const ListedTriangle& entry, const BrickPlacement& p,
                                  float error) noexcept {
-  if ((entry.edges >> (3 * W) & 7) == 0) return ~Brick(0);
-  const unsigned columns = columns_at_edges<W>(entry, p, 0.5f, error, [&](int k, unsigned column) {
-    return column_reaches(*entry.triangle, k, p.corner, p.fraction, column);
-  });
-  return expand_columns(W, columns);
+  if (entry.edges == 0) return ~Brick(0);
+  unsigned columns[3];
+  columns_at_edges(
+      *entry.triangle, entry.edges, p, 0.5f, error,
+      [&](int k, unsigned column) {
+        return column_reaches(*entry.triangle, k, p.corner, p.fraction, column);
+      },
+      columns);
+  return expand_columns(0, columns[0]) & expand_columns(1, columns[1]) &
+         expand_columns(2, columns[2]);
 }
 
 HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPlacement& p,
@@ -155,9 +181,7 @@ HWY_INLINE Brick touched_voxels(const ListedTriangle& entry, const BrickPlacemen
   if (!covers(t, entry.edges)) voxels &= voxels_in_box(t, p.c, p.fraction);
   const float error = error_of(t, 8 * p.side, p.c);
   p.counts->total += 16 * unsigned(__builtin_popcount(entry.edges));
-  voxels &= reached_columns<0>(entry, p, error);
-  voxels &= reached_columns<1>(entry, p, error);
-  voxels &= reached_columns<2>(entry, p, error);
+  voxels &= reached_columns(entry, p, error);
   return voxels != 0 && t.cover != 0 ? voxels_on_plane(t, p, error, voxels) : voxels;
 }
 

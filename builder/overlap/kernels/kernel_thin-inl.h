@@ -41,11 +41,16 @@ HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const BrickPlacement
                                const PlaneValues& values, float error, Brick near) noexcept {
   const TriangleSetup& t = *entry.triangle;
   if (t.normal[W] == 0 || near == 0) return 0;
-  p.counts->total += 16 * unsigned(__builtin_popcount(entry.edges >> (3 * W) & 7));
-  const unsigned columns = columns_at_edges<W>(entry, p, 0, error, [&](int k, unsigned column) {
-    return column_centre_holds(t, k, p.corner, p.fraction, column);
-  });
-  const Brick inside = near & expand_columns(W, columns);
+  const unsigned edges = entry.edges & 7U << (3 * W);
+  p.counts->total += 16 * unsigned(__builtin_popcount(edges));
+  unsigned columns[3];
+  columns_at_edges(
+      t, edges, p, 0, error,
+      [&](int k, unsigned column) {
+        return column_centre_holds(t, k, p.corner, p.fraction, column);
+      },
+      columns);
+  const Brick inside = near & expand_columns(W, columns[W]);
   if (inside == 0) return 0;
   return inside & (ends_above(t, p, values, error, W, false, inside) ^
                    ends_above(t, p, values, error, W, true, inside));
