@@ -48,7 +48,7 @@ HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, 
     unsigned outside = 0;
     for (size_t i = 0; i < 8; i += kEight) {
       const auto value =
-          hn::MulAdd(hn::Load(d, at_u + i), u, hn::MulAdd(hn::Load(d, at_v + i), v, f));
+          hn::Add(f, hn::Add(hn::Mul(hn::Load(d, at_u + i), u), hn::Mul(hn::Load(d, at_v + i), v)));
       outside |= bits(d, hn::Lt(value, low)) << i;
       const auto holds =
           hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));

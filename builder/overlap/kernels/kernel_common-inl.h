@@ -91,7 +91,7 @@ HWY_INLINE void edge_values(const TriangleSetup& t, const Corner& c, EdgeValues*
       const auto su = hn::LoadU(d, t.edge_u + 3 * w + e), sv = hn::LoadU(d, t.edge_v + 3 * w + e);
       const auto du = hn::Sub(hn::Set(d, c.x[u]), hn::LoadU(d, t.vertex[u] + e));
       const auto dv = hn::Sub(hn::Set(d, c.x[v]), hn::LoadU(d, t.vertex[v] + e));
-      const auto f = hn::Mul(hn::MulAdd(su, du, hn::Mul(sv, dv)), per_side);
+      const auto f = hn::Mul(hn::Add(hn::Mul(su, du), hn::Mul(sv, dv)), per_side);
       // The fourth of each is overwritten by the next projection's first.
       hn::StoreU(hn::DemoteTo(df, f), df, out->f + 3 * w + e);
       hn::StoreU(hn::DemoteTo(df, su), df, out->u + 3 * w + e);

@@ -48,9 +48,9 @@ HWY_INLINE BrickPlacement make_placement(const LatticePoint& corner, int fractio
 HWY_INLINE hn::Vec<Sixteen> edge_at_columns(const EdgeValues& values, int k, float reach,
                                             size_t i) noexcept {
   const Sixteen d;
-  return hn::MulAdd(hn::Load(d, kRow + i), hn::Set(d, values.u[k]),
-                    hn::MulAdd(hn::Load(d, kColumn + i), hn::Set(d, values.v[k]),
-                               hn::Set(d, values.f[k] + reach)));
+  const auto f = hn::Set(d, values.f[k] + reach);
+  const auto u = hn::Mul(hn::Load(d, kRow + i), hn::Set(d, values.u[k]));
+  return hn::Add(hn::Add(f, hn::Mul(hn::Load(d, kColumn + i), hn::Set(d, values.v[k]))), u);
 }
 
 // columns[w]: the columns 4i + j along w at whose centre every edge function of `edges` that
