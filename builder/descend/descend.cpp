@@ -161,6 +161,10 @@ SubDag Descent::node(const Cube& cube, const TriangleList& list, int32_t winding
   if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch) {
     if (const auto known = find_in_memo(cube, list, winding, kSheetOfUnion)) return *known;
   }
+  const bool selected = !grid_.bounded || grid_.selection.holds(cube.voxels(grid_.levels));
+  if (config_.cubes && cube.level + 1 == table_->brick_level() && need == Need::kAll && selected &&
+      !is_solid(config_.rule))
+    return eight_bricks(cube, list);
   pause_at(cube);
   return divide(cube, list, winding, need == Need::kRest);
 }
@@ -369,6 +373,25 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
 SubDag Descent::brick(Brick voxels) {
   if (voxels == 0) return {};
   return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
+}
+
+// As divide() into bricks.
+SubDag Descent::eight_bricks(const Cube& cube, const TriangleList& list) {
+  ++divided_[size_t(cube.level)];
+  Brick bricks[8];
+  const auto kernel =
+      config_.rule == Rule::kThin ? config_.kernels->thin_cube : config_.kernels->conservative_cube;
+  const uint32_t voxels = kernel(list.data(), list.size(), cube.corner(grid_.levels),
+                                 grid_.fraction(), config_.covering, bricks, &decisions_);
+  if (voxels == 0) return {};
+  unsigned children = 0;
+  for (unsigned c = 0; c < 8; ++c) children |= unsigned(bricks[c] != 0) << c;
+  NodeKey key{};
+  for (; children != 0; children &= children - 1) {
+    const int c = std::countr_zero(children);
+    key[size_t(c)] = table_->add_brick(bricks[c]);
+  }
+  return {table_->add_node(cube.level, key), voxels};
 }
 
 void Descent::bricks(const Cube& cube, const TriangleList& list, const LayerWindings& windings,

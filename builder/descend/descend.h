@@ -46,6 +46,7 @@ struct DescentConfig {
   bool plane_memo = true;     // answer covered cubes from a memo; needs `covering`
   double memo_repeats = 0.5;  // contents of a plane must repeat so often to be kept; 0: keep all
   uint64_t memo_bytes = UINT64_MAX;  // of the memo, at most; nor more than 1/32 of the budget
+  bool cubes = true;                 // decide the voxels of the last two levels at once
   bool patches = true;               // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};        // for tests: without all of them voxels are wrong
   bool with_union = true;            // also keep the union where several layers are
@@ -115,6 +116,7 @@ class Descent {
   Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding,
                   uint32_t sheets);
   SubDag brick(Brick voxels);
+  SubDag eight_bricks(const Cube& cube, const TriangleList& list);
   Brick selected_voxels(const Cube& cube) const;
 
   Grid grid_;

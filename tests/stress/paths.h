@@ -20,11 +20,13 @@ inline std::vector<DescentPath> descent_paths() {
   const DescentConfig best;
   DescentConfig plain;
   plain.kernels = &plain_kernels();
-  plain.covering = plain.plane_memo = plain.patches = false;
+  plain.covering = plain.plane_memo = plain.cubes = plain.patches = false;
   paths.push_back({"plain", plain});
   DescentConfig config = plain;
   config.covering = true;
   paths.push_back({"plain, covering", config});
+  config.cubes = true;
+  paths.push_back({"plain, covering, cubes", config});
   config = best;
   config.memo_repeats = 0;
   config.patches = false;
@@ -38,6 +40,8 @@ inline std::vector<DescentPath> descent_paths() {
     config = best;
     config.kernels = &kernels;
     paths.push_back({kernels.name, config});
+    config.cubes = false;
+    paths.push_back({kernels.name + std::string(", no cubes"), config});
   }
   return paths;
 }

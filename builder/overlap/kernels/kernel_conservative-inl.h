@@ -9,6 +9,7 @@
 
 #include "builder/overlap/brick_tables.h"
 #include "builder/overlap/exact_voxel.h"
+#include "builder/overlap/kernels/kernel_children-inl.h"
 #include "builder/overlap/kernels/kernel_common-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,7 +32,7 @@ HWY_INLINE Brick voxels_in_box(const TriangleSetup& t, const Corner& c, int frac
 
 // The brick that a kernel works on: its corner, in several forms, and the counters.
 struct BrickPlacement {
-  const LatticePoint& corner;
+  LatticePoint corner;
   int fraction;
   double side;  // of a voxel
   Corner c;
@@ -192,6 +193,48 @@ Brick conservative(const ListedTriangle* entries, size_t count, const LatticePoi
   for (; count != 0 && voxels != candidates; --count, ++entries)
     voxels |= touched_voxels(*entries, p, candidates & ~voxels);
   return voxels;
+}
+
+// out[c]: the OR of voxels_of(entry, placement, candidates) over the triangles that may touch child
+// c. Returns the number of voxels.
+template <class VoxelsOf>
+HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
+                                   const LatticePoint& corner, int fraction, bool covering,
+                                   Brick out[8], DecisionCounts* counts,
+                                   const VoxelsOf& voxels_of) noexcept {
+  constexpr size_t kBatch = 16;
+  ChildOverlap overlaps[kBatch];
+  const int64_t side = int64_t(4) << fraction;  // of a brick
+  for (int c = 0; c < 8; ++c) out[c] = 0;
+  while (count != 0) {
+    const size_t batch = count < kBatch ? count : kBatch;
+    children(entries, batch, corner, 2 * side, overlaps);
+    for (size_t i = 0; i < batch; ++i) {
+      ListedTriangle entry = entries[i];
+      for (unsigned left = overlaps[i].touched; left != 0; left &= left - 1) {
+        const unsigned c = unsigned(__builtin_ctz(left));
+        if (out[c] == ~Brick(0)) continue;
+        entry.edges = EdgeMask(overlaps[i].edges[c]);
+        if (covering) entry.edges = needed_edges(*entry.triangle, entry.edges);
+        const LatticePoint of_child = {corner.x + (c >> 2 & 1) * side,
+                                       corner.y + (c >> 1 & 1) * side, corner.z + (c & 1) * side};
+        out[c] |= voxels_of(entry, make_placement(of_child, fraction, counts), ~out[c]);
+      }
+    }
+    entries += batch;
+    count -= batch;
+  }
+  uint32_t voxels = 0;
+  for (int c = 0; c < 8; ++c) voxels += uint32_t(__builtin_popcountll(out[c]));
+  return voxels;
+}
+
+uint32_t conservative_cube(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                           int fraction, bool covering, Brick out[8],
+                           DecisionCounts* counts) noexcept {
+  return voxels_of_cube(entries, count, corner, fraction, covering, out, counts,
+                        [](const ListedTriangle& entry, const BrickPlacement& p, Brick candidates)
+                            HWY_ATTR { return touched_voxels(entry, p, candidates); });
 }
 
 }  // namespace

@@ -84,6 +84,13 @@ Brick thin(const ListedTriangle* entries, size_t count, const LatticePoint& corn
   return voxels;
 }
 
+uint32_t thin_cube(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                   int fraction, bool covering, Brick out[8], DecisionCounts* counts) noexcept {
+  return voxels_of_cube(entries, count, corner, fraction, covering, out, counts,
+                        [](const ListedTriangle& entry, const BrickPlacement& p, Brick candidates)
+                            HWY_ATTR { return thin_voxels(entry, p, candidates); });
+}
+
 }  // namespace
 }  // namespace svdag::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

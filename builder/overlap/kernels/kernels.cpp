@@ -3,6 +3,7 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "streaming/error.h"
 
@@ -25,6 +26,27 @@ Brick plain_voxels(const ListedTriangle* entries, size_t count, const LatticePoi
   Brick voxels = 0;
   for (size_t i = 0; i < count && voxels != candidates; ++i)
     voxels |= overlap(entries[i], corner, fraction, counts) & candidates;
+  return voxels;
+}
+
+template <Brick (*overlap)(const ListedTriangle&, const LatticePoint&, int,
+                           DecisionCounts*) noexcept>
+uint32_t plain_cube(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                    int fraction, bool covering, Brick out[8], DecisionCounts* counts) noexcept {
+  const int64_t side = int64_t(4) << fraction;  // of a brick
+  std::fill_n(out, 8, 0);
+  for (size_t i = 0; i < count; ++i) {
+    const ChildOverlap children = overlap_children(entries[i], corner, 2 * side);
+    for (unsigned c = 0; c < 8; ++c) {
+      if ((children.touched >> c & 1) == 0) continue;
+      ListedTriangle entry = {entries[i].triangle, EdgeMask(children.edges[c])};
+      if (covering) entry.edges = needed_edges(*entry.triangle, entry.edges);
+      const LatticePoint of_child = corner + side * LatticePoint(c >> 2, c >> 1 & 1, c & 1);
+      if (out[c] != ~Brick(0)) out[c] |= overlap(entry, of_child, fraction, counts);
+    }
+  }
+  uint32_t voxels = 0;
+  for (int c = 0; c < 8; ++c) voxels += uint32_t(std::popcount(out[c]));
   return voxels;
 }
 
@@ -82,6 +104,8 @@ const Kernels& plain_kernels() {
                                      plain_children,
                                      plain_voxels<overlap_brick>,
                                      plain_voxels<overlap_brick_thin>,
+                                     plain_cube<overlap_brick>,
+                                     plain_cube<overlap_brick_thin>,
                                      plain_plane,
                                      plain_heights,
                                      plain_layers};

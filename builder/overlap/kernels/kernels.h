@@ -65,6 +65,13 @@ struct Kernels {
   using Voxels = Brick (*)(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                            int fraction, Brick candidates, DecisionCounts* counts) noexcept;
 
+  // The voxels of the cube of 8^3 at `corner`: out[c], the brick of child c. As `children` and the
+  // kernel of voxels for each child, but without lists. `covering`: see OverlapConfig. Returns the
+  // number of voxels.
+  using CubeVoxels = uint32_t (*)(const ListedTriangle* entries, size_t count,
+                                  const LatticePoint& corner, int fraction, bool covering,
+                                  Brick out[8], DecisionCounts* counts) noexcept;
+
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
   using Heights = ColumnParities (*)(int32_t first, int32_t step_u, int32_t step_v) noexcept;
@@ -76,6 +83,8 @@ struct Kernels {
   Children children;
   Voxels conservative;
   Voxels thin;
+  CubeVoxels conservative_cube;
+  CubeVoxels thin_cube;
   Plane plane;
   Heights heights;
   Layers layers;

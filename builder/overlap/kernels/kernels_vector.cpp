@@ -14,14 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 
 Kernels kernels_of_target() {
-  return {hwy::TargetName(HWY_TARGET),
-          int(kSixteen),
-          children,
-          conservative,
-          thin,
-          plane,
-          heights,
-          layers};
+  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin,
+          conservative_cube,           thin_cube,     plane,    heights,      layers};
 }
 
 }  // namespace svdag::HWY_NAMESPACE

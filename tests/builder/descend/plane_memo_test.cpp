@@ -66,8 +66,11 @@ TEST(PlaneMemo, GivesTheVoxelsOfThePlainDescentTiesIncluded) {
       const LatticeTriangle triangle =
           covering(random, window.corner(kLevels), random() % 2 == 0, random() % 2 == 0);
       const DescentConfig memo{.rule = rule, .memo_repeats = 0};
-      const DescentConfig plain{
-          .rule = rule, .kernels = &plain_kernels(), .covering = false, .plane_memo = false};
+      const DescentConfig plain{.rule = rule,
+                                .kernels = &plain_kernels(),
+                                .covering = false,
+                                .plane_memo = false,
+                                .cubes = false};
       ASSERT_EQ(bricks_of(memo, window, triangle), bricks_of(plain, window, triangle)) << i;
     }
   }

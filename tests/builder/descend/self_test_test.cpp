@@ -15,11 +15,11 @@ TEST(SelfTest, ComparesAHundredThousandVoxelsWithEveryKernel) {
   all.push_back(plain_kernels());
   for (const Rule rule : kRules) {
     for (const Kernels& kernels : all) {
-      for (const bool memo : {false, true}) {
+      for (const bool fast : {false, true}) {
         DescentConfig config;
         config.rule = rule;
         config.kernels = &kernels;
-        config.plane_memo = config.patches = memo;
+        config.plane_memo = config.patches = config.cubes = fast;
         EXPECT_GE(self_test(config), 100'000U) << kernels.name;
       }
     }
@@ -35,18 +35,33 @@ Brick err_once(const ListedTriangle* entries, size_t count, const LatticePoint& 
   return correct_calls-- == 0 ? brick ^ (wanted & -wanted) : brick;
 }
 
+template <Kernels::CubeVoxels Kernels::*kVoxels>
+uint32_t err_once_in_cube(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
+                          int fraction, bool covering, Brick out[8],
+                          DecisionCounts* counts) noexcept {
+  const uint32_t voxels =
+      (plain_kernels().*kVoxels)(entries, count, corner, fraction, covering, out, counts);
+  if (correct_calls-- == 0) out[3] ^= 1;
+  return voxels;
+}
+
 TEST(SelfTest, FindsOneWrongVoxel) {
   Kernels kernels = plain_kernels();
   kernels.conservative = err_once<&Kernels::conservative>;
   kernels.thin = err_once<&Kernels::thin>;
+  kernels.conservative_cube = err_once_in_cube<&Kernels::conservative_cube>;
+  kernels.thin_cube = err_once_in_cube<&Kernels::thin_cube>;
   for (const Rule rule : kRules) {
-    for (const int correct : {0, 10, 100}) {
-      correct_calls = correct;
-      DescentConfig config;
-      config.rule = rule;
-      config.kernels = &kernels;
-      EXPECT_SVDAG_ERROR(self_test(config), ExitCode::kInternal, "computes wrong voxels");
-      EXPECT_LT(correct_calls, 0);
+    for (const bool cubes : {false, true}) {
+      for (const int correct : {0, 10, 100}) {
+        correct_calls = correct;
+        DescentConfig config;
+        config.rule = rule;
+        config.kernels = &kernels;
+        config.cubes = cubes;
+        EXPECT_SVDAG_ERROR(self_test(config), ExitCode::kInternal, "computes wrong voxels");
+        EXPECT_LT(correct_calls, 0);
+      }
     }
   }
 }

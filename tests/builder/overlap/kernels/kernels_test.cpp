@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -128,6 +129,51 @@ TEST(Kernels, LeaveOutNoTouchedChild) {
       }
       const ListedTriangle below{&t, needed_edges(t, EdgeMask(overlap.edges[c]))};
       ASSERT_EQ(overlap_brick(below, corner, kF, &counts), truth);
+    }
+  }
+}
+
+TEST(Kernels, SetTheVoxelsOfACubeAsBrickByBrick) {
+  Draw draw(6);
+  std::vector<Kernels> all = vector_kernels();
+  all.push_back(plain_kernels());
+  for (int i = 0; i < 20'000; ++i) {
+    std::vector<TriangleSetup> setups;
+    TriangleList list;
+    const size_t count = draw.bits() % 10 == 0 ? 40 : 1 + draw.bits() % 3;
+    setups.reserve(count);
+    for (size_t k = 0; k < count; ++k) {
+      setups.push_back(make_setup(draw.triangle()));
+      if (setups.back().box.meets({LatticePoint(0), LatticePoint(8 * kVoxel)}))
+        list.push_back({&setups.back(), setups.back().edges});
+    }
+    DecisionCounts counts;
+    Brick truth[8] = {}, truth_thin[8] = {};
+    uint32_t voxels = 0, voxels_thin = 0;
+    for (int c = 0; c < 8; ++c) {
+      const LatticePoint corner = LatticePoint(c >> 2, c >> 1 & 1, c & 1) * (4 * kVoxel);
+      for (const ListedTriangle& entry : list) {
+        if (!entry.triangle->box.meets({corner, corner + 4 * kVoxel})) continue;
+        truth[c] |= overlap_brick(entry, corner, kF, &counts);
+        truth_thin[c] |= overlap_brick_thin(entry, corner, kF, &counts);
+      }
+      voxels += uint32_t(std::popcount(truth[c]));
+      voxels_thin += uint32_t(std::popcount(truth_thin[c]));
+    }
+    for (const Kernels& k : all) {
+      for (const bool covering : {false, true}) {
+        Brick ours[8];
+        ASSERT_EQ(k.conservative_cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours,
+                                      &counts),
+                  voxels)
+            << k.name;
+        ASSERT_TRUE(std::equal(ours, ours + 8, truth)) << k.name;
+        ASSERT_EQ(
+            k.thin_cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours, &counts),
+            voxels_thin)
+            << k.name;
+        ASSERT_TRUE(std::equal(ours, ours + 8, truth_thin)) << k.name;
+      }
     }
   }
 }
