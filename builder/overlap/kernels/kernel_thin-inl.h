@@ -35,27 +35,6 @@ HWY_INLINE Brick ends_above(const TriangleSetup& t, const BrickPlacement& p,
   return above;
 }
 
-// Those of `near` whose centre segment along W crosses the triangle.
-template <int W>
-HWY_INLINE Brick crossed_along(const ListedTriangle& entry, const BrickPlacement& p,
-                               const PlaneValues& values, float error, Brick near) noexcept {
-  const TriangleSetup& t = *entry.triangle;
-  if (t.normal[W] == 0 || near == 0) return 0;
-  const unsigned edges = entry.edges & 7U << (3 * W);
-  p.counts->total += 16 * unsigned(__builtin_popcount(edges));
-  unsigned columns[3];
-  columns_at_edges(
-      t, edges, p, 0, error,
-      [&](int k, unsigned column) {
-        return column_centre_holds(t, k, p.corner, p.fraction, column);
-      },
-      columns);
-  const Brick inside = near & expand_columns(W, columns[W]);
-  if (inside == 0) return 0;
-  return inside & (ends_above(t, p, values, error, W, false, inside) ^
-                   ends_above(t, p, values, error, W, true, inside));
-}
-
 HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const BrickPlacement& p,
                              Brick candidates) noexcept {
   const TriangleSetup& t = *entry.triangle;
@@ -66,12 +45,28 @@ HWY_INLINE Brick thin_voxels(const ListedTriangle& entry, const BrickPlacement& 
   const float error = error_of(t, 8 * p.side, p.c);
   PlaneValues values;
   plane_values(t, p, &values);
-  // Where the triangle covers the brick, a crossing along any axis implies the dominant one's.
-  const unsigned axes = covering ? 1U << t.dominant : 7U;
+  // The axes along which centre segments may cross the triangle. Where it covers the brick, a
+  // crossing along any axis implies the dominant one's.
+  unsigned edges = 0;
+  for (int w = 0; w < 3; ++w) {
+    if (t.normal[w] != 0 && (!covering || w == t.dominant)) edges |= 7U << (3 * w);
+  }
+  unsigned columns[3];
+  p.counts->total += 16 * unsigned(__builtin_popcount(edges & entry.edges));
+  columns_at_edges(
+      t, edges & entry.edges, p, 0, error,
+      [&](int k, unsigned column) {
+        return column_centre_holds(t, k, p.corner, p.fraction, column);
+      },
+      columns);
   Brick voxels = 0;
-  if (axes & 1) voxels |= crossed_along<0>(entry, p, values, error, near);
-  if (axes & 2) voxels |= crossed_along<1>(entry, p, values, error, near & ~voxels);
-  if (axes & 4) voxels |= crossed_along<2>(entry, p, values, error, near & ~voxels);
+  for (int w = 0; w < 3; ++w) {
+    if ((edges >> (3 * w) & 1) == 0) continue;
+    const Brick inside = near & ~voxels & expand_columns(w, columns[w]);
+    if (inside == 0) continue;
+    voxels |= inside & (ends_above(t, p, values, error, w, false, inside) ^
+                        ends_above(t, p, values, error, w, true, inside));
+  }
   return voxels;
 }
 

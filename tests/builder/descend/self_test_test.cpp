@@ -41,8 +41,9 @@ uint32_t err_once_in_cube(const ListedTriangle* entries, size_t count, const Lat
                           DecisionCounts* counts) noexcept {
   const uint32_t voxels =
       (plain_kernels().*kVoxels)(entries, count, corner, fraction, covering, out, counts);
-  if (correct_calls-- == 0) out[3] ^= 1;
-  return voxels;
+  if (correct_calls-- != 0) return voxels;
+  out[3] ^= 1;
+  return (out[3] & 1) != 0 ? voxels + 1 : voxels - 1;
 }
 
 TEST(SelfTest, FindsOneWrongVoxel) {
