@@ -10,7 +10,7 @@ namespace svdag {
 // Plain arrays, since the code of the vector kernels must not instantiate templates.
 struct BrickTables {
   Brick slab[3][4]{};           // [axis][i]: voxels with coordinate i
-  Brick slabs[3][4][4]{};       // [axis][i][j]: voxels with coordinate i .. j
+  Brick slabs[3][16]{};         // [axis][m]: voxels with one of the coordinates in m
   uint8_t coordinate[64][3]{};  // of each bit
   Brick columns[3][4][16]{};    // [w][i][m]: voxels with coordinate i on axis w+1 and, on axis
                                 // w+2, one of the coordinates in m
@@ -33,9 +33,8 @@ constexpr BrickTables make_brick_tables() {
   }
   for (unsigned w = 0; w < 3; ++w) {
     for (unsigned i = 0; i < 4; ++i) {
-      for (unsigned j = i; j < 4; ++j)
-        t.slabs[w][i][j] = (j > i ? t.slabs[w][i][j - 1] : 0) | t.slab[w][j];
       for (unsigned m = 0; m < 16; ++m) {
+        if (m >> i & 1) t.slabs[w][m] |= t.slab[w][i];
         for (unsigned j = 0; j < 4; ++j) {
           if (m >> j & 1) t.columns[w][i][m] |= t.slab[(w + 1) % 3][i] & t.slab[(w + 2) % 3][j];
         }

@@ -13,12 +13,11 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE unsigned children_on_plane(const TriangleSetup& t, const Corner& c,
-                                      float error) noexcept {
+HWY_INLINE unsigned children_on_plane(const Slopes& slopes, const Values& first) noexcept {
   const Eight d;
-  const auto f = hn::Set(d, plane_at(t, c)), limit = hn::Set(d, 0.5f + error);
-  const auto nx = hn::Set(d, float(t.normal[0])), ny = hn::Set(d, float(t.normal[1])),
-             nz = hn::Set(d, float(t.normal[2]));
+  const auto f = hn::Set(d, first.plane), limit = hn::Set(d, 0.5f + slopes.error);
+  const auto nx = hn::Set(d, slopes.normal[0]), ny = hn::Set(d, slopes.normal[1]),
+             nz = hn::Set(d, slopes.normal[2]);
   unsigned touched = 0;
   for (size_t i = 0; i < 8; i += kEight) {
     const auto xy = hn::Add(hn::Mul(hn::Load(d, kCoordinates[0] + i), nx),
@@ -33,18 +32,16 @@ using EdgeMasks = hn::Vec<hn::RebindToUnsigned<Eight>>[8 / kEight];  // of the c
 
 // Removes the children outside the edges from *touched, and switches an edge off in the children
 // where it holds everywhere.
-HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, float error,
+HWY_INLINE void children_at_edges(const Slopes& slopes, const Values& first, unsigned of_parent,
                                   unsigned* touched, EdgeMasks& edges) noexcept {
   const Eight d;
   const hn::RebindToUnsigned<Eight> du;
-  EdgeValues values;
-  edge_values(*entry.triangle, c, &values);
-  const auto low = hn::Set(d, -(0.5f + error)), high = hn::Set(d, 0.5f + error);
-  for (unsigned left = entry.edges; left != 0; left &= left - 1) {
+  const auto low = hn::Set(d, -(0.5f + slopes.error)), high = hn::Set(d, 0.5f + slopes.error);
+  for (unsigned left = of_parent; left != 0; left &= left - 1) {
     const int k = __builtin_ctz(left);
     const float *const at_u = kCoordinates[kAxisU[k]], *const at_v = kCoordinates[kAxisV[k]];
-    const auto f = hn::Set(d, values.f[k]);
-    const auto u = hn::Set(d, values.u[k]), v = hn::Set(d, values.v[k]);
+    const auto f = hn::Set(d, first.edge[kPlace[k]]);
+    const auto u = hn::Set(d, slopes.edge_u[kPlace[k]]), v = hn::Set(d, slopes.edge_v[kPlace[k]]);
     unsigned outside = 0;
     for (size_t i = 0; i < 8; i += kEight) {
       const auto value =
@@ -58,6 +55,13 @@ HWY_INLINE void children_at_edges(const ListedTriangle& entry, const Corner& c, 
   }
 }
 
+// Whether the box of a triangle decides which children it touches: a small one that meets one or
+// two children touches these. (A triangle beside the parent may not; that costs time, but sets no
+// wrong voxel.)
+HWY_INLINE bool box_decides(const TriangleSetup& t, unsigned in_box, double half) noexcept {
+  return __builtin_popcount(in_box) <= 2 && t.extent < half;
+}
+
 void children(const ListedTriangle* entries, size_t count, const LatticePoint& corner, int64_t side,
               ChildOverlap* out) noexcept {
   const hn::RebindToUnsigned<Eight> du;
@@ -69,14 +73,15 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
     unsigned touched = children_in_box(t.box, x, y, z);
     EdgeMasks edges;
     for (auto& mask : edges) mask = hn::Set(du, uint32_t(entries->edges));
-    // A small triangle whose box meets one or two children touches these. (A triangle beside the
-    // parent may not; that costs time, but sets no wrong voxel.)
-    const bool few = __builtin_popcount(touched) <= 2;
-    if (!few || t.extent >= half) {
-      const float error = error_of(t, 4 * half, c);
-      touched &= children_on_plane(t, c, error);
-      if (touched != 0 && entries->edges != 0)
-        children_at_edges(*entries, c, error, &touched, edges);
+    if (!box_decides(t, touched, half)) {
+      Slopes slopes;
+      Values first;
+      set_plane(t, c, 4 * half, &slopes, &first);
+      touched &= children_on_plane(slopes, first);
+      if (touched != 0 && entries->edges != 0) {
+        set_edges(t, c, &slopes, &first);
+        children_at_edges(slopes, first, entries->edges, &touched, edges);
+      }
     }
     for (size_t i = 0; i < 8; i += kEight) hn::StoreU(edges[i / kEight], du, out->edges + i);
     out->touched = uint8_t(touched);
