@@ -246,6 +246,7 @@ HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
   const hn::RebindToUnsigned<Eight> du;
   const int64_t side = int64_t(4) << fraction;  // of a brick
   const Corner c = make_corner(corner, double(int64_t(1) << fraction));
+  BrickPlacement p = {corner, fraction, counts};
   for (int i = 0; i < 8; ++i) out[i] = 0;
   for (; count != 0; --count, ++entries) {
     ListedTriangle entry = *entries;
@@ -271,10 +272,10 @@ HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
       entry.edges = EdgeMask(edges[b]);
       if (covering) entry.edges = needed_edges(t, entry.edges);
       move_to_brick(slopes, in_cube, b, &in_brick);
-      const LatticePoint of_brick = {corner.x + (b >> 2 & 1) * side, corner.y + (b >> 1 & 1) * side,
-                                     corner.z + (b & 1) * side};
-      out[b] |=
-          voxels_of(entry, slopes, in_brick, BrickPlacement{of_brick, fraction, counts}, ~out[b]);
+      p.corner.x = corner.x + int64_t(b >> 2 & 1) * side;
+      p.corner.y = corner.y + int64_t(b >> 1 & 1) * side;
+      p.corner.z = corner.z + int64_t(b & 1) * side;
+      out[b] |= voxels_of(entry, slopes, in_brick, p, ~out[b]);
     }
   }
   uint32_t voxels = 0;
