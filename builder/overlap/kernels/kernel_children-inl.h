@@ -31,28 +31,31 @@ HWY_INLINE unsigned children_on_plane(const Slopes& slopes, const Values& first)
 using EdgeMasks = hn::Vec<hn::RebindToUnsigned<Eight>>[8 / kEight];  // of the children
 
 // Removes the children outside the edges from *touched, and switches an edge off in the children
-// where it holds everywhere.
-HWY_INLINE void children_at_edges(const Slopes& slopes, const Values& first, unsigned of_parent,
-                                  unsigned* touched, EdgeMasks& edges) noexcept {
+// where it holds everywhere. Asks all nine functions, without branches: one that holds in the whole
+// cube removes nothing, and one that the triangle lacks (n_w = 0) is 0 on all of the triangle, so
+// what it removes is not touched.
+HWY_INLINE void children_at_edges(const Slopes& slopes, const Values& first, unsigned* touched,
+                                  EdgeMasks& edges) noexcept {
   const Eight d;
   const hn::RebindToUnsigned<Eight> du;
   const auto low = hn::Set(d, -(0.5f + slopes.error)), high = hn::Set(d, 0.5f + slopes.error);
-  for (unsigned left = of_parent; left != 0; left &= left - 1) {
-    const int k = __builtin_ctz(left);
-    const float *const at_u = kCoordinates[kAxisU[k]], *const at_v = kCoordinates[kAxisV[k]];
-    const auto f = hn::Set(d, first.edge[kPlace[k]]);
-    const auto u = hn::Set(d, slopes.edge_u[kPlace[k]]), v = hn::Set(d, slopes.edge_v[kPlace[k]]);
-    unsigned outside = 0;
-    for (size_t i = 0; i < 8; i += kEight) {
-      const auto value =
-          hn::Add(f, hn::Add(hn::Mul(hn::Load(d, at_u + i), u), hn::Mul(hn::Load(d, at_v + i), v)));
-      outside |= bits(d, hn::Lt(value, low)) << i;
-      const auto holds =
-          hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)), hn::Set(du, 1U << k));
-      edges[i / kEight] = hn::AndNot(holds, edges[i / kEight]);
+  unsigned outside = 0;
+  for (size_t w = 0; w < 3; ++w) {
+    const float *const at_u = kCoordinates[(w + 1) % 3], *const at_v = kCoordinates[(w + 2) % 3];
+    for (size_t e = 0; e < 3; ++e) {
+      const auto f = hn::Set(d, first.edge[4 * w + e]);
+      const auto u = hn::Set(d, slopes.edge_u[4 * w + e]), v = hn::Set(d, slopes.edge_v[4 * w + e]);
+      for (size_t i = 0; i < 8; i += kEight) {
+        const auto value = hn::Add(
+            f, hn::Add(hn::Mul(hn::Load(d, at_u + i), u), hn::Mul(hn::Load(d, at_v + i), v)));
+        outside |= bits(d, hn::Lt(value, low)) << i;
+        const auto holds = hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(value, high)),
+                                              hn::Set(du, 1U << (3 * w + e)));
+        edges[i / kEight] = hn::AndNot(holds, edges[i / kEight]);
+      }
     }
-    *touched &= ~outside;
   }
+  *touched &= ~outside;
 }
 
 // Whether the box of a triangle decides which children it touches: a small one that meets one or
@@ -80,7 +83,7 @@ void children(const ListedTriangle* entries, size_t count, const LatticePoint& c
       touched &= children_on_plane(slopes, first);
       if (touched != 0 && entries->edges != 0) {
         set_edges(t, c, &slopes, &first);
-        children_at_edges(slopes, first, entries->edges, &touched, edges);
+        children_at_edges(slopes, first, &touched, edges);
       }
     }
     for (size_t i = 0; i < 8; i += kEight) hn::StoreU(edges[i / kEight], du, out->edges + i);

@@ -105,11 +105,6 @@ HWY_INLINE void set_edges(const TriangleSetup& t, const Corner& c, Slopes* slope
   }
 }
 
-// Function k = 3w + e: where it is, and the axes w + 1 and w + 2.
-constexpr uint8_t kPlace[9] = {0, 1, 2, 4, 5, 6, 8, 9, 10};
-constexpr uint8_t kAxisU[9] = {1, 1, 1, 2, 2, 2, 0, 0, 0};
-constexpr uint8_t kAxisV[9] = {2, 2, 2, 0, 0, 0, 1, 1, 1};
-
 }  // namespace
 }  // namespace svdag::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

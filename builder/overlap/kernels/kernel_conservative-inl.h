@@ -95,10 +95,9 @@ HWY_INLINE hn::Vec<Sixteen> edge_at_columns(const Slopes& slopes, const Values& 
 }
 
 // columns[w], for the axes w in `axes`: the columns 4i + j along w at whose centre every edge
-// function that projects along w is at least -reach; those that are not in `edges` may be asked,
-// too. Values that are unsure in float are decided by decide(k, column), if `edges` has k: if there
-// are any, all is done again. The fast path asks all three functions of a projection, because an
-// end of a loop that cannot be predicted costs more than those that are decided already.
+// function that projects along w is at least -reach. Asks all of these functions, as
+// children_at_edges does. Values that are unsure in float are decided by decide(k, column), for the
+// functions of `edges`: if there are any, all is done again.
 template <class Decide>
 HWY_INLINE void columns_at_edges(const Slopes& slopes, const Values& first, unsigned edges,
                                  unsigned axes, float reach, DecisionCounts* counts,
@@ -127,7 +126,7 @@ HWY_INLINE void columns_at_edges(const Slopes& slopes, const Values& first, unsi
     if ((axes >> w & 1) == 0) continue;
     unsigned above = 0, unsure = 0;
     for (size_t i = 0; i < 16; i += kSixteen) {
-      const auto value = edge_at_columns(slopes, first, kPlace[k], reach, i);
+      const auto value = edge_at_columns(slopes, first, 4 * w + k % 3, reach, i);
       above |= bits(d, hn::Gt(value, limit)) << i;
       unsure |= bits(d, hn::Le(hn::Abs(value), limit)) << i;
     }
@@ -261,8 +260,7 @@ HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
       Values of_bricks;
       coarsen(slopes, in_cube.first, &of_bricks);
       touched &= children_on_plane(slopes, of_bricks);
-      if (touched != 0 && entry.edges != 0)
-        children_at_edges(slopes, of_bricks, entry.edges, &touched, masks);
+      if (touched != 0 && entry.edges != 0) children_at_edges(slopes, of_bricks, &touched, masks);
     }
     uint32_t edges[8];
     for (size_t i = 0; i < 8; i += kEight) hn::StoreU(masks[i / kEight], du, edges + i);
