@@ -11,7 +11,6 @@
 // Notation: a handle is a number, or kPending + the position among the keys not yet resolved.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -34,24 +33,22 @@ class UniqueSet {
   explicit UniqueSet(MemoryBudget* budget)
       : budget_(budget), keys_(budget, kPurpose), reservation_(budget->reserve(0, kPurpose)) {}
 
-  // The handle of `key`. Without a branch: whether a key is known is hard to predict.
+  // The handle of `key`.
   uint32_t add(const Key& key) {
-    if (pending_count_ == pending_.size()) make_room_for_pending();
+    if (recent_.empty()) recent_.assign(size_t(1) << kRecentBits, 0);
     uint32_t& recent = recent_[Hash()(key) >> (64 - kRecentBits)];
-    const uint32_t next = uint32_t(pending_count_);
-    pending_[next] = key;
-    const bool known = (recent < next) & same(pending_[recent], key);
-    pending_count_ += !known;
-    recent = known ? recent : next;
+    if (recent < pending_.size() && same(pending_[recent], key)) return kPending | recent;
+    recent = uint32_t(pending_.size());
+    pending_.push_back(key);
     return kPending | recent;
   }
 
   // Pending keys may be rewritten (their children got numbers) before they are resolved.
-  std::span<Key> pending() { return std::span(pending_).first(pending_count_); }
+  std::span<Key> pending() { return pending_; }
 
   // Numbers the pending keys: (*numbers)[i] for the handle kPending + i.
   void resolve(std::vector<uint32_t>* numbers) {
-    const size_t count = pending_count_;
+    const size_t count = pending_.size();
     numbers->resize(count);
     if (count == 0) return;
     make_room(keys_.size() + count);
@@ -71,7 +68,7 @@ class UniqueSet {
         (*numbers)[k] = insert(pending_[k], tags[k % tags.size()]);
       }
     }
-    pending_count_ = 0;
+    pending_.clear();
   }
 
   size_t size() const { return keys_.size(); }
@@ -93,12 +90,6 @@ class UniqueSet {
   static constexpr size_t kMinSlots = 1024;
   static constexpr size_t kAhead = 16;
   static constexpr const char* kPurpose = "node tables";
-
-  // recent_ only has positions in pending_, which never shrinks.
-  void make_room_for_pending() {
-    if (recent_.empty()) recent_.assign(size_t(1) << kRecentBits, 0);
-    pending_.resize(std::max<size_t>(64, 2 * pending_.size()));
-  }
 
   // A slot holds 1 + a number, and above it the tag: 32 bits of the hash, whose first ones are the
   // slot's index, so that growing needs no key and goes through the slots in order.
@@ -168,7 +159,6 @@ class UniqueSet {
 
   MemoryBudget* budget_;
   std::vector<Key> pending_;
-  size_t pending_count_ = 0;
   std::vector<uint32_t> recent_;  // by hash: positions in pending_
   SegmentedArray<Key> keys_;
   HugePages memory_;  // of the slots
