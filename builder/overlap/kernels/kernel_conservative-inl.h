@@ -42,14 +42,16 @@ HWY_INLINE void place(const ListedTriangle& entry, const Corner& c, int fraction
   if (entry.edges != 0) set_edges(t, c, slopes, &out->first);
 }
 
-// From the cube of 8^3 voxels to the brick of its child c.
-HWY_INLINE void move_to_brick(const Slopes& slopes, const InCube& cube, unsigned c,
+// From the cube of 8^3 voxels to the brick of its child c; the edges only if any is undecided
+// there.
+HWY_INLINE void move_to_brick(const Slopes& slopes, const InCube& cube, unsigned c, EdgeMask edges,
                               InCube* out) noexcept {
   const Four d;
   const float step[3] = {4 * kCoordinates[0][c], 4 * kCoordinates[1][c], 4 * kCoordinates[2][c]};
   for (int a = 0; a < 3; ++a) out->slabs[a] = cube.slabs[a] >> (4 * (c >> (2 - a) & 1)) & 15;
   out->first.plane = cube.first.plane + (step[0] * slopes.normal[0] + step[1] * slopes.normal[1] +
                                          step[2] * slopes.normal[2]);
+  if (edges == 0) return;
   for (size_t w = 0; w < 3; ++w) {
     const auto u = hn::Set(d, step[(w + 1) % 3]), v = hn::Set(d, step[(w + 2) % 3]);
     for (size_t i = 4 * w; i < 4 * w + 4; i += hn::MaxLanes(d)) {
@@ -61,10 +63,12 @@ HWY_INLINE void move_to_brick(const Slopes& slopes, const InCube& cube, unsigned
 }
 
 // Values of the functions of the 8 bricks of a cube of 8^3 voxels, in units of a brick.
-HWY_INLINE void coarsen(const Slopes& slopes, const Values& of_voxels, Values* out) noexcept {
+HWY_INLINE void coarsen(const Slopes& slopes, const Values& of_voxels, EdgeMask edges,
+                        Values* out) noexcept {
   const Four d;
   const float* const n = slopes.normal;
   out->plane = 0.25f * (of_voxels.plane + 1.5f * (n[0] + n[1] + n[2]));
+  if (edges == 0) return;
   for (size_t i = 0; i < 12; i += hn::MaxLanes(d)) {
     const auto sum = hn::Add(hn::LoadU(d, slopes.edge_u + i), hn::LoadU(d, slopes.edge_v + i));
     const auto f = hn::Add(hn::LoadU(d, of_voxels.edge + i), hn::Mul(hn::Set(d, 1.5f), sum));
@@ -258,7 +262,7 @@ HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
     for (auto& mask : masks) mask = hn::Set(du, uint32_t(entry.edges));
     if (!box_decides(t, touched, double(side))) {
       Values of_bricks;
-      coarsen(slopes, in_cube.first, &of_bricks);
+      coarsen(slopes, in_cube.first, entry.edges, &of_bricks);
       touched &= children_on_plane(slopes, of_bricks);
       if (touched != 0 && entry.edges != 0) children_at_edges(slopes, of_bricks, &touched, masks);
     }
@@ -269,7 +273,7 @@ HWY_INLINE uint32_t voxels_of_cube(const ListedTriangle* entries, size_t count,
       if (out[b] == ~Brick(0)) continue;
       entry.edges = EdgeMask(edges[b]);
       if (covering) entry.edges = needed_edges(t, entry.edges);
-      move_to_brick(slopes, in_cube, b, &in_brick);
+      move_to_brick(slopes, in_cube, b, entry.edges, &in_brick);
       p.corner.x = corner.x + int64_t(b >> 2 & 1) * side;
       p.corner.y = corner.y + int64_t(b >> 1 & 1) * side;
       p.corner.z = corner.z + int64_t(b & 1) * side;
