@@ -18,9 +18,9 @@ struct Found {
 std::optional<std::vector<Found>> children_of(const DagView& dag, uint32_t level,
                                               std::span<const Found> found) {
   std::vector<Found> children;
-  for (const auto& [cube, entry] : found) {
-    dag_for_children(dag, level, entry.node, [&](unsigned c, uint32_t child) {
-      children.push_back({cube << 3 | c, {entry.layer, child}});
+  for (const Found& parent : found) {
+    dag_for_children(dag, level, parent.entry.node, [&](unsigned c, uint32_t child) {
+      children.push_back({parent.cube << 3 | c, {parent.entry.layer, child}});
     });
     if (children.size() > kMaxEntries) return std::nullopt;
   }
