@@ -46,7 +46,7 @@ struct ReducedLevel {
 
 class GraphReduction {
  public:
-  GraphReduction(NodeGraph* graph, const ReductionConfig& config, BakeOutput* output)
+  GraphReduction(NodeGraph* graph, const ReductionConfig& config, DagOutput* output)
       : graph_(graph), config_(config), output_(output), brick_level_(graph->grid().levels - 2) {}
 
   std::vector<ReducedSet> run() {
@@ -161,7 +161,7 @@ class GraphReduction {
 
   NodeGraph* graph_;
   const ReductionConfig& config_;
-  BakeOutput* output_;
+  DagOutput* output_;
   int brick_level_;
   std::vector<RankBitmap> marks_;  // [level]: ids that the roots reach
 };
@@ -169,7 +169,7 @@ class GraphReduction {
 }  // namespace
 
 std::vector<ReducedSet> reduce_graph(NodeGraph* graph, const ReductionConfig& config,
-                                     BakeOutput* output) {
+                                     DagOutput* output) {
   return GraphReduction(graph, config, output).run();
 }
 

@@ -36,6 +36,6 @@ struct ReducedSet {
 
 // Writes all levels to `output`, which the caller finishes. Returns a set for each root.
 std::vector<ReducedSet> reduce_graph(NodeGraph* graph, const ReductionConfig& config,
-                                     BakeOutput* output);
+                                     DagOutput* output);
 
 }  // namespace svdag

@@ -11,8 +11,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kNodesPerProgress = 4096;
-
 class Merger {
  public:
   Merger(std::span<Run> runs, std::vector<SubDagRoot> roots, const GridPart& part,
@@ -28,7 +26,7 @@ class Merger {
     output_->begin_level(brick_level);
     std::vector<LevelInput<Brick>> bricks;
     for (const Run& run : runs_) bricks.push_back(input_from(run.bricks, brick_level));
-    maps_ = merge_level<Brick>(bricks, 0, [&](Brick brick) { return output_->add_brick(brick); });
+    maps_ = merge_level<Brick>(bricks, 0);
     for (Run& run : runs_) run.bricks = {};
     for (int level = brick_level - 1; level >= 0; --level) run_level(level);
     resolve_last();
@@ -63,8 +61,7 @@ class Merger {
     top_.end_level(level + 1);
     inputs.push_back({top_.sorted_nodes(), {}, 0, nullptr});
     output_->begin_level(level);
-    maps_ = merge_level<NodeKey>(inputs, below.resident_bytes(),
-                                 [&](const NodeKey& key) { return output_->add_node(key); });
+    maps_ = merge_level<NodeKey>(inputs, below.resident_bytes());
     for (Run& run : runs_) run.nodes[size_t(level)] = {};
     for (const SpillStream& stream : rewritten) {
       if (!stream.blocks.empty()) config_.scratch->transient()->free(stream);
@@ -159,29 +156,19 @@ class Merger {
   }
 
   // `held`: bytes of the resident maps that the inputs use.
-  template <class Key, class Add>
-  RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held, const Add& write) {
-    uint64_t keys = 0, added = 0;
+  template <class Key>
+  RankMaps merge_level(std::span<const LevelInput<Key>> inputs, uint64_t held) {
+    uint64_t keys = 0;
     for (const auto& input : inputs) keys += input.count();
-    const auto add = [&](const Key& key) {
-      if (++added % kNodesPerProgress == 0) advance(kNodesPerProgress, kNodesPerProgress);
-      return write(key);
+    const auto progress = [this](uint64_t of_inputs, uint64_t of_output) {
+      advance(of_inputs, of_output);
     };
-    RankMaps maps = merge_inputs<Key>(inputs, held, keys, add);
-    // Nodes that are in several runs are steps, too.
-    advance(keys - added / kNodesPerProgress * kNodesPerProgress, added % kNodesPerProgress);
-    return maps;
-  }
-
-  template <class Key, class Add>
-  RankMaps merge_inputs(std::span<const LevelInput<Key>> inputs, uint64_t held, uint64_t keys,
-                        const Add& add) {
     const bool many = inputs.size() > config_.max_sources;
     const bool spill = many || held + keys * sizeof(uint32_t) > config_.map_bytes;
     if (config_.scratch == nullptr || !spill)
-      return merge_at_once<Key>(inputs, add, nullptr, config_.budget, executor_);
-    return merge_in_groups<Key>(inputs, add, config_.max_sources, config_.scratch, config_.budget,
-                                executor_);
+      return merge_at_once<Key>(inputs, output_, progress, nullptr, config_.budget, executor_);
+    return merge_in_groups<Key>(inputs, output_, progress, config_.max_sources, config_.scratch,
+                                config_.budget, executor_);
   }
 
   std::span<Run> runs_;

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "builder/merge/level_source.h"
 #include "builder/merge/rank_maps.h"
+#include "io/dag/level_piece.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/process/executor.h"
@@ -42,56 +45,62 @@ LevelInput<Key> spilled_input(SpillFile* file, const SpillStream& stream, Memory
   return {{}, open, stream.bytes, map};
 }
 
-// The k-way merge of one level, in rounds. A round takes from every source the keys up to a bound
-// that is in memory for all of them, cuts them at splitters into pieces, and merges these at once.
-// Equal keys are in one piece. Pieces are written in order, while later ones are merged.
-// Rejected: one range of keys per worker (the second could only be written after the first).
-template <class Key, class Add>
+// Called with the numbers of keys of the inputs and of the output that were merged.
+using MergeProgress = std::function<void(uint64_t, uint64_t)>;
+
+// The k-way merge of one level, in pieces. A piece takes from every source the keys up to a bound,
+// so equal keys are in one piece. Any worker cuts the next piece off, merges and encodes it while
+// others work on further ones, waits for its turn only to get its place in the output, and then
+// stores it and sets the maps.
+// Rejected: one range of keys per worker (the second could only be placed after the first); all
+// workers on one part of the sources at a time (they wait for each other every two milliseconds).
+//
+// `Output`: has encode(), append() and store() as a DagWriter does (io/dag/dag_writer.h).
+template <class Key, class Output>
 class LevelMerge {
  public:
-  // `add`, `maps`: as in merge_at_once(). Runs the tasks of a round on `executor`.
-  LevelMerge(std::vector<LevelSource<Key>> sources, const Add& add, RankMaps* maps,
+  LevelMerge(std::vector<LevelSource<Key>> sources, Output* output, RankMaps* maps,
              MemoryBudget* budget, Executor* executor)
       : sources_(std::move(sources)),
-        add_(add),
+        output_(output),
         maps_(maps),
         executor_(executor),
-        share_(keys_per_round(budget, executor->workers()) / std::max<size_t>(sources_.size(), 1) +
+        share_(keys_per_piece(*budget, executor->workers()) / std::max<size_t>(sources_.size(), 1) +
                1),
         reservation_(budget->reserve(
-            share_ * sources_.size() * (2 * sizeof(Key) + sizeof(uint32_t)), "merge buffers")),
-        buffers_(executor->workers()) {}
+            executor->workers() * 2 * share_ * sources_.size() * kBytesPerKey, "merge buffers")) {}
 
-  void run() {
-    while (load()) {
-      check_interrupt();
-      cut();
-      Turns turns;
-      executor_->for_each(cuts_.size() - 1, [&](size_t worker, size_t piece) {
-        try {
-          merge_piece(piece, &buffers_[worker]);
-          turns.run(piece, [&] { write(buffers_[worker]); });
-        } catch (...) {
-          turns.fail();
-          throw;
+  void run(const MergeProgress& progress) {
+    executor_->for_each(executor_->workers(), [&](size_t, size_t) {
+      try {
+        for (Piece piece; cut(&piece);) {
+          merge(&piece);
+          if (!place(&piece)) return;
+          progress(piece.taken, piece.encoded.indices.size());
         }
-      });
-      for (size_t s = 0; s < sources_.size(); ++s) sources_[s].consume(cuts_.back()[s]);
-    }
+      } catch (...) {
+        turns_.fail();
+        throw;
+      }
+    });
   }
 
  private:
-  static constexpr uint64_t kMinKeysPerRound = 1 << 10, kMaxKeysPerWorker = 1 << 16;
-  static constexpr size_t kMinKeysPerPiece = 1 << 12;
-  static constexpr size_t kPiecesPerWorker = 4;
+  static constexpr uint64_t kMinKeysPerPiece = 1 << 6, kMaxKeysPerPiece = 1 << 13;
+  static constexpr size_t kKeysEncodedAtOnce = 256;
+  // As it is, encoded, in a block, and two numbers.
+  static constexpr size_t kBytesPerKey = 3 * (sizeof(Key) + sizeof(uint32_t));
 
-  // A merged piece.
-  struct Buffer {
-    std::vector<Key> keys;                         // unique
-    std::vector<std::vector<uint32_t>> positions;  // [source]: in `keys`, of each of its keys
-    std::vector<uint32_t> indices;                 // of `keys`, in the output
+  struct Piece {
+    size_t number = 0;
+    size_t taken = 0;                              // number of keys
+    std::vector<uint64_t> ranks;                   // [source]: of its first key
+    std::vector<std::vector<Key>> keys;            // [source]
+    std::vector<std::vector<uint32_t>> positions;  // [source]: in the output, of each of its keys
+    std::vector<Key> merged;                       // not encoded yet
+    LevelPiece encoded;
   };
-  // The rest of a source's part of a piece.
+  // The rest of a source's keys in a piece.
   struct Cursor {
     const Key* at;
     const Key* end;
@@ -102,67 +111,63 @@ class LevelMerge {
     static uint64_t prefix_of(const NodeKey& key) { return uint64_t(key[0]) << 32 | key[1]; }
   };
 
-  // 1/32 of the budget, so that buffers fit beside maps and blocks.
-  static uint64_t keys_per_round(const MemoryBudget* budget, size_t workers) {
-    return std::clamp<uint64_t>(budget->limit() / 64 / sizeof(Key), kMinKeysPerRound,
-                                kMaxKeysPerWorker * workers);
+  // All pieces together take 1/32 of the budget, so that they fit beside maps and blocks. A piece
+  // has less than twice as many keys.
+  static uint64_t keys_per_piece(const MemoryBudget& budget, size_t workers) {
+    return std::clamp<uint64_t>(budget.limit() / 64 / kBytesPerKey / workers, kMinKeysPerPiece,
+                                kMaxKeysPerPiece);
   }
 
-  // Loads the next keys of every source; false if none is left.
-  bool load() {
-    const bool reads = std::any_of(sources_.begin(), sources_.end(),
-                                   [](const auto& source) { return source.reads(); });
-    const auto refill = [&](size_t, size_t s) { sources_[s].refill(share_); };
-    if (reads) {
-      executor_->for_each(sources_.size(), refill);
-    } else {
-      for (size_t s = 0; s < sources_.size(); ++s) refill(0, s);
-    }
-    return std::any_of(sources_.begin(), sources_.end(),
-                       [](const auto& source) { return !source.window().empty(); });
-  }
-
-  // Sets cuts_[p][s], where piece p begins in the window of source s; cuts_.back() is the end of
-  // the round.
-  void cut() {
-    const Key* bound = nullptr;  // all keys up to it are in the windows
-    for (const LevelSource<Key>& source : sources_) {
-      if (source.has_more() && (bound == nullptr || source.window().back() < *bound))
-        bound = &source.window().back();
-    }
-    std::vector<size_t> ends;
-    size_t total = 0, longest = 0;
+  // Takes the next keys off the sources; false if none are left or another worker has failed.
+  bool cut(Piece* piece) {
+    const std::lock_guard lock(cut_mutex_);
+    if (cut_failed_) return false;
+    cut_failed_ = true;  // if what follows throws: the sources are invalid then
+    check_interrupt();
+    piece->number = pieces_++;
+    piece->taken = 0;
+    piece->keys.resize(sources_.size());
+    piece->ranks.clear();
     for (size_t s = 0; s < sources_.size(); ++s) {
-      const std::span<const Key> keys = sources_[s].window();
-      ends.push_back(bound == nullptr ? keys.size()
-                                      : size_t(std::upper_bound(keys.begin(), keys.end(), *bound) -
-                                               keys.begin()));
-      total += ends[s];
-      if (ends[s] > ends[longest]) longest = s;
+      piece->ranks.push_back(sources_[s].taken());
+      piece->keys[s].clear();
     }
-    const size_t pieces =
-        std::clamp<size_t>(total / kMinKeysPerPiece, 1, kPiecesPerWorker * executor_->workers());
-    cuts_.assign(1, std::vector<size_t>(sources_.size(), 0));
-    for (size_t p = 1; p < pieces; ++p) {
-      const Key& splitter = sources_[longest].window()[ends[longest] * p / pieces];
-      cuts_.push_back({});
+    while (piece->taken < share_ * sources_.size()) {
+      const size_t before = piece->taken;
+      const std::optional<Key> bound = next_bound();
       for (size_t s = 0; s < sources_.size(); ++s) {
-        const std::span<const Key> keys = sources_[s].window().first(ends[s]);
-        cuts_.back().push_back(
-            size_t(std::lower_bound(keys.begin(), keys.end(), splitter) - keys.begin()));
+        const size_t loaded = std::min(share_, sources_[s].loaded());
+        const size_t n = bound ? sources_[s].count_up_to(*bound, share_) : loaded;
+        sources_[s].take(n, &piece->keys[s]);
+        piece->taken += n;
       }
+      if (piece->taken == before) break;
     }
-    cuts_.push_back(std::move(ends));
+    cut_failed_ = false;
+    return piece->taken != 0;
+  }
+  // The greatest key up to which a share of each source suffices; none if that is all.
+  std::optional<Key> next_bound() const {
+    std::optional<Key> bound;
+    for (const LevelSource<Key>& source : sources_) {
+      const size_t n = std::min(share_, source.loaded());
+      if (!source.has_more_than(n)) continue;
+      const Key last = source.key(n - 1);
+      if (!bound || last < *bound) bound = last;
+    }
+    return bound;
   }
 
-  void merge_piece(size_t piece, Buffer* out) {
+  // Merges and encodes the piece.
+  void merge(Piece* piece) const {
     std::vector<Cursor> cursors;
-    out->keys.clear();
-    out->positions.resize(sources_.size());
+    piece->encoded.clear();
+    piece->positions.resize(sources_.size());
     for (size_t s = 0; s < sources_.size(); ++s) {
-      const Key* const window = sources_[s].window().data();
-      cursors.push_back({window + cuts_[piece][s], window + cuts_[piece + 1][s]});
-      out->positions[s].clear();
+      std::vector<Key>& keys = piece->keys[s];
+      sources_[s].rewrite_keys(keys);
+      cursors.push_back({keys.data(), keys.data() + keys.size()});
+      piece->positions[s].clear();
     }
     const auto prefix = [&](size_t s) { return cursors[s].prefix(); };
     const auto before = [&](size_t a, size_t b) {
@@ -170,42 +175,62 @@ class LevelMerge {
       return *cursors[a].at < *cursors[b].at;
     };
     Tournament tournament(cursors.size(), prefix, before);
+    uint32_t position = 0;
     for (size_t s = tournament.winner(); !cursors[s].ended();) {
       const Key key = *cursors[s].at;
-      const uint32_t position = uint32_t(out->keys.size());
-      out->keys.push_back(key);
+      piece->merged.push_back(key);
       do {
-        out->positions[s].push_back(position);
+        piece->positions[s].push_back(position);
         ++cursors[s].at;
         tournament.replay();
         s = tournament.winner();
       } while (!cursors[s].ended() && *cursors[s].at == key);
+      if (++position % kKeysEncodedAtOnce == 0) encode(piece);
     }
+    encode(piece);
+  }
+  void encode(Piece* piece) const {
+    output_->encode(std::span<const Key>(piece->merged), &piece->encoded);
+    piece->merged.clear();
   }
 
-  void write(Buffer& piece) {
-    piece.indices.clear();
-    for (const Key& key : piece.keys) piece.indices.push_back(add_(key));
+  // Puts the piece into the output and its indices into the maps; false if another worker failed.
+  bool place(Piece* piece) {
+    uint32_t first = 0;  // index
+    const bool placed = turns_.run(piece->number, [&] {
+      first = output_->append(&piece->encoded);
+      if (maps_->spilled()) set_maps(*piece, first);
+    });
+    if (!placed) return false;
+    if (!maps_->spilled()) set_maps(*piece, first);
+    output_->store(&piece->encoded);
+    return true;
+  }
+  void set_maps(const Piece& piece, uint32_t first) {
     for (size_t s = 0; s < sources_.size(); ++s) {
-      for (const uint32_t position : piece.positions[s]) maps_->push(s, piece.indices[position]);
+      uint64_t rank = piece.ranks[s];
+      for (const uint32_t position : piece.positions[s])
+        maps_->set(s, rank++, first + piece.encoded.indices[position]);
     }
   }
 
   std::vector<LevelSource<Key>> sources_;
-  const Add& add_;
+  Output* output_;
   RankMaps* maps_;
   Executor* executor_;
-  size_t share_;  // number of keys of one source that are loaded for a round
+  size_t share_;  // most keys that a source gives at a time
   MemoryBudget::Reservation reservation_;
-  std::vector<std::vector<size_t>> cuts_;  // of the current round
-  std::vector<Buffer> buffers_;            // [worker]
+  std::mutex cut_mutex_;  // guards the sources and what follows
+  bool cut_failed_ = false;
+  size_t pieces_ = 0;  // cut so far
+  Turns turns_;
 };
 
-// Merges with all inputs open. add(key) appends a key to the output and returns its index there; it
-// is called by one thread at a time. The maps are spilled if `scratch` is given.
-template <class Key, class Add>
-RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, Scratch* scratch,
-                       MemoryBudget* budget, Executor* executor) {
+// Merges with all inputs open. The maps are spilled if `scratch` is given.
+template <class Key, class Output>
+RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, Output* output,
+                       const MergeProgress& progress, Scratch* scratch, MemoryBudget* budget,
+                       Executor* executor) {
   std::vector<uint64_t> counts;
   std::vector<LevelSource<Key>> sources;
   for (const LevelInput<Key>& input : inputs) {
@@ -213,36 +238,59 @@ RankMaps merge_at_once(std::span<const LevelInput<Key>> inputs, const Add& add, 
     sources.push_back(input.open());
   }
   RankMaps maps(counts, scratch, budget);
-  LevelMerge<Key, Add>(std::move(sources), add, &maps, budget, executor).run();
+  LevelMerge<Key, Output>(std::move(sources), output, &maps, budget, executor).run(progress);
   maps.finish();
   return maps;
 }
 
+// The output of a group: its keys as they are.
+class GroupOutput {
+ public:
+  GroupOutput(Scratch* scratch, MemoryBudget* budget)
+      : writer_(scratch->transient(), scratch->new_streams(), budget) {}
+
+  template <class Key>
+  void encode(std::span<const Key> keys, LevelPiece* piece) const {
+    piece->add_as_they_are(keys);
+  }
+  uint32_t append(LevelPiece* piece) {
+    writer_.append(piece->bytes);
+    const uint64_t first = count_;
+    count_ += piece->indices.size();
+    as_u32(count_, "nodes in a level of some runs");
+    return uint32_t(first);
+  }
+  void store(LevelPiece*) {}
+  SpillStream finish() { return writer_.finish(); }
+
+ private:
+  SpillWriter writer_;
+  uint64_t count_ = 0;
+};
+
 // Like merge_at_once(), with at most `max_sources` inputs open at a time: merges groups of inputs,
 // then the merged groups. The maps are spilled.
-template <class Key, class Add>
-RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, const Add& add,
-                         size_t max_sources, Scratch* scratch, MemoryBudget* budget,
-                         Executor* executor) {
+template <class Key, class Output>
+RankMaps merge_in_groups(std::span<const LevelInput<Key>> inputs, Output* output,
+                         const MergeProgress& progress, size_t max_sources, Scratch* scratch,
+                         MemoryBudget* budget, Executor* executor) {
   if (inputs.size() <= max_sources)
-    return merge_at_once<Key>(inputs, add, scratch, budget, executor);
+    return merge_at_once<Key>(inputs, output, progress, scratch, budget, executor);
   std::vector<RankMaps> into;  // [group]: maps of its members into the group
   std::vector<SpillStream> merged;
   for (size_t begin = 0; begin < inputs.size(); begin += max_sources) {
-    SpillWriter writer(scratch->transient(), scratch->new_streams(), budget);
-    uint64_t next = 0;
-    const auto append = [&](const Key& key) {
-      writer.append(std::as_bytes(std::span(&key, 1)));
-      return as_u32(next++, "nodes in a level of some runs");
-    };
     const auto group = inputs.subspan(begin, std::min(max_sources, inputs.size() - begin));
-    into.push_back(merge_at_once<Key>(group, append, scratch, budget, executor));
-    merged.push_back(writer.finish());
+    GroupOutput keys(scratch, budget);
+    const auto taken = [&](uint64_t of_group, uint64_t) { progress(of_group, 0); };
+    into.push_back(merge_at_once<Key>(group, &keys, taken, scratch, budget, executor));
+    merged.push_back(keys.finish());
   }
   std::vector<LevelInput<Key>> groups;
   for (const SpillStream& stream : merged)
     groups.push_back(spilled_input<Key>(scratch->transient(), stream, budget));
-  RankMaps out_of = merge_in_groups<Key>(groups, add, max_sources, scratch, budget, executor);
+  const auto merged_again = [&](uint64_t, uint64_t of_output) { progress(0, of_output); };
+  RankMaps out_of =
+      merge_in_groups<Key>(groups, output, merged_again, max_sources, scratch, budget, executor);
   for (const SpillStream& stream : merged) scratch->transient()->free(stream);
   RankMaps maps = RankMaps::without_sources(scratch, budget);
   for (size_t g = 0; g < into.size(); ++g) {

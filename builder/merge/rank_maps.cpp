@@ -23,7 +23,7 @@ RankMaps::RankMaps(std::span<const uint64_t> counts, Scratch* scratch, MemoryBud
     }
     maps_.emplace_back();
     maps_.back().reservation = budget->reserve(count * sizeof(uint32_t), kPurpose);
-    maps_.back().indices.reserve(count);
+    maps_.back().indices.resize(count);
   }
 }
 

@@ -35,15 +35,16 @@ class RankMaps {
     return {{}, scratch, budget};
   }
 
-  // Appends the index of the next key of `source`.
-  void push(size_t source, uint32_t index) {
+  // Sets the index of a key of `source`. Ranks of a spilled map come in order, by one thread at a
+  // time; those of one in memory in any order, by several.
+  void set(size_t source, uint64_t rank, uint32_t index) {
     if (writers_.empty()) {
-      maps_[source].indices.push_back(index);
+      maps_[source].indices[rank] = index;
     } else {
       writers_[source].append(std::as_bytes(std::span(&index, 1)));
     }
   }
-  // Must be called after the last push().
+  // Must be called after the last set().
   void finish();
   // Appends the map of one more source: the map `member` of *into composed with the map `group` of
   // out_of. All maps are spilled; that of `member` is freed.

@@ -16,11 +16,15 @@ namespace svdag {
 class BakeOutput {
  public:
   virtual ~BakeOutput() = default;
-  // Levels are written from L-2 to 0, each once, with ascending, unique keys. add_brick() and
-  // add_node() return the index by which the level above refers to the key; it ascends too.
+  // Levels are written from L-2 to 0, each once, with ascending, unique keys, in pieces
+  // (io/dag/level_piece.h): encode() adds keys to a piece, append() returns the index by which the
+  // level above refers to its first key, store() completes it. Indices ascend. One thread at a time
+  // appends; any may encode and store.
   virtual void begin_level(int level) = 0;
-  virtual uint32_t add_brick(Brick brick) = 0;
-  virtual uint32_t add_node(const NodeKey& children) = 0;
+  virtual void encode(std::span<const Brick> bricks, LevelPiece* piece) const = 0;
+  virtual void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const = 0;
+  virtual uint32_t append(LevelPiece* piece) = 0;
+  virtual void store(LevelPiece* piece) = 0;
   // Completes the file and gives it its name. `roots`: the non-empty tops of the part, of the union
   // and of layer i of `layers`, by their subjects. The roots of `layers` need not be set.
   virtual void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
@@ -41,10 +45,19 @@ class DagOutput final : public BakeOutput {
   }
 
   void begin_level(int level) override { writer_.begin_level(level); }
-  uint32_t add_brick(Brick brick) override { return writer_.add_brick(brick); }
-  uint32_t add_node(const NodeKey& children) override { return writer_.add_node(children); }
+  void encode(std::span<const Brick> bricks, LevelPiece* piece) const override {
+    writer_.encode(bricks, piece);
+  }
+  void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const override {
+    writer_.encode(nodes, piece);
+  }
+  uint32_t append(LevelPiece* piece) override { return writer_.append(piece); }
+  void store(LevelPiece* piece) override { writer_.store(piece); }
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
               LayerTable layers) override;
+  // Without pieces: one key at a time.
+  uint32_t add_brick(Brick brick) { return writer_.add_brick(brick); }
+  uint32_t add_node(const NodeKey& children) { return writer_.add_node(children); }
   // Completes a file without layers that gets no name, in the plain layout; errors show `shown_as`.
   DagFile finish_unnamed(uint64_t voxels, const std::string& shown_as) {
     return writer_.finish_unnamed(voxels, 0, {}, shown_as);

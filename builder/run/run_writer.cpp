@@ -39,7 +39,7 @@ std::vector<SubDagRoot> sort_layers(std::span<const SubDagRoot> roots, LayerTabl
 }  // namespace
 
 RunWriter::RunWriter(const std::string& path, const Grid& grid, Rule rule, GridPart part)
-    : file_(path), part_(std::move(part)), level_(grid.levels - 1), block_(kRunBlockBytes) {
+    : file_(path), part_(std::move(part)), level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   std::memcpy(header_.magic, kRunMagic, sizeof kRunMagic);
   header_.version = kRunVersion;
@@ -56,51 +56,50 @@ void RunWriter::begin_level(int level) {
   SVDAG_ASSERT(level == level_ - 1 && level >= 0);
   align();
   level_ = level;
-  last_node_ = {};
+  last_ = {};
 }
 
-uint32_t RunWriter::add_brick(Brick brick) {
-  SVDAG_ASSERT(last_brick_ < brick);
-  last_brick_ = brick;
-  return add(&brick, sizeof brick);
+void RunWriter::encode(std::span<const Brick> bricks, LevelPiece* piece) const {
+  piece->add_as_they_are(bricks);
 }
 
-uint32_t RunWriter::add_node(const NodeKey& children) {
-  SVDAG_ASSERT(last_node_ < children);
-  last_node_ = children;
-  return add(&children, sizeof children);
+void RunWriter::encode(std::span<const NodeKey> nodes, LevelPiece* piece) const {
+  piece->add_as_they_are(nodes);
 }
 
-uint32_t RunWriter::add(const void* key, size_t size) {
-  uint64_t& count = header_.keys[level_];
-  if (count >= kMaxRunKeys)
+uint32_t RunWriter::append(LevelPiece* piece) {
+  SVDAG_ASSERT(last_ < piece->first);
+  last_ = piece->last;
+  uint64_t& keys = header_.keys[level_];
+  const uint64_t first = keys;
+  keys += piece->indices.size();
+  if (keys > kMaxRunKeys)
     throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
                                        " has more than 2^32 - 2 nodes, the limit of a run: "
                                        "lower the resolution or bake smaller parts");
-  append(key, size);
-  return uint32_t(count++);
+  blocks_.append(piece->bytes, &piece->filled);
+  return uint32_t(first);
 }
 
 // Sections are aligned and item sizes divide a payload, so no item straddles two blocks.
 void RunWriter::append(const void* bytes, size_t size) {
-  std::memcpy(block_.data() + kSpillHeader + filled_, bytes, size);
-  filled_ += size;
-  if (filled_ == kRunPayload) flush();
+  blocks_.append({static_cast<const std::byte*>(bytes), size}, &filled_);
+  store(&filled_);
+}
+
+void RunWriter::store(FilledBlocks* filled) {
+  filled->write_all([this](FilledBlock& block) {
+    const uint32_t length = uint32_t(block.size - kSpillHeader);
+    const uint64_t checksum = seal_block(block.bytes(), {header_.run, block.number, length});
+    file_.write_at(sizeof header_ + block.number * kRunBlockBytes, block.bytes());
+    return checksum;
+  });
 }
 
 void RunWriter::align() {
-  const size_t gap = (kRunAlignment - filled_ % kRunAlignment) % kRunAlignment;
+  const size_t gap = (kRunAlignment - blocks_.position() % kRunAlignment) % kRunAlignment;
   static constexpr std::byte kZeros[kRunAlignment] = {};
   append(kZeros, gap);
-}
-
-void RunWriter::flush() {
-  const std::span<std::byte> block = std::span(block_).first(kSpillHeader + filled_);
-  const uint64_t checksum = seal_block(block, {header_.run, blocks_, uint32_t(filled_)});
-  hasher_.update(std::as_bytes(std::span(&checksum, 1)));
-  file_.write_at(sizeof header_ + blocks_ * kRunBlockBytes, block);
-  ++blocks_;
-  filled_ = 0;
 }
 
 void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
@@ -126,11 +125,7 @@ void RunWriter::append_layers(const LayerTable& layers) {
   align();
   const std::vector<std::byte> bytes = encode_layers(layers);
   header_.layers_bytes = bytes.size();
-  for (size_t at = 0; at < bytes.size();) {
-    const size_t n = std::min<size_t>(bytes.size() - at, kRunPayload - filled_);
-    append(bytes.data() + at, n);
-    at += n;
-  }
+  append(bytes.data(), bytes.size());
 }
 
 void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
@@ -143,9 +138,13 @@ void RunWriter::finish(std::span<const SubDagRoot> roots, uint64_t voxels, doubl
   align();
   for (const StoredRange& range : stored(part_.ranges())) append(&range, sizeof range);
   if (!layers.empty()) append_layers(layers);
-  if (filled_ > 0) flush();
+  blocks_.finish(&filled_);
+  store(&filled_);
   header_.file_bytes = RunLayout(header_).file_bytes;
-  const Hash128 hash = content_hash_of(header_, &hasher_);
+  Hasher128 hasher;
+  for (const uint64_t checksum : blocks_.checksums())
+    hasher.update(std::as_bytes(std::span(&checksum, 1)));
+  const Hash128 hash = content_hash_of(header_, &hasher);
   std::copy(hash.begin(), hash.end(), header_.content_hash);
   header_.header_checksum = checksum_of(header_);
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));

@@ -20,7 +20,7 @@
 #include "builder/run/bake_output.h"
 #include "builder/run/run_format.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/file/checksum.h"
+#include "streaming/file/block_filler.h"
 
 namespace svdag {
 
@@ -29,8 +29,10 @@ class RunWriter final : public BakeOutput {
   RunWriter(const std::string& path, const Grid& grid, Rule rule, GridPart part);
 
   void begin_level(int level) override;
-  uint32_t add_brick(Brick brick) override;
-  uint32_t add_node(const NodeKey& children) override;
+  void encode(std::span<const Brick> bricks, LevelPiece* piece) const override;
+  void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const override;
+  uint32_t append(LevelPiece* piece) override;
+  void store(LevelPiece* piece) override { store(&piece->filled); }
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
               LayerTable layers) override;
 
@@ -39,10 +41,9 @@ class RunWriter final : public BakeOutput {
   std::string content_hash() const override;
 
  private:
-  uint32_t add(const void* key, size_t size);
   void append(const void* bytes, size_t size);
+  void store(FilledBlocks* filled);
   void align();
-  void flush();
   void append_roots(std::span<const SubDagRoot> roots);
   void append_layers(const LayerTable& layers);
 
@@ -50,12 +51,9 @@ class RunWriter final : public BakeOutput {
   GridPart part_;
   RunHeader header_{};
   int level_;
-  Brick last_brick_ = 0;  // the previous keys, to assert their order
-  NodeKey last_node_{};
-  std::vector<std::byte> block_;
-  size_t filled_ = 0;    // bytes of its payload
-  uint64_t blocks_ = 0;  // written
-  Hasher128 hasher_;     // of the block checksums
+  NodeKey last_{};  // the last key of the level
+  BlockFiller blocks_{kRunBlockBytes, kSpillHeader};
+  FilledBlocks filled_;  // by append(bytes, size)
 };
 
 }  // namespace svdag

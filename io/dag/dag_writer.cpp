@@ -12,6 +12,24 @@
 #include "streaming/file/checksum.h"
 
 namespace svdag {
+namespace {
+
+constexpr uint32_t kMaxNodeWords = 9;
+
+// Writes the words of a node; returns their number. What is after them is overwritten.
+uint32_t encode_node(const NodeKey& children, uint32_t* words) noexcept {
+  uint32_t mask = 0, count = 1;
+  for (unsigned c = 0; c < 8; ++c) {
+    const uint32_t present = children[c] != 0;
+    words[count] = children[c] - 1;  // overwritten by the next child if this one is absent
+    mask |= present << c;
+    count += present;
+  }
+  words[0] = mask;
+  return count;
+}
+
+}  // namespace
 
 DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
                      std::optional<WorkRoom> compact, uint64_t max_words)
@@ -31,29 +49,19 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
     header_.corner[a] = corner[a];
     if (grid.kind == Grid::Kind::kOrigin) header_.origin[a] = grid.origin[a];
   }
-  block_.resize(kChecksumBlock);
   file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
 }
 
 void DagWriter::append(const void* bytes, size_t size) {
-  const std::byte* from = static_cast<const std::byte*>(bytes);
-  while (size > 0) {
-    const size_t n = std::min<size_t>(size, kChecksumBlock - filled_);
-    std::memcpy(block_.data() + filled_, from, n);
-    filled_ += n;
-    from += n;
-    size -= n;
-    if (filled_ == kChecksumBlock) flush_block();
-  }
+  blocks_.append({static_cast<const std::byte*>(bytes), size}, &filled_);
+  store(&filled_);
 }
 
-void DagWriter::flush_block() {
-  if (filled_ == 0) return;
-  const auto bytes = std::span(block_).first(filled_);
-  checksums_.push_back(checksum64(bytes));
-  file_.write_at(sizeof(Header) + written_, bytes);
-  written_ += filled_;
-  filled_ = 0;
+void DagWriter::store(FilledBlocks* filled) {
+  filled->write_all([this](FilledBlock& block) {
+    file_.write_at(sizeof(Header) + block.number * kChecksumBlock, block.bytes());
+    return checksum64(block.bytes());
+  });
 }
 
 void DagWriter::align() {
@@ -73,27 +81,43 @@ void DagWriter::begin_level(int level) {
   align();
   level_ = level;
   words_ = 0;
-  last_node_ = {};
+  last_ = {};
   header_.sections[level].offset = position();
 }
 
-uint32_t DagWriter::add_brick(Brick brick) {
-  SVDAG_ASSERT(last_brick_ < brick && level_ + 2 == int(header_.levels));
-  last_brick_ = brick;
-  if (words_ >= max_words_)
+void DagWriter::begin_key(const NodeKey& key) {
+  SVDAG_ASSERT(last_ < key);
+  last_ = key;
+}
+
+// Returns the index of the first of `words` further words (bricks).
+uint32_t DagWriter::take_words(uint64_t words, uint64_t nodes) {
+  if (words > max_words_ - words_)
     throw Error(ExitCode::kOutput,
-                "the scene needs more than 2^32 - 2 different bricks, which "
-                "the format cannot hold: lower the resolution");
+                level_ + 2 == int(header_.levels)
+                    ? "the scene needs more than 2^32 - 2 different bricks, which the format "
+                      "cannot hold: lower the resolution"
+                    : "level " + std::to_string(level_) +
+                          " needs more than 2^32 - 2 words, which the format cannot hold: lower "
+                          "the resolution");
+  header_.sections[level_].nodes += nodes;
+  const uint32_t index = words_;
+  words_ += uint32_t(words);
+  return index;
+}
+
+uint32_t DagWriter::add_brick(Brick brick) {
+  SVDAG_ASSERT(level_ + 2 == int(header_.levels));
+  begin_key(key_of(brick));
+  const uint32_t index = take_words(1, 1);
   append(&brick, sizeof brick);
-  ++header_.sections[level_].nodes;
-  return words_++;
+  return index;
 }
 
 uint32_t DagWriter::add_node(const NodeKey& children) {
   SVDAG_ASSERT(level_ + 2 < int(header_.levels));
   if (level_ > 0) {
-    SVDAG_ASSERT(last_node_ < children);
-    last_node_ = children;
+    begin_key(children);
     return append_node(children);
   }
   roots_.push_back(children);
@@ -101,22 +125,44 @@ uint32_t DagWriter::add_node(const NodeKey& children) {
 }
 
 uint32_t DagWriter::append_node(const NodeKey& children) {
-  uint32_t words[9];
-  uint32_t mask = 0, count = 1;
-  for (unsigned c = 0; c < 8; ++c) {
-    if (children[c] == 0) continue;
-    mask |= 1U << c;
-    words[count++] = children[c] - 1;
+  uint32_t words[kMaxNodeWords];
+  const uint32_t count = encode_node(children, words);
+  const uint32_t index = take_words(count, 1);
+  append(words, sizeof(uint32_t) * count);
+  return index;
+}
+
+void DagWriter::encode(std::span<const Brick> bricks, LevelPiece* piece) const {
+  SVDAG_ASSERT(level_ + 2 == int(header_.levels));
+  piece->add_as_they_are(bricks);
+}
+
+// A root stays as it is: its words are written when all roots are there.
+void DagWriter::encode(std::span<const NodeKey> nodes, LevelPiece* piece) const {
+  SVDAG_ASSERT(level_ + 2 < int(header_.levels));
+  if (level_ == 0) return piece->add_as_they_are(nodes);
+  constexpr size_t kWord = sizeof(uint32_t);
+  size_t words = piece->bytes.size() / kWord;
+  piece->bytes.resize((words + kMaxNodeWords * nodes.size()) * kWord);
+  for (const NodeKey& node : nodes) {
+    piece->add(node, words);
+    words += encode_node(node, reinterpret_cast<uint32_t*>(piece->bytes.data()) + words);
   }
-  words[0] = mask;
-  if (uint64_t(words_) + count > max_words_)
-    throw Error(ExitCode::kOutput, "level " + std::to_string(level_) +
-                                       " needs more than 2^32 - 2 words, which the format "
-                                       "cannot hold: lower the resolution");
-  append(words, 4 * size_t(count));
-  ++header_.sections[level_].nodes;
-  const uint32_t index = words_;
-  words_ += count;
+  piece->bytes.resize(words * kWord);
+}
+
+uint32_t DagWriter::append(LevelPiece* piece) {
+  if (level_ == 0) {
+    const size_t first = roots_.size();
+    roots_.resize(first + piece->indices.size());
+    std::memcpy(roots_.data() + first, piece->bytes.data(), piece->bytes.size());
+    return uint32_t(first);
+  }
+  begin_key(piece->first);
+  last_ = piece->last;
+  const size_t item = level_ + 2 == int(header_.levels) ? sizeof(Brick) : sizeof(uint32_t);
+  const uint32_t index = take_words(piece->bytes.size() / item, piece->indices.size());
+  blocks_.append(piece->bytes, &piece->filled);
   return index;
 }
 
@@ -168,10 +214,12 @@ void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers
   append(json.data(), json.size());
   align();
   header_.checksum_offset = position();
-  flush_block();
-  header_.checksum_bytes = checksums_.size() * sizeof(uint64_t);
+  blocks_.finish(&filled_);
+  store(&filled_);
+  const std::vector<uint64_t> checksums(blocks_.checksums().begin(), blocks_.checksums().end());
+  header_.checksum_bytes = checksums.size() * sizeof(uint64_t);
   header_.file_bytes = header_.checksum_offset + header_.checksum_bytes;
-  const auto table = std::as_bytes(std::span(checksums_));
+  const auto table = std::as_bytes(std::span(checksums));
   file_.write_at(header_.checksum_offset, table);
 
   Hasher128 hasher;  // content_hash and header_checksum are still zero

@@ -7,15 +7,18 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/layers/layer_table.h"
+#include "io/dag/level_piece.h"
 #include "io/dag/node_key.h"
 #include "io/grid.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/block_filler.h"
 #include "streaming/spill/work_array.h"
 
 namespace svdag {
@@ -35,6 +38,13 @@ class DagWriter {
   // Appends a node to an inner level and returns the index of its first word. Nodes must ascend. A
   // full section is an Error (kOutput).
   uint32_t add_node(const NodeKey& children);
+  // The same for many keys of the level (io/dag/level_piece.h): encode() adds bricks of level L-2
+  // or nodes of another to *piece, append() returns the index of its first key, store() completes
+  // it. One thread at a time appends; any may encode and store.
+  void encode(std::span<const Brick> bricks, LevelPiece* piece) const;
+  void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const;
+  uint32_t append(LevelPiece* piece);
+  void store(LevelPiece* piece) { store(&piece->filled); }
   // The roots, that is, the nodes of level 0, may come in any order; add_node() numbers them.
   //
   // Writes metadata, checksums and header, and renames the file to its name. Without layers there
@@ -51,11 +61,13 @@ class DagWriter {
 
  private:
   void append(const void* bytes, size_t size);
-  void flush_block();
+  void store(FilledBlocks* filled);
   void align();
-  uint64_t position() const { return sizeof(Header) + written_ + filled_; }
+  uint64_t position() const { return sizeof(Header) + blocks_.position(); }
   void close_level();
 
+  void begin_key(const NodeKey& key);
+  uint32_t take_words(uint64_t words, uint64_t nodes);
   uint32_t append_node(const NodeKey& children);
   void write_roots(LayerTable* layers);
   void write_layers(LayerTable layers);
@@ -66,15 +78,12 @@ class DagWriter {
   AtomicFile file_;
   Header header_{};
   uint64_t max_words_;
-  int level_;             // the level being written
-  uint32_t words_ = 0;    // words (bricks) in it
-  Brick last_brick_ = 0;  // the previous keys, to assert the order
-  NodeKey last_node_{};
-  std::vector<NodeKey> roots_;    // level 0
-  uint64_t written_ = 0;          // payload bytes in the file
-  std::vector<std::byte> block_;  // kChecksumBlock bytes
-  size_t filled_ = 0;             // of the block: payload bytes not yet written
-  std::vector<uint64_t> checksums_;
+  int level_;                   // the level being written
+  uint32_t words_ = 0;          // words (bricks) in it
+  NodeKey last_{};              // its last key
+  std::vector<NodeKey> roots_;  // level 0
+  BlockFiller blocks_{kChecksumBlock};
+  FilledBlocks filled_;  // by append(bytes, size)
 };
 
 }  // namespace svdag

@@ -43,7 +43,9 @@ AtomicFile::AtomicFile(const std::string& target)
 
 void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
   file_.write_at(offset, bytes);
-  size_ = std::max(size_, offset + bytes.size());
+  const uint64_t end = offset + bytes.size();
+  for (uint64_t size = size_; size < end && !size_.compare_exchange_weak(size, end);) {
+  }
 }
 
 void AtomicFile::append(std::span<const std::byte> bytes) {

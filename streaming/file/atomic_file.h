@@ -8,6 +8,7 @@
 // unlink before rename (a window without any file).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -28,7 +29,7 @@ class AtomicFile {
   // Calls check() and creates the anonymous file. Errors: kOutput, kUsage.
   explicit AtomicFile(const std::string& target);
 
-  // Writes all `bytes` at byte `offset`; a gap before them reads as zeros.
+  // Writes all `bytes` at byte `offset`; a gap before them reads as zeros. Thread-safe.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   // Writes at size().
   void append(std::span<const std::byte> bytes);
@@ -45,7 +46,7 @@ class AtomicFile {
  private:
   std::string target_;
   File file_;
-  uint64_t size_ = 0;
+  std::atomic<uint64_t> size_ = 0;
 };
 
 }  // namespace svdag

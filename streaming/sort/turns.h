@@ -9,14 +9,14 @@ namespace svdag {
 
 class Turns {
  public:
-  // Waits for the end of all turns before `turn` (0, 1, ...), then runs work(). Returns without
-  // running it if a task has failed.
+  // Waits for the end of all turns before `turn` (0, 1, ...), then runs work(). Returns false,
+  // without running it, if a task has failed.
   template <class Work>
-  void run(size_t turn, const Work& work) {
+  bool run(size_t turn, const Work& work) {
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return next_ == turn || failed_; });
-      if (failed_) return;
+      if (failed_) return false;
     }
     try {
       work();
@@ -27,6 +27,7 @@ class Turns {
     const std::lock_guard lock(mutex_);
     ++next_;
     changed_.notify_all();
+    return true;
   }
   // To be called if a task fails before its turn: all waiting tasks return.
   void fail() {

@@ -1,11 +1,13 @@
 // The merge of one level: the sorted union of its sources and their maps, whatever the sources are
-// held in, however small the rounds, and in whatever order the workers run.
+// held in, however small the pieces, and in whatever order the workers run.
 #include "builder/merge/merge_level.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstring>
 #include <random>
 #include <thread>
 
@@ -13,6 +15,27 @@
 
 namespace svdag {
 namespace {
+
+// A list of bricks with indices 3, 6, 9, ..., which is full at `limit` bricks.
+struct BrickList {
+  void encode(std::span<const Brick> keys, LevelPiece* piece) const {
+    for (const Brick brick : keys) piece->add(key_of(brick), 3 * piece->indices.size());
+    const auto bytes = std::as_bytes(keys);
+    piece->bytes.insert(piece->bytes.end(), bytes.begin(), bytes.end());
+  }
+  uint32_t append(LevelPiece* piece) {
+    const size_t first = bricks.size();
+    bricks.resize(first + piece->indices.size());
+    std::memcpy(bricks.data() + first, piece->bytes.data(), piece->bytes.size());
+    if (bricks.size() > limit) throw Error(ExitCode::kOutput, "the disk is full");
+    return uint32_t(3 * (first + 1));
+  }
+  void store(LevelPiece* piece) { stored += piece->indices.size(); }
+
+  size_t limit = SIZE_MAX;
+  std::vector<Brick> bricks;
+  std::atomic<size_t> stored = 0;
+};
 
 class MergeLevelTest : public ::testing::Test {
  protected:
@@ -40,19 +63,23 @@ class MergeLevelTest : public ::testing::Test {
       inputs.push_back(s % 2 != 0 ? spilled_input<Brick>(scratch_.transient(), streams[s], &large_)
                                   : LevelInput<Brick>{sources[s], {}, 0, nullptr});
     }
-    std::vector<Brick> merged;
-    const auto add = [&](Brick key) {
-      merged.push_back(key);
-      return uint32_t(3 * merged.size());
+    BrickList merged;
+    std::atomic<uint64_t> taken = 0, placed = 0;
+    const auto progress = [&](uint64_t of_inputs, uint64_t of_output) {
+      taken += of_inputs;
+      placed += of_output;
     };
-    const RankMaps maps =
-        merge_at_once<Brick>(inputs, add, spill_maps ? &scratch_ : nullptr, budget, executor);
+    const RankMaps maps = merge_at_once<Brick>(inputs, &merged, progress,
+                                               spill_maps ? &scratch_ : nullptr, budget, executor);
     std::vector<Brick> expected;
     for (const auto& source : sources)
       expected.insert(expected.end(), source.begin(), source.end());
+    ASSERT_EQ(taken, expected.size());
     std::sort(expected.begin(), expected.end());
     expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-    ASSERT_EQ(merged, expected);
+    ASSERT_EQ(merged.bricks, expected);
+    ASSERT_EQ(merged.stored, expected.size());
+    ASSERT_EQ(placed, expected.size());
     ASSERT_EQ(maps.size(), sources.size());
     for (size_t s = 0; s < sources.size(); ++s) {
       RankMap loaded;
@@ -100,12 +127,34 @@ TEST_F(MergeLevelTest, PassesOnTheErrorOfTheOutput) {
   ParallelExecutor parallel(4);
   const std::vector<Brick> keys = draw(200'000, 1);
   const std::vector<LevelInput<Brick>> inputs(2, {keys, {}, 0, nullptr});
-  uint32_t added = 0;
-  const auto add = [&](Brick) -> uint32_t {
-    if (++added == 150'000) throw Error(ExitCode::kOutput, "the disk is full");
-    return added;
+  BrickList full;
+  full.limit = 150'000;
+  EXPECT_THROW(merge_at_once<Brick>(
+                   inputs, &full, [](uint64_t, uint64_t) {}, nullptr, &large_, &parallel),
+               Error);
+}
+
+TEST_F(MergeLevelTest, PassesOnTheErrorOfASource) {
+  struct Damaged : BlockSource {
+    std::vector<Brick> block;
+    int blocks = 0;
+    std::span<std::byte> next() override {
+      if (++blocks == 5) throw Error(ExitCode::kBadInput, "is damaged");
+      block.clear();
+      for (Brick brick = 1; brick <= 1000; ++brick) block.push_back(Brick(blocks) * 1000 + brick);
+      return std::as_writable_bytes(std::span(block));
+    }
   };
-  EXPECT_THROW(merge_at_once<Brick>(inputs, add, nullptr, &large_, &parallel), Error);
+  const std::vector<Brick> keys = draw(100'000, 1);
+  const std::vector<LevelInput<Brick>> inputs = {
+      {keys, {}, 0, nullptr}, {{}, [] { return std::make_unique<Damaged>(); }, 80'000, nullptr}};
+  ParallelExecutor parallel(4);
+  for (int i = 0; i < 20; ++i) {
+    BrickList output;
+    EXPECT_THROW(merge_at_once<Brick>(
+                     inputs, &output, [](uint64_t, uint64_t) {}, nullptr, &large_, &parallel),
+                 Error);
+  }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class RankMapsTest : public ::testing::Test {
     for (const auto& map : maps) counts.push_back(map.size());
     RankMaps result(counts, spilled ? &scratch_ : nullptr, &budget_);
     for (size_t s = 0; s < maps.size(); ++s) {
-      for (const uint32_t index : maps[s]) result.push(s, index);
+      for (size_t rank = 0; rank < maps[s].size(); ++rank) result.set(s, rank, maps[s][rank]);
     }
     result.finish();
     return result;
@@ -35,7 +35,7 @@ class RankMapsTest : public ::testing::Test {
   Scratch scratch_{&folder_, &budget_};
 };
 
-TEST_F(RankMapsTest, InMemoryHoldWhatWasPushed) {
+TEST_F(RankMapsTest, InMemoryHoldWhatWasSet) {
   const std::vector<std::vector<uint32_t>> maps = {ascending(0, 5), {}, ascending(7, 3)};
   const RankMaps filled_maps = filled(maps, false);
   ASSERT_EQ(filled_maps.size(), 3U);

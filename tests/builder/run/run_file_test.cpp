@@ -24,15 +24,24 @@ Grid small_grid(int levels) {
   return grid;
 }
 
+// Adds keys to the level; returns the rank of the first.
+template <class Key>
+uint32_t add(const std::vector<Key>& keys, RunWriter* writer) {
+  LevelPiece piece;
+  writer->encode(std::span<const Key>(keys), &piece);
+  const uint32_t first = writer->append(&piece);
+  writer->store(&piece);
+  return first;
+}
+
 // Two bricks and two nodes: cells 1 and 4 of level 1 have roots, cells 2 and 3 are empty.
 void write_small(const std::string& path) {
   RunWriter writer(path, small_grid(4), Rule::kThin, GridPart::of_cells({1, 1, 5}, 4));
   writer.begin_level(2);
-  EXPECT_EQ(writer.add_brick(7), 0U);
-  EXPECT_EQ(writer.add_brick(9), 1U);
+  EXPECT_EQ(add<Brick>({7}, &writer), 0U);
+  EXPECT_EQ(add<Brick>({9}, &writer), 1U);
   writer.begin_level(1);
-  EXPECT_EQ(writer.add_node({0, 1, 0, 0, 0, 0, 0, 0}), 0U);
-  EXPECT_EQ(writer.add_node({0, 1, 0, 0, 2, 0, 0, 0}), 1U);
+  EXPECT_EQ(add<NodeKey>({{0, 1, 0, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 2, 0, 0, 0}}, &writer), 0U);
   writer.begin_level(0);
   writer.finish(std::vector<SubDagRoot>{{4, 1, 0, 0}, {1, 1, 0, 1}}, 8, 0.125, {});
 }
@@ -82,11 +91,15 @@ TEST(RunFile, LevelsOfManyBlocksBeginAndEndWithinThem) {
   RunWriter writer(path, small_grid(4), Rule::kConservative, GridPart::whole(4));
   const uint32_t bricks = 30'001, nodes = 9'003;
   writer.begin_level(2);
-  for (uint32_t i = 0; i < bricks; ++i) writer.add_brick(3 * i + 1);
+  std::vector<Brick> brick_keys;
+  for (uint32_t i = 0; i < bricks; ++i) brick_keys.push_back(3 * i + 1);
+  add(brick_keys, &writer);
   writer.begin_level(1);
-  for (uint32_t i = 0; i < nodes; ++i) writer.add_node({i, 1, 0, 0, 0, 0, 0, bricks});
+  std::vector<NodeKey> node_keys;
+  for (uint32_t i = 0; i < nodes; ++i) node_keys.push_back({i, 1, 0, 0, 0, 0, 0, bricks});
+  add(node_keys, &writer);
   writer.begin_level(0);
-  writer.add_node({1, 0, nodes, 0, 0, 0, 0, 0});
+  add<NodeKey>({{1, 0, nodes, 0, 0, 0, 0, 0}}, &writer);
   writer.finish(std::vector<SubDagRoot>{{0, 0, 0, 0}}, 1, 0, {});
   MemoryBudget budget;
   const RunFile run = RunFile::open(path, &budget);

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+#include <span>
+
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_stats.h"
 #include "streaming/error.h"
 #include "tests/expect_error.h"
+#include "tests/soup.h"
 #include "tests/temp_folder.h"
 
 namespace svdag {
@@ -56,6 +60,72 @@ TEST(DagWriter, WritesAFileThatReadsBack) {
             "\"fraction_bits\":23,\"grid\":{\"kind\":\"box\",\"corner\":[1,2,3],\"voxel_size\":0.1,"
             "\"k0\":[0,0,0],\"bounded\":false,\"selection\":[0,0,0,16,16,16]},\"voxels\":2,"
             "\"nodes\":[1,2,2],\"largest_snap\":0.125}\n");
+}
+
+// A tree of random bricks and nodes, written key by key or in pieces of `size` keys that are
+// encoded and stored in another order than they are appended.
+std::string write_random(const std::string& path, size_t size) {
+  std::mt19937 random(1);
+  Grid grid = small_grid();
+  grid.levels = 5;
+  grid.selection = grid.whole();
+  DagWriter writer(path, grid, Rule::kConservative);
+  std::vector<uint32_t> below;
+  const auto write = [&](const auto& keys, const auto& add) {
+    std::vector<uint32_t> indices;
+    if (size == 0) {
+      for (const auto& key : keys) indices.push_back(add(key));
+      return indices;
+    }
+    std::vector<LevelPiece> pieces((keys.size() + size - 1) / size);
+    for (size_t p = pieces.size(); p-- > 0;) {
+      const auto part = std::span(keys).subspan(p * size);
+      writer.encode(part.first(std::min(size, part.size())), &pieces[p]);
+    }
+    for (LevelPiece& piece : pieces) {
+      const uint32_t first = writer.append(&piece);
+      for (const uint32_t index : piece.indices) indices.push_back(first + index);
+    }
+    for (size_t p = pieces.size(); p-- > 0;) writer.store(&pieces[p]);
+    return indices;
+  };
+  std::vector<Brick> bricks;
+  for (Brick brick = 1; brick <= 30'000; ++brick) bricks.push_back(brick << 20 | random() % 999);
+  writer.begin_level(3);
+  below = write(bricks, [&](Brick brick) { return writer.add_brick(brick); });
+  for (int level = 2; level >= 0; --level) {
+    std::vector<NodeKey> nodes;
+    for (size_t i = 0; i < (level == 0 ? 1 : below.size() / 4); ++i) {
+      nodes.push_back({1 + below[i]});
+      for (size_t c = 1; c < 8; ++c)
+        nodes.back()[c] = random() % 2 == 0 ? 0 : 1 + below[random() % below.size()];
+    }
+    writer.begin_level(level);
+    below = write(nodes, [&](const NodeKey& node) { return writer.add_node(node); });
+  }
+  writer.finish(1, 0);
+  return read_bytes(path);
+}
+
+TEST(DagWriter, PiecesGiveTheBytesOfSingleKeys) {
+  const TempFolder folder;
+  const std::string expected = write_random(folder.file("a.svdag"), 0);
+  ASSERT_GT(expected.size(), 5 * kChecksumBlock);
+  for (const size_t size : {1, 100, 7000, 100'000})
+    EXPECT_EQ(write_random(folder.file("b.svdag"), size), expected) << size;
+}
+
+TEST(DagWriter, AFullSectionIsAnErrorOfAPiece) {
+  const TempFolder folder;
+  DagWriter writer(folder.file("a.svdag"), small_grid(), Rule::kConservative, {}, 4);
+  writer.begin_level(2);
+  const std::vector<Brick> four = {1, 2, 3, 4}, fifth = {5};
+  LevelPiece piece, next;
+  writer.encode(four, &piece);
+  EXPECT_EQ(writer.append(&piece), 0U);
+  writer.encode(fifth, &next);
+  EXPECT_SVDAG_ERROR(writer.append(&next), ExitCode::kOutput, "different bricks");
+  EXPECT_THROW(writer.encode(four, &next), Error);  // not ascending
 }
 
 TEST(DagStats, CountTreeAndDag) {
