@@ -86,7 +86,7 @@ class LevelMerge {
   }
 
  private:
-  static constexpr uint64_t kMinKeysPerPiece = 1 << 6, kMaxKeysPerPiece = 1 << 13;
+  static constexpr uint64_t kMinKeysPerPiece = 1 << 6, kMaxKeysPerPiece = 1 << 14;
   static constexpr size_t kKeysEncodedAtOnce = 256;
   // As it is, encoded, in a block, and two numbers.
   static constexpr size_t kBytesPerKey = 3 * (sizeof(Key) + sizeof(uint32_t));
