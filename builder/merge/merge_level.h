@@ -72,16 +72,13 @@ class LevelMerge {
 
   void run(const MergeProgress& progress) {
     executor_->for_each(executor_->workers(), [&](size_t, size_t) {
-      try {
+      turns_.guard([&] {
         for (Piece piece; cut(&piece);) {
           merge(&piece);
           if (!place(&piece)) return;
           progress(piece.taken, piece.encoded.indices.size());
         }
-      } catch (...) {
-        turns_.fail();
-        throw;
-      }
+      });
     });
   }
 

@@ -1,6 +1,7 @@
 #include "io/pack/node_streams.h"
 
 #include <bit>
+#include <optional>
 
 namespace svdag {
 namespace {
@@ -87,21 +88,21 @@ std::array<Stream, kNodeStreams> streams_of_nodes(std::span<const NodeKey> nodes
   return streams;
 }
 
-std::optional<std::vector<NodeKey>> nodes_of_streams(
-    const std::array<Stream, kNodeStreams>& streams, size_t count, uint64_t below) {
+bool nodes_of_streams(const std::array<Stream, kNodeStreams>& streams, size_t count, uint64_t below,
+                      std::vector<NodeKey>* nodes) {
   for (const size_t i : {kMasks, kEqual, kFollowed}) {
-    if (streams[i].size() != count) return std::nullopt;
+    if (streams[i].size() != count) return false;
   }
   const auto ascending = values_of(streams, kAscending), others = values_of(streams, kOther);
-  if (!ascending || !others) return std::nullopt;
+  if (!ascending || !others) return false;
   size_t next_ascending = 0, next_other = 0;
-  std::vector<NodeKey> nodes(count);
+  nodes->assign(count, {});
   Context context;
   unsigned mask_before = 0;
   for (size_t n = 0; n < count; ++n) {
     const unsigned mask = streams[kMasks][n], equal = streams[kEqual][n];
     const unsigned followed = streams[kFollowed][n];
-    if (((equal | followed) & ~mask) != 0 || (equal & followed) != 0) return std::nullopt;
+    if (((equal | followed) & ~mask) != 0 || (equal & followed) != 0) return false;
     const unsigned at = ascending_child(mask, mask_before, equal);
     context.begin_node();
     for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
@@ -109,23 +110,22 @@ std::optional<std::vector<NodeKey>> nodes_of_streams(
       uint32_t child = context.last(c);
       if ((equal >> c & 1U) == 0) {
         if (c == at) {
-          if (next_ascending == ascending->size()) return std::nullopt;
+          if (next_ascending == ascending->size()) return false;
           child += 1 + (*ascending)[next_ascending++];
         } else if (followed >> c & 1U) {
           child = context.follower(c);
         } else {
-          if (next_other == others->size()) return std::nullopt;
+          if (next_other == others->size()) return false;
           child = (*others)[next_other++];
         }
       }
-      if (child == 0 || child > below) return std::nullopt;
-      nodes[n][c] = child;
+      if (child == 0 || child > below) return false;
+      (*nodes)[n][c] = child;
       context.add(c, child);
     }
     mask_before = mask;
   }
-  if (next_ascending != ascending->size() || next_other != others->size()) return std::nullopt;
-  return nodes;
+  return next_ascending == ascending->size() && next_other == others->size();
 }
 
 std::array<Stream, kBrickStreams> streams_of_bricks(std::span<const Brick> bricks) {
@@ -137,14 +137,14 @@ std::array<Stream, kBrickStreams> streams_of_bricks(std::span<const Brick> brick
   return streams;
 }
 
-std::optional<std::vector<Brick>> bricks_of_streams(
-    const std::array<Stream, kBrickStreams>& streams, size_t count) {
-  std::vector<Brick> bricks(count);
+bool bricks_of_streams(std::span<const Stream, kBrickStreams> streams, size_t count,
+                       std::vector<Brick>* bricks) {
+  bricks->assign(count, 0);
   for (size_t plane = 0; plane < 8; ++plane) {
-    if (streams[plane].size() != count) return std::nullopt;
-    for (size_t i = 0; i < count; ++i) bricks[i] |= Brick(streams[plane][i]) << (8 * plane);
+    if (streams[plane].size() != count) return false;
+    for (size_t i = 0; i < count; ++i) (*bricks)[i] |= Brick(streams[plane][i]) << (8 * plane);
   }
-  return bricks;
+  return true;
 }
 
 }  // namespace svdag

@@ -21,7 +21,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,11 +41,11 @@ constexpr size_t max_stream_bytes(size_t i, size_t nodes) {
   return i < 3 ? nodes : 8 * nodes;
 }
 
-// The nodes of the streams, whose children are at most `below`; none if the streams do not fit
-// together.
-std::optional<std::vector<NodeKey>> nodes_of_streams(
-    const std::array<Stream, kNodeStreams>& streams, size_t nodes, uint64_t below);
-std::optional<std::vector<Brick>> bricks_of_streams(
-    const std::array<Stream, kBrickStreams>& streams, size_t bricks);
+// Writes the nodes of the streams, whose children are at most `below`, to *nodes; false if the
+// streams do not fit together.
+bool nodes_of_streams(const std::array<Stream, kNodeStreams>& streams, size_t count, uint64_t below,
+                      std::vector<NodeKey>* nodes);
+bool bricks_of_streams(std::span<const Stream, kBrickStreams> streams, size_t count,
+                       std::vector<Brick>* bricks);
 
 }  // namespace svdag

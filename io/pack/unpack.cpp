@@ -14,30 +14,37 @@
 #include "streaming/file/checksum.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/process/interrupt.h"
+#include "streaming/sort/turns.h"
 
 namespace svdag {
 namespace {
 
-// The streams of a chunk; none if it does not hold exactly these streams, none of which exceeds its
-// limit.
-template <size_t count>
-std::optional<std::array<Stream, count>> streams_of(std::span<const std::byte> chunk,
-                                                    size_t nodes) {
-  std::array<Stream, count> streams;
+// Writes the streams of a chunk to `streams`; false if it does not hold exactly these streams, none
+// of which exceeds its limit.
+bool read_streams(std::span<const std::byte> chunk, size_t nodes, std::span<Stream> streams) {
+  const size_t count = streams.size();
   size_t at = 2 * count * sizeof(uint32_t);
-  if (chunk.size() < at) return std::nullopt;
+  if (chunk.size() < at) return false;
   for (size_t i = 0; i < count; ++i) {
     uint32_t sizes[2];
     std::memcpy(sizes, chunk.data() + i * sizeof sizes, sizeof sizes);
     const size_t most = count == kBrickStreams ? nodes : max_stream_bytes(i, nodes);
-    if (sizes[0] > most || sizes[1] > chunk.size() - at) return std::nullopt;
+    if (sizes[0] > most || sizes[1] > chunk.size() - at) return false;
     streams[i].resize(sizes[0]);
-    if (!decode_zstd(chunk.subspan(at, sizes[1]), streams[i])) return std::nullopt;
+    if (!decode_zstd(chunk.subspan(at, sizes[1]), streams[i])) return false;
     at += sizes[1];
   }
-  if (at != chunk.size()) return std::nullopt;
-  return streams;
+  return at == chunk.size();
 }
+
+// A chunk while it is unpacked; the memory serves for the next ones.
+template <class Key>
+struct UnpackedChunk {
+  std::vector<std::byte> bytes;
+  std::array<Stream, kNodeStreams> streams;
+  std::vector<Key> keys;
+  LevelPiece piece;
+};
 
 class Unpacker {
  public:
@@ -57,10 +64,15 @@ class Unpacker {
     const Header& h = header_.plain;
     for (uint32_t level = h.levels - 1; level-- > 0;) {
       writer->begin_level(int(level));
-      const uint64_t nodes = h.sections[level].nodes;
-      WorkArray<uint32_t> placed(nodes + 1, room_);
-      level + 2 == h.levels ? write_bricks(nodes, writer, &placed)
-                            : write_nodes(level, nodes, writer, &placed);
+      const std::span<const ChunkEntry> chunks = next_chunks(h.sections[level].nodes);
+      WorkArray<uint32_t> placed(h.sections[level].nodes + 1, room_);
+      if (level + 2 == h.levels) {
+        write_level<Brick>(level, chunks, writer, &placed);
+      } else if (level > 0) {
+        write_level<NodeKey>(level, chunks, writer, &placed);
+      } else {
+        write_roots(chunks, writer);
+      }
       placed_ = std::move(placed);
     }
     require(next_chunk_ == index_.size(), "wrong number of chunks", header_.index_offset);
@@ -130,68 +142,84 @@ class Unpacker {
     require(end == header_.index_offset, "bytes between the chunks and the index", end);
   }
 
-  // Passes the keys of the chunks of a level to add(key), in order. `decode(bytes, nodes)` gives
-  // the keys of a chunk, or none.
-  template <class Key, class Decode, class Add>
-  void write_level(uint64_t nodes, bool ascending, const Decode& decode, const Add& add) {
-    std::vector<std::vector<Key>> batch(4 * executor_->workers());
-    Key last{};  // no key is zero
-    for (uint64_t done = 0; done < nodes;) {
-      check_interrupt();
-      size_t chunks = 0;
-      uint64_t with_these = done;
-      for (; chunks < batch.size() && with_these < nodes; ++chunks) {
-        const size_t i = next_chunk_ + chunks;
-        require(i < index_.size() && index_[i].nodes <= nodes - with_these,
-                "a level and the header differ in the number of nodes", header_.index_offset);
-        with_these += index_[i].nodes;
-      }
-      executor_->for_each(chunks, [&](size_t, size_t i) {
-        const ChunkEntry& entry = index_[next_chunk_ + i];
-        std::vector<std::byte> bytes(entry.bytes);
-        file_.read_at(entry.offset, bytes);
-        require(checksum64(bytes) == entry.checksum, "a chunk does not match its checksum",
-                entry.offset);
-        std::optional<std::vector<Key>> keys = decode(bytes, entry.nodes);
-        require(keys.has_value(), "a chunk does not hold nodes", entry.offset);
-        batch[i] = std::move(*keys);
-      });
-      for (size_t i = 0; i < chunks; ++i) {
-        for (const Key& key : batch[i]) {
-          require(ascending ? last < key : Key{} < key, "nodes are empty or do not ascend",
-                  index_[next_chunk_ + i].offset);
-          last = key;
-          add(key);
-        }
-      }
-      next_chunk_ += chunks;
-      done = with_these;
+  // The next chunks, those of a level of `nodes` nodes.
+  std::span<const ChunkEntry> next_chunks(uint64_t nodes) {
+    const size_t first = next_chunk_;
+    while (nodes > 0) {
+      require(next_chunk_ < index_.size() && index_[next_chunk_].nodes <= nodes,
+              "a level and the header differ in the number of nodes", header_.index_offset);
+      nodes -= index_[next_chunk_++].nodes;
     }
+    return std::span(index_).subspan(first, next_chunk_ - first);
   }
 
-  void write_bricks(uint64_t count, DagWriter* writer, WorkArray<uint32_t>* placed) {
-    const auto decode = [](std::span<const std::byte> bytes, size_t bricks) {
-      const auto streams = streams_of<kBrickStreams>(bytes, bricks);
-      return streams ? bricks_of_streams(*streams, bricks) : std::nullopt;
-    };
-    uint64_t number = 0;
-    write_level<Brick>(count, true, decode,
-                       [&](Brick brick) { (*placed)[++number] = 1 + writer->add_brick(brick); });
+  // Reads the keys of a chunk of `level`.
+  template <class Key>
+  void read_chunk(uint32_t level, const ChunkEntry& entry, UnpackedChunk<Key>* chunk) const {
+    chunk->bytes.resize(entry.bytes);
+    file_.read_at(entry.offset, chunk->bytes);
+    require(checksum64(chunk->bytes) == entry.checksum, "a chunk does not match its checksum",
+            entry.offset);
+    bool valid = false;
+    if constexpr (std::is_same_v<Key, Brick>) {
+      const auto streams = std::span(chunk->streams).template first<kBrickStreams>();
+      valid = read_streams(chunk->bytes, entry.nodes, streams) &&
+              bricks_of_streams(streams, entry.nodes, &chunk->keys);
+    } else {
+      valid = read_streams(chunk->bytes, entry.nodes, chunk->streams) &&
+              nodes_of_streams(chunk->streams, entry.nodes, header_.plain.sections[level + 1].nodes,
+                               &chunk->keys);
+      if (valid) place(chunk->keys);
+    }
+    require(valid, "a chunk does not hold nodes", entry.offset);
   }
 
-  void write_nodes(uint32_t level, uint64_t count, DagWriter* writer, WorkArray<uint32_t>* placed) {
-    const Header& h = header_.plain;
-    const auto decode = [&](std::span<const std::byte> bytes, size_t count_here) {
-      const auto streams = streams_of<kNodeStreams>(bytes, count_here);
-      std::optional<std::vector<NodeKey>> nodes;
-      if (streams) nodes = nodes_of_streams(*streams, count_here, h.sections[level + 1].nodes);
-      if (nodes) place(*nodes);
-      return nodes;
+  // Writes the chunks of a level below the roots. Any worker decodes the next chunk, waits for its
+  // turn only to get its place in the file, and then stores it.
+  template <class Key>
+  void write_level(uint32_t level, std::span<const ChunkEntry> chunks, DagWriter* writer,
+                   WorkArray<uint32_t>* placed) const {
+    const auto require_ascending = [this](const Key& a, const Key& b, const ChunkEntry& entry) {
+      require(a < b, "nodes are empty or do not ascend", entry.offset);
     };
-    uint64_t number = 0;
-    write_level<NodeKey>(count, level > 0, decode, [&](const NodeKey& node) {
-      (*placed)[++number] = 1 + writer->add_node(node);
+    std::vector<uint64_t> ranks = {1};  // of the first key of each chunk, from 1 on
+    for (const ChunkEntry& entry : chunks) ranks.push_back(ranks.back() + entry.nodes);
+    std::vector<UnpackedChunk<Key>> unpacked(executor_->workers());
+    Key last{};  // no key is zero
+    Turns turns;
+    executor_->for_each(chunks.size(), [&](size_t worker, size_t i) {
+      turns.guard([&] {
+        check_interrupt();
+        read_chunk(level, chunks[i], &unpacked[worker]);
+        const std::vector<Key>& keys = unpacked[worker].keys;
+        for (size_t k = 1; k < keys.size(); ++k) require_ascending(keys[k - 1], keys[k], chunks[i]);
+        LevelPiece& piece = unpacked[worker].piece;
+        piece.clear();
+        writer->encode(std::span(keys), &piece);
+        uint32_t first = 0;  // index
+        const bool placed_piece = turns.run(i, [&] {
+          require_ascending(last, keys.front(), chunks[i]);
+          last = keys.back();
+          first = writer->append(&piece);
+        });
+        if (!placed_piece) return;
+        for (size_t k = 0; k < keys.size(); ++k)
+          (*placed)[ranks[i] + k] = 1 + first + piece.indices[k];
+        writer->store(&piece);
+      });
     });
+  }
+
+  // The nodes of level 0, in any order.
+  void write_roots(std::span<const ChunkEntry> chunks, DagWriter* writer) const {
+    UnpackedChunk<NodeKey> unpacked;
+    for (const ChunkEntry& entry : chunks) {
+      read_chunk(0, entry, &unpacked);
+      for (const NodeKey& root : unpacked.keys) {
+        require(root != NodeKey{}, "nodes are empty or do not ascend", entry.offset);
+        writer->add_node(root);
+      }
+    }
   }
 
   // Replaces ranks by indices, which keeps the order.

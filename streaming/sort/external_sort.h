@@ -146,17 +146,14 @@ class ExternalSort {
     const std::vector<Bucket> buckets = split();
     Turns turns;
     for_parts(buckets, 16 * workers(), [&](size_t part, std::span<const Bucket> own) {
-      try {  // an exception must also end the parts that wait for their turn after this one
+      turns.guard([&] {
         check_interrupt();
         std::vector<std::span<const Record>> sorted;
         for (const Bucket& bucket : own) sorted.push_back(sort(bucket));
         turns.run(part, [&] {
           for (const auto records : sorted) sink(records);
         });
-      } catch (...) {
-        turns.fail();
-        throw;
-      }
+      });
     });
     release_buffers();
   }

@@ -105,14 +105,11 @@ class ParallelMerge {
     }
     const size_t pieces = (schedule_.size() + step_ - 1) / step_;
     executor_->for_each(pieces, [&](size_t worker, size_t) {
-      try {
+      turns_.guard([&] {
         check_interrupt();
         std::optional<MergePiece> piece = cut();
         if (piece) merge_piece(&*piece, &outputs[worker], sink);
-      } catch (...) {
-        turns_.fail();
-        throw;
-      }
+      });
     });
   }
 

@@ -1,4 +1,5 @@
-// Runs one section of each of several concurrent tasks in the order of the tasks' numbers.
+// Runs one section of each of several concurrent tasks in the order of the tasks' numbers. All of
+// a task runs in guard(), so that the others do not wait for one that has failed.
 #pragma once
 
 #include <condition_variable>
@@ -18,25 +19,30 @@ class Turns {
       changed_.wait(lock, [&] { return next_ == turn || failed_; });
       if (failed_) return false;
     }
+    work();
+    const std::lock_guard lock(mutex_);
+    ++next_;
+    changed_.notify_all();
+    return true;
+  }
+  // Runs work(); if it throws, all waiting tasks return.
+  template <class Work>
+  void guard(const Work& work) {
     try {
       work();
     } catch (...) {
       fail();
       throw;
     }
-    const std::lock_guard lock(mutex_);
-    ++next_;
-    changed_.notify_all();
-    return true;
   }
-  // To be called if a task fails before its turn: all waiting tasks return.
+
+ private:
   void fail() {
     const std::lock_guard lock(mutex_);
     failed_ = true;
     changed_.notify_all();
   }
 
- private:
   std::mutex mutex_;
   std::condition_variable changed_;
   size_t next_ = 0;
