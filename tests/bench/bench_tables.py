@@ -76,9 +76,11 @@ def without_memo(pairs):
 
 
 def threads(groups):
-    return table(["scene", "grid", "threads", "seconds", "speed-up"],
-                 [[r["scene"], r["resolution"], str(r["threads"]), f"{r['s_total']:.2f}",
-                   f"{group[0]['s_total'] / r['s_total']:.2f}"] for group in groups for r in group])
+    """*At most* is the speed-up if all threads were busy throughout, with the CPU time that they take."""
+    return table(["scene", "grid", "threads", "seconds", "CPU", "speed-up", "at most"],
+                 [[r["scene"], r["resolution"], str(r["threads"]), f"{r['s_total']:.2f}", f"{r['s_cpu']:.2f}",
+                   f"{group[0]['s_total'] / r['s_total']:.2f}", f"{group[0]['s_total'] * r['threads'] / r['s_cpu']:.2f}"]
+                  for group in groups for r in group])
 
 
 def levels(rows):
