@@ -16,6 +16,7 @@
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
 #              it can be stopped at any time and goes on where it was
 #   bench   the tables and plots of docs/performance.md
+#   bench-before     its table of this version beside another one, built in the folder BEFORE
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
@@ -52,7 +53,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-giants bench-sort \
+.PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-before bench-giants bench-sort \
   bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
   cuda-packages pictures clean
 all: build
@@ -122,6 +123,9 @@ fuzz-long: deps
 bench: build
 	$(call install,$(BENCH_PACKAGES))
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS)
+
+bench-before: build
+	@$(PYTHON) tests/bench/before.py --programs $(PROGRAMS) --before $(BEFORE)
 
 bench-giants: build
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS) --giants

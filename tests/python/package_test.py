@@ -312,6 +312,8 @@ class Making(Files):
             time.sleep(0.25)
             sent.append(time.monotonic())
             os.kill(os.getpid(), signal.SIGINT)
+        # A process in the background, as of nohup, ignores interrupts.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         thread = threading.Thread(target=interrupt)
         thread.start()
         try:

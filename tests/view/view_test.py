@@ -360,6 +360,8 @@ class Serving(unittest.TestCase):
             self.assertEqual((part[0], part[2]), (206, server.get(server.path + "view.js")[2][10:20]))
 
     def test_it_ends_by_interrupt_and_when_the_page_is_closed(self):
+        # A process in the background, as of nohup, ignores interrupts, and its children inherit that.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with Server(self.file, "--keep") as server:
             server.process.send_signal(signal.SIGINT)
             self.assertEqual(server.process.wait(10), 130)
