@@ -9,10 +9,10 @@ import argparse
 import json
 import os
 import pathlib
-import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 from bakes import Bakes
@@ -35,19 +35,17 @@ class Before:
         self.bakes = Bakes(programs, folder)
         self.output = folder / "before.svdag"
 
-    def call(self, svdag, *words):
-        subprocess.run([svdag, *words, "-q"], check=True)
+    def call(self, *words):
+        subprocess.run([self.svdags[0], *words, "-q"], check=True)
 
     def runs(self):
         """The runs of the shards of a plan, baked by the version before."""
         plan = self.bakes.folder / "before.plan"
-        if not plan.exists():
-            self.call(self.svdags[0], "plan", self.bakes.scene("sponza"), "-r", "64K", "--shards", "16", "-o", plan)
-        runs = [step for step in json.loads((plan / "plan.json").read_text())["steps"] if step["name"].startswith("shard")]
-        for step in runs:
-            if not (plan / step["output"]).exists():
-                self.call(self.svdags[0], *step["command"][1:])
-        return [plan / step["output"] for step in runs]
+        self.call("plan", self.bakes.scene("sponza"), "-r", "64K", "--shards", "16", "-o", plan)
+        shards = [step for step in json.loads((plan / "plan.json").read_text())["steps"] if step["name"].startswith("shard")]
+        for step in shards:
+            self.call(*step["command"][1:])
+        return [plan / step["output"] for step in shards]
 
     def words(self, words):
         """The words of a command, with the paths of what they name."""
@@ -84,16 +82,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--before", type=pathlib.Path, required=True, help="the folder of the other version's svdag")
-    parser.add_argument("--keep-page", action="store_true", help="do not change docs/")
     options = parser.parse_args()
-    folder = OUT / "before"
-    before = Before(options.programs.resolve(), options.before.resolve(), folder)
-    if before.bakes.scene("sponza") is None:
-        sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
-    content = f"{processor()}.\n\n" + table(["work", "wall s", "CPU s", "peak MiB"], [before.row(*work) for work in WORKS])
-    if not options.keep_page:
-        fill(PAGE, {"before": content})
-    shutil.rmtree(folder)
+    if not (options.before / "svdag").exists():
+        sys.exit(f"BEFORE={options.before} is not a folder with svdag")
+    OUT.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="before-", dir=OUT) as folder:
+        before = Before(options.programs.resolve(), options.before.resolve(), pathlib.Path(folder))
+        if before.bakes.scene("sponza") is None:
+            sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
+        rows = [before.row(*work) for work in WORKS]
+    fill(PAGE, {"before": f"{processor()}.\n\n" + table(["work", "wall s", "CPU s", "peak MiB"], rows)})
 
 
 if __name__ == "__main__":
