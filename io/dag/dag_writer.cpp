@@ -151,6 +151,30 @@ void DagWriter::encode(std::span<const NodeKey> nodes, LevelPiece* piece) const 
   piece->bytes.resize(words * kWord);
 }
 
+void DagWriter::encode(std::span<const unsigned char> masks, std::span<const uint32_t> children,
+                       LevelPiece* piece) const {
+  SVDAG_ASSERT(level_ + 2 < int(header_.levels) && level_ > 0 && piece->indices.empty());
+  const size_t words = masks.size() + children.size();
+  piece->bytes.resize(words * sizeof(uint32_t));
+  piece->indices.resize(masks.size());
+  uint32_t* const begin = reinterpret_cast<uint32_t*>(piece->bytes.data());
+  uint32_t* word = begin;
+  const uint32_t* child = children.data();
+  for (size_t i = 0; i < masks.size(); ++i) {
+    piece->indices[i] = uint32_t(word - begin);
+    *word++ = masks[i];
+    for (int c = 0; c < 8; ++c) word[c] = child[c] - 1;  // those of the next nodes are overwritten
+    const size_t count = kChildCounts[masks[i]];
+    word += count;
+    child += count;
+  }
+  SVDAG_ASSERT(child + 8 == children.data() + children.size());
+  piece->bytes.resize((words - 8) * sizeof(uint32_t));
+  if (masks.empty()) return;
+  piece->first = key_of(masks.front(), children.data());
+  piece->last = key_of(masks.back(), child - kChildCounts[masks.back()]);
+}
+
 uint32_t DagWriter::append(LevelPiece* piece) {
   if (level_ == 0) {
     const size_t first = roots_.size();

@@ -43,6 +43,10 @@ class DagWriter {
   // it. One thread at a time appends; any may encode and store.
   void encode(std::span<const Brick> bricks, LevelPiece* piece) const;
   void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const;
+  // Nodes of a level below the roots: their masks, and the children of all as in their keys,
+  // followed by 8 zeros. They ascend; *piece must be empty.
+  void encode(std::span<const unsigned char> masks, std::span<const uint32_t> children,
+              LevelPiece* piece) const;
   uint32_t append(LevelPiece* piece);
   void store(LevelPiece* piece) { store(&piece->filled); }
   // The roots, that is, the nodes of level 0, may come in any order; add_node() numbers them.

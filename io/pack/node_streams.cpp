@@ -28,11 +28,9 @@ class Context {
   uint32_t previous_ = 0;  // child of this node
 };
 
-// The number of the child that is "ascending", if any; 8: none.
-unsigned ascending_child(unsigned mask, unsigned mask_before, unsigned equal) {
-  const unsigned differing = (mask ^ mask_before) | (mask & ~equal);
-  const unsigned first = unsigned(std::countr_zero(differing | 0x100U));
-  return (mask & mask_before & ~equal) >> first & 1U ? first : 8;
+// The lowest child at which a node differs from the one before it; 8 if at none.
+unsigned first_difference(unsigned mask, unsigned mask_before, unsigned equal) {
+  return unsigned(std::countr_zero((mask ^ mask_before) | (mask & ~equal) | 0x100U));
 }
 
 void put(std::array<Stream, kNodeStreams>* streams, size_t first, uint32_t value) {
@@ -43,11 +41,12 @@ void put(std::array<Stream, kNodeStreams>* streams, size_t first, uint32_t value
 // The u32 of four planes; none if these differ in length.
 std::optional<std::vector<uint32_t>> values_of(const std::array<Stream, kNodeStreams>& streams,
                                                size_t first) {
-  std::vector<uint32_t> values(streams[first].size());
+  const size_t count = streams[first].size();
+  std::vector<uint32_t> values(count);
   for (size_t plane = 0; plane < 4; ++plane) {
     const Stream& bytes = streams[first + plane];
-    if (bytes.size() != values.size()) return std::nullopt;
-    for (size_t i = 0; i < values.size(); ++i) values[i] |= uint32_t(bytes[i]) << (8 * plane);
+    if (bytes.size() != count) return std::nullopt;
+    for (size_t i = 0; i < count; ++i) values[i] |= uint32_t(bytes[i]) << (8 * plane);
   }
   return values;
 }
@@ -64,13 +63,14 @@ std::array<Stream, kNodeStreams> streams_of_nodes(std::span<const NodeKey> nodes
       mask |= unsigned(node[c] != 0) << c;
       equal |= unsigned(node[c] != 0 && node[c] == context.last(c)) << c;
     }
-    const unsigned ascending = ascending_child(mask, mask_before, equal);
+    const unsigned first = first_difference(mask, mask_before, equal);
+    const unsigned ascending = mask & mask_before & (1U << first);  // its bit, if any
     context.begin_node();
     for (unsigned c = 0; c < 8; ++c) {
       const uint32_t child = node[c];
       if (child == 0) continue;
       if ((equal >> c & 1U) == 0) {
-        if (c == ascending) {
+        if ((ascending >> c & 1U) != 0) {
           put(&streams, kAscending, child - context.last(c) - 1);
         } else if (child == context.follower(c)) {
           followed |= 1U << c;
@@ -89,43 +89,57 @@ std::array<Stream, kNodeStreams> streams_of_nodes(std::span<const NodeKey> nodes
 }
 
 bool nodes_of_streams(const std::array<Stream, kNodeStreams>& streams, size_t count, uint64_t below,
-                      std::vector<NodeKey>* nodes) {
+                      ChunkNodes* nodes) {
   for (const size_t i : {kMasks, kEqual, kFollowed}) {
     if (streams[i].size() != count) return false;
   }
-  const auto ascending = values_of(streams, kAscending), others = values_of(streams, kOther);
-  if (!ascending || !others) return false;
-  size_t next_ascending = 0, next_other = 0;
-  nodes->assign(count, {});
+  const auto ascending_values = values_of(streams, kAscending);
+  const auto other_values = values_of(streams, kOther);
+  if (!ascending_values || !other_values) return false;
+  const uint32_t* next_ascending = ascending_values->data();
+  const uint32_t* const end_ascending = next_ascending + ascending_values->size();
+  const uint32_t* next_other = other_values->data();
+  const uint32_t* const end_other = next_other + other_values->size();
+
+  nodes->masks = streams[kMasks];
+  size_t children = 0;
+  for (const unsigned char mask : nodes->masks) children += kChildCounts[mask];
+  nodes->children.assign(children + 8, 0);
+  uint32_t* out = nodes->children.data();
   Context context;
   unsigned mask_before = 0;
+  bool in_range = true, ascend = true;
   for (size_t n = 0; n < count; ++n) {
     const unsigned mask = streams[kMasks][n], equal = streams[kEqual][n];
     const unsigned followed = streams[kFollowed][n];
     if (((equal | followed) & ~mask) != 0 || (equal & followed) != 0) return false;
-    const unsigned at = ascending_child(mask, mask_before, equal);
+    const unsigned first = first_difference(mask, mask_before, equal);
+    const unsigned ascending = mask & mask_before & (1U << first);  // its bit, if any
+    const unsigned other = mask & ~(equal | followed | ascending);
+    if ((ascending != 0 && next_ascending == end_ascending) ||
+        kChildCounts[other] > end_other - next_other)
+      return false;
+    ascend &= (mask >> first & 1U) != 0;
     context.begin_node();
     for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
-      const unsigned c = unsigned(std::countr_zero(rest));
+      const unsigned c = unsigned(std::countr_zero(rest)), bit = rest & -rest;
       uint32_t child = context.last(c);
-      if ((equal >> c & 1U) == 0) {
-        if (c == at) {
-          if (next_ascending == ascending->size()) return false;
-          child += 1 + (*ascending)[next_ascending++];
-        } else if (followed >> c & 1U) {
-          child = context.follower(c);
+      if ((equal & bit) == 0) {
+        if ((ascending & bit) != 0) {
+          child += 1 + *next_ascending++;
+          ascend &= child > context.last(c);
         } else {
-          if (next_other == others->size()) return false;
-          child = (*others)[next_other++];
+          child = (followed & bit) != 0 ? context.follower(c) : *next_other++;
         }
       }
-      if (child == 0 || child > below) return false;
-      (*nodes)[n][c] = child;
+      in_range &= child - 1 < below;
+      *out++ = child;
       context.add(c, child);
     }
     mask_before = mask;
   }
-  return next_ascending == ascending->size() && next_other == others->size();
+  nodes->ascend = ascend;
+  return in_range && next_ascending == end_ascending && next_other == end_other;
 }
 
 std::array<Stream, kBrickStreams> streams_of_bricks(std::span<const Brick> bricks) {

@@ -41,10 +41,17 @@ constexpr size_t max_stream_bytes(size_t i, size_t nodes) {
   return i < 3 ? nodes : 8 * nodes;
 }
 
+// The nodes of a chunk.
+struct ChunkNodes {
+  std::vector<unsigned char> masks;
+  std::vector<uint32_t> children;  // of all nodes, one after the other, and 8 zeros
+  bool ascend;                     // in content order; then none is empty
+};
+
 // Writes the nodes of the streams, whose children are at most `below`, to *nodes; false if the
 // streams do not fit together.
 bool nodes_of_streams(const std::array<Stream, kNodeStreams>& streams, size_t count, uint64_t below,
-                      std::vector<NodeKey>* nodes);
+                      ChunkNodes* nodes);
 bool bricks_of_streams(std::span<const Stream, kBrickStreams> streams, size_t count,
                        std::vector<Brick>* bricks);
 

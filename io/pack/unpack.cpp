@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include "io/dag/check.h"
 #include "io/dag/compact/plain_form.h"
@@ -21,7 +22,8 @@ namespace {
 
 // Writes the streams of a chunk to `streams`; false if it does not hold exactly these streams, none
 // of which exceeds its limit.
-bool read_streams(std::span<const std::byte> chunk, size_t nodes, std::span<Stream> streams) {
+bool read_streams(std::span<const std::byte> chunk, size_t nodes, ZstdDecoder* zstd,
+                  std::span<Stream> streams) {
   const size_t count = streams.size();
   size_t at = 2 * count * sizeof(uint32_t);
   if (chunk.size() < at) return false;
@@ -31,18 +33,19 @@ bool read_streams(std::span<const std::byte> chunk, size_t nodes, std::span<Stre
     const size_t most = count == kBrickStreams ? nodes : max_stream_bytes(i, nodes);
     if (sizes[0] > most || sizes[1] > chunk.size() - at) return false;
     streams[i].resize(sizes[0]);
-    if (!decode_zstd(chunk.subspan(at, sizes[1]), streams[i])) return false;
+    if (!zstd->decode(chunk.subspan(at, sizes[1]), streams[i])) return false;
     at += sizes[1];
   }
   return at == chunk.size();
 }
 
 // A chunk while it is unpacked; the memory serves for the next ones.
-template <class Key>
 struct UnpackedChunk {
+  ZstdDecoder zstd;
   std::vector<std::byte> bytes;
   std::array<Stream, kNodeStreams> streams;
-  std::vector<Key> keys;
+  std::vector<Brick> bricks;
+  ChunkNodes nodes;
   LevelPiece piece;
 };
 
@@ -66,10 +69,8 @@ class Unpacker {
       writer->begin_level(int(level));
       const std::span<const ChunkEntry> chunks = next_chunks(h.sections[level].nodes);
       WorkArray<uint32_t> placed(h.sections[level].nodes + 1, room_);
-      if (level + 2 == h.levels) {
-        write_level<Brick>(level, chunks, writer, &placed);
-      } else if (level > 0) {
-        write_level<NodeKey>(level, chunks, writer, &placed);
+      if (level > 0) {
+        write_level(level, chunks, writer, &placed);
       } else {
         write_roots(chunks, writer);
       }
@@ -153,57 +154,71 @@ class Unpacker {
     return std::span(index_).subspan(first, next_chunk_ - first);
   }
 
-  // Reads the keys of a chunk of `level`.
-  template <class Key>
-  void read_chunk(uint32_t level, const ChunkEntry& entry, UnpackedChunk<Key>* chunk) const {
+  void require_ascending(bool ascend, const ChunkEntry& entry) const {
+    require(ascend, "nodes are empty or do not ascend", entry.offset);
+  }
+
+  void read_bytes(const ChunkEntry& entry, UnpackedChunk* chunk) const {
     chunk->bytes.resize(entry.bytes);
     file_.read_at(entry.offset, chunk->bytes);
     require(checksum64(chunk->bytes) == entry.checksum, "a chunk does not match its checksum",
             entry.offset);
-    bool valid = false;
-    if constexpr (std::is_same_v<Key, Brick>) {
-      const auto streams = std::span(chunk->streams).template first<kBrickStreams>();
-      valid = read_streams(chunk->bytes, entry.nodes, streams) &&
-              bricks_of_streams(streams, entry.nodes, &chunk->keys);
+  }
+
+  void read_bricks(const ChunkEntry& entry, UnpackedChunk* chunk) const {
+    read_bytes(entry, chunk);
+    const auto streams = std::span(chunk->streams).first<kBrickStreams>();
+    require(read_streams(chunk->bytes, entry.nodes, &chunk->zstd, streams) &&
+                bricks_of_streams(streams, entry.nodes, &chunk->bricks),
+            "a chunk does not hold nodes", entry.offset);
+    require_ascending(std::ranges::is_sorted(chunk->bricks, std::less_equal()), entry);
+  }
+
+  void read_nodes(uint32_t level, const ChunkEntry& entry, UnpackedChunk* chunk) const {
+    read_bytes(entry, chunk);
+    require(read_streams(chunk->bytes, entry.nodes, &chunk->zstd, chunk->streams) &&
+                nodes_of_streams(chunk->streams, entry.nodes,
+                                 header_.plain.sections[level + 1].nodes, &chunk->nodes),
+            "a chunk does not hold nodes", entry.offset);
+    place(chunk->nodes.children);
+  }
+
+  // Reads a chunk of a level below the roots into chunk->piece.
+  void encode(uint32_t level, const ChunkEntry& entry, const DagWriter& writer,
+              UnpackedChunk* chunk) const {
+    chunk->piece.clear();
+    if (level + 2 == header_.plain.levels) {
+      read_bricks(entry, chunk);
+      writer.encode(std::span<const Brick>(chunk->bricks), &chunk->piece);
     } else {
-      valid = read_streams(chunk->bytes, entry.nodes, chunk->streams) &&
-              nodes_of_streams(chunk->streams, entry.nodes, header_.plain.sections[level + 1].nodes,
-                               &chunk->keys);
-      if (valid) place(chunk->keys);
+      read_nodes(level, entry, chunk);
+      require_ascending(chunk->nodes.ascend, entry);
+      writer.encode(chunk->nodes.masks, chunk->nodes.children, &chunk->piece);
     }
-    require(valid, "a chunk does not hold nodes", entry.offset);
   }
 
   // Writes the chunks of a level below the roots. Any worker decodes the next chunk, waits for its
   // turn only to get its place in the file, and then stores it.
-  template <class Key>
   void write_level(uint32_t level, std::span<const ChunkEntry> chunks, DagWriter* writer,
                    WorkArray<uint32_t>* placed) const {
-    const auto require_ascending = [this](const Key& a, const Key& b, const ChunkEntry& entry) {
-      require(a < b, "nodes are empty or do not ascend", entry.offset);
-    };
     std::vector<uint64_t> ranks = {1};  // of the first key of each chunk, from 1 on
     for (const ChunkEntry& entry : chunks) ranks.push_back(ranks.back() + entry.nodes);
-    std::vector<UnpackedChunk<Key>> unpacked(executor_->workers());
-    Key last{};  // no key is zero
+    std::vector<UnpackedChunk> unpacked(executor_->workers());
+    NodeKey last{};  // no key is zero
     Turns turns;
     executor_->for_each(chunks.size(), [&](size_t worker, size_t i) {
       turns.guard([&] {
         check_interrupt();
-        read_chunk(level, chunks[i], &unpacked[worker]);
-        const std::vector<Key>& keys = unpacked[worker].keys;
-        for (size_t k = 1; k < keys.size(); ++k) require_ascending(keys[k - 1], keys[k], chunks[i]);
+        encode(level, chunks[i], *writer, &unpacked[worker]);
         LevelPiece& piece = unpacked[worker].piece;
-        piece.clear();
-        writer->encode(std::span(keys), &piece);
         uint32_t first = 0;  // index
         const bool placed_piece = turns.run(i, [&] {
-          require_ascending(last, keys.front(), chunks[i]);
-          last = keys.back();
+          require_ascending(last < piece.first, chunks[i]);
+          last = piece.last;
           first = writer->append(&piece);
         });
         if (!placed_piece) return;
-        for (size_t k = 0; k < keys.size(); ++k)
+        for (size_t k = 0; k < piece.indices.size(); ++k)
           (*placed)[ranks[i] + k] = 1 + first + piece.indices[k];
         writer->store(&piece);
       });
@@ -212,24 +227,24 @@ class Unpacker {
 
   // The nodes of level 0, in any order.
   void write_roots(std::span<const ChunkEntry> chunks, DagWriter* writer) const {
-    UnpackedChunk<NodeKey> unpacked;
+    UnpackedChunk chunk;
     for (const ChunkEntry& entry : chunks) {
-      read_chunk(0, entry, &unpacked);
-      for (const NodeKey& root : unpacked.keys) {
-        require(root != NodeKey{}, "nodes are empty or do not ascend", entry.offset);
-        writer->add_node(root);
+      read_nodes(0, entry, &chunk);
+      const uint32_t* children = chunk.nodes.children.data();
+      for (const unsigned char mask : chunk.nodes.masks) {
+        require_ascending(mask != 0, entry);
+        writer->add_node(key_of(mask, children));
+        children += kChildCounts[mask];
       }
     }
   }
 
   // Replaces ranks by indices, which keeps the order.
-  void place(std::span<NodeKey> nodes) const {
-    constexpr size_t kAhead = 24;
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      if (i + kAhead < nodes.size()) {
-        for (const uint32_t child : nodes[i + kAhead]) __builtin_prefetch(&placed_[child]);
-      }
-      for (uint32_t& child : nodes[i]) child = placed_[child];
+  void place(std::span<uint32_t> children) const {
+    constexpr size_t kAhead = 100;
+    for (size_t i = 0; i < children.size(); ++i) {
+      if (i + kAhead < children.size()) __builtin_prefetch(&placed_[children[i + kAhead]]);
+      children[i] = placed_[children[i]];
     }
   }
 

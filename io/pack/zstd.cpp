@@ -18,9 +18,18 @@ size_t append_zstd(std::span<const unsigned char> bytes, int level, std::vector<
   return size;
 }
 
-bool decode_zstd(std::span<const std::byte> frame, std::span<unsigned char> out) {
-  const size_t size = ZSTD_decompress(out.data(), out.size(), frame.data(), frame.size());
+ZstdDecoder::ZstdDecoder() : context_(ZSTD_createDCtx()) {
+  if (!context_) throw Error(ExitCode::kMemory, "zstd: out of memory");
+}
+
+bool ZstdDecoder::decode(std::span<const std::byte> frame, std::span<unsigned char> out) {
+  const size_t size =
+      ZSTD_decompressDCtx(context_.get(), out.data(), out.size(), frame.data(), frame.size());
   return ZSTD_isError(size) == 0 && size == out.size();
+}
+
+void ZstdDecoder::Free::operator()(ZSTD_DCtx_s* context) const {
+  ZSTD_freeDCtx(context);
 }
 
 }  // namespace svdag

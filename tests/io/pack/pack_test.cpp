@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <random>
 
 #include "io/dag/dag_writer.h"
@@ -45,6 +46,17 @@ std::vector<NodeKey> some_nodes(size_t count, uint32_t below, uint64_t seed) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+std::vector<NodeKey> keys_of(const ChunkNodes& nodes) {
+  std::vector<NodeKey> keys;
+  const uint32_t* children = nodes.children.data();
+  for (const unsigned char mask : nodes.masks) {
+    keys.push_back(key_of(mask, children));
+    children += kChildCounts[mask];
+  }
+  EXPECT_EQ(children + 8, nodes.children.data() + nodes.children.size());
+  return keys;
 }
 
 class Pack : public ::testing::Test {
@@ -90,15 +102,16 @@ class Pack : public ::testing::Test {
 TEST(NodeStreams, GiveBackTheNodes) {
   for (const size_t count : {0, 1, 2, 1000, 16384}) {
     const std::vector<NodeKey> nodes = some_nodes(count, 5000, count);
-    std::vector<NodeKey> again(3, {7});  // is overwritten
+    ChunkNodes again{{7}, {7}, false};  // is overwritten
     ASSERT_TRUE(nodes_of_streams(streams_of_nodes(nodes), nodes.size(), 5000, &again));
-    EXPECT_EQ(again, nodes);
+    EXPECT_EQ(keys_of(again), nodes);
+    EXPECT_TRUE(again.ascend);
   }
 }
 
-TEST(NodeStreams, OfAnyBytesGiveNodesInRangeOrNone) {
+TEST(NodeStreams, OfAnyBytesGiveNodesInRangeAndKnowTheirOrderOrNone) {
   std::mt19937_64 random(3);
-  size_t accepted = 0;
+  size_t accepted = 0, descending = 0;
   for (int round = 0; round < 3000; ++round) {
     const std::vector<NodeKey> nodes = some_nodes(50, 200, uint64_t(round));
     auto streams = streams_of_nodes(nodes);
@@ -107,14 +120,27 @@ TEST(NodeStreams, OfAnyBytesGiveNodesInRangeOrNone) {
       if (!stream.empty()) stream[random() % stream.size()] ^= uint8_t(1 << random() % 8);
       if (random() % 16 == 0 && !stream.empty()) stream.pop_back();
     }
-    std::vector<NodeKey> again;
+    if (round % 2 == 0) {  // instead, one node loses its children that are equal to those before
+      streams = streams_of_nodes(nodes);
+      Stream &masks = streams[0], &equal = streams[1];
+      const size_t n = random() % nodes.size();
+      masks[n] = static_cast<unsigned char>(masks[n] & ~equal[n]);
+      equal[n] = 0;
+    }
+    ChunkNodes again;
     if (!nodes_of_streams(streams, nodes.size(), 200, &again)) continue;
     ++accepted;
-    for (const NodeKey& node : again) {
+    const std::vector<NodeKey> keys = keys_of(again);
+    for (const NodeKey& node : keys) {
       for (const uint32_t child : node) ASSERT_LE(child, 200U);
     }
+    const bool ascend =
+        keys.front() != NodeKey{} && std::ranges::is_sorted(keys, std::less_equal());
+    ASSERT_EQ(again.ascend, ascend);
+    descending += !ascend;
   }
   EXPECT_GT(accepted, 50U);
+  EXPECT_GT(descending, 20U);
 }
 
 TEST_F(Pack, UnpacksToTheSameBytes) {
