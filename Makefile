@@ -15,14 +15,14 @@
 #           page in Chromium, fuzzers; hours (or some of it: STAGES="tsan families")
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
 #              it can be stopped at any time and goes on where it was
-#   bench   the tables and plots of docs/performance.md
+#   bench   the tables of docs/results/performance.md, and its plots
 #   bench-before     its table of this version beside another one, built in the folder BEFORE
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       its table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
-#   bench-plan       what plans predict against what is measured: the tables of docs/farm.md
-#   bench-accuracy   run time against error: the tables and plots of docs/accuracy.md
+#   bench-plan       what plans predict against what is measured: the tables of docs/results/farm.md
+#   bench-accuracy   run time against error: docs/results/accuracy.md, and its plots
 #   bench-vdb        every shared scene between the bounds of OpenVDB's distances; its table
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bench-cuda       rays on an NVIDIA GPU, the same as the processor's bit by bit; its table

@@ -2,7 +2,7 @@
 """`make bench-accuracy`: measures run time against error, and volume error against resolution.
 
 Runs accuracy_bench, `svdag build` and `svdag-verify trace`. Writes build/bench/accuracy.csv, volume.csv and rays.csv,
-the plots docs/images/accuracy_*.svg, and the tables between the markers in docs/accuracy.md. Real scenes are in the
+the plots docs/images/accuracy_*.svg, and the tables between the markers in docs/results/accuracy.md. Real scenes are in the
 folder SVDAG_SCENES; if it is not set, docs/ is not changed.
 """
 import argparse
@@ -15,14 +15,14 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from bench import ROOT, fill  # noqa: E402
+from bench import RESULTS, ROOT, fill  # noqa: E402
 from bench_tables import table  # noqa: E402
 import accuracy_plots  # noqa: E402
 import accuracy_rays  # noqa: E402
 import accuracy_volume  # noqa: E402
 
 OUT = ROOT / "build" / "bench"
-PAGE = ROOT / "docs" / "accuracy.md"
+PAGE = RESULTS / "accuracy.md"
 OURS = "svdag"
 TARGET = {"scene": 1.2, "family": 2.5}
 BAKED = ("Crytek Sponza", "crytek_sponza.glb", "2K")
@@ -93,12 +93,6 @@ def ratio_table(rows):
                           f"{exact['method']} {exact['ns_per_pair']:.1f}", f"{time / exact['ns_per_pair']:.2f}"])
     return table(["case, grid", "errors of svdag", "svdag, ns", "fastest peer, ns", "ratio", "target",
                   "fastest peer without error, ns", "ratio"], lines)
-
-
-def counts_table(rows):
-    return table(["case, grid", "cells", "surface voxels", "pairs"],
-                 [[name, *[f"{own[OURS][k]:,}" for k in ("cells", "voxels", "pairs")]]
-                  for group in ("scene", "family") for name, own in grouped(rows, group).items()])
 
 
 def bake_table(rows, program):
@@ -177,9 +171,8 @@ def main():
     if "SVDAG_SCENES" not in os.environ:
         print("SVDAG_SCENES is not set: docs/ is not changed")
         return wrong != 0
-    fill(PAGE, {"machine": machine(), "ratios": ratio_table(rows), "counts": counts_table(rows),
-                "errors": matrix(rows, "world", error_cell, {"svdag + reduction"}),
-                "errors snapped": matrix(rows, "snapped", error_cell, {"svdag + reduction"}),
+    print(ratio_table(rows), matrix(rows, "snapped", error_cell, {"svdag + reduction"}), sep="\n\n")
+    fill(PAGE, {"machine": machine(), "errors": matrix(rows, "world", error_cell, {"svdag + reduction"}),
                 "times": matrix(rows, "world", lambda r: f"{r['ns_per_pair']:.0f}"),
                 "bake": bake_table(rows, programs / "svdag")})
     accuracy_plots.error_plot(grouped(rows, "scene"), "accuracy_scenes", columns=3)

@@ -1,4 +1,4 @@
-"""Measures rays and distances against resolution by `svdag-verify trace`: the table "Rays" of docs/accuracy.md."""
+"""Measures rays and distances against resolution by `svdag-verify trace`: the table "Rays" of docs/results/accuracy.md."""
 import json
 import subprocess
 
@@ -42,17 +42,15 @@ def disagree(row):
 
 
 def rays_table(rows):
-    """The table; rare bins are joined."""
-    names = [f"nearer {name}" for name in BINS]
-    early, bins, far_off = names[:2], names[2:5], names[5:]
-    lines = []
+    """The table: the coarsest and the finest grid of each series; the CSV file has all."""
+    series = {}
     for row in rows:
-        share = lambda keys: f"{100 * sum(row[k] for k in keys) / row['both']:.1f}"
+        series.setdefault((row["scene"], row["rule"]), []).append(row)
+    lines = []
+    for row in [own[k] for own in series.values() for k in (0, -1)]:
         worst = max(row["scene_to_voxels"], row["voxels_to_scene"])
         lines.append([f"{row['scene']}, {row['rule']}", f"{row['grid']}³", f"{row['late']} / {row['judged']:,}",
-                      f"{row['far']} / {row['voxels']:,}", f"{disagree(row):,.0f}", share(early),
-                      *[share([name]) for name in bins], share(far_off), f"{row['scene_to_voxels']:.3f}",
+                      f"{row['far']} / {row['voxels']:,}", f"{disagree(row):,.0f}", f"{row['scene_to_voxels']:.3f}",
                       f"{row['voxels_to_scene']:.3f}", f"{worst / 2**row['log2']:.1e}"])
-    return table(["scene, rule", "grid", "late / judged", "far / voxels", "one side hits, per million rays",
-                  "nearer by < 0, %", "0 – ½, %", "½ – 1, %", "1 – 2, %", "≥ 2, %", "scene to voxels",
+    return table(["scene, rule", "grid", "late / judged", "far / voxels", "one side hits, per million rays", "scene to voxels",
                   "voxels to scene", "larger of both / N"], lines)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`make bench-before BEFORE=FOLDER`: the programs of this version beside those of another, in turns: the table "Over the version
-before" of docs/performance.md.
+before" of docs/results/performance.md.
 
 Seconds and memory of a machine say little about a change, since they differ from machine to machine and from hour to hour; ratios
 of commands that take turns do. Each cell is the least of all rounds, before and now, and the median of the rounds' ratios.

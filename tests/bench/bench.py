@@ -2,7 +2,7 @@
 """`make bench`: measures bakes of scenes at rising resolutions.
 
 Every bake is a row of build/bench/bakes.csv; levels.csv has a row per level. The tables are written between the
-markers in docs/performance.md and README.md, the plots to docs/images. Scenes are generated or, if it is set, in the
+markers in docs/results/performance.md and README.md, the plots to docs/images. Scenes are generated or, if it is set, in the
 folder SVDAG_SCENES. `make bench-giants` (--giants) updates only the table of giants.
 """
 import argparse
@@ -20,7 +20,8 @@ from bench_plots import plot
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OUT = ROOT / "build" / "bench"
-PAGE = ROOT / "docs" / "performance.md"
+RESULTS = ROOT / "docs" / "results"
+PAGE = RESULTS / "performance.md"
 README = ROOT / "README.md"
 # Log2 of the highest resolution of each scene; all start at LOWEST.
 SCENES = {"atrium": 17, "scan": 14, "sponza": 16, "dragon": 14}
@@ -104,13 +105,10 @@ def bench(bakes, selected, csv_only):
     if not rows:
         sys.exit("all selected scenes are missing: set SVDAG_SCENES")
     pairs, groups = bake_without_memo(bakes, selected), bake_with_threads(bakes, selected)
-    contents = {"machine": machine(rows[-1]), "sizes": tables.sizes(rows), "times": tables.times(rows),
-                "papers layout": tables.papers_layout(rows), "memo": tables.memo(rows), "growth": tables.growths(rows),
-                "without memo": tables.without_memo(pairs), "threads": tables.threads(groups),
-                "levels": tables.levels(levels)}
-    figures = bench_figures.figures(bakes, rows[-1]["vectors"])
-    contents["figures"] = contents["machine"] + "\n\n" + figures
-    print(contents["figures"])
+    contents = {"bakes": tables.bakes(rows), "memo": tables.memo(rows), "growth": tables.growths(rows),
+                "without memo": tables.without_memo(pairs), "threads": tables.threads(groups)}
+    contents["figures"] = machine(rows[-1]) + "\n\n" + bench_figures.figures(bakes, rows[-1]["vectors"])
+    print(contents["figures"], tables.papers_layout(rows), sep="\n\n")
     write_csv(OUT / "bakes.csv", bakes.rows())
     write_csv(OUT / "levels.csv", levels)
     if csv_only:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-sort`: compares the external sort with std::sort and STXXL: the table "Sorting" of docs/performance.md.
+"""`make bench-sort`: compares the external sort with std::sort and STXXL: the table "Sorting" of docs/results/performance.md.
 
 sort_bench (tests/bench/sort_bench.cpp) sorts 2^LOG2 keys of 32 bytes, in memory and with an eighth of that memory.
 """
@@ -58,7 +58,7 @@ def main():
     OUT.mkdir(parents=True, exist_ok=True)
     rows = measure(options.programs.resolve() / "tests" / "bench" / "sort_bench", options.log2, options.rounds)
     if all(row["sort"] != "stxxl" for row in rows):
-        print("STXXL is missing (Debian: libstxxl-dev): docs/performance.md is not changed")
+        print("STXXL is missing (Debian: libstxxl-dev): docs/results/performance.md is not changed")
         options.csv_only = True
     content = f"{processor()}, {1 << options.log2:,} keys.\n\n{table(rows)}"
     print(content)

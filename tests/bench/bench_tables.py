@@ -1,31 +1,28 @@
 """The tables of `make bench`, from the rows of its CSV files."""
-from bakes import PHASES, label
+from bakes import label
 
 
 def table(head, rows):
-    lines = [head, ["---"] + ["--:"] * (len(head) - 1)] + rows
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    lines = ["| " + " | ".join(line) + " |" for line in [head, *rows]]
+    return "\n".join([lines[0], "|" + "|".join(["---"] + ["--:"] * (len(head) - 1)) + "|", *lines[1:]])
 
 
-def sizes(rows):
+def shown(rows):
+    """Every other resolution, and the highest of each scene; the CSV files have all."""
+    last = {r["scene"]: r["log2"] for r in rows}
+    return [r for r in rows if r["log2"] % 2 == 0 or r["log2"] == last[r["scene"]]]
+
+
+def bakes(rows):
+    """Bits per voxel and peak memory of each bake; an SVO node is counted as one byte, its child mask."""
     return table(
-        ["scene", "grid", "triangles", "voxels", "SVO nodes", "SVO MB", "DAG nodes, 4³ leaves", "DAG nodes, 2³ leaves",
-         "MB", "bits/voxel"],
-        [[r["scene"], r["resolution"], f"{r['triangles']:,}", f"{r['voxels']:,}", f"{r['svo_nodes']:,}",
-          f"{r['svo_nodes'] / 1e6:.1f}", f"{r['nodes']:,}", f"{r['nodes_paper']:,}", f"{r['bytes'] / 1e6:.2f}",
-          f"{r['bits_per_voxel']:.3f}"] for r in rows])
+        ["scene", "grid", "voxels", "SVO nodes", "DAG nodes", "MB", "bits/voxel", "seconds", "CPU", "peak MiB"],
+        [[r["scene"], r["resolution"], f"{r['voxels']:,}", f"{r['svo_nodes']:,}", f"{r['nodes']:,}", f"{r['bytes'] / 1e6:.2f}",
+          f"{r['bits_per_voxel']:.3f}", f"{r['s_total']:.2f}", f"{r['s_cpu']:.2f}", f"{r['peak_mib']:.0f}"] for r in shown(rows)])
 
 
 def share(part, whole):
     return f"{part / max(whole, 1e-9):.0%}"
-
-
-def times(rows):
-    heads = [phase if phase != "sort" else "sort (reduce)" for phase in PHASES]
-    return table(
-        ["scene", "grid", *heads, "total", "CPU", "sorting share", "peak MiB"],
-        [[r["scene"], r["resolution"], *[f"{r['s_' + p]:.2f}" for p in PHASES], f"{r['s_total']:.2f}",
-          f"{r['s_cpu']:.2f}", share(r["s_sort"], r["s_total"]), f"{r['peak_mib']:.0f}"] for r in rows])
 
 
 def papers_layout(rows):
@@ -48,15 +45,17 @@ def growth(rows, low, high):
 
 
 def memo(rows):
-    lines = []
+    lines, wanted = [], shown(rows)
     for before, r in zip([None, *rows], rows):
+        if r not in wanted:
+            continue
         follows = before is not None and before["scene"] == r["scene"]
-        counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "hits", "computed")]
+        counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "computed")]
         lines.append([r["scene"], r["resolution"], *counts,
                       f"{1 - r['divided_16'] / max(r['svo_nodes_16'], 1):.1%}",
                       f"{1e9 * r['s_cpu'] / r['nodes']:,.0f}", f"{growth(rows, before, r):.2f}" if follows else "",
                       f"{r['nodes'] / before['nodes']:.2f}" if follows else ""])
-    return table(["scene", "grid", "cubes looked up", "answered", "nodes found", "computed", "16³ cubes not divided",
+    return table(["scene", "grid", "cubes looked up", "answered", "nodes computed", "16³ cubes not divided",
                   "CPU ns per unique node", "CPU growth", "growth of the DAG"], lines)
 
 
@@ -81,20 +80,6 @@ def threads(groups):
                  [[r["scene"], r["resolution"], str(r["threads"]), f"{r['s_total']:.2f}", f"{r['s_cpu']:.2f}",
                    f"{group[0]['s_total'] / r['s_total']:.2f}", f"{group[0]['s_total'] * r['threads'] / r['s_cpu']:.2f}"]
                   for group in groups for r in group])
-
-
-def levels(rows):
-    """Nodes per level at the highest resolution of each scene."""
-    parts = []
-    for name in dict.fromkeys(r["scene"] for r in rows):
-        last = [r for r in rows if r["scene"] == name][-1]["resolution"]
-        own = [r for r in rows if (r["scene"], r["resolution"]) == (name, last)]
-        marks = {len(own) - 2: " (4³ bricks)", len(own) - 1: " (2³ blocks, inside the bricks)"}
-        parts.append(f"{name}, {last}³:\n\n" + table(
-            ["level", "SVO nodes", "DAG nodes", "bytes"],
-            [[f"{r['level']}{marks.get(r['level'], '')}", f"{r['svo_nodes']:,}", f"{r['dag_nodes']:,}",
-              f"{r['bytes']:,}"] for r in own]))
-    return "\n\n".join(parts)
 
 
 def readme(rows):

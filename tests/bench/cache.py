@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`make bench-cache`: measures bakes with --cache after one object of a scene has moved: the table "Cells baked before"
-of docs/performance.md.
+of docs/results/performance.md.
 
 The ten smallest objects of Crytek Sponza (SVDAG_SCENES) are moved in turn, by half a unit of their node, on a fixed
 grid. The bytes of each bake are compared with those of a bake without a cache.
@@ -100,7 +100,7 @@ def main():
         sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
     OUT.mkdir(parents=True, exist_ok=True)
     rows, median = measure(options, scene)
-    table = "\n".join(["| scene | cells | found | CPU s without | CPU s with | share |", "| --- | --: | --: | --: | --: | --: |",
+    table = "\n".join(["| scene | cells | found | CPU s without | CPU s with | share |", "|---|--:|--:|--:|--:|--:|",
                        *rows])
     content = f"{processor()}, {options.resolution}³.\n\n{table}\n\nMedian of the moved ones: {100 * median:.1f} %."
     print(content)

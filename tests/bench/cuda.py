@@ -2,7 +2,7 @@
 """`make bench-cuda`: holds an NVIDIA GPU's rays against the processor's, bit by bit, and measures them.
 
 Every scene is baked in both layouts; a pixel that differs in any bit ends the run with exit code 1. Writes the table
-between the markers in docs/tracing.md.
+between the markers in docs/results/tracing.md.
 """
 import argparse
 import json
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 from bakes import Bakes, label
-from bench import OUT, ROOT, fill, processor
+from bench import OUT, RESULTS, ROOT, fill, processor
 from bench_tables import table
 
 # Scene, log2 of the grid, options of svdag-trace.
@@ -71,7 +71,7 @@ def main():
             table(["grid, rays", *LAYOUTS, "compact / plain", "times the processor"], rows))
     print(text)
     if not options.coarser:
-        fill(ROOT / "docs" / "tracing.md", {"trace cuda": text})
+        fill(RESULTS / "tracing.md", {"trace cuda": text})
     return 1 if different else 0
 
 

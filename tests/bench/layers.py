@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-layers`: what layers and frames cost in bytes and time; the tables of docs/performance.md, "Layers"."""
+"""`make bench-layers`: what layers and frames cost in bytes and time; the tables of docs/results/performance.md, "Layers"."""
 import argparse
 import json
 import os
@@ -12,7 +12,7 @@ import tempfile
 
 import numpy
 
-from bench import fill
+from bench import PAGE, fill
 from bench_tables import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -120,7 +120,7 @@ def main():
                     layers.frames("all of an elephant moves", swaying(elephant, False)),
                     layers.frames("a tenth of the elephant moves", swaying(elephant, True))]
             tables["frames"] = table(["scene", "frames", "a file each, MB", "one file, MB", "ratio", "CPU, ratio"], rows)
-    fill(ROOT / "docs" / "performance.md", tables)
+    fill(PAGE, tables)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """`make bench-out-of-core`: measures bakes whose data is much larger than their memory.
 
 Each row is one bake; its results are written to build/bench/out_of_core.json and to the table between the markers in
-docs/performance.md. With --rows, the other rows keep their earlier results. Scenes and outputs are removed as soon as
+docs/results/performance.md. With --rows, the other rows keep their earlier results. Scenes and outputs are removed as soon as
 no row needs them; 30 GB of disk must be free.
 """
 import argparse
@@ -24,8 +24,8 @@ RESULTS = OUT / "out_of_core.json"
 MIB = 1 << 20
 MARGIN = 64 * MIB  # memory beyond --memory: code, stacks, small allocations
 SMALL = 1e6  # bytes; the scratch space is not compared with smaller files
-HEAD = ["scene", "memory", "seconds", "CPU", "counted MiB", "own MiB", "resident MiB", "limit MiB", "file MB",
-        "scratch MB", "scratch / file", "read / scene", "content", "targets"]
+HEAD = ["scene", "memory", "seconds", "CPU", "counted MiB", "own MiB", "limit MiB", "file MB", "scratch / file",
+        "read / scene", "content", "missed targets"]
 POLL_SECONDS = 0.01  # interval at which the memory of a process is polled
 
 
@@ -35,10 +35,9 @@ class Target(NamedTuple):
     max_value: float
     value: callable
 
-    def verdict(self, row, rows):
+    def is_missed(self, row, rows):
         value = self.value(row, rows)
-        outcome = "–" if value is None else "yes" if value <= self.max_value else "**no**"
-        return f"{self.what} ≤ {self.max_value:g}: {outcome}"
+        return value is not None and value > self.max_value
 
 
 class Row(NamedTuple):
@@ -127,10 +126,10 @@ def line(row, results):
     if "failed" in m:
         return [*head, *[""] * (len(HEAD) - 3), m["failed"]]
     good = {name: other for name, other in results.items() if "wall" in other}
-    return [*head, f"{m['wall']:.1f}", f"{m['cpu']:.1f}", *[f"{m[key] / MIB:,.0f}" for key in ("counted", "own", "resident")],
+    return [*head, f"{m['wall']:.1f}", f"{m['cpu']:.1f}", *[f"{m[key] / MIB:,.0f}" for key in ("counted", "own")],
             f"{m['limit'] / MIB:,.0f}" if m["limit"] else "–", f"{m['file'] / 1e6:,.0f}",
-            f"{m['scratch'] * m['file'] / 1e6:,.0f}", f"{m['scratch']:.1f}" if m["file"] > SMALL else "–",
-            f"{m['read']:.1f}", m["hash"][:8], ", ".join(target.verdict(m, good) for target in row.targets)]
+            f"{m['scratch']:.1f}" if m["file"] > SMALL else "–", f"{m['read']:.1f}", m["hash"][:8],
+            ", ".join(f"{t.what} ≤ {t.max_value:g}" for t in row.targets if t.is_missed(m, good)) or f"none of {len(row.targets)}"]
 
 
 def results_table(results):
@@ -163,7 +162,7 @@ def main():
     print(results_table(results))
     assert_same_hashes(results)
     failed = [row.name for row in selected if row.name in results
-              and ("failed" in results[row.name] or "**no**" in MEMORY.verdict(results[row.name], results))]
+              and ("failed" in results[row.name] or MEMORY.is_missed(results[row.name], results))]
     if failed:
         sys.exit(f"docs/ is not changed: {', '.join(failed)} failed or exceeded its memory")
     missing = [row.name for row in ROWS if row.name not in results]

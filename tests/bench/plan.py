@@ -3,7 +3,7 @@
 
 Each row bakes a scene as a whole and by a plan of 16 shards. The constants of builder/farm/planner/predict.cpp are
 fitted to generated scenes only: --calibrate measures these and prints the constants. The shared scenes test them. The
-tables are written between the markers in docs/farm.md; rows that are not measured again are kept in
+tables are written between the markers in docs/results/farm.md; rows that are not measured again are kept in
 build/bench/plan.json.
 """
 import argparse
@@ -18,10 +18,10 @@ import sys
 import plan_fit
 import plan_scenes
 from bakes import label
-from bench import OUT, ROOT, fill
+from bench import OUT, RESULTS, ROOT, fill
 from bench_tables import table
 
-PAGE = ROOT / "docs" / "farm.md"
+PAGE = RESULTS / "farm.md"
 KNOWN = OUT / "plan.json"
 SHARDS = 16
 SHARED_FILES = ["crytek_sponza.glb", "lyon_city_epsg3946.glb", "samurai_monastery.obj", "stanford_dragon.ply",
@@ -94,6 +94,14 @@ def total(row, field, kind=""):
     return sum(s["measured"][field] for s in row["steps"] if s["name"].startswith(kind))
 
 
+def finest_shared(rows):
+    """The rows of the highest resolution of each shared scene."""
+    highest = {}
+    for r in rows:
+        highest[r["scene"]] = max(r["log2"], highest.get(r["scene"], 0))
+    return [r for r in rows if r["log2"] == highest[r["scene"]] and r["scene"] not in plan_scenes.NAMES]
+
+
 def farm_table(rows):
     lines = []
     for r in rows:
@@ -103,10 +111,9 @@ def farm_table(rows):
                       f"{r['planning']:.2f}", f"{farm:.2f}", f"{farm / bake:.2f}",
                       f"{max(s['measured']['cpu_seconds'] for s in r['steps']):.2f}",
                       f"{max(s['measured']['memory_bytes'] for s in r['steps']) / 2**20:.0f}",
-                      f"{max(s['predicted']['memory_bytes'] for s in r['steps']) / 2**20:.0f}",
-                      "yes" if r["same"] else "**no**"])
+                      f"{max(s['predicted']['memory_bytes'] for s in r['steps']) / 2**20:.0f}"])
     return table(["scene", "grid", "shards", "one bake, CPU s", "predicted", "planning, CPU s", "all steps, CPU s", "/ one bake",
-                  "longest step", "peak MiB of a step", "planned", "same bytes"], lines)
+                  "longest step", "peak MiB of a step", "planned"], lines)
 
 
 def error_row(rows, what):
@@ -167,7 +174,7 @@ def main():
     if options.calibrate:
         plan_fit.print_constants([r for r in rows if r["scene"] in plan_scenes.NAMES])
         return
-    contents = {"plans": farm_table(rows), "predictions": error_table(rows)}
+    contents = {"plans": farm_table(finest_shared(rows)), "predictions": error_table(rows)}
     print("\n\n".join(contents.values()))
     different = [f"{r['scene']} at {label(r['log2'])}" for r in rows if not r["same"]]
     if different:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-size`: bytes of each layout and of packed files, and rays per second; the tables of docs/performance.md, "Size".
+"""`make bench-size`: bytes of each layout and of packed files, and rays per second; the tables of docs/results/performance.md, "Size".
 
 The columns of other programs are recorded: SVDAG-Compression (`.ssvdag`, Villanueva et al. 2017) and the tools of
 transform-aware DAGs (`tdag16`, Molenaar and Eisemann 2025), given the same voxels, exported by `svdag export`.
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-from bench import fill
+from bench import PAGE, fill
 from bench_tables import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -111,7 +111,7 @@ def main():
                 for workload, (a, b) in sizes.rays([paths["plain"], paths["compact"]]).items():
                     traced.append([name, f"{resolution}³", workload, f"{a:.2f}", f"{b:.2f}", f"{b / a:.2f}"])
             print(f"{name} {resolution}: {plain:.2f} {compact:.2f} MB", flush=True)
-    fill(ROOT / "docs" / "performance.md", {
+    fill(PAGE, {
         "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain", "packed / plain", "at level 19",
                           "pack, MB/s", "unpack, MB/s"], large),
         "layouts and peers": table(["scene", "grid", "plain, MB", "compact, MB", ".ssvdag, MB", "tdag16, MB",

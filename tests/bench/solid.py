@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-solid`: what interiors cost in bytes and time; the table of docs/performance.md, "Solids"."""
+"""`make bench-solid`: what interiors cost in bytes and time; the table of docs/results/performance.md, "Solids"."""
 import argparse
 import json
 import os
@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-from bench import fill
+from bench import PAGE, fill
 from bench_tables import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -47,7 +47,7 @@ def main():
         sys.exit("SVDAG_SCENES is not set: there are no scenes to measure")
     with tempfile.TemporaryDirectory(prefix="svdag-solid-") as folder:
         rows = [row(options.programs.resolve(), pathlib.Path(os.environ["SVDAG_SCENES"], name), grid, folder) for name, grid in CASES]
-    fill(ROOT / "docs" / "performance.md", {
+    fill(PAGE, {
         "solids": table(["scene", "grid", "voxels of the surface", "of the solid", "solid / enclosed volume", "surface, MB", "solid, MB",
                          "ratio", "CPU of the surface, s", "CPU, ratio"], rows)})
 

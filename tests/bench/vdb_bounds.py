@@ -2,7 +2,7 @@
 """`make bench-vdb`: tests every real scene against the bounds of OpenVDB's distances.
 
 Compares whole files at 512³ (both rules) and 1K³, and samples of windows of 512³ voxels on the surface of some 64K³
-bakes. The table is written between its markers in docs/accuracy.md, the rows to build/bench/vdb_bounds.json. The exit
+bakes. Sums per grid and rule are written between their markers in docs/results/accuracy.md, the rows to build/bench/vdb_bounds.json. The exit
 code is 1 if there is a violation.
 """
 import argparse
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 
-from bench import fill
+from bench import RESULTS, fill
 from bench_tables import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -41,16 +41,19 @@ def judge(programs, scene, resolution, rule, windows):
     return dict(json.loads(done.stdout), scene=scene.name, resolution=resolution, seconds=seconds)
 
 
+def sums(head, rows):
+    """A line of the table: sums over rows."""
+    windows = "all" if not any(r["sampled"] for r in rows) else f"{sum(r['windows'] for r in rows):,}"
+    return [*head, f"{len(rows)}", windows, *[f"{sum(r[c] for r in rows):,}" for c in ("tested", "file_voxels")],
+            f"{sum(r['missing'] + r['extra'] for r in rows):,}", *[f"{sum(r[c] for r in rows):,}" for c in ("decided_exactly", "openvdb_errors")]]
+
+
 def bounds_table(rows):
-    lines = [[r["scene"], f"{r['resolution']}³", r["rule"], f"{r['windows']:,}" if r["sampled"] else "all",
-              f"{r['tested']:,}", f"{r['file_voxels']:,}", f"{r['missing'] + r['extra']:,}",
-              f"{r['decided_exactly']:,}", f"{r['openvdb_errors']:,}", f"{r['seconds']:.0f}"] for r in rows]
-    total = ["all", "", "", f"{sum(r['windows'] for r in rows):,}", *[f"{sum(r[c] for r in rows):,}" for c in
-             ("tested", "file_voxels")], f"{sum(r['missing'] + r['extra'] for r in rows):,}",
-             *[f"{sum(r[c] for r in rows):,}" for c in ("decided_exactly", "openvdb_errors")],
-             f"{sum(r['seconds'] for r in rows):.0f}"]
-    return table(["scene", "grid", "rule", "windows", "voxels tested", "set", "violations", "on a bound",
-                  "errors of OpenVDB", "seconds"], lines + [total])
+    groups = {}
+    for r in rows:
+        groups.setdefault((r["resolution"], r["rule"]), []).append(r)
+    return table(["grid", "rule", "files", "windows", "voxels tested", "set", "violations", "on a bound", "errors of OpenVDB"],
+                 [sums([f"{resolution}³", rule], own) for (resolution, rule), own in groups.items()])
 
 
 def main():
@@ -76,7 +79,7 @@ def main():
                                                            "decided_exactly", "openvdb_errors")),
                   f"{rows[-1]['seconds']:.1f} s", flush=True)
             results.write_text(json.dumps(rows))
-    fill(ROOT / "docs" / "accuracy.md", {"vdb bounds": bounds_table(rows)})
+    fill(RESULTS / "accuracy.md", {"vdb bounds": bounds_table(rows)})
     return any(not r["ok"] for r in rows)
 
 
