@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the commands of README.md and docs/commands.md, and checks the links and pictures of docs/.
+"""Runs the commands of README.md and docs/commands.md and the program of README.md, and checks the links and pictures.
 
 Each command of a ```sh block is run, in order, in one folder per page; the comment "# exit N" names an exit code
 other than 0. The test generates small scenes with the names that the pages use, and reduces grids and pictures
@@ -99,6 +99,18 @@ class Documents(unittest.TestCase):
 
     def test_commands_of_the_readme_run(self):
         self.assertGreater(self.run_page(ROOT / "README.md"), 5)
+
+    def test_the_reader_of_the_readme_compiles_and_reads(self):
+        source = re.search(r"^```cpp\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)[1]
+        with tempfile.TemporaryDirectory(prefix="svdag-docs-") as folder:
+            folder = pathlib.Path(folder)
+            (folder / "svdag").symlink_to(ROOT)
+            (folder / "box.obj").write_text("v 0 0 0\nv 0 0 9\nv 9 7 0\nv 9 7 9\nf 1 2 3\nf 2 4 3\n")  # y = 7/9 x
+            (folder / "read.cpp").write_text(source)
+            subprocess.run(["g++", "-std=c++17", "-I.", "read.cpp", "-o", "read"], cwd=folder, check=True)
+            subprocess.run([BUILD / "svdag", "build", "box.obj", "-o", "box.svdag", "-r", "64", "-q"], cwd=folder, check=True)
+            highest = int(subprocess.run(["./read", "box.svdag"], cwd=folder, capture_output=True, check=True).stdout)
+            self.assertAlmostEqual(highest, 32 * 7 / 9, delta=1)
 
     def test_the_tour_uses_every_command(self):
         tour = " ".join(command for _, command in commands(ROOT / "docs" / "commands.md"))

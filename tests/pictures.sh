@@ -21,10 +21,11 @@ render() {
   "$programs"/svdag-verify render "$work"/"$scene".svdag -o "$folder"/"$name".png "$@" -q
 }
 
-bake atrium 8K --layers material
 inside=-10.5,2.2,1.8,6,3.4,-1.2,75
 light=2,7.5,0,0.5
-render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420
+bake atrium 16K --layers material
+render atrium atrium --mode soft --camera=$inside --light=$light --size 800x420  # as tests/demo.sh
+bake atrium 8K --layers material
 for mode in level steps; do
   render atrium_$mode atrium --mode $mode --camera=$inside --light=$light --size 304x171 --samples 32
 done

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-size`: bytes of each layout and of packed files, and rays per second; the tables of docs/results/performance.md, "Size".
+"""`make bench-size`: bytes of each layout and of packed files, and rays per second: tables of docs/results/performance.md.
 
 The columns of other programs are recorded: SVDAG-Compression (`.ssvdag`, Villanueva et al. 2017) and the tools of
 transform-aware DAGs (`tdag16`, Molenaar and Eisemann 2025), given the same voxels, exported by `svdag export`.
@@ -66,6 +66,14 @@ class Sizes:
             sys.exit(f"{plain}: unpacked to other bytes")
         return megabytes(pack), smallest, speeds["pack"], speeds["unpack"]
 
+    def vdb(self, plain):
+        """MB of the same voxels as an OpenVDB grid of type bool."""
+        path = self.folder / "a.vdb"
+        self.run("svdag", "export", plain, "-o", path, "-q")
+        size = megabytes(path)
+        path.unlink()
+        return size
+
     def rays(self, paths):
         """{workload: MRays/s of each path}, taken in turns; exits if the hits differ."""
         speeds = {}
@@ -101,8 +109,9 @@ def main():
             plain, compact = megabytes(paths["plain"]), megabytes(paths["compact"])
             if (name, resolution) in PEERS:
                 others = PEERS[name, resolution]
+                vdb = f"{sizes.vdb(paths['plain']):.2f}" if resolution == "4K" else "–"
                 peers.append([name, f"{resolution}³", f"{plain:.2f}", f"{compact:.2f}", f"{others[0]:.2f}", f"{others[1]:.2f}",
-                              f"{compact / min(others):.3f}"])
+                              f"{compact / min(others):.3f}", vdb])
             else:
                 packed, smallest, packs, unpacks = sizes.packed(paths["plain"])
                 large.append([name, f"{resolution}³", f"{plain:.1f}", f"{compact:.1f}", f"{compact / plain:.3f}",
@@ -115,7 +124,7 @@ def main():
         "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain", "packed / plain", "at level 19",
                           "pack, MB/s", "unpack, MB/s"], large),
         "layouts and peers": table(["scene", "grid", "plain, MB", "compact, MB", ".ssvdag, MB", "tdag16, MB",
-                                    "compact / smaller of them"], peers),
+                                    "compact / smaller of them", ".vdb, MB"], peers),
         "layouts traced": table(["scene", "grid", "rays", "plain, MRays/s", "compact, MRays/s", "ratio"], traced)})
 
 
