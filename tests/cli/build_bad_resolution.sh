@@ -1,1 +1,0 @@
-svdag build r.ply -r 1000 -o r.svdag

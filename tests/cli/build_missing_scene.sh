@@ -1,1 +1,0 @@
-svdag build missing.ply -r 64 -o r.svdag

@@ -1,2 +1,0 @@
-svdag-scene rectangle -q -o r.ply
-svdag build r.ply -r 64 --part 1/2 -o r.svdag

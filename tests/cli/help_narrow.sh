@@ -1,2 +1,0 @@
-COLUMNS=40 svdag submit --help
-COLUMNS=40 svdag-verify --help

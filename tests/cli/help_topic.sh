@@ -1,2 +1,0 @@
-svdag help rules
-COLUMNS=44 svdag help exit-codes

@@ -1,0 +1,248 @@
+# svdag plan and run: shards and merges as steps of a plan.
+
+## plan_dry_run
+$ svdag-scene city -n 5K -q -o c.ply
+$ svdag build c.ply -r 512 -o c.svdag --dry-run -j 1 -m 200M
+| c.svdag: 512^3, 4,992 triangles in 108 cells
+|*   about * CPU seconds, * s on 1 thread
+|*   a file of about * *, scratch of about 0 bytes
+|*   at most * * of memory with --memory 80M
+$ ls
+| c.ply
+
+## plan_dry_run_part
+# The cost of a part is not known without a plan: the prediction of the whole is not reported for it.
+$ svdag-scene rectangle -q -o r.ply
+$ svdag build r.ply -r 64 -o x.run --part 1/2 --dry-run
+! svdag: --dry-run predicts whole bakes: leave --part out, or divide the bake with svdag plan
+? 2
+
+## plan_in_use
+# A step that another process runs (left by a killed run): svdag run waits for it while it runs the others.
+$ svdag-scene city -n 2K -q -o c.ply
+$ svdag plan c.ply -r 256 --shards 2 -o p -q
+$ mkdir -m 700 p/runs/shard-1.run.scratch
+$ flock p/runs/shard-1.run.scratch/owner sh -c 'touch held; for i in $(seq 200); do [ -e p/runs/shard-2.json ] || sleep 0.1; done' &
+$ until [ -e held ]; do sleep 0.02; done
+$ svdag build p --shard 1
+!* svdag: */p/runs/shard-1.run.scratch: another process is running shard-1 in this scratch folder: wait for it
+? 75
+$ svdag run p -j 1
+| shard-1    waiting: another process is running it
+|* shard-2    done in *
+|* shard-1    done in *
+|* merge-1    done in *
+|* 3 of 3 steps done in *
+|* */p/c.svdag
+$ wait
+
+## plan_openjd
+$ svdag-scene speck -n 100 -q -o s.ply
+$ svdag plan s.ply -r 64 --shards 3 -o p -q
+$ svdag submit p --engine openjd --program svdag -o t.json
+| t.json
+$ sed 's/"min": [0-9]*/"min": N/' t.json
+| {
+|  "specificationVersion": "jobtemplate-2023-09",
+|  "name": "svdag s.svdag",
+|  "parameterDefinitions": [
+|   {
+|    "name": "Plan",
+|    "type": "PATH",
+|    "objectType": "DIRECTORY",
+|    "dataFlow": "INOUT",
+|    "description": "The folder that svdag plan wrote",
+|    "default": "p"
+|   },
+|   {
+|    "name": "Svdag",
+|    "type": "STRING",
+|    "description": "The program svdag on the hosts",
+|    "default": "svdag"
+|   }
+|  ],
+|  "steps": [
+|   {
+|    "name": "Shards",
+|    "parameterSpace": {
+|     "taskParameterDefinitions": [
+|      {
+|       "name": "Number",
+|       "type": "INT",
+|       "range": "1-3"
+|      }
+|     ]
+|    },
+|    "hostRequirements": {
+|     "amounts": [
+|      {
+|       "name": "amount.worker.memory",
+|       "min": N
+|      },
+|      {
+|       "name": "amount.worker.vcpu",
+|       "min": N
+|      }
+|     ]
+|    },
+|    "script": {
+|     "actions": {
+|      "onRun": {
+|       "command": "{{Param.Svdag}}",
+|       "args": [
+|        "build",
+|        "{{Param.Plan}}",
+|        "--shard",
+|        "{{Task.Param.Number}}"
+|       ],
+|       "timeout": 600
+|      }
+|     }
+|    }
+|   },
+|   {
+|    "name": "Merges1",
+|    "parameterSpace": {
+|     "taskParameterDefinitions": [
+|      {
+|       "name": "Number",
+|       "type": "INT",
+|       "range": "1-1"
+|      }
+|     ]
+|    },
+|    "hostRequirements": {
+|     "amounts": [
+|      {
+|       "name": "amount.worker.memory",
+|       "min": N
+|      },
+|      {
+|       "name": "amount.worker.vcpu",
+|       "min": N
+|      }
+|     ]
+|    },
+|    "script": {
+|     "actions": {
+|      "onRun": {
+|       "command": "{{Param.Svdag}}",
+|       "args": [
+|        "merge",
+|        "{{Param.Plan}}",
+|        "--step",
+|        "merge-{{Task.Param.Number}}"
+|       ],
+|       "timeout": 600
+|      }
+|     }
+|    },
+|    "dependencies": [
+|     {
+|      "dependsOn": "Shards"
+|     }
+|    ]
+|   }
+|  ]
+| }
+
+## plan_run
+$ svdag-scene city -n 5K -q -o c.ply
+$ svdag build c.ply -r 512 -o one.svdag -q
+$ svdag plan c.ply -r 512 --shards 5 --fan-in 2 -o p -m 200M
+|* */p: 512^3, 4,992 triangles in 4 bins; one bake would take * CPU seconds
+|*     5 shards: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*     6 merges: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*   with a machine per step: * s
+$ rm c.ply
+$ svdag run p -j 2 -q
+$ cmp one.svdag p/c.svdag && echo "the same bytes"
+| the same bytes
+$ svdag info p | grep -v input
+|* */p: 512^3, 4,992 triangles in 4 bins; one bake would take * CPU seconds
+|*     5 shards: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*     6 merges: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*   with a machine per step: * s
+|   11 of 11 steps are done
+$ svdag build p --shard 2
+|* */p/runs/shard-2.run: already done, * *, content 3e2b85c00d01f6f5c3a35e5a8906374c
+$ svdag merge p --step merge-4 -q
+$ svdag run p -j 2 | grep -v planned | LC_ALL=C sort
+|* */p/c.svdag
+|* 11 of 11 steps done (11 already done) in * s: 0.0 CPU seconds, at most 0 bytes of memory in a step
+| merge-1    already done
+| merge-2    already done
+| merge-3    already done
+| merge-4    already done
+| merge-5    already done
+| merge-6    already done
+| shard-1    already done
+| shard-2    already done
+| shard-3    already done
+| shard-4    already done
+| shard-5    already done
+
+## plan_run_failure
+$ svdag-scene city -n 2K -q -o c.ply
+$ svdag plan c.ply -r 256 --shards 2 -o p -q
+$ rm p/triangles
+$ svdag run p -j 1
+| shard-1    failed with exit code 3
+| shard-2    failed with exit code 3
+|* 0 of 3 steps done in * s: * CPU seconds, at most 0 bytes of memory in a step
+!* svdag: 2 steps failed, first shard-1 failed: */p/triangles: cannot be opened: no such file or folder (*/p/logs/shard-1.log)
+? 3
+
+## plan_stopped
+# Interrupted by Ctrl-C, or by Slurm at its time limit, each command reports how to continue.
+$ stop() {  # SIGNAL FILES COMMAND...: sends the signal when one of the files exists
+>   signal=$1 files=$2
+>   shift 2
+>   env --default-signal=INT "$@" &  # background jobs of a shell ignore SIGINT
+>   until ls $files >/dev/null 2>&1; do sleep 0.02; done
+>   sleep 0.1
+>   kill -s "$signal" $!
+>   wait $! || echo "exit code $?"
+> }
+$ svdag-scene scan -n 70K -q -o s.ply
+$ svdag plan s.ply -r 8K --shards 2 --scratch . -o p -q
+$ stop INT 'p/runs/*.scratch/owner' svdag build p --shard 1 -q
+| exit code 130
+!* svdag: shard-1 stopped; no work was saved; to begin again: svdag build /*/p --shard 1
+$ stop TERM '*.scratch/journal' svdag build p --shard 1 -q -m 8M --scratch .
+| exit code 143
+!* svdag: shard-1 stopped; its work is saved; to continue: svdag build /*/p --shard 1 --scratch=. -m 8388608
+$ svdag build p --shard 1 -q --scratch .
+$ stop INT '*.scratch/owner' svdag run p -q -j 2 --scratch .
+| exit code 130
+! svdag: stopped; to continue: svdag run p -j 2 --scratch=.
+
+$ svdag plan s.ply -r 1K --shards 2 -o small -q
+$ mkdir -p bin
+$ printf '#!/bin/sh\necho 12\n' >bin/sbatch
+$ printf '#!/bin/sh\ntouch polled\necho RUNNING\n' >bin/squeue
+$ chmod +x bin/*
+$ PATH=$PWD/bin:$PATH
+$ stop INT polled svdag submit small --engine slurm --wait -q
+| exit code 130
+! svdag: stopped; submitted jobs stay queued: list them with squeue --jobs=12,12, cancel them with scancel 12 12
+
+## plan_submit_no_slurm
+$ svdag-scene speck -n 100 -q -o s.ply
+$ svdag plan s.ply -r 64 --shards 2 -o p -q
+$ PATH=/nowhere "$(command -v svdag)" submit p --engine slurm
+! svdag: sbatch: cannot be started: No such file or directory: is Slurm installed?
+? 2
+
+## plan_table
+$ svdag-scene city -n 5K -q -o c.ply
+$ svdag plan c.ply -r 512 --shards 2 -o p -v -m 200M
+|* */p: 512^3, 4,992 triangles in 4 bins; one bake would take * CPU seconds
+|*     2 shards: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*     1 merge: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*   with a machine per step: * s
+|
+|   step            CPU s  seconds     memory     output    scratch  command
+|*   shard-1 * * * * * *    0 bytes  svdag build */p --shard 1
+|*   shard-2 * * * * * *    0 bytes  svdag build */p --shard 2
+|*   merge-1 * * * * * *    0 bytes  svdag merge */p --step merge-1

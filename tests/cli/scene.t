@@ -1,0 +1,98 @@
+# svdag-scene.
+
+## scene_bad_count
+$ svdag-scene city -n many -o t.ply
+! svdag-scene: --triangles: "many" is not a number like 5000, 260K or 10M
+? 2
+
+## scene_bad_yaw
+$ svdag-scene hairball -n 2K --yaw nan -o t.ply
+! svdag-scene: --yaw: give -360 to 360 degrees
+? 2
+
+## scene_counts
+# "10K" counts in thousands; the count that was made is printed.
+$ svdag-scene city -n 10K -o city.ply
+| city.ply: 9,996 triangles, 6,664 vertices
+$ svdag-scene scan --triangles 1.2M -o scan.ply
+| scan.ply: 1,198,272 triangles, 602,934 vertices
+
+## scene_full_disk
+# A limit on the file size simulates a full disk; the old file is kept.
+$ echo old > city.ply
+$ ulimit -f 8
+$ svdag-scene city -n 100K -o city.ply
+! svdag-scene: city.ply: cannot be written: the file exceeds the size limit (ulimit -f)
+? 4
+$ cat city.ply
+| old
+$ ls
+| city.ply
+
+## scene_help
+$ svdag-scene --help
+|...
+| Example:
+|...
+
+## scene_missing_folder
+$ svdag-scene city -n 120 -o missing/city.ply
+! svdag-scene: missing: cannot write in this folder: no such file or folder
+? 4
+
+## scene_names
+# One pattern per option, so that scene files may follow; the option may be repeated.
+$ svdag-scene city -n 3K -q -o hall.ply
+$ svdag-scene rectangle -q -o sky1.ply
+$ svdag-scene rectangle -q -o props.ply
+$ svdag build hall.ply sky1.ply --exclude 'sky*' props.ply -r 64 -o a.svdag -q
+$ svdag build hall.ply props.ply -r 64 -o b.svdag -q
+$ cmp a.svdag b.svdag
+$ svdag build --include 'hall*' --include props.ply hall.ply sky1.ply props.ply -r 64 -o c.svdag -q
+$ cmp b.svdag c.svdag
+$ svdag info --exclude 'sky*' sky1.ply hall.ply | head -n 1
+| sky1.ply and 1 more: 3,000 triangles, 2,000 positions, 250 components
+$ svdag plan --exclude 'sky*' hall.ply --exclude 'props*' props.ply sky1.ply -r 64 --shards 1 -o p -q
+$ svdag build hall.ply -r 64 -o hall.svdag -q
+$ svdag run p -q -j 1
+$ cmp p/hall.svdag hall.svdag
+
+## scene_no_output
+$ svdag-scene city
+! svdag-scene: --output is required; see svdag-scene --help
+? 2
+
+## scene_rectangle
+# The generator gives the same file on every machine.
+$ svdag-scene rectangle -o r.ply
+| r.ply: 2 triangles, 4 vertices
+$ sha256sum r.ply
+| 2ce200cc92d00f51c8d3e8540969376648051fcb422ac11298910aeeeb75cee0  r.ply
+
+## scene_same_bytes
+# One known hash per kind: compilers and flags do not affect the bytes.
+$ svdag-scene atrium -n 100K -q -o atrium.ply
+$ svdag-scene hairball -n 10K -q -o hairball.ply
+$ svdag-scene scan -n 10K -q -o scan.ply
+$ svdag-scene city -n 10K -q --yaw 30 -o city.ply
+$ svdag-scene terrain -n 10K -q --double -o terrain.ply
+$ svdag-scene terrain -n 10K -q --shuffle --seed 7 -o shuffled.ply
+$ svdag-scene sheet -q -o sheet.ply
+$ sha256sum *.ply
+| cd7cf1fd522fc6e06a394f370f46e4dc81391fcb9fda530edff381ea442d86d6  atrium.ply
+| 87e9655882d4f54dec27ae9130c7121b32ca10d9b756ebb85398ce10448c12c4  city.ply
+| 9ec5cb793c160742b74dbc9a4c86cd7d8a25c03faf1959d17a4501e4e5ce3e11  hairball.ply
+| daf97fcac9a312252048c13b27342502adcfe59135af4c35d9790999693f98e8  scan.ply
+| 87a14e24c16d86c1f55c41eed00545c4e6d286ac886f0710af9b304ea8db9fa8  sheet.ply
+| b6cf8c7b6eb9f328264c1e4b6c283c7c0733de3c52459cbacc4ce8ae7d3bb232  shuffled.ply
+| f2639512fb5d3b1dad21e0002a7c03fb9ddb4b9d14f04d56090e37550fa2a8d0  terrain.ply
+
+## scene_too_few
+$ svdag-scene atrium -n 100 -o t.ply
+! svdag-scene: --triangles: this scene needs at least 84108 triangles
+? 2
+
+## scene_unknown_kind
+$ svdag-scene teapot -o t.ply
+! svdag-scene: "teapot" is not a kind of scene: choose one of atrium, hairball, scan, city, terrain, rectangle, sheet, speck
+? 2

@@ -1,1 +1,0 @@
-svdag-scene hairball -n 2K --yaw nan -o t.ply

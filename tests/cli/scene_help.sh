@@ -1,1 +1,0 @@
-svdag-scene --help

@@ -1,1 +1,0 @@
-svdag-scene city -n 120 -o missing/city.ply

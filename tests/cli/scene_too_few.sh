@@ -1,1 +1,0 @@
-svdag-scene atrium -n 100 -o t.ply

@@ -1,1 +1,0 @@
-svdag-trace a.svdag --speed 9

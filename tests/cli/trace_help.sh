@@ -1,1 +1,0 @@
-svdag-trace --help | head -n 2

@@ -1,2 +1,0 @@
-svdag --version
-svdag-verify --version

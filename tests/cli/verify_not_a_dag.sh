@@ -1,2 +1,0 @@
-svdag-scene rectangle -q -o r.ply
-svdag-verify check r.ply
