@@ -7,7 +7,7 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kPurpose = "pairs of nodes of the edit";
+constexpr const char* kPairsPurpose = "pairs of nodes of the edit";
 constexpr size_t kFirstSlots = 64;
 
 uint64_t hash(uint64_t pair) {
@@ -18,7 +18,7 @@ uint64_t hash(uint64_t pair) {
 
 }  // namespace
 
-PairNumbers::PairNumbers(MemoryBudget* budget) : memory_(budget->reserve(0, kPurpose)) {
+PairNumbers::PairNumbers(MemoryBudget* budget) : memory_(budget->reserve(0, kPairsPurpose)) {
   slots_.resize(kFirstSlots);
   std::fill(slots_.begin(), slots_.end(), 0);
 }
@@ -49,7 +49,7 @@ void PairNumbers::grow() {
     throw Error(ExitCode::kOutput, "the edit has more than 2^30 nodes on one level");
   const size_t slots = 2 * slots_.size();
   // The old and the new arrays are both in memory while they are copied.
-  memory_.resize(slots / 2 * sizeof(NodePair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2, kPurpose);
+  memory_.resize(slots / 2 * sizeof(NodePair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2, kPairsPurpose);
   pairs_.reserve(slots / 2);
   HugeVector<uint32_t>().swap(slots_);
   slots_.resize(slots);

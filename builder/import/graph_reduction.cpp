@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kPurpose = "nodes of the import";
+constexpr const char* kReductionPurpose = "nodes of the import";
 
 // A node to be sorted, and the rank of its id among those of its level.
 struct BrickRecord {
@@ -35,7 +35,7 @@ struct NodeWord {
 // Results for the nodes of one level, by rank.
 struct ReducedLevel {
   ReducedLevel(uint64_t count, MemoryBudget* budget)
-      : reservation(budget->reserve(count * (sizeof(uint32_t) + sizeof(uint64_t)), kPurpose)),
+      : reservation(budget->reserve(count * (sizeof(uint32_t) + sizeof(uint64_t)), kReductionPurpose)),
         index(count),
         voxels(count) {}
 

@@ -5,7 +5,7 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kPurpose = "maps of the merge";
+constexpr const char* kMapsPurpose = "maps of the merge";
 
 std::span<const uint32_t> next_indices(SpillReader* reader) {
   const std::span<std::byte> block = reader->next();
@@ -22,7 +22,7 @@ RankMaps::RankMaps(std::span<const uint64_t> counts, Scratch* scratch, MemoryBud
       continue;
     }
     maps_.emplace_back();
-    maps_.back().reservation = budget->reserve(count * sizeof(uint32_t), kPurpose);
+    maps_.back().reservation = budget->reserve(count * sizeof(uint32_t), kMapsPurpose);
     maps_.back().indices.resize(count);
   }
 }
@@ -64,7 +64,7 @@ RankMap RankMaps::load(size_t source, uint64_t begin, uint64_t end) const {
   RankMap map;
   map.first = begin;
   const uint64_t length = std::min(end, count(source)) - begin;
-  map.reservation = budget_->reserve(length * sizeof(uint32_t), kPurpose);
+  map.reservation = budget_->reserve(length * sizeof(uint32_t), kMapsPurpose);
   map.indices.resize(length);
   if (length == 0) return map;
   SpillReader reader(scratch_->transient(), stream, budget_, begin / per_block);

@@ -10,10 +10,10 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr uint64_t kSides = 6;
+constexpr uint64_t kStrandSides = 6;
 constexpr uint64_t kSegments = 80;
-constexpr uint64_t kVertices = kSides * (kSegments + 1);  // of one strand
-constexpr uint64_t kFaces = 2 * kSides * kSegments;
+constexpr uint64_t kVertices = kStrandSides * (kSegments + 1);  // of one strand
+constexpr uint64_t kFaces = 2 * kStrandSides * kSegments;
 constexpr double kRadius = 48;       // of the ball
 constexpr double kThickness = 0.06;  // of a strand
 
@@ -25,11 +25,11 @@ class Hairball : public Mesh {
   uint64_t faces() const override { return strands_ * kFaces; }
 
   Point vertex(uint64_t i) const override {
-    const uint64_t strand = i / kVertices, ring = i % kVertices / kSides, side = i % kSides;
+    const uint64_t strand = i / kVertices, ring = i % kVertices / kStrandSides, side = i % kStrandSides;
     const Point axis = direction(strand);
     const Point across = normalised(cross(axis, least_aligned(axis)));
     const Point other = cross(axis, across);
-    const double turn = double(side) / double(kSides);
+    const double turn = double(side) / double(kStrandSides);
     const double c = kThickness * cos_turns(turn), s = kThickness * sin_turns(turn);
     const Point centre = path(strand, axis, double(ring) / double(kSegments));
     Point p;
@@ -39,8 +39,8 @@ class Hairball : public Mesh {
 
   Face face(uint64_t i) const override {
     const uint64_t base = i / kFaces * kVertices, quad = i % kFaces / 2;
-    const uint64_t side = quad % kSides, next = (side + 1) % kSides;
-    const uint64_t low = base + quad / kSides * kSides, high = low + kSides;
+    const uint64_t side = quad % kStrandSides, next = (side + 1) % kStrandSides;
+    const uint64_t low = base + quad / kStrandSides * kStrandSides, high = low + kStrandSides;
     return i % 2 == 0 ? Face{low + side, low + next, high + next}
                       : Face{low + side, high + next, high + side};
   }

@@ -5,7 +5,7 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr double kExtent = 64;  // |y| of most kinds is less
+constexpr double kFieldExtent = 64;  // |y| of most kinds is less
 constexpr double kSway = 4;     // the largest move
 constexpr double kTop = 42.5;   // a tenth of the vertices of the default scan are above it
 
@@ -16,8 +16,8 @@ Point MovingMesh::vertex(uint64_t i) const {
   const double above = p.y - kTop;
   if (moving_ == MovingPart::kTenth && above <= 0) return p;
   const double share = moving_ == MovingPart::kAll ? 1 : above / (above + 2);
-  p.x += kSway * share * sin_turns(time_ + p.y / (4 * kExtent));
-  p.z += kSway * share * cos_turns(time_ + p.y / (4 * kExtent));
+  p.x += kSway * share * sin_turns(time_ + p.y / (4 * kFieldExtent));
+  p.z += kSway * share * cos_turns(time_ + p.y / (4 * kFieldExtent));
   return p;
 }
 

@@ -19,7 +19,7 @@
 namespace svdag {
 namespace {
 
-struct Judgement : SceneFacts {
+struct BoundsJudgement : SceneFacts {
   BoundsComparison bounds;
   bool both_empty = false;  // sampled, but file and scene are empty in the selection
 
@@ -28,7 +28,7 @@ struct Judgement : SceneFacts {
 
 // The windows that contain bricks drawn from the file and the scene (verify/sample/sample.h).
 BoundsWindows draw_windows(const MeshConfig& config, const Scene& scene, const DagFile& file,
-                           Judgement* result) {
+                           BoundsJudgement* result) {
   const BrickDraw draw =
       draw_bricks(scene, file.view(), file.grid(), file.rule(), *config.sample, config.seed);
   if (draw.untested() && result->grid.defects.empty()) fail_untested();
@@ -60,10 +60,10 @@ std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
   return near;
 }
 
-Judgement judge(const MeshConfig& config, const DagFile& file) {
+BoundsJudgement judge(const MeshConfig& config, const DagFile& file) {
   const Grid grid = file.grid();
   JudgedScene judged(config.scene, config.memory, config.common.progress, grid);
-  Judgement result{judged.facts, {}};
+  BoundsJudgement result{judged.facts, {}};
   Progress& progress = judged.progress;
   progress.phase("reading the scene", 0);
   const auto drawn =
@@ -86,7 +86,7 @@ Judgement judge(const MeshConfig& config, const DagFile& file) {
   return result;
 }
 
-void print_text(const DagFile& file, const Judgement& j, bool sampled) {
+void print_text(const DagFile& file, const BoundsJudgement& j, bool sampled) {
   const BoundsComparison& bounds = j.bounds;
   const bool thin = file.rule() == Rule::kThin;
   print_facts(file, j,
@@ -107,7 +107,7 @@ void print_text(const DagFile& file, const Judgement& j, bool sampled) {
                                      : "ok: every voxel tested is between the bounds");
 }
 
-void print_json(const DagFile& file, const Judgement& j, bool sampled) {
+void print_json(const DagFile& file, const BoundsJudgement& j, bool sampled) {
   const BoundsComparison& bounds = j.bounds;
   nlohmann::json wrong = nlohmann::json::array();
   for (const WrongVoxel& w : bounds.first)
@@ -141,7 +141,7 @@ void print_json(const DagFile& file, const Judgement& j, bool sampled) {
 }  // namespace
 
 int run_distance_bounds(const MeshConfig& config, const DagFile& file) {
-  const Judgement judgement = judge(config, file);
+  const BoundsJudgement judgement = judge(config, file);
   if (config.common.json) {
     print_json(file, judgement, config.sample.has_value());
   } else if (!config.common.quiet) {

@@ -84,8 +84,8 @@ class ColumnClip {
     std::array<Rounded, 3> v, w;
   };
 
-  int64_t first_cell(int64_t ceil) const { return first_touched(ceil, shift_); }
-  int64_t last_cell(int64_t floor) const { return last_touched(floor, shift_); }
+  int64_t first_cell(int64_t ceil) const { return first_touched_cell(ceil, shift_); }
+  int64_t last_cell(int64_t floor) const { return last_touched_cell(floor, shift_); }
 
   void set_plane() {
     Coordinates a, b;

@@ -12,12 +12,12 @@
 namespace svdag {
 
 // The first k with low <= (k+1) * S.
-inline int64_t first_touched(int64_t low, int shift) {
+inline int64_t first_touched_cell(int64_t low, int shift) {
   return -((-low) >> shift) - 1;
 }
 
 // The last k with k * S <= high.
-inline int64_t last_touched(int64_t high, int shift) {
+inline int64_t last_touched_cell(int64_t high, int shift) {
   return high >> shift;
 }
 
@@ -25,8 +25,8 @@ inline int64_t last_touched(int64_t high, int shift) {
 inline VoxelBox touched_cells(const LatticeBox& box, int shift, const VoxelBox& window) {
   VoxelBox cells;
   for (int a = 0; a < 3; ++a) {
-    cells.min[a] = std::max(window.min[a], first_touched(box.min[a], shift));
-    cells.max[a] = std::min(window.max[a], last_touched(box.max[a], shift) + 1);
+    cells.min[a] = std::max(window.min[a], first_touched_cell(box.min[a], shift));
+    cells.max[a] = std::min(window.max[a], last_touched_cell(box.max[a], shift) + 1);
   }
   return cells;
 }

@@ -16,9 +16,9 @@ uint32_t secondary_per_ray(const Shading& shading) {
 }
 
 // Renders tiles. The memory of a tile's rays is reused for the next one.
-class Tile {
+class PixelTile {
  public:
-  Tile(const DagView& dag, const Tree64View& tree, const Camera& camera, const Shading& shading,
+  PixelTile(const DagView& dag, const Tree64View& tree, const Camera& camera, const Shading& shading,
        const RenderConfig& config)
       : dag_(dag), tree_(tree), camera_(camera), shading_(shading), config_(config) {}
 
@@ -193,7 +193,7 @@ Image render(const DagView& dag, const Tree64View& tree, const Camera& camera,
   const size_t rows = (size_t(config.height) + kTile - 1) / kTile;
   progress.phase("rendering", rows);
   executor.for_each(rows, [&](size_t, size_t row) {
-    Tile tile(dag, tree, camera, shading, config);
+    PixelTile tile(dag, tree, camera, shading, config);
     for (int x = 0; x < config.width; x += int(kTile)) tile.render(x, int(row * kTile), &image);
     progress.advance();
   });

@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-constexpr uint32_t kVersion = 2, kTypeDag = 1;
+constexpr uint32_t kTransformDagVersion = 2, kTypeDag = 1;
 
 class TransformDagGraph : public NodeGraph {
  public:
@@ -19,7 +19,7 @@ class TransformDagGraph : public NodeGraph {
     ByteStream stream(file);
     if (header_value<uint32_t>(&stream) != kTransformDagMagic)
       fail_input(file.path(), "is not a transform-DAG .svo (wrong magic number)", 0);
-    if (header_value<uint32_t>(&stream) != kVersion)
+    if (header_value<uint32_t>(&stream) != kTransformDagVersion)
       fail_input(file.path(), "has an unsupported .svo version (2 is supported)", 4);
     const uint64_t sections = header_value<uint64_t>(&stream);
     const int levels = checked_levels(file, sections - 1, 8);
@@ -83,7 +83,7 @@ class TransformDagGraph : public NodeGraph {
 void write_transform_dag(const LevelDag& dag, const std::string& path) {
   Output out(path);
   out.put(kTransformDagMagic);
-  out.put(kVersion);
+  out.put(kTransformDagVersion);
   out.put(uint64_t(dag.levels() + 1));
   for (int empty = 0; empty < 3; ++empty) out.put(uint64_t(0));
   for (uint32_t k = dag.brick_level(); k-- > 0;) {

@@ -7,7 +7,7 @@ namespace svdag {
 namespace {
 
 constexpr int64_t kTile = 256;
-constexpr uint32_t kVersion = 150;
+constexpr uint32_t kVoxVersion = 150;
 
 // A chunk whose size is patched in at its end.
 class Chunk {
@@ -134,7 +134,7 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
   const int64_t side = std::min(kTile, window.grid.resolution());
   Output out(path);
   out.put("VOX ");
-  out.put(kVersion);
+  out.put(kVoxVersion);
   Chunk main("MAIN", &out);
   uint64_t written = 0;
   for (const LatticePoint& tile : tiles) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEnd = 0x06054b50,
                    kEnd64 = 0x06064b50, kLocator64 = 0x07064b50;
-constexpr uint16_t kVersion = 45;  // the first with 64-bit sizes
+constexpr uint16_t kZipVersion = 45;  // the first with 64-bit sizes
 constexpr uint16_t kExtra64 = 1;
 constexpr uint32_t kIn64BitField = 0xffffffff;
 constexpr uint16_t kDay = 1 << 5 | 1;  // 1 January 1980: makes archives reproducible
@@ -48,7 +48,7 @@ uint32_t add_to_crc(uint32_t crc, std::span<const std::byte> bytes) {
 
 // The fields common to local headers and the directory, from the version to the sizes.
 void put_common(uint32_t crc, Output* out) {
-  out->put(kVersion);
+  out->put(kZipVersion);
   out->put(uint16_t(0));  // flags
   out->put(uint16_t(0));  // stored
   out->put(uint16_t(0));  // time
@@ -99,7 +99,7 @@ void ZipWriter::commit() {
   const uint64_t directory = out_.size();
   for (const DirectoryEntry& entry : entries_) {
     out_.put(kCentral);
-    out_.put(kVersion);
+    out_.put(kZipVersion);
     put_common(entry.crc, &out_);
     out_.put(uint16_t(entry.name.size()));
     out_.put(uint16_t(28));
@@ -112,8 +112,8 @@ void ZipWriter::commit() {
   const uint64_t end = out_.size(), count = entries_.size();
   out_.put(kEnd64);
   out_.put(uint64_t(44));
-  out_.put(kVersion);
-  out_.put(kVersion);
+  out_.put(kZipVersion);
+  out_.put(kZipVersion);
   out_.put(uint64_t(0));  // disks
   for (const uint64_t n : {count, count, end - directory, directory}) out_.put(n);
   out_.put(kLocator64);

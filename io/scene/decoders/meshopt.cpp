@@ -11,7 +11,7 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kMaxRatio = 256;
-constexpr uint64_t kMaxFree = 65536;  // bytes, whatever the data
+constexpr uint64_t kMaxFreeBytes = 65536;  // bytes, whatever the data
 
 // The combinations that EXT_meshopt_compression allows.
 bool is_allowed(const MeshoptView& v) {
@@ -50,7 +50,7 @@ void decode_meshopt(const MeshoptSource& source, const MeshoptView& view,
                     const MemoryBudget& budget, const BlockSink& out) {
   if (!is_allowed(view))
     fail_input(source.path, "has a buffer view whose EXT_meshopt_compression is not allowed");
-  if (view.count > (kMaxFree + kMaxRatio * source.bytes.size()) / view.stride)
+  if (view.count > (kMaxFreeBytes + kMaxRatio * source.bytes.size()) / view.stride)
     fail_input(source.path, "has a compressed buffer view of " + std::to_string(view.count) +
                                 " elements, more than its data can hold");
   uint64_t received = 0;

@@ -16,14 +16,14 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kHeader = 84;  // 80 bytes of text, the count
+constexpr size_t kBinaryHeader = 84;  // 80 bytes of text, the count
 constexpr size_t kRecord = 50;  // normal, three corners, attribute
 constexpr size_t kNormal = 12;
 
-// The count of a binary file; at least kHeader bytes.
+// The count of a binary file; at least kBinaryHeader bytes.
 uint64_t binary_count(const File& file) {
   std::array<std::byte, 4> bytes;
-  file.read_at(kHeader - bytes.size(), bytes);
+  file.read_at(kBinaryHeader - bytes.size(), bytes);
   return load_little<uint32_t>(bytes.data());
 }
 
@@ -43,7 +43,7 @@ bool begins_as_text(const File& file) {
 }
 
 void read_binary(const File& file, uint64_t count, BatchWriter& writer) {
-  ByteStream stream(file, kHeader);
+  ByteStream stream(file, kBinaryHeader);
   while (count > 0) {
     const auto bytes = stream.peek(kRecord);
     const uint64_t rows = std::min<uint64_t>(bytes.size() / kRecord, count);
@@ -124,14 +124,14 @@ class TextReader {
 void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink) {
   BatchWriter writer(sink);
   const uint64_t size = file.size();
-  const uint64_t count = size < kHeader ? 0 : binary_count(file);
-  const uint64_t expected = kHeader + kRecord * count;
+  const uint64_t count = size < kBinaryHeader ? 0 : binary_count(file);
+  const uint64_t expected = kBinaryHeader + kRecord * count;
   const bool padded = count > 0 && size > expected && size - expected < kRecord;
   if (size != expected && begins_as_text(file)) {
     TextReader(file, options, &writer).read();
   } else if (size == expected || padded) {
     if (options.wants("")) read_binary(file, count, writer);
-  } else if (size < kHeader) {
+  } else if (size < kBinaryHeader) {
     fail_input(file.path(), "is too short for an STL file");
   } else {
     fail_input(file.path(), "promises " + std::to_string(count) + " triangles, which take " +

@@ -16,7 +16,7 @@ TEST(TouchedCells, MatchTheDefinitionOnEachAxis) {
     for (int64_t low = -20; low <= 20; ++low) {
       for (int64_t high = low; high <= 20; ++high) {
         for (int64_t k = -25; k <= 25; ++k)
-          EXPECT_EQ(first_touched(low, shift) <= k && k <= last_touched(high, shift),
+          EXPECT_EQ(first_touched_cell(low, shift) <= k && k <= last_touched_cell(high, shift),
                     is_touched(k, low, high, shift))
               << k << " of side 2^" << shift << " and " << low << " .. " << high;
       }
@@ -41,10 +41,10 @@ TEST(TouchedCells, AreNoneIfTheWindowIsMissed) {
 
 TEST(TouchedCells, AreExactFarFromZero) {
   const int64_t far = (int64_t(1) << 61) + 1;
-  EXPECT_EQ(first_touched(far, 20), int64_t(1) << 41);
-  EXPECT_EQ(first_touched(far - 1, 20), (int64_t(1) << 41) - 1);
-  EXPECT_EQ(last_touched(-far, 20), -(int64_t(1) << 41) - 1);
-  EXPECT_EQ(last_touched(-far + 1, 20), -(int64_t(1) << 41));
+  EXPECT_EQ(first_touched_cell(far, 20), int64_t(1) << 41);
+  EXPECT_EQ(first_touched_cell(far - 1, 20), (int64_t(1) << 41) - 1);
+  EXPECT_EQ(last_touched_cell(-far, 20), -(int64_t(1) << 41) - 1);
+  EXPECT_EQ(last_touched_cell(-far + 1, 20), -(int64_t(1) << 41));
 }
 
 }  // namespace
