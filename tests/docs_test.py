@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the commands of README.md and docs/commands.md and the program of README.md, and checks the links and pictures.
+"""Runs the commands of README.md and docs/commands.md, the program of README.md and the messages of docs/limits.md;
+checks links and pictures.
 
 Each command of a ```sh block is run, in order, in one folder per page; the comment "# exit N" names an exit code
 other than 0. The test generates small scenes with the names that the pages use, and reduces grids and pictures
@@ -76,23 +77,45 @@ def write_glb(ply, path):
                      struct.pack("<II", len(data), 0x004E4942) + data)
 
 
+def run(command, folder):
+    return subprocess.run(["sh", "-e", "-c", command], cwd=folder, env=dict(os.environ, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C"),
+                          timeout=120, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+
+
 class Documents(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="svdag-docs-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def make_scenes(self):
+        for name, kind in SCENES.items():
+            subprocess.run([BUILD / "svdag-scene", kind, "-n", TRIANGLES[kind], "-q", "-o", self.folder / name], check=True)
+        write_glb(self.folder / "city.ply", self.folder / "city.glb")
+
     def run_page(self, page):
-        environment = dict(os.environ, PATH=f"{BUILD}:/usr/bin:/bin", LC_ALL="C")
+        self.make_scenes()
         ran = 0
-        with tempfile.TemporaryDirectory(prefix="svdag-docs-") as folder:
-            folder = pathlib.Path(folder)
-            for name, kind in SCENES.items():
-                subprocess.run([BUILD / "svdag-scene", kind, "-n", TRIANGLES[kind], "-q", "-o", folder / name], check=True)
-            write_glb(folder / "city.ply", folder / "city.glb")
-            for line, command in commands(page):
-                expected = re.search(r"# exit (\d+)", command)
-                with self.subTest(f"{page.name}:{line}: {command}"):
-                    done = subprocess.run(["sh", "-e", "-c", shrink(command)], cwd=folder, env=environment, timeout=120,
-                                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
-                    self.assertEqual(done.returncode, int(expected.group(1)) if expected else 0, done.stdout + done.stderr)
-                ran += 1
+        for line, command in commands(page):
+            expected = re.search(r"# exit (\d+)", command)
+            with self.subTest(f"{page.name}:{line}: {command}"):
+                done = run(shrink(command), self.folder)
+                self.assertEqual(done.returncode, int(expected.group(1)) if expected else 0, done.stdout + done.stderr)
+            ran += 1
         return ran
+
+    def test_limits_are_reported_as_the_page_says(self):
+        page = ROOT / "docs" / "limits.md"
+        self.make_scenes()
+        for _, command in commands(page):
+            self.assertEqual(run(command, self.folder).returncode, 0, command)
+        rows = re.findall(r"^\| .+? \| `(svdag .+?)` \| `(.+?)` \| (\d) \|$", page.read_text(), re.M)
+        self.assertGreater(len(rows), 7)
+        for command, message, code in rows:
+            with self.subTest(command):
+                done = run(command, self.folder)
+                self.assertEqual(done.returncode, int(code), done.stderr)
+                self.assertRegex(done.stderr, "^svdag: (.*: )?" + re.escape(message).replace("…", ".+") + "$")
 
     def test_commands_of_the_tour_run(self):
         self.assertGreater(self.run_page(ROOT / "docs" / "commands.md"), 30)
@@ -102,15 +125,11 @@ class Documents(unittest.TestCase):
 
     def test_the_reader_of_the_readme_compiles_and_reads(self):
         source = re.search(r"^```cpp\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)[1]
-        with tempfile.TemporaryDirectory(prefix="svdag-docs-") as folder:
-            folder = pathlib.Path(folder)
-            (folder / "svdag").symlink_to(ROOT)
-            (folder / "box.obj").write_text("v 0 0 0\nv 0 0 9\nv 9 7 0\nv 9 7 9\nf 1 2 3\nf 2 4 3\n")  # y = 7/9 x
-            (folder / "read.cpp").write_text(source)
-            subprocess.run(["g++", "-std=c++17", "-I.", "read.cpp", "-o", "read"], cwd=folder, check=True)
-            subprocess.run([BUILD / "svdag", "build", "box.obj", "-o", "box.svdag", "-r", "64", "-q"], cwd=folder, check=True)
-            highest = int(subprocess.run(["./read", "box.svdag"], cwd=folder, capture_output=True, check=True).stdout)
-            self.assertAlmostEqual(highest, 32 * 7 / 9, delta=1)
+        (self.folder / "svdag").symlink_to(ROOT)
+        (self.folder / "ramp.obj").write_text("v 0 0 0\nv 0 0 9\nv 9 7 0\nv 9 7 9\nf 1 2 3\nf 2 4 3\n")
+        (self.folder / "read.cpp").write_text(source)
+        done = run("g++ -std=c++17 -I. read.cpp -o read; svdag build ramp.obj -o ramp.svdag -r 64 -q; ./read ramp.svdag", self.folder)
+        self.assertAlmostEqual(int(done.stdout), 32 * 7 / 9, delta=1)
 
     def test_the_tour_uses_every_command(self):
         tour = " ".join(command for _, command in commands(ROOT / "docs" / "commands.md"))
