@@ -18,7 +18,7 @@
 #   bench   the tables of docs/results/performance.md, and its plots
 #   bench-before     its table of this version beside another one, built in the folder BEFORE
 #   bench-giants     its table of bakes at 256K and 1M
-#   bench-sort       its table of external sorts, beside those of others
+#   bench-sort       a table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
 #   bench-plan       what plans predict against what is measured: the tables of docs/results/farm.md
@@ -130,7 +130,7 @@ bench-before: build
 bench-giants: build
 	@$(PYTHON) tests/bench/bench.py --programs $(PROGRAMS) --giants
 
-# STXXL is compared with where it is installed; the bench says so where it is not.
+# STXXL is compared with where it is installed; the bench prints where it is not.
 bench-sort: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null
 	@cmake --build --preset $(PRESET) --target sort_bench

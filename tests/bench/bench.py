@@ -105,10 +105,9 @@ def bench(bakes, selected, csv_only):
     if not rows:
         sys.exit("all selected scenes are missing: set SVDAG_SCENES")
     pairs, groups = bake_without_memo(bakes, selected), bake_with_threads(bakes, selected)
-    contents = {"bakes": tables.bakes(rows), "memo": tables.memo(rows), "growth": tables.growths(rows),
-                "without memo": tables.without_memo(pairs), "threads": tables.threads(groups)}
-    contents["figures"] = machine(rows[-1]) + "\n\n" + bench_figures.figures(bakes, rows[-1]["vectors"])
-    print(contents["figures"], tables.papers_layout(rows), sep="\n\n")
+    contents = {"figures": machine(rows[-1]) + "\n\n" + bench_figures.figures(bakes, rows[-1]["vectors"]), "bakes": tables.bakes(rows)}
+    print(*contents.values(), tables.papers_layout(rows), tables.memo(rows), tables.growths(rows), tables.without_memo(pairs),
+          tables.threads(groups), sep="\n\n")
     write_csv(OUT / "bakes.csv", bakes.rows())
     write_csv(OUT / "levels.csv", levels)
     if csv_only:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-sort`: compares the external sort with std::sort and STXXL: the table "Sorting" of docs/results/performance.md.
+"""`make bench-sort`: compares the external sort with std::sort and STXXL, and prints a table.
 
 sort_bench (tests/bench/sort_bench.cpp) sorts 2^LOG2 keys of 32 bytes, in memory and with an eighth of that memory.
 """
@@ -10,7 +10,7 @@ import pathlib
 import subprocess
 import sys
 
-from bench import OUT, PAGE, ROOT, fill, processor
+from bench import OUT, ROOT, processor
 
 COLUMNS = ["keys are", "memory", "sort", "keys", "wall", "cpu", "written", "read", "right"]
 
@@ -53,21 +53,16 @@ def main():
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--log2", type=int, default=24, help="log2 of the number of keys")
     parser.add_argument("--rounds", type=int, default=3, help="number of repetitions; the minimum time is used")
-    parser.add_argument("--csv-only", action="store_true", help="do not change docs/")
     options = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     rows = measure(options.programs.resolve() / "tests" / "bench" / "sort_bench", options.log2, options.rounds)
     if all(row["sort"] != "stxxl" for row in rows):
-        print("STXXL is missing (Debian: libstxxl-dev): docs/results/performance.md is not changed")
-        options.csv_only = True
-    content = f"{processor()}, {1 << options.log2:,} keys.\n\n{table(rows)}"
-    print(content)
+        print("STXXL is missing (Debian: libstxxl-dev)")
+    print(f"{processor()}, {1 << options.log2:,} keys.\n\n{table(rows)}")
     with open(OUT / "sort.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    if not options.csv_only:
-        fill(PAGE, {"sorting": content})
 
 
 if __name__ == "__main__":

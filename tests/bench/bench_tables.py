@@ -45,10 +45,8 @@ def growth(rows, low, high):
 
 
 def memo(rows):
-    lines, wanted = [], shown(rows)
+    lines = []
     for before, r in zip([None, *rows], rows):
-        if r not in wanted:
-            continue
         follows = before is not None and before["scene"] == r["scene"]
         counts = [f"{r['memo_' + key]:,}" for key in ("asked", "answered", "computed")]
         lines.append([r["scene"], r["resolution"], *counts,
