@@ -101,8 +101,8 @@ def main():
     OUT.mkdir(parents=True, exist_ok=True)
     rows, median = measure(options, scene)
     table = "\n".join(["| scene | cells | found | CPU s without | CPU s with | share |", "|---|--:|--:|--:|--:|--:|",
-                       *rows])
-    content = f"{processor()}, {options.resolution}³.\n\n{table}\n\nMedian of the moved ones: {100 * median:.1f} %."
+                       *rows[:2]])
+    content = f"{processor()}, {options.resolution}³.\n\n{table}\n\nMedian of the shares after an object has moved: {100 * median:.1f} %."
     print(content)
     if not options.keep_page:
         fill(PAGE, {"cells": content})
