@@ -1,15 +1,29 @@
-// A temporary folder, empty at first and removed by the destructor.
+// A temporary folder, empty at first and removed by the destructor; what tests read of files.
 #pragma once
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace svdag {
+
+inline std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
+
+// The permissions of a file, or of the link that has its name.
+inline mode_t mode_of(const std::string& path) {
+  struct stat status {};
+  EXPECT_EQ(lstat(path.c_str(), &status), 0);
+  return status.st_mode & 07777;
+}
 
 class TempFolder {
  public:

@@ -4,8 +4,11 @@
 #include <string>
 
 #include "builder/build.h"
+#include "io/dag/dag_file.h"
 
 namespace svdag {
+
+constexpr uint64_t kMiB = 1 << 20;
 
 inline BuildConfig config_for(const std::string& scene, const std::string& output, int levels) {
   BuildConfig config;
@@ -23,6 +26,13 @@ inline BuildReport bake(const BuildConfig& config, Executor* executor) {
 inline BuildReport bake(const BuildConfig& config, size_t threads = 1) {
   ParallelExecutor executor(threads);
   return bake(config, &executor);
+}
+
+// The sections and the layer table of a plain file, without the facts about the scene in its header.
+inline std::string nodes_of(const DagFile& file) {
+  const Header& h = file.header();
+  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace svdag

@@ -9,7 +9,7 @@
 namespace svdag {
 namespace {
 
-constexpr int kGrids[4] = {10, 13, 16, 20};
+constexpr int kFormGrids[4] = {10, 13, 16, 20};
 
 uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
   uint64_t voxels = 0;
@@ -25,7 +25,7 @@ uint64_t count_voxels(const Spot& spot, Rule rule, const Soup& soup) {
 template <class Check>
 void everywhere(const Check& check) {
   StressRandom random(11);
-  for (const int levels : kGrids) {
+  for (const int levels : kFormGrids) {
     Spot spot;
     spot.grid = unit_grid(levels);
     const int64_t low = 160, high = spot.grid.resolution() - 160;

@@ -18,7 +18,7 @@ namespace {
 using Soup = std::vector<LatticeTriangle>;
 using Mesh = std::vector<Triangle>;
 
-constexpr int64_t kRegionSide = 48;
+constexpr int64_t kLeakRegionSide = 48;
 
 // The scene divided by a grid, as `svdag build -r` does, and snapped.
 struct SnappedMesh {
@@ -50,8 +50,8 @@ Spot draw_window(const SnappedMesh& mesh, StressRandom* random, Soup* near) {
         double(t.v[0][w]) + a * double(t.v[1][w] - t.v[0][w]) + b * double(t.v[2][w] - t.v[0][w]);
     const int64_t voxel = int64_t(at) >> mesh.grid.fraction();
     spot.region.min[w] =
-        std::clamp<int64_t>(voxel - kRegionSide / 2, 0, mesh.grid.resolution() - kRegionSide);
-    spot.region.max[w] = spot.region.min[w] + kRegionSide;
+        std::clamp<int64_t>(voxel - kLeakRegionSide / 2, 0, mesh.grid.resolution() - kLeakRegionSide);
+    spot.region.max[w] = spot.region.min[w] + kLeakRegionSide;
   }
   for (const LatticeTriangle& q : mesh.triangles) {
     bool meets = true;

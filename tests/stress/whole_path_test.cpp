@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kVoxel = 0.25;
 constexpr int64_t kShift = 4883 * 1024;  // voxels
-constexpr Rule kRules[2] = {Rule::kConservative, Rule::kThin};
+constexpr Rule kPathRules[2] = {Rule::kConservative, Rule::kThin};
 
 // As text, since the coordinates exceed float precision: %.17g is exact for every double.
 void write_off(const std::string& path, const std::vector<Triangle>& triangles) {
@@ -96,7 +96,7 @@ TEST(WholePath, FiveMillionVoxelsAwayTheDagIsTheSame) {
   for (const auto& triangles : scenes()) {
     write_off(scene, triangles);
     write_off(far, moved(triangles));
-    for (const Rule rule : kRules) {
+    for (const Rule rule : kPathRules) {
       const Grid here = bake(scene, output, rule, {0, 1});
       const std::string expected = dag_bytes(output);
       ASSERT_GT(expected.size(), 10000U);
@@ -132,7 +132,7 @@ TEST(WholePath, FarFromZeroOneFileForEveryCellSizeThreadCountAndOrder) {
   StressRandom random(23);
   for (auto triangles : scenes()) {
     triangles = moved(triangles);
-    for (const Rule rule : kRules) {
+    for (const Rule rule : kPathRules) {
       write_off(scene, triangles);
       bake(scene, output, rule, {0, 1});
       const std::string expected = read_bytes(output);

@@ -21,14 +21,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMiB = 1 << 20;
-
-// The sections of a plain file: its nodes, without what its header says of the scene.
-std::string nodes_of(const DagFile& file) {
-  const Header& h = file.header();
-  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 class Layers : public ::testing::Test {
  protected:

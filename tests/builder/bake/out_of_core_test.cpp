@@ -20,7 +20,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMiB = 1 << 20;
 
 class OutOfCore : public ::testing::Test {
  protected:

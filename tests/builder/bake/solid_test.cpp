@@ -19,7 +19,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMiB = 1 << 20;
 using Mesh = std::vector<Triangle>;
 
 // A tetrahedron on each triangle: their outer sides and the triangles are a closed surface.

@@ -13,8 +13,8 @@ namespace {
 
 using Voxels = std::bitset<512>;  // bit 64 x + 8 y + z
 
-constexpr int kLevels = 12;
-constexpr int64_t kVoxel = int64_t(1) << fraction_bits(kLevels);
+constexpr int kContentLevels = 12;
+constexpr int64_t kContentVoxel = int64_t(1) << fraction_bits(kContentLevels);
 
 struct Normal {
   int64_t n[3];
@@ -36,9 +36,9 @@ Normal draw_normal(std::mt19937_64& random) {
 OffsetRange voxel_range(const Normal& normal, Rule rule, const std::array<int64_t, 3>& voxel) {
   int64_t at = 0, negative = 0, positive = 0, dominant = 0;
   for (size_t a = 0; a < 3; ++a) {
-    at += normal.n[a] * voxel[a] * kVoxel;
-    (normal.n[a] < 0 ? negative : positive) += normal.n[a] * kVoxel;
-    dominant = std::max(dominant, std::abs(normal.n[a]) * kVoxel);
+    at += normal.n[a] * voxel[a] * kContentVoxel;
+    (normal.n[a] < 0 ? negative : positive) += normal.n[a] * kContentVoxel;
+    dominant = std::max(dominant, std::abs(normal.n[a]) * kContentVoxel);
   }
   if (rule == Rule::kConservative) return {at + negative, at + positive};
   const int64_t middle = at + (negative + positive) / 2;
@@ -77,7 +77,7 @@ int64_t draw_offset(std::mt19937_64& random, const Normal& normal, Rule rule) {
   return (random() % 2 != 0 ? range.low : range.high) + int64_t(random() % 65) - 32;
 }
 
-struct Case {
+struct ContentCase {
   Normal normal;
   OffsetRange range;
   PlaneContents::Query query;
@@ -89,13 +89,13 @@ TEST(PlaneContents, AreTheVoxelsOfTheDefinitionOverTheirWholeInterval) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     for (int round = 0; round < 20; ++round) {
       MemoryBudget budget;
-      NodeTable table(kLevels, &budget);
-      PlaneContents contents(kLevels, rule, &kernels(), &table);
+      NodeTable table(kContentLevels, &budget);
+      PlaneContents contents(kContentLevels, rule, &kernels(), &table);
       contents.allocate(PlaneContents::table_bytes(1 << 20));
       PlaneMemoCounts counts;
-      std::vector<Case> cases;
+      std::vector<ContentCase> cases;
       for (int i = 0; i < 1000; ++i) {
-        Case c{draw_normal(random), {}, {}, {}};
+        ContentCase c{draw_normal(random), {}, {}, {}};
         c.range.low = draw_offset(random, c.normal, rule);
         c.range.high = c.range.low + int64_t(random() % 3);
         const PlaneHeights heights = contents.heights_of(c.normal.n);
@@ -108,7 +108,7 @@ TEST(PlaneContents, AreTheVoxelsOfTheDefinitionOverTheirWholeInterval) {
       EXPECT_GT(cases.size(), 300u);
       table.flush();
       contents.settle();
-      for (const Case& c : cases) {
+      for (const ContentCase& c : cases) {
         const uint32_t node = table.settled(contents.level(), c.answer.node);
         const Voxels ours = voxels_of(table, contents.level(), node);
         ASSERT_LE(c.answer.low, c.range.low);
@@ -123,7 +123,7 @@ TEST(PlaneContents, AreTheVoxelsOfTheDefinitionOverTheirWholeInterval) {
       }
       // Cached contents outlive a flush.
       const uint64_t computed = counts.computed;
-      const Case& last = cases.back();
+      const ContentCase& last = cases.back();
       const PlaneAnswer again =
           contents.find(contents.heights_of(last.normal.n), last.query, &counts);
       EXPECT_EQ(counts.computed, computed);
@@ -135,9 +135,9 @@ TEST(PlaneContents, AreTheVoxelsOfTheDefinitionOverTheirWholeInterval) {
 TEST(PlaneContents, LeaveEveryTieToTheMemo) {
   std::mt19937_64 random(2);
   MemoryBudget budget;
-  NodeTable table(kLevels, &budget);
+  NodeTable table(kContentLevels, &budget);
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-    PlaneContents contents(kLevels, rule, &kernels(), &table);
+    PlaneContents contents(kContentLevels, rule, &kernels(), &table);
     contents.allocate(PlaneContents::table_bytes(1 << 20));
     for (int i = 0; i < 20'000; ++i) {
       const Normal normal = draw_normal(random);
@@ -156,8 +156,8 @@ TEST(PlaneContents, LeaveEveryTieToTheMemo) {
 TEST(PlaneContents, AnswerAlmostEveryPlaneAndShareTheContentsOfDifferentOnes) {
   std::mt19937_64 random(3);
   MemoryBudget budget;
-  NodeTable table(kLevels, &budget);
-  PlaneContents contents(kLevels, Rule::kConservative, &kernels(), &table);
+  NodeTable table(kContentLevels, &budget);
+  PlaneContents contents(kContentLevels, Rule::kConservative, &kernels(), &table);
   contents.allocate(PlaneContents::table_bytes(UINT64_MAX));
   PlaneMemoCounts counts;
   int answered = 0;
@@ -166,7 +166,7 @@ TEST(PlaneContents, AnswerAlmostEveryPlaneAndShareTheContentsOfDifferentOnes) {
     const int64_t m = int64_t(1) << 28;
     const int64_t n[3] = {m / 2 + int64_t(random() % (1 << 22)), m / 3, m};
     const PlaneHeights heights = contents.heights_of(n);
-    const int64_t offset = int64_t(random() % uint64_t(14 * m)) * kVoxel;
+    const int64_t offset = int64_t(random() % uint64_t(14 * m)) * kContentVoxel;
     if (const auto query = contents.query(heights, {offset, offset + 1})) {
       ++answered;
       contents.find(heights, *query, &counts);
@@ -178,11 +178,11 @@ TEST(PlaneContents, AnswerAlmostEveryPlaneAndShareTheContentsOfDifferentOnes) {
 
 TEST(PlaneContents, AnswerNothingWithoutMemoryOrFarFromTheCube) {
   MemoryBudget budget;
-  NodeTable table(kLevels, &budget);
-  PlaneContents contents(kLevels, Rule::kConservative, &kernels(), &table);
+  NodeTable table(kContentLevels, &budget);
+  PlaneContents contents(kContentLevels, Rule::kConservative, &kernels(), &table);
   const int64_t n[3] = {1, 2, 5};
   const PlaneHeights heights = contents.heights_of(n);
-  const OffsetRange inside{kVoxel * 13 / 2 + 1, kVoxel * 13 / 2 + 1};
+  const OffsetRange inside{kContentVoxel * 13 / 2 + 1, kContentVoxel * 13 / 2 + 1};
   EXPECT_EQ(PlaneContents::table_bytes(1000), 0u);
   EXPECT_FALSE(contents.query(heights, inside));
   contents.allocate(PlaneContents::table_bytes(1 << 20));

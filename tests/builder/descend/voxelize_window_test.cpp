@@ -13,11 +13,11 @@
 namespace svdag {
 namespace {
 
-constexpr int kF = 23;
-constexpr int64_t kVoxel = int64_t(1) << kF;
-constexpr int64_t kHalf = kVoxel / 2;
+constexpr int kWindowF = 23;
+constexpr int64_t kWindowVoxel = int64_t(1) << kWindowF;
+constexpr int64_t kHalf = kWindowVoxel / 2;
 
-Grid test_grid(int levels) {
+Grid window_grid(int levels) {
   Grid grid;
   grid.levels = levels;
   grid.voxel_size = 1;
@@ -26,13 +26,13 @@ Grid test_grid(int levels) {
 }
 
 LatticePoint lattice_point(double x, double y, double z) {
-  return {int64_t(x * double(kVoxel)), int64_t(y * double(kVoxel)), int64_t(z * double(kVoxel))};
+  return {int64_t(x * double(kWindowVoxel)), int64_t(y * double(kWindowVoxel)), int64_t(z * double(kWindowVoxel))};
 }
 
 uint64_t count_voxels(const std::vector<LatticeTriangle>& triangles, int levels = 6) {
   uint64_t voxels = 0;
   const uint64_t total =
-      voxelize_window(test_grid(levels), {}, Cube(), triangles,
+      voxelize_window(window_grid(levels), {}, Cube(), triangles,
                       [&](const LatticePoint&, Brick b) { voxels += uint64_t(std::popcount(b)); });
   EXPECT_EQ(total, voxels);
   return voxels;
@@ -81,18 +81,18 @@ TEST(Window, ABoxOffVoxelPlanesHasWallsOfOneVoxel) {
 
 TEST(Window, TheCornerTriangleHasItsClosedForm) {
   for (const int64_t c : {1, 2, 3, 8, 17, 40}) {
-    const int64_t s = c * kVoxel;
+    const int64_t s = c * kWindowVoxel;
     const LatticeTriangle t{{LatticePoint(s, 0, 0), LatticePoint(0, s, 0), LatticePoint(0, 0, s)}};
     // The closed form counts voxels of all space; move the triangle inside the grid.
     LatticeTriangle moved = t;
-    for (LatticePoint& p : moved.v) p += LatticePoint(4 * kVoxel);
+    for (LatticePoint& p : moved.v) p += LatticePoint(4 * kWindowVoxel);
     EXPECT_EQ(count_voxels({moved}), uint64_t(2 * c * c + 9 * c + 8)) << c;
   }
 }
 
 TEST(Window, ADiagonalOfCollinearVerticesHasItsClosedForm) {
   for (const int64_t n : {1, 2, 5, 30}) {
-    const LatticePoint low(4 * kVoxel), high((4 + n) * kVoxel), middle((low + high) / int64_t(2));
+    const LatticePoint low(4 * kWindowVoxel), high((4 + n) * kWindowVoxel), middle((low + high) / int64_t(2));
     EXPECT_EQ(count_voxels({{{low, high, middle}}}), uint64_t(7 * n + 8)) << n;
     EXPECT_EQ(count_voxels({{{middle, low, high}}}), uint64_t(7 * n + 8)) << n;
     EXPECT_EQ(count_voxels({{{low, high, high}}}), uint64_t(7 * n + 8)) << n;
@@ -100,7 +100,7 @@ TEST(Window, ADiagonalOfCollinearVerticesHasItsClosedForm) {
 }
 
 TEST(Window, TheSelectionClearsEverythingElse) {
-  Grid grid = test_grid(6);
+  Grid grid = window_grid(6);
   grid.bounded = true;
   grid.selection = {LatticePoint(9, 10, 11), LatticePoint(23, 22, 21)};
   uint64_t outside = 0, inside = 0;
@@ -122,13 +122,13 @@ TEST(Window, TheSelectionClearsEverythingElse) {
 
 // ---- against the judge ----
 
-using Voxels = std::map<std::array<int64_t, 3>, Brick>;
+using VoxelBricks = std::map<std::array<int64_t, 3>, Brick>;
 
-Voxels by_judge(const Grid& grid, const Cube& window,
+VoxelBricks by_judge(const Grid& grid, const Cube& window,
                 const std::vector<LatticeTriangle>& triangles) {
   const int side = 1 << (grid.levels - window.level);
   const LatticePoint low = window.coordinate * int64_t(side);
-  Voxels voxels;
+  VoxelBricks voxels;
   Clipper clipper;
   for (const LatticeTriangle& t : triangles) {
     clipper.run(t, grid.fraction(), {low, low + LatticePoint(side)}, [&](const CellRun& run) {
@@ -144,7 +144,7 @@ Voxels by_judge(const Grid& grid, const Cube& window,
 // Returns the number of bricks with a set voxel.
 size_t expect_same(const Grid& grid, const Cube& window,
                    const std::vector<LatticeTriangle>& triangles, const char* family) {
-  Voxels ours;
+  VoxelBricks ours;
   voxelize_window(grid, {}, window, triangles, [&](const LatticePoint& at, Brick b) {
     ours[{at.x, at.y, at.z}] = b;
   });
@@ -168,19 +168,19 @@ TEST_P(WindowAgainstJudge, GivesTheSameVoxelsAtEveryDepth) {
   };
   size_t bricks = 0;
   for (const int levels : {6, 10, 16}) {
-    const Grid grid = test_grid(levels);
+    const Grid grid = window_grid(levels);
     for (int round = 0; round < 40; ++round) {
       // A window of 32^3 voxels somewhere in the grid, triangles around it.
       Cube window{levels - 5, LatticePoint(0)};
       for (int a = 0; a < 3; ++a)
         window.coordinate[a] = int64_t(random() % (uint64_t(1) << (levels - 5)));
-      const LatticePoint centre = window.corner(levels) + LatticePoint(16 * kVoxel);
+      const LatticePoint centre = window.corner(levels) + LatticePoint(16 * kWindowVoxel);
       std::vector<LatticeTriangle> triangles(20);
       for (LatticeTriangle& t : triangles) {
         // Two corners around a point near the window and the third opposite, so that even giant
         // triangles meet the window.
         for (int a = 0; a < 3; ++a) {
-          const int64_t at = centre[a] + draw(18 * kVoxel);
+          const int64_t at = centre[a] + draw(18 * kWindowVoxel);
           const int64_t d0 = draw(family.extent), d1 = draw(family.extent);
           t.v[0][a] = (at + d0) / family.step * family.step;
           t.v[1][a] = (at + d1) / family.step * family.step;
@@ -194,14 +194,14 @@ TEST_P(WindowAgainstJudge, GivesTheSameVoxelsAtEveryDepth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, WindowAgainstJudge,
-                         ::testing::Values(Family{"small", 1, 2 * kVoxel}, Family{"tiny", 1, 100},
-                                           Family{"medium", 1, 8 * kVoxel},
-                                           Family{"large", 1, 40 * kVoxel},
-                                           Family{"on_voxel_planes", kVoxel, 6 * kVoxel},
-                                           Family{"on_half_planes", kHalf, 6 * kVoxel},
-                                           Family{"points_on_corners", kVoxel, kVoxel / 3},
+                         ::testing::Values(Family{"small", 1, 2 * kWindowVoxel}, Family{"tiny", 1, 100},
+                                           Family{"medium", 1, 8 * kWindowVoxel},
+                                           Family{"large", 1, 40 * kWindowVoxel},
+                                           Family{"on_voxel_planes", kWindowVoxel, 6 * kWindowVoxel},
+                                           Family{"on_half_planes", kHalf, 6 * kWindowVoxel},
+                                           Family{"points_on_corners", kWindowVoxel, kWindowVoxel / 3},
                                            Family{"giant", 1, int64_t(1) << 36},
-                                           Family{"giant_on_planes", kVoxel, int64_t(1) << 38},
+                                           Family{"giant_on_planes", kWindowVoxel, int64_t(1) << 38},
                                            Family{"wide", 1, int64_t(1) << 45},
                                            Family{"widest", 1, int64_t(1) << 60}),
                          [](const auto& instance) { return std::string(instance.param.name); });
@@ -211,13 +211,13 @@ TEST(WindowAgainstJudge, SliversGiveTheSameVoxels) {
   const auto draw = [&](int64_t range) {
     return int64_t(random() % uint64_t(2 * range + 1)) - range;
   };
-  for (const int64_t width : {int64_t(0), int64_t(1), int64_t(40), kVoxel / 7}) {
+  for (const int64_t width : {int64_t(0), int64_t(1), int64_t(40), kWindowVoxel / 7}) {
     for (int round = 0; round < 300; ++round) {
-      const Grid grid = test_grid(6);
+      const Grid grid = window_grid(6);
       LatticeTriangle t;
       for (size_t i = 0; i < 2; ++i)
-        t.v[i] = LatticePoint(32 * kVoxel) +
-                 LatticePoint(draw(30 * kVoxel), draw(30 * kVoxel), draw(30 * kVoxel));
+        t.v[i] = LatticePoint(32 * kWindowVoxel) +
+                 LatticePoint(draw(30 * kWindowVoxel), draw(30 * kWindowVoxel), draw(30 * kWindowVoxel));
       t.v[2] = (t.v[0] + t.v[1]) / int64_t(2) + LatticePoint(draw(width), draw(width), draw(width));
       expect_same(grid, Cube(), {t}, "sliver");
     }
@@ -227,11 +227,11 @@ TEST(WindowAgainstJudge, SliversGiveTheSameVoxels) {
 TEST(WindowAgainstJudge, PlanesThroughVoxelCornersGiveTheSameVoxels) {
   // x + y + z = c: every voxel corner near it decides a tie.
   for (const int64_t c : {20, 33, 47}) {
-    const int64_t s = c * kVoxel;
+    const int64_t s = c * kWindowVoxel;
     for (const int64_t nudge : {-1, 0, 1}) {
       const LatticeTriangle t{{LatticePoint(s + nudge, 0, 0), LatticePoint(0, s + nudge, 0),
                                LatticePoint(0, 0, s + nudge)}};
-      expect_same(test_grid(6), Cube(), {t}, "x+y+z=c");
+      expect_same(window_grid(6), Cube(), {t}, "x+y+z=c");
     }
   }
 }

@@ -19,7 +19,7 @@
 namespace svdag {
 namespace {
 
-using Layers = std::map<std::string, BrickMap>;
+using LayerBricks = std::map<std::string, BrickMap>;
 
 BrickMap combined(SetOperation operation, const BrickMap& a, const BrickMap& b) {
   BrickMap result = a;
@@ -36,7 +36,7 @@ BrickMap combined(SetOperation operation, const BrickMap& a, const BrickMap& b) 
   return result;
 }
 
-BrickMap all_of(const Layers& layers) {
+BrickMap all_of(const LayerBricks& layers) {
   BrickMap all;
   for (const auto& [name, bricks] : layers) all = combined(SetOperation::kUnion, all, bricks);
   return all;
@@ -46,15 +46,8 @@ BrickMap all_of(const Layers& layers) {
 struct Content {
   bool has_layers = false, has_union = true;
   BrickMap of_union;
-  Layers layers;
+  LayerBricks layers;
 };
-
-// The sections and the layer table of a plain file, without the facts about the scene in its header.
-std::string nodes_of(const DagFile& file) {
-  const Header& h = file.header();
-  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 class EditLayers : public ::testing::Test {
  protected:

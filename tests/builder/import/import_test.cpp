@@ -8,6 +8,7 @@
 #include "io/dag/layers/layer_alone.h"
 #include "streaming/file/file_state.h"
 #include "streaming/spill/scratch_dir.h"
+#include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 #include "verify/integrity/integrity.h"
@@ -111,13 +112,6 @@ TEST(ImportVoxels, ACubeGivesTheBytesOfItsVoxels) {
     EXPECT_EQ(whole.voxels, one_by_one.voxels);
     EXPECT_EQ(folder.read("cubes.svdag"), folder.read("voxels.svdag"));
   }
-}
-
-// The sections and the layer table of a file.
-std::string nodes_of(const DagFile& file) {
-  const Header& h = file.header();
-  const auto bytes = file.bytes().first(h.metadata_offset).subspan(sizeof h);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 struct LabelledVoxels {

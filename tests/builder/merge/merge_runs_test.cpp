@@ -17,7 +17,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMiB = 1 << 20;
 
 struct Case {
   const char* name;

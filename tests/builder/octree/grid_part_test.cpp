@@ -11,8 +11,8 @@
 namespace svdag {
 namespace {
 
-constexpr int kLevels = 5;
-constexpr uint64_t kAll = uint64_t(1) << 3 * kLevels, kBrick = 64;
+constexpr int kPartLevels = 5;
+constexpr uint64_t kAll = uint64_t(1) << 3 * kPartLevels, kBrick = 64;
 
 GridPart random_part(std::mt19937_64* random) {
   std::vector<MortonRange> ranges;
@@ -20,7 +20,7 @@ GridPart random_part(std::mt19937_64* random) {
     const uint64_t a = (*random)() % (kAll / kBrick), b = (*random)() % (kAll / kBrick);
     ranges.push_back({std::min(a, b) * kBrick, std::max(a, b) * kBrick + kBrick});
   }
-  return GridPart(std::move(ranges), kLevels);
+  return GridPart(std::move(ranges), kPartLevels);
 }
 
 TEST(GridPart, TopsAreTheMaximalCubesAndFillIt) {
@@ -30,14 +30,14 @@ TEST(GridPart, TopsAreTheMaximalCubesAndFillIt) {
     std::vector<MortonRange> filled;
     for (const Cube& top : part.tops()) {
       EXPECT_TRUE(part.is_top(top.level, morton(top.coordinate)));
-      EXPECT_TRUE(part.holds(morton_range(top, kLevels)));
+      EXPECT_TRUE(part.holds(morton_range(top, kPartLevels)));
       if (top.level > 0) {
-        EXPECT_FALSE(part.holds(morton_range(ancestor(top, top.level - 1), kLevels)));
+        EXPECT_FALSE(part.holds(morton_range(ancestor(top, top.level - 1), kPartLevels)));
       }
-      append_range(&filled, morton_range(top, kLevels));
+      append_range(&filled, morton_range(top, kPartLevels));
     }
     EXPECT_EQ(filled, part.ranges());
-    EXPECT_FALSE(part.is_top(kLevels - 2, 0) && part.is_top(0, 0));
+    EXPECT_FALSE(part.is_top(kPartLevels - 2, 0) && part.is_top(0, 0));
   }
 }
 
@@ -49,14 +49,14 @@ TEST(GridPart, AndItsRestMakeUpTheGrid) {
       EXPECT_NE(part.holds({code, code + kBrick}), rest.holds({code, code + kBrick}));
     EXPECT_EQ(rest.rest().ranges(), part.ranges());
   }
-  EXPECT_TRUE(GridPart({}, kLevels).rest().is_whole());
-  EXPECT_TRUE(GridPart::whole(kLevels).rest().ranges().empty());
+  EXPECT_TRUE(GridPart({}, kPartLevels).rest().is_whole());
+  EXPECT_TRUE(GridPart::whole(kPartLevels).rest().ranges().empty());
 }
 
 // The largest snap move of a run relies on this.
 TEST(GridPart, ABoxMeetsTheUnionOfTwoPartsIfItMeetsOneOfThem) {
   std::mt19937_64 random(3);
-  const int f = fraction_bits(kLevels);
+  const int f = fraction_bits(kPartLevels);
   const auto coordinate = [&] {  // half of them on voxel planes
     const int64_t whole = int64_t(random() % 40) - 4;
     return (whole << f) + (random() % 2 ? 0 : int64_t(random() % (1 << f)));
@@ -69,7 +69,7 @@ TEST(GridPart, ABoxMeetsTheUnionOfTwoPartsIfItMeetsOneOfThem) {
     const LatticePoint p(coordinate(), coordinate(), coordinate()),
         q(coordinate(), coordinate(), coordinate());
     const LatticePoint low = glm::min(p, q), high = glm::max(p, q);
-    const bool together = GridPart(both, kLevels).meets({low, high});
+    const bool together = GridPart(both, kPartLevels).meets({low, high});
     EXPECT_EQ(together, a.meets({low, high}) || b.meets({low, high}));
     met += together;
   }

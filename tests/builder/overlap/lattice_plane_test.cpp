@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-LatticePoint draw_point(std::mt19937_64& random, int64_t reach) {
+LatticePoint draw_lattice_point(std::mt19937_64& random, int64_t reach) {
   LatticePoint p;
   for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % uint64_t(2 * reach + 1)) - reach;
   return p;
@@ -23,10 +23,10 @@ TEST(LatticePlane, OfSmallWholeNormalsIsExactAndPrimitive) {
   for (int i = 0; i < 5000; ++i) {
     // Two directions in the plane of a small normal n.
     const int64_t reach = int64_t(1) << (1 + random() % 25);
-    const LatticePoint n = draw_point(random, reach);
+    const LatticePoint n = draw_lattice_point(random, reach);
     if (n.x == 0 || n.y == 0) continue;
     const LatticePoint a(n.y, -n.x, 0), b(n.z, 0, -n.x);
-    const LatticePoint v = draw_point(random, int64_t(1) << 30);
+    const LatticePoint v = draw_lattice_point(random, int64_t(1) << 30);
     const TriangleSetup t = make_setup({{v, v + a * int64_t(5), v + b * int64_t(7)}});
     const auto plane = lattice_plane(t);
     ASSERT_TRUE(plane.has_value());
@@ -41,10 +41,10 @@ TEST(LatticePlane, OffsetsOfAColumnHoldTheTriangleInIt) {
   int rounded = 0;
   for (int i = 0; i < 20000; ++i) {
     const int64_t reach = int64_t(1) << (24 + random() % 15);
-    const LatticePoint at = draw_point(random, reach);
+    const LatticePoint at = draw_lattice_point(random, reach);
     const TriangleSetup t =
-        make_setup({{at + draw_point(random, reach), at + draw_point(random, reach),
-                     at + draw_point(random, reach)}});
+        make_setup({{at + draw_lattice_point(random, reach), at + draw_lattice_point(random, reach),
+                     at + draw_lattice_point(random, reach)}});
     const auto plane = lattice_plane(t);
     if (!plane) continue;
     rounded += !plane->exact;

@@ -12,7 +12,7 @@ namespace svdag {
 namespace {
 
 constexpr int kFraction = 20;
-constexpr int64_t kVoxel = int64_t(1) << kFraction;
+constexpr int64_t kCrossingVoxel = int64_t(1) << kFraction;
 
 // A surface of tetrahedra, with most vertices at corners, centres and edges of voxels.
 class Surface {
@@ -31,8 +31,8 @@ class Surface {
   static LatticePoint point(std::mt19937_64* random) {
     LatticePoint p;
     for (int a = 0; a < 3; ++a) {
-      p[a] = int64_t((*random)() % 33) * (kVoxel / 2);
-      if ((*random)() % 8 == 0) p[a] += int64_t((*random)() % uint64_t(kVoxel)) - kVoxel / 2;
+      p[a] = int64_t((*random)() % 33) * (kCrossingVoxel / 2);
+      if ((*random)() % 8 == 0) p[a] += int64_t((*random)() % uint64_t(kCrossingVoxel)) - kCrossingVoxel / 2;
     }
     return p;
   }
@@ -43,8 +43,8 @@ class Surface {
 LatticePoint centre(std::mt19937_64* random) {
   return LatticePoint(int64_t((*random)() % 16), int64_t((*random)() % 16),
                       int64_t((*random)() % 16)) *
-             kVoxel +
-         kVoxel / 2;
+             kCrossingVoxel +
+         kCrossingVoxel / 2;
 }
 
 TEST(Crossings, AddUpToTheSameOnEveryPath) {
@@ -68,8 +68,8 @@ TEST(Crossings, OfChildrenAreThoseOfPathsToThem) {
     const int side_log2 = 1 + int(random() % 4);
     const LatticePoint corner =
         LatticePoint(int64_t(random() % 16), int64_t(random() % 16), int64_t(random() % 16)) *
-        kVoxel;
-    const int64_t side = kVoxel << side_log2;
+        kCrossingVoxel;
+    const int64_t side = kCrossingVoxel << side_log2;
     int32_t windings[8];
     windings_of_children(surface.list(), corner, side, kFraction, 5, windings);
     const LatticePoint first = first_centre(corner, kFraction);
@@ -86,7 +86,7 @@ TEST(Crossings, GiveTheVoxelsOfABrickTheirWindings) {
     const Surface surface(&random);
     const LatticePoint corner =
         LatticePoint(int64_t(random() % 16), int64_t(random() % 16), int64_t(random() % 16)) *
-        kVoxel;
+        kCrossingVoxel;
     DecisionCounts counts;
     const Brick touched = plain_kernels().conservative(surface.list().data(), surface.list().size(),
                                                        corner, kFraction, ~Brick(0), &counts);
@@ -100,7 +100,7 @@ TEST(Crossings, GiveTheVoxelsOfABrickTheirWindings) {
             const auto [x, y, z] = brick_voxel(bit);
             const LatticePoint first = first_centre(corner, kFraction);
             ASSERT_EQ(winding,
-                      7 + crossings(surface.list(), first, first + LatticePoint(x, y, z) * kVoxel));
+                      7 + crossings(surface.list(), first, first + LatticePoint(x, y, z) * kCrossingVoxel));
           }
         });
     ASSERT_EQ(seen, ~Brick(0));

@@ -14,7 +14,6 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMiB = 1 << 20;
 
 TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   const TempFolder directory;

@@ -8,21 +8,21 @@
 namespace svdag {
 namespace {
 
-using Mesh = std::vector<LatticeTriangle>;
+using LatticeMesh = std::vector<LatticeTriangle>;
 
-Mesh tetrahedron(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+LatticeMesh tetrahedron(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                  const LatticePoint& d) {
   return {{{a, b, c}}, {{b, a, d}}, {{c, b, d}}, {{a, c, d}}};
 }
 
 template <class Sum>
-Sum sum_of(const Mesh& mesh) {
+Sum sum_of(const LatticeMesh& mesh) {
   Sum sum;
   for (const LatticeTriangle& t : mesh) sum.add(t);
   return sum;
 }
 
-bool is_closed(const Mesh& mesh) {
+bool is_closed(const LatticeMesh& mesh) {
   return sum_of<BoundaryChain>(mesh).is_closed();
 }
 
@@ -35,7 +35,7 @@ LatticePoint random_point(std::mt19937_64* random, int bits) {
 TEST(BoundaryChain, VanishesForSolidsOfAnySizeAndOrder) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 500; ++i) {
-    Mesh mesh;
+    LatticeMesh mesh;
     for (int k = 0; k < 3; ++k) {
       const int bits = 3 + int(random() % 59);
       const auto p = [&] { return random_point(&random, bits); };
@@ -57,7 +57,7 @@ TEST(BoundaryChain, VanishesForSolidsOfAnySizeAndOrder) {
 
 TEST(BoundaryChain, AcceptsEdgesThatMatchSeveralShorterOnes) {
   const LatticePoint a(0, 0, 0), b(9, 0, 0), c(0, 9, 0), d(0, 0, 9), third(3, 0, 0), two(6, 0, 0);
-  Mesh mesh = tetrahedron(a, b, c, d);
+  LatticeMesh mesh = tetrahedron(a, b, c, d);
   mesh.erase(mesh.begin());  // a, b, c becomes three triangles with a side on a b
   mesh.insert(mesh.end(), {{{a, third, c}}, {{third, two, c}}, {{two, b, c}}});
   EXPECT_TRUE(is_closed(mesh));
@@ -77,13 +77,13 @@ TEST(BoundaryChain, SumsUpTrianglesOfZeroAreaToNothing) {
 }
 
 TEST(BoundaryChain, TellsOrientationFromOpenness) {
-  Mesh mesh = tetrahedron({0, 0, 0}, {5, 1, 0}, {0, 7, 2}, {1, 1, 9});
+  LatticeMesh mesh = tetrahedron({0, 0, 0}, {5, 1, 0}, {0, 7, 2}, {1, 1, 9});
   std::swap(mesh[2].v[0], mesh[2].v[1]);
   EXPECT_FALSE(is_closed(mesh));
   EXPECT_TRUE(sum_of<BoundaryChain>(mesh).is_closed_mod_2());
   EXPECT_TRUE(sum_of<EdgeSum>(mesh).is_closed_mod_2());
   // A triangle repeated opens the chain, repeated thrice only its orientation counts.
-  Mesh twice = tetrahedron({0, 0, 0}, {5, 1, 0}, {0, 7, 2}, {1, 1, 9});
+  LatticeMesh twice = tetrahedron({0, 0, 0}, {5, 1, 0}, {0, 7, 2}, {1, 1, 9});
   twice.push_back(twice[0]);
   EXPECT_FALSE(is_closed(twice));
   EXPECT_FALSE(sum_of<BoundaryChain>(twice).is_closed_mod_2());

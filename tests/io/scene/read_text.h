@@ -17,6 +17,10 @@ namespace svdag {
 using Reader = void (*)(const File&, const ReadOptions&, const TriangleSink&);
 using Corners = std::array<std::array<double, 3>, 3>;
 
+// The halves of the unit square in the plane z = 0.
+constexpr Corners kLower = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+constexpr Corners kUpper = {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+
 struct Reading {
   std::vector<Corners> triangles;
   std::vector<std::string> meshes;  // of each triangle

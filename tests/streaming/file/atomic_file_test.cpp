@@ -12,12 +12,6 @@
 namespace svdag {
 namespace {
 
-mode_t mode_of(const std::string& path) {
-  struct stat status {};
-  EXPECT_EQ(stat(path.c_str(), &status), 0);
-  return status.st_mode & 0777;
-}
-
 TEST(AtomicFile, NothingIsLeftBehindWithoutCommit) {
   const TempFolder folder;
   { AtomicFile(folder.file("out")).append("half of it"); }

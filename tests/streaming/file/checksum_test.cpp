@@ -6,13 +6,10 @@
 #include <string>
 
 #include "tests/any_of.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
-
-std::span<const std::byte> bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text));
-}
 
 Hash128 hash128(std::string_view text) {
   Hasher128 hasher;

@@ -14,12 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-mode_t mode_of(const std::string& path) {
-  struct stat status {};
-  EXPECT_EQ(lstat(path.c_str(), &status), 0);
-  return status.st_mode & 07777;
-}
-
 // As on a file server that maps root to another user: the folder we created belongs to that user,
 // and so do our new files.
 TEST(PrivateFolder, IsAcceptedIfNewFilesHaveItsOwner) {

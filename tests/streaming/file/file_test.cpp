@@ -9,10 +9,6 @@
 namespace svdag {
 namespace {
 
-std::span<const std::byte> bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text));
-}
-
 std::string read_text(const File& file, uint64_t offset, size_t n) {
   std::string text(n, '\0');
   file.read_at(offset, std::as_writable_bytes(std::span(text)));

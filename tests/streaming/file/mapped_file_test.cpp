@@ -18,7 +18,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kSize = 3 << 16;
+constexpr size_t kMappedSize = 3 << 16;
 
 MappedFile map(const std::string& path, size_t size) {
   File file = File::open_read(path);
@@ -32,10 +32,10 @@ char byte_at(const MappedFile& file, size_t offset) {
 
 TEST(MappedFile, HasTheBytesOfTheFileEvenAfterAMove) {
   const TempFolder folder;
-  const std::string text(kSize, 'x');
-  MappedFile mapped = map(folder.write("a", text), kSize);
+  const std::string text(kMappedSize, 'x');
+  MappedFile mapped = map(folder.write("a", text), kMappedSize);
   const MappedFile moved = std::move(mapped);
-  EXPECT_EQ(std::memcmp(moved.data(), text.data(), kSize), 0);
+  EXPECT_EQ(std::memcmp(moved.data(), text.data(), kMappedSize), 0);
 }
 
 TEST(MappedFile, RejectsAnEmptyFile) {
@@ -48,15 +48,15 @@ TEST(MappedFile, RejectsAnEmptyFile) {
 void read_a_lost_page(const TempFolder& folder, int which) {
   std::vector<MappedFile> files;
   for (int i = 0; i < 3; ++i) {
-    const std::string path = folder.write("file " + std::to_string(i), std::string(kSize, 'x'));
-    files.push_back(map(path, kSize));
+    const std::string path = folder.write("file " + std::to_string(i), std::string(kMappedSize, 'x'));
+    files.push_back(map(path, kMappedSize));
     if (i == which && ::truncate(path.c_str(), 10) != 0) ::_exit(99);
   }
   install_lost_page_handlers("svdag");
   for (const MappedFile& file : files) {
     if (byte_at(file, 0) != 'x') ::_exit(98);  // in the first page, which still exists
   }
-  for (const MappedFile& file : files) byte_at(file, kSize - 1);
+  for (const MappedFile& file : files) byte_at(file, kMappedSize - 1);
 }
 
 TEST(MappedFile, ALostPageIsReportedWithTheFileName) {
@@ -71,12 +71,12 @@ TEST(MappedFile, ALostPageIsReportedWithTheFileName) {
 // The rest of a truncated file's last page reads as zeros, without a signal.
 TEST(MappedFile, NoOutputIsCommittedWhileAMappedFileHasChanged) {
   const TempFolder folder;
-  const std::string path = folder.write("a", std::string(kSize, 'x'));
+  const std::string path = folder.write("a", std::string(kMappedSize, 'x'));
   const std::string output = folder.write("out", "old");
   {
-    const MappedFile mapped = map(path, kSize);
-    ASSERT_EQ(::truncate(path.c_str(), kSize - 1), 0);
-    EXPECT_EQ(byte_at(mapped, kSize - 1), 0);
+    const MappedFile mapped = map(path, kMappedSize);
+    ASSERT_EQ(::truncate(path.c_str(), kMappedSize - 1), 0);
+    EXPECT_EQ(byte_at(mapped, kMappedSize - 1), 0);
     AtomicFile file(output);
     file.append("new");
     EXPECT_SVDAG_ERROR(file.commit(), ExitCode::kBadInput, "a: was changed while it was read");
@@ -92,11 +92,11 @@ TEST(MappedFile, NoOutputIsCommittedWhileAMappedFileHasChanged) {
 TEST(MappedFile, AProgramWhoseFileChangedFails) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TempFolder folder;
-  const std::string path = folder.write("a", std::string(kSize, 'x'));
+  const std::string path = folder.write("a", std::string(kMappedSize, 'x'));
   EXPECT_EXIT(::_exit(run_program({.name = "svdag"},
                                   [&] {
-                                    const MappedFile mapped = map(path, kSize);
-                                    return ::truncate(path.c_str(), kSize - 1);
+                                    const MappedFile mapped = map(path, kMappedSize);
+                                    return ::truncate(path.c_str(), kMappedSize - 1);
                                   })),
               testing::ExitedWithCode(int(ExitCode::kBadInput)),
               "a: was changed while it was read");
@@ -110,7 +110,7 @@ bool ended_otherwise(int status) {
 // Content that changed after the check may cause any error.
 void fail_after(bool written, const std::string& path, const std::function<void()>& fail) {
   ::_exit(run_program({.name = "svdag", .no_memory = "no memory"}, [&] {
-    const MappedFile mapped = map(path, kSize);
+    const MappedFile mapped = map(path, kMappedSize);
     if (written) std::ofstream(path, std::ios::app) << "more";
     fail();
     return 0;
@@ -120,7 +120,7 @@ void fail_after(bool written, const std::string& path, const std::function<void(
 TEST(MappedFile, AChangeIsReportedInsteadOfTheErrorThatItCaused) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TempFolder folder;
-  const auto new_file = [&] { return folder.write("a", std::string(kSize, 'x')); };
+  const auto new_file = [&] { return folder.write("a", std::string(kMappedSize, 'x')); };
   const auto segfault = [] {
     const volatile uintptr_t address = 16;
     *reinterpret_cast<volatile char*>(address) = 1;

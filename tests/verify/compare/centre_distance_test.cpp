@@ -10,9 +10,9 @@ namespace svdag {
 namespace {
 
 constexpr int kFraction = 23;
-constexpr int64_t kSide = int64_t(1) << kFraction, kHalf = kSide / 2;
+constexpr int64_t kCubeSide = int64_t(1) << kFraction, kHalf = kCubeSide / 2;
 const LatticePoint kVoxel(7, 8, 9);
-const LatticePoint kCentre = kVoxel * kSide + kHalf;
+const LatticePoint kCentre = kVoxel * kCubeSide + kHalf;
 
 // A triangle by its offsets from the centre, in lattice steps.
 LatticeTriangle around(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
@@ -24,7 +24,7 @@ bool within(const LatticeTriangle& t, int quarters) {
 }
 
 TEST(CentreDistance, AFaceOfTheCubeIsHalfAVoxelAway) {
-  const int64_t far = 100 * kSide;
+  const int64_t far = 100 * kCubeSide;
   const auto plane = [&](int64_t z) {
     return around({-far, -far, z}, {far, -far, z}, {0, far, z});
   };
@@ -42,7 +42,7 @@ TEST(CentreDistance, ACornerOfTheCubeIsOnTheOuterBall) {
 }
 
 TEST(CentreDistance, ALongEdgeIsMeasuredAtItsMiddle) {
-  const int64_t far = 1000 * kSide;
+  const int64_t far = 1000 * kCubeSide;
   const LatticePoint up(0, 0, far), down(0, 0, -far), out(far, far, 0);
   EXPECT_TRUE(
       within(around(up + LatticePoint(kHalf, 0, 0), down + LatticePoint(kHalf, 0, 0), out), 1));
@@ -59,7 +59,7 @@ TEST(CentreDistance, AgreesWithDistancesInLongDouble) {
   };
   int near = 0;
   for (int i = 0; i < 3000; ++i) {
-    const int64_t reach = kSide << random() % 4;
+    const int64_t reach = kCubeSide << random() % 4;
     LatticeTriangle t;
     for (LatticePoint& p : t.v)
       for (int a = 0; a < 3; ++a)
@@ -75,10 +75,10 @@ TEST(CentreDistance, AgreesWithDistancesInLongDouble) {
           p[size_t(a)] = ((long double)(t.v[0][a] - kCentre[a]) * (kSteps - u - v) +
                           (long double)(t.v[1][a] - kCentre[a]) * u +
                           (long double)(t.v[2][a] - kCentre[a]) * v) /
-                         kSteps / kSide;
+                         kSteps / kCubeSide;
         smallest = std::min(smallest, dot(p, p));
       }
-    const long double slack = 0.1L * (long double)(reach / kSide);
+    const long double slack = 0.1L * (long double)(reach / kCubeSide);
     for (const int quarters : {1, 3}) {
       if (std::sqrt(smallest) <= std::sqrt(0.25L * quarters)) {
         EXPECT_TRUE(within(t, quarters));

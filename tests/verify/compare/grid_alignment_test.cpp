@@ -11,9 +11,9 @@ namespace svdag {
 namespace {
 
 // Not a float32, and no voxel size derived from it below is one.
-constexpr double kSide = 1.1;
+constexpr double kGridSide = 1.1;
 
-Box cube(double low, double side = kSide) {
+Box cube(double low, double side = kGridSide) {
   return {Point(low, low / 2, -low), Point(low + side, low / 2 + side, -low + side)};
 }
 
@@ -79,8 +79,8 @@ TEST(SamePlace, DivisionsOfDifferentBoxesDoNotMatch) {
   const Grid fine = bake(10), coarse = bake(9);
   for (const double voxels : {1e-5, 0.25, 0.5, -0.5, 1.0})
     EXPECT_FALSE(same(fine, moved(coarse, voxels))) << voxels;
-  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kSide * 1.0005), 9)));
-  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kSide * 1.00001), 9)));
+  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kGridSide * 1.0005), 9)));
+  EXPECT_FALSE(same(fine, divide_box(cube(0.3, kGridSide * 1.00001), 9)));
 }
 
 TEST(SamePlace, AGridMatchesItsLevels) {
@@ -137,14 +137,14 @@ TEST(SamePlace, FarFromZeroAWholeVoxelIsNotRounding) {
 }
 
 TEST(SamePlace, NearZeroFloat32PositionsMatch) {
-  for (const double low : {0.0, 0.3, -kSide / 2, -7.7}) {
+  for (const double low : {0.0, 0.3, -kGridSide / 2, -7.7}) {
     for (const int levels : {3, 10, 16}) {
       const Grid grid = bake(levels, low), stored = stored_as_float32(grid);
       EXPECT_TRUE(same(grid, stored)) << low << ", " << levels;
       EXPECT_FALSE(same(grid, moved(stored, 0.2)));
     }
   }
-  const Grid middle = bake(20, -kSide / 2);
+  const Grid middle = bake(20, -kGridSide / 2);
   EXPECT_TRUE(same(middle, stored_as_float32(middle)));
   EXPECT_TRUE(same(bake(16), stored_as_float32(level_grid(bake(16), 12))));
 }

@@ -13,7 +13,7 @@
 namespace svdag {
 namespace {
 
-constexpr VoxelBox kWindow{LatticePoint(-64), LatticePoint(64)};
+constexpr VoxelBox kLinesWindow{LatticePoint(-64), LatticePoint(64)};
 
 LatticePoint centre(int64_t x, int64_t y, int64_t z) {
   return centre_of({x, y, z}, kShift);
@@ -24,7 +24,7 @@ std::map<std::tuple<int64_t, int64_t, int64_t>, int> hits(const std::vector<Latt
                                                           int w) {
   std::map<std::tuple<int64_t, int64_t, int64_t>, int> count;
   for (const LatticeTriangle& t : soup) {
-    thin_voxels(t, kShift, kWindow, [&](const CellRun& run) {
+    thin_voxels(t, kShift, kLinesWindow, [&](const CellRun& run) {
       if (run.axis == w) ++count[{run.first.x, run.first.y, run.first.z}];
     });
   }
@@ -37,8 +37,8 @@ TEST(Thin, AgreesWithSymbolicPerturbationOnEveryFamily) {
   for (int family = 0; family < kFamilies; ++family) {
     for (int i = 0; i < 150; ++i) {
       const LatticeTriangle t = family_triangle(random, family, 3 * kSide);
-      const VoxelSet expected = symbolic_voxels(t, kShift, kWindow);
-      ASSERT_EQ(thin_set(t, kShift, kWindow), expected) << "family " << family << ", " << i;
+      const VoxelSet expected = symbolic_voxels(t, kShift, kLinesWindow);
+      ASSERT_EQ(thin_set(t, kShift, kLinesWindow), expected) << "family " << family << ", " << i;
       set += expected.size();
     }
   }
@@ -53,7 +53,7 @@ TEST(Thin, AgreesWhereNearlyEveryTestIsATie) {
     for (LatticePoint& p : t.v) {
       for (int a = 0; a < 3; ++a) p[a] = int64_t(random() % 9) - 4;
     }
-    ASSERT_EQ(thin_set(t, shift, kWindow), symbolic_voxels(t, shift, kWindow)) << i;
+    ASSERT_EQ(thin_set(t, shift, kLinesWindow), symbolic_voxels(t, shift, kLinesWindow)) << i;
   }
 }
 
@@ -155,15 +155,15 @@ TEST(Thin, LineCrossesAClosedMeshAnEvenNumberOfTimes) {
 TEST(Thin, ZeroAreaSetsNothing) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 300; ++i)
-    EXPECT_TRUE(thin_set(family_triangle(random, 3 + i % 3, 5 * kSide), kShift, kWindow).empty());
+    EXPECT_TRUE(thin_set(family_triangle(random, 3 + i % 3, 5 * kSide), kShift, kLinesWindow).empty());
 }
 
 TEST(Thin, SetsOnlyVoxelsThatTheTriangleTouches) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 500; ++i) {
     const LatticeTriangle t = family_triangle(random, i % kFamilies, 20 * kSide);
-    const VoxelSet touched = clipped_voxels(t, kShift, kWindow);
-    for (const auto& voxel : thin_set(t, kShift, kWindow)) ASSERT_TRUE(touched.count(voxel)) << i;
+    const VoxelSet touched = clipped_voxels(t, kShift, kLinesWindow);
+    for (const auto& voxel : thin_set(t, kShift, kLinesWindow)) ASSERT_TRUE(touched.count(voxel)) << i;
   }
 }
 
@@ -172,22 +172,22 @@ TEST(Thin, SetsOnlyVoxelsThatTheTriangleTouches) {
 RC_GTEST_PROP(Thin, IsInvariant, (uint64_t seed, uint8_t family)) {
   std::mt19937_64 random(seed);
   LatticeTriangle t = family_triangle(random, family % kFamilies, 6 * kSide);
-  const VoxelSet voxels = thin_set(t, kShift, kWindow);
-  RC_ASSERT(thin_set({{t.v[2], t.v[1], t.v[0]}}, kShift, kWindow) == voxels);
-  RC_ASSERT(thin_set({{t.v[1], t.v[2], t.v[0]}}, kShift, kWindow) == voxels);
+  const VoxelSet voxels = thin_set(t, kShift, kLinesWindow);
+  RC_ASSERT(thin_set({{t.v[2], t.v[1], t.v[0]}}, kShift, kLinesWindow) == voxels);
+  RC_ASSERT(thin_set({{t.v[1], t.v[2], t.v[0]}}, kShift, kLinesWindow) == voxels);
   VoxelSet joined = thin_set(t, kShift, {LatticePoint(-64), LatticePoint(64, 1, 64)});
   joined.merge(thin_set(t, kShift, {LatticePoint(-64, 1, -64), LatticePoint(64)}));
   RC_ASSERT(joined == voxels);
   LatticeTriangle moved = t;
   for (LatticePoint& p : moved.v) p += LatticePoint(3, -5, 7) * kSide;
   VoxelSet back;
-  for (const auto& [x, y, z] : thin_set(moved, kShift, kWindow)) back.emplace(x - 3, y + 5, z - 7);
+  for (const auto& [x, y, z] : thin_set(moved, kShift, kLinesWindow)) back.emplace(x - 3, y + 5, z - 7);
   RC_ASSERT(back == voxels);
   const LatticePoint half = (t.v[1] - t.v[0]) / int64_t(2), middle = t.v[0] + half;
   t.v[1] = middle + half;
-  VoxelSet halves = thin_set({{t.v[0], middle, t.v[2]}}, kShift, kWindow);
-  halves.merge(thin_set({{middle, t.v[1], t.v[2]}}, kShift, kWindow));
-  RC_ASSERT(halves == thin_set(t, kShift, kWindow));
+  VoxelSet halves = thin_set({{t.v[0], middle, t.v[2]}}, kShift, kLinesWindow);
+  halves.merge(thin_set({{middle, t.v[1], t.v[2]}}, kShift, kLinesWindow));
+  RC_ASSERT(halves == thin_set(t, kShift, kLinesWindow));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(CgalJudge, IsRejectedInABuildWithoutCgal) {
 
 #else
 
-constexpr VoxelBox kWindow{LatticePoint(-64), LatticePoint(64)};
+constexpr VoxelBox kCgalWindow{LatticePoint(-64), LatticePoint(64)};
 constexpr JudgeChoice::Kind kCgal = JudgeChoice::Kind::kCgal;
 
 // Compares both judges with both rules, one triangle at a time, and counts the voxels they set.
@@ -71,7 +71,7 @@ TEST(CgalJudge, AgreesOnEveryFamilyAndSize) {
     for (int i = 0; i < 60; ++i) {
       const int64_t reach = std::array<int64_t, 3>{kSide, 3 * kSide, 10 * kSide}[size_t(i % 3)];
       const LatticeTriangle t = family_triangle(random, family, reach);
-      ASSERT_TRUE(judges.check(t, kShift, kWindow)) << "family " << family << ", triangle " << i;
+      ASSERT_TRUE(judges.check(t, kShift, kCgalWindow)) << "family " << family << ", triangle " << i;
     }
     EXPECT_GT(judges.conservative(), 100U);
     EXPECT_EQ(judges.thin() == 0, family >= 3 && family <= 5);  // the families of zero area
@@ -90,7 +90,7 @@ TEST(CgalJudge, AgreesOnSliversOnAFineLattice) {
     }
     t.v[2] = t.v[0] + (t.v[1] - t.v[0]) / int64_t(3);
     t.v[2][i % 3] += int64_t(random() % 3);  // aspect 10^7 and more
-    ASSERT_TRUE(judges.check(t, shift, kWindow)) << i;
+    ASSERT_TRUE(judges.check(t, shift, kCgalWindow)) << i;
   }
   EXPECT_GT(judges.conservative(), 1000U);
 }

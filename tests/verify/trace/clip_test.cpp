@@ -25,7 +25,7 @@ ClipBox random_box(std::mt19937_64& random) {
 }
 
 // From outside or inside the grid, towards a point of it; every fourth along an axis.
-Ray random_ray(std::mt19937_64& random, int i) {
+Ray random_clipped_ray(std::mt19937_64& random, int i) {
   Ray ray;
   for (int a = 0; a < 3; ++a) {
     ray.origin[a] = (3 * unit(random) - 1) * 64;
@@ -57,7 +57,7 @@ TEST(Clip, HitsWhatADagOfTheVoxelsInsideIsHitAt) {
     const RawFile whole(raw_dag(test_grid(kLevels), voxels)),
         cropped(raw_dag(test_grid(kLevels), inside(voxels, box)));
     for (int i = 0; i < 2000; ++i) {
-      const Ray ray = random_ray(random, i);
+      const Ray ray = random_clipped_ray(random, i);
       const auto part = clip(box, ray, 64, {});
       const Hit hit = part ? trace_closest(whole.view(), ray, part->span) : Hit{};
       const Hit expected = trace_closest(cropped.view(), ray);

@@ -240,7 +240,7 @@ TEST(DracoGltf, ACompressedPrimitiveIsDecodedAndPlaced) {
       {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
   gltf.scene({gltf.append("nodes", {{"mesh", mesh}, {"translation", {0, 0, 32}}})});
   const DracoMesh bare = decode(drc);
-  Corners expected;
+  CornerList expected;
   for (const uint32_t i : bare.indices) {
     const Point& p = bare.positions[i];
     expected.push_back({p.x, p.y, p.z + 32});
@@ -272,7 +272,7 @@ TEST(DracoGltf, PlainDataIsPreferredToCompressed) {
   gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
       {"bufferView", 99}, {"attributes", {{"POSITION", 0}}}};
   gltf.show(mesh);
-  EXPECT_EQ(read_corners(gltf), (Corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(read_corners(gltf), (CornerList{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::string packed(const std::string& text, int level = 6) {
   return out;
 }
 
-std::string random_text(size_t size, char values) {
+std::string random_letters(size_t size, char values) {
   std::mt19937 random(5);
   std::string text(size, ' ');
   for (char& c : text) c = char(random() % uint32_t(values));
@@ -51,7 +51,7 @@ TEST_F(Gzip, GivesTheContentOfAnySizeAndLevel) {
   for (const size_t size :
        {size_t(0), size_t(1), size_t(1) << 18, (size_t(1) << 18) + 1, size_t(3000000)}) {
     for (const int level : {0, 1, 9}) {
-      const std::string text = random_text(size, level == 0 ? 127 : 4);
+      const std::string text = random_letters(size, level == 0 ? 127 : 4);
       EXPECT_EQ(unpacked(packed(text, level)), text) << size << " " << level;
     }
   }
@@ -69,14 +69,14 @@ TEST_F(Gzip, TheStartIsUnpackedAlone) {
                                   std::as_writable_bytes(std::span(out)));
     return out.substr(0, n);
   };
-  EXPECT_EQ(start(packed("glTF and more, " + random_text(1000000, 100))), "glTF and");
+  EXPECT_EQ(start(packed("glTF and more, " + random_letters(1000000, 100))), "glTF and");
   EXPECT_EQ(start(packed("OFF")), "OFF");
   EXPECT_EQ(start(packed("")), "");
   EXPECT_EQ(start("\x1f\x8b\x08 damaged"), "");
 }
 
 TEST_F(Gzip, DamageIsAnError) {
-  const std::string text = random_text(100000, 16), bytes = packed(text);
+  const std::string text = random_letters(100000, 16), bytes = packed(text);
   for (size_t size = 2; size < bytes.size(); size += 997)
     EXPECT_SVDAG_ERROR(unpacked(bytes.substr(0, size)), ExitCode::kBadInput, "ends too early");
   int found = 0;

@@ -91,13 +91,13 @@ class GltfBuilder {
   }
 };
 
-using Corners = std::vector<std::array<double, 3>>;
+using CornerList = std::vector<std::array<double, 3>>;
 
 // All corners of a file, three per triangle; `names` collects the mesh names.
-inline Corners read_corners(const std::string& path, const NameFilter& filter = {},
+inline CornerList read_corners(const std::string& path, const NameFilter& filter = {},
                             std::vector<std::string>* names = nullptr) {
   MemoryBudget budget;
-  Corners corners;
+  CornerList corners;
   const File file = File::open_read(path);
   read_gltf(file, {&filter, false, &budget}, [&](const TriangleBatch& batch) {
     if (names != nullptr) names->push_back(std::string(batch.mesh));
@@ -109,7 +109,7 @@ inline Corners read_corners(const std::string& path, const NameFilter& filter = 
   return corners;
 }
 
-inline Corners read_corners(const GltfBuilder& gltf, const NameFilter& filter = {},
+inline CornerList read_corners(const GltfBuilder& gltf, const NameFilter& filter = {},
                             std::vector<std::string>* names = nullptr) {
   const TempFolder folder;
   return read_corners(folder.write("scene.glb", gltf.glb()), filter, names);
@@ -130,6 +130,14 @@ inline std::string failure(const std::string& path) {
 inline std::string failure(const GltfBuilder& gltf) {
   const TempFolder folder;
   return failure(folder.write("scene.glb", gltf.glb()));
+}
+
+inline const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+inline GltfBuilder one_triangle() {
+  GltfBuilder gltf;
+  gltf.show(gltf.mesh(gltf.accessor(kTriangle, "VEC3")));
+  return gltf;
 }
 
 }  // namespace svdag

@@ -14,7 +14,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 GltfBuilder indexed_triangle() {
   GltfBuilder gltf;
@@ -160,7 +159,7 @@ TEST_F(GltfUri, BuffersMayBeEmbeddedAsBase64) {
   // The 9 floats of the triangle 0 0 0, 1 0 0, 0 1 0 and its indices 0 1 2.
   EXPECT_EQ(read_corners(scene("data:application/octet-stream;base64,"
                                "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA")),
-            (Corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+            (CornerList{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_THAT(failure(scene("data:;base64,AAA!")), HasSubstr("base64"));
   EXPECT_THAT(failure(scene("data:,AAAA")), HasSubstr("base64"));
   EXPECT_THAT(failure(scene("data:;base64,AAAA")), HasSubstr("only 3 are there"));

@@ -38,7 +38,7 @@ TEST(GltfKept, ASharedMeshIsDrawnAsItsCopiesAre) {
   for (const int vertices : {3, 50, 60000}) {  // the last is too large to be kept
     for (const int mode : {4, 5, 6}) {
       std::vector<std::string> names, expected_names;
-      const Corners found = read_corners(scene_of(vertices, mode, true), {}, &names);
+      const CornerList found = read_corners(scene_of(vertices, mode, true), {}, &names);
       EXPECT_GT(found.size(), 0U);
       EXPECT_EQ(found, read_corners(scene_of(vertices, mode, false), {}, &expected_names));
       EXPECT_EQ(names, expected_names);

@@ -43,7 +43,7 @@ std::string encoded_vertices(const void* data, size_t count, size_t stride) {
 }
 
 // The codec may turn a triangle's corners, so each begins with its smallest.
-Corners turned(Corners corners) {
+CornerList turned(CornerList corners) {
   for (size_t i = 0; i < corners.size(); i += 3) {
     const auto first = corners.begin() + ptrdiff_t(i);
     std::rotate(first, std::min_element(first, first + 3), first + 3);
@@ -75,7 +75,7 @@ TEST_F(Meshopt, TrianglesAndPositionsAreThoseOfThePlainFile) {
   const int positions = gltf_.accessor(s.positions, "VEC3");
   const int indices = gltf_.accessor(s.indices, "SCALAR");
   gltf_.show(gltf_.mesh(positions, indices));
-  const Corners plain = read_corners(gltf_);
+  const CornerList plain = read_corners(gltf_);
   const size_t vertices = s.positions.size() / 3;
   compress(0, encoded_vertices(s.positions.data(), vertices, 12),
            {{"byteStride", 12}, {"count", vertices}, {"mode", "ATTRIBUTES"}});
@@ -91,7 +91,7 @@ TEST_F(Meshopt, IndexSequencesKeepTheirOrder) {
   const Sheet s = sheet(20);
   const int positions = gltf_.accessor(s.positions, "VEC3");
   gltf_.show(gltf_.mesh(positions, gltf_.accessor(s.indices, "SCALAR"), 5));  // a strip
-  const Corners plain = read_corners(gltf_);
+  const CornerList plain = read_corners(gltf_);
   std::string bytes(meshopt_encodeIndexSequenceBound(s.indices.size(), 400), '\0');
   bytes.resize(meshopt_encodeIndexSequence(reinterpret_cast<unsigned char*>(bytes.data()),
                                            bytes.size(), s.indices.data(), s.indices.size()));
@@ -104,7 +104,7 @@ TEST_F(Meshopt, ExponentialPositionsAreMantissaTimesPowerOfTwo) {
   const int positions = gltf_.accessor(s.positions, "VEC3");
   gltf_.show(gltf_.mesh(positions));
   gltf_.json["accessors"][0]["count"] = 399;  // whole triangles
-  const Corners plain = read_corners(gltf_);
+  const CornerList plain = read_corners(gltf_);
   std::vector<uint32_t> words;  // exponent 2^-1, mantissa 2 * value
   for (const float value : s.positions)
     words.push_back(0xff000000U | (uint32_t(int32_t(2 * value)) & 0xffffffU));

@@ -13,16 +13,9 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-
-GltfBuilder one_triangle() {
-  GltfBuilder gltf;
-  gltf.show(gltf.mesh(gltf.accessor(kTriangle, "VEC3")));
-  return gltf;
-}
 
 // The triangle under one node of the given transform.
-Corners placed(const json& transform) {
+CornerList placed(const json& transform) {
   GltfBuilder gltf;
   json node = transform;
   node["mesh"] = gltf.mesh(gltf.accessor(kTriangle, "VEC3"));
@@ -32,13 +25,13 @@ Corners placed(const json& transform) {
 
 TEST(GltfNodes, QuarterTurnsAreExact) {
   const double h = std::sqrt(0.5);
-  EXPECT_EQ(placed({{"rotation", {0, 0, h, h}}}), (Corners{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
-  EXPECT_EQ(placed({{"rotation", {h, 0, 0, h}}}), (Corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}));
-  EXPECT_EQ(placed({{"rotation", {0, h, 0, h}}}), (Corners{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}));
+  EXPECT_EQ(placed({{"rotation", {0, 0, h, h}}}), (CornerList{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
+  EXPECT_EQ(placed({{"rotation", {h, 0, 0, h}}}), (CornerList{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}));
+  EXPECT_EQ(placed({{"rotation", {0, h, 0, h}}}), (CornerList{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}));
 }
 
 TEST(GltfNodes, QuaternionsOfAnyLengthAreRotations) {
-  EXPECT_EQ(placed({{"rotation", {0, 0, 3, 3}}}), (Corners{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
+  EXPECT_EQ(placed({{"rotation", {0, 0, 3, 3}}}), (CornerList{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
   GltfBuilder gltf = one_triangle();
   gltf.json["nodes"][0]["rotation"] = {0, 0, 0, 0};
   EXPECT_THAT(failure(gltf), HasSubstr("rotation"));
@@ -48,17 +41,17 @@ TEST(GltfNodes, QuaternionsOfAnyLengthAreRotations) {
 TEST(GltfNodes, ScaleThenRotationThenTranslation) {
   EXPECT_EQ(
       placed({{"scale", {2, -3, 1}}, {"rotation", {0, 0, 1, 1}}, {"translation", {10, 0, 5}}}),
-      (Corners{{10, 0, 5}, {13, 0, 5}, {10, 2, 5}}));
+      (CornerList{{10, 0, 5}, {13, 0, 5}, {10, 2, 5}}));
 }
 
 TEST(GltfNodes, MatricesAreColumnMajor) {
   EXPECT_EQ(placed({{"matrix", {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1}}}),
-            (Corners{{10, 20, 30}, {12, 20, 30}, {10, 23, 30}}));
+            (CornerList{{10, 20, 30}, {12, 20, 30}, {10, 23, 30}}));
   GltfBuilder gltf = one_triangle();
   gltf.json["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   EXPECT_THAT(failure(gltf), HasSubstr("projection"));
   gltf.json["nodes"][0]["matrix"] = {1, 0, 0, 1e-17, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 0.9999999};
-  EXPECT_EQ(read_corners(gltf), (Corners{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}));  // noise
+  EXPECT_EQ(read_corners(gltf), (CornerList{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}));  // noise
 }
 
 TEST(GltfNodes, ParentsApplyAfterChildren) {
@@ -70,7 +63,7 @@ TEST(GltfNodes, ParentsApplyAfterChildren) {
       "nodes",
       {{"children", {middle}}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 100, 0, 0, 1}}});
   gltf.scene({root});
-  EXPECT_EQ(read_corners(gltf), (Corners{{100, 2, 0}, {100, 4, 0}, {98, 2, 0}}));
+  EXPECT_EQ(read_corners(gltf), (CornerList{{100, 2, 0}, {100, 4, 0}, {98, 2, 0}}));
 }
 
 TEST(GltfNodes, OneMeshMayStandUnderSeveralNodes) {
@@ -79,7 +72,7 @@ TEST(GltfNodes, OneMeshMayStandUnderSeveralNodes) {
   gltf.scene({gltf.append("nodes", {{"mesh", mesh}, {"translation", {5, 0, 0}}}),
               gltf.append("nodes", {{"mesh", mesh}})});
   EXPECT_EQ(read_corners(gltf),
-            (Corners{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+            (CornerList{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(GltfNodes, OnlyTheDefaultSceneIsDrawn) {
@@ -111,7 +104,7 @@ TEST(GltfNodes, InstancesAreDrawnAtTheirTransforms) {
                   {"translation", {0, 0, 9}},
                   {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}})});
     EXPECT_EQ(read_corners(gltf),
-              (Corners{{1, 0, 9}, {2, 0, 9}, {1, 1, 9}, {2, 0, 9}, {2, 4, 9}, {-2, 0, 9}}));
+              (CornerList{{1, 0, 9}, {2, 0, 9}, {1, 1, 9}, {2, 0, 9}, {2, 4, 9}, {-2, 0, 9}}));
   }
 }
 
@@ -129,8 +122,8 @@ TEST(GltfNodes, AnyAttributeSaysHowManyInstancesThereAre) {
                                               {"componentType", 5126},
                                               {"count", 3},
                                               {"type", "VEC2"}});
-  const Corners one = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  Corners three;
+  const CornerList one = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  CornerList three;
   for (int i = 0; i < 3; ++i) three.insert(three.end(), one.begin(), one.end());
   EXPECT_EQ(read_corners(instanced(gltf, {{"_ID", ids}})), three);
   EXPECT_EQ(read_corners(instanced(gltf, {{"_ID", ids}, {"_WIND", pairs}})), three);
@@ -216,9 +209,9 @@ TEST(GltfMaterials, SelectThePrimitivesOfAMesh) {
 // "If the determinant of the transform is negative, the winding order is reversed" (section 3.7.4).
 TEST(GltfNodes, AMirrorKeepsTheOutsideOutside) {
   GltfBuilder gltf = one_triangle();
-  const Corners plain = read_corners(gltf);
+  const CornerList plain = read_corners(gltf);
   gltf.json["nodes"][0]["scale"] = {-1, 1, 1};
-  const Corners mirrored = read_corners(gltf);
+  const CornerList mirrored = read_corners(gltf);
   ASSERT_EQ(mirrored.size(), 3u);
   for (const auto& [from, to] : {std::pair(0, 0), {1, 2}, {2, 1}})
     EXPECT_EQ(mirrored[size_t(to)][0], -plain[size_t(from)][0]);

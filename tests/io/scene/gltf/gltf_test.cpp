@@ -13,18 +13,11 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-const Corners kTriangleCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const CornerList kTriangleCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 // Five vertices on a line of x, so that x identifies the vertex of a corner.
 const std::vector<float> kFive = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0};
 
-GltfBuilder one_triangle() {
-  GltfBuilder gltf;
-  gltf.show(gltf.mesh(gltf.accessor(kTriangle, "VEC3")));
-  return gltf;
-}
-
-std::vector<int> corner_numbers(const Corners& corners) {
+std::vector<int> corner_numbers(const CornerList& corners) {
   std::vector<int> numbers;
   for (const auto& c : corners) numbers.push_back(int(c[0]));
   return numbers;
@@ -41,7 +34,7 @@ TEST(Gltf, ReadsIndicesOfEveryUnsignedType) {
     gltf.show(gltf.mesh(positions, gltf.accessor(indices, "SCALAR")));
     return read_corners(gltf);
   };
-  const Corners turned = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  const CornerList turned = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
   EXPECT_EQ(read(std::vector<uint8_t>{1, 2, 0}), turned);
   EXPECT_EQ(read(std::vector<uint16_t>{1, 2, 0}), turned);
   EXPECT_EQ(read(std::vector<uint32_t>{1, 2, 0}), turned);
@@ -100,7 +93,7 @@ TEST(Gltf, ListsBeyondOneWindowComeWhole) {
   gltf.json["meshes"] = json::array();
   gltf.scene({gltf.append("nodes", {{"mesh", gltf.mesh(p)}}),
               gltf.append("nodes", {{"mesh", gltf.mesh(p, gltf.accessor(indices, "SCALAR"))}})});
-  const Corners corners = read_corners(gltf);
+  const CornerList corners = read_corners(gltf);
   ASSERT_EQ(corners.size(), 60000u);
   for (size_t i = 0; i < 30000; ++i) {
     ASSERT_EQ(corners[i][0], double(i));
@@ -156,7 +149,7 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
     gltf.show(gltf.mesh(gltf.append("accessors", accessor)));
     const double rest = based ? 7 : 0;
     const std::array<double, 3> r = {rest, rest, rest};
-    EXPECT_EQ(read_corners(gltf), (Corners{r, {1, 2, 3}, r, r, r, {4, 5, 6}}));
+    EXPECT_EQ(read_corners(gltf), (CornerList{r, {1, 2, 3}, r, r, r, {4, 5, 6}}));
   }
 }
 
@@ -179,7 +172,7 @@ TEST(Gltf, AnAccessorWithoutDataIsZeros) {
   GltfBuilder gltf;
   gltf.show(gltf.mesh(
       gltf.append("accessors", {{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}})));
-  EXPECT_EQ(read_corners(gltf), Corners(3, {0, 0, 0}));
+  EXPECT_EQ(read_corners(gltf), CornerList(3, {0, 0, 0}));
 }
 
 }  // namespace

@@ -5,8 +5,6 @@ namespace svdag {
 namespace {
 
 constexpr const char* kVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-const Corners kLower = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
-const Corners kUpper = {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
 
 std::vector<Corners> faces(const std::string& statements) {
   return read(read_obj, kVertices + statements).triangles;

@@ -3,8 +3,6 @@
 namespace svdag {
 namespace {
 
-const Corners kLower = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
-const Corners kUpper = {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
 constexpr const char* kBody = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
 TEST(Off, ReadsPolygonsAndIgnoresWhatFollowsInALine) {

@@ -45,10 +45,10 @@ std::string save(const TempFolder& folder, const Mesh& mesh) {
   return path;
 }
 
-Corners read_om(const std::string& path, bool sandbox = false) {
+CornerList read_om(const std::string& path, bool sandbox = false) {
   MemoryBudget budget(uint64_t(1) << 28);
   const NameFilter all;
-  Corners corners;
+  CornerList corners;
   ReadOptions options{&all, false, &budget};
   options.sandbox = sandbox;
   read_openmesh(File::open_read(path), options, [&](const TriangleBatch& batch) {
@@ -67,7 +67,7 @@ TEST(OpenMesh, PolygonsComeAsFansOfTheirExactDoubles) {
              e = mesh.add_vertex(p(0, 2));
   mesh.add_face(std::vector<Mesh::VertexHandle>{a, b, c, d, e});
   const TempFolder folder;
-  const Corners corners = read_om(save(folder, mesh));
+  const CornerList corners = read_om(save(folder, mesh));
   ASSERT_EQ(corners.size(), 9u);
   double area = 0;
   for (size_t i = 0; i < 9; i += 3) {
@@ -86,7 +86,7 @@ TEST(OpenMesh, ConcavePolygonsAreFilledInsideOfTheirOutline) {
     dart.push_back(mesh.add_vertex({double(x), double(y), 0}));
   mesh.add_face(dart);
   const TempFolder folder;
-  const Corners corners = read_om(save(folder, mesh));
+  const CornerList corners = read_om(save(folder, mesh));
   ASSERT_EQ(corners.size(), 6u);
   double area = 0;
   for (size_t i = 0; i < 6; i += 3) {
@@ -99,7 +99,7 @@ TEST(OpenMesh, ConcavePolygonsAreFilledInsideOfTheirOutline) {
 TEST(OpenMesh, ALimitedChildReadsTheSame) {
   const TempFolder folder;
   const std::string path = save(folder, sheet(100, true));
-  const Corners corners = read_om(path);
+  const CornerList corners = read_om(path);
   EXPECT_GT(corners.size(), 3 * BatchWriter::kBatch);
   EXPECT_EQ(read_om(path, true), corners);
 }
