@@ -22,7 +22,7 @@ constexpr uint32_t kSheetOfUnion = 1, kSheetOfLayer = 2;
 // The normative geometry: everything after the snap is decided on these integers alone.
 struct LatticeTriangle {
   std::array<LatticePoint, 3> v;
-  uint32_t subject = 0;  // with layers: its layer (builder/octree/sub_dag_root.h)
+  uint32_t subject = 0;  // with layers: its layer (builder/octree/subject.h)
   uint32_t sheet = 0;    // kSheetOf...: of an open part, which bounds no solid
   bool operator==(const LatticeTriangle&) const = default;
 };

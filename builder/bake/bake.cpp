@@ -238,12 +238,11 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }
   report.voxels_kept = runs.set().voxels;
-  DescentConfig descent = config.descent;
-  descent.with_union = config.with_union;
   Voxelizer voxelizer(
       grid,
-      {descent, workspace->shares().table, config.checkpoint, workspace->scratch(), &done,
-       store.get(), [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
+      {config.descent, workspace->shares().table, config.checkpoint, config.with_union,
+       workspace->scratch(), &done, store.get(),
+       [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
       workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
   meter.end_phase(&report.seconds.voxelize, &report.phase_peaks.voxelize);

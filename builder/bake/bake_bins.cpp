@@ -120,12 +120,14 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
   same &= subjects.size() == 1 &&
           winding_of(at_cube, *subjects.begin()) == winding_of(at_cube, kUnionSet);
   voxelizer_->bake(bin.cube, windings, bin.range,
-                   [&](NodeTable* table, std::vector<SubjectDag>* dags) {
-                     if (same) return dags->push_back({*subjects.begin(), cube.reduce(table)});
-                     dags->push_back({kUnionSet, cube.reduce(table)});
+                   [&](NodeTable* table, std::vector<SetsDag>* dags) {
+                     if (same)
+                       return dags->push_back(
+                           {SubDagSets::with_union(*subjects.begin()), cube.reduce(table)});
+                     dags->push_back({{}, cube.reduce(table)});
                      for (const Subject subject : subjects) {
                        fill(subject);
-                       dags->push_back({subject | kApart, cube.reduce(table)});
+                       dags->push_back({SubDagSets::only(subject), cube.reduce(table)});
                      }
                    });
 }

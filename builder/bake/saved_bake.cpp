@@ -96,9 +96,11 @@ void check_run(const BakedRun& baked, int levels, const RecordReader& in) {
         brick ? baked.run.bricks.spilled->bytes / sizeof(Brick)
               : baked.run.nodes[size_t(root.level)].spilled->bytes / sizeof(NodeKey);
     in.require(root.rank < keys, "a root has no node");
-    in.require((root.subject & ~kApart) <= kMaxLayers, "a root is of no layer");
+    in.require(root.sets.subject <= kMaxLayers, "a root is of no layer");
   }
 }
+
+constexpr uint32_t kNotInUnion = 0x80000000U;  // flag of the sets of a root, beside the subject
 
 template <class Key>
 RunLevel<Key> get_level(RecordReader* in) {
@@ -117,7 +119,9 @@ std::vector<SubDagRoot> get_roots(RecordReader* in) {
     in->get(&root.morton);
     in->get(&root.level);
     in->get(&root.rank);
-    in->get(&root.subject);
+    uint32_t sets = 0;
+    in->get(&sets);
+    root.sets = {sets & ~kNotInUnion, (sets & kNotInUnion) == 0};
   }
   return roots;
 }
@@ -128,7 +132,7 @@ void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
     out->put(root.morton);
     out->put(root.level);
     out->put(root.rank);
-    out->put(root.subject);
+    out->put(uint32_t(root.sets.subject) | (root.sets.in_union ? 0 : kNotInUnion));
   }
 }
 

@@ -27,12 +27,12 @@ class Voxelizer::Worker {
   void bake(const Cube& cell, const CellWindings* windings) {
     const LayerWindings at_cell = windings_at(cell, windings);
     const TriangleList& list = cursor_->list(cell);
-    const std::optional<Subject> subject = descent_.only_subject(list, at_cell);
-    if (config_.store == nullptr || !is_new(cell) || !subject ||
-        (*subject == kUnionSet && !config_.descent.with_union))
+    const std::optional<SubDagSets> sets = descent_.shared_sets(list, at_cell);
+    if (config_.store == nullptr || !is_new(cell) || !sets ||
+        (!is_layer(sets->subject) && !config_.with_union))
       return descent_.run(cell, list, at_cell);
     const CellKey key = config_.store->key(cell, list, winding_of(at_cell, kUnionSet));
-    if (!config_.store->take(key, cell, *subject)) bake_for_store(cell, list, at_cell, key);
+    if (!config_.store->take(key, cell, *sets)) bake_for_store(cell, list, at_cell, key);
   }
   void bake_untouched(const MortonRange& range, const CellWindings* windings) {
     if (windings == nullptr) return builder_.note_empty(range);
@@ -45,8 +45,8 @@ class Voxelizer::Worker {
     return config_.done != nullptr && config_.done->coverage(range) == MortonSet::Coverage::kAll;
   }
   NodeTable* table() { return builder_.table(); }
-  void adopt(const Cube& cube, std::vector<SubjectDag> dags) {
-    descent_.adopt(cube, std::move(dags));
+  void add_reduced(const Cube& cube, std::span<const SetsDag> dags) {
+    descent_.add_reduced(cube, dags);
   }
   const Descent& descent() const { return descent_; }
   // Voxels set since the previous call; those of a run that was taken in between may be missing.
@@ -64,6 +64,7 @@ class Voxelizer::Worker {
   SubDagBuilderConfig builder_config(const VoxelizeConfig& config, MemoryBudget* budget) {
     SubDagBuilderConfig own{.budget = budget, .table_bytes = config.table_bytes};
     own.max_seconds = config.max_seconds;
+    own.with_union = config.with_union;
     if (config.scratch != nullptr) own.empty_table = [this] { config_.save(take_run(true)); };
     return own;
   }
@@ -157,13 +158,13 @@ void Voxelizer::bake(CellTree* tree, const CellWindings* windings, const MortonR
 }
 
 void Voxelizer::bake(const Cube& cube, const CellWindings* windings, const MortonRange& range,
-                     const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce) {
+                     const std::function<void(NodeTable*, std::vector<SetsDag>*)>& reduce) {
   ++cells_;
   const MortonRange own = morton_range(cube, grid_.levels);
-  std::vector<SubjectDag> dags;
+  std::vector<SetsDag> dags;
   workers_[0]->bake_untouched({range.begin, own.begin}, windings);
   reduce(workers_[0]->table(), &dags);
-  workers_[0]->adopt(cube, std::move(dags));
+  workers_[0]->add_reduced(cube, dags);
   workers_[0]->bake_untouched({own.end, range.end}, windings);
 }
 

@@ -33,6 +33,7 @@ struct VoxelizeConfig {
   DescentConfig descent;
   uint64_t table_bytes = UINT64_MAX;  // freeze_bytes() from which on a table is frozen
   double max_seconds = std::numeric_limits<double>::infinity();  // between two times it is frozen
+  bool with_union = true;  // false: what is only the union's is not kept
   Scratch* scratch = nullptr;          // null: tables are never frozen before finish()
   const MortonSet* done = nullptr;     // what is baked already; null: nothing
   CellStore* store = nullptr;          // of cells baked before; null: none
@@ -50,7 +51,7 @@ class Voxelizer {
             Progress* progress);
   // Adds `cube`, whose sub-DAGs `reduce` adds to a table; the rest of `range` is untouched.
   void bake(const Cube& cube, const CellWindings* windings, const MortonRange& range,
-            const std::function<void(NodeTable*, std::vector<SubjectDag>*)>& reduce);
+            const std::function<void(NodeTable*, std::vector<SetsDag>*)>& reduce);
   // Bakes a range that no triangle touches: it is empty, or inside of a solid.
   void bake_untouched(const MortonRange& range, const CellWindings* windings);
   // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.

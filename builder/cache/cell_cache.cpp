@@ -153,7 +153,7 @@ bool CellCache::is_usable(OpenPack* open) {
   return open->proven;
 }
 
-bool CellCache::take(const CellKey& key, const Cube& cube, Subject subject) {
+bool CellCache::take(const CellKey& key, const Cube& cube, SubDagSets sets) {
   const auto found = std::lower_bound(
       addresses_.begin(), addresses_.end(), key,
       [this](CellAddress address, const CellKey& k) { return key_at(address).words < k.words; });
@@ -163,7 +163,7 @@ bool CellCache::take(const CellKey& key, const Cube& cube, Subject subject) {
   const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !is_usable(&open)) return false;
-  open.load_taken.push_back({found->entry, cube, subject});
+  open.load_taken.push_back({found->entry, cube, sets});
   ++hits_;
   return true;
 }

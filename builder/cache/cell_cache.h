@@ -40,7 +40,7 @@ class CellCache final : public CellStore {
   ~CellCache() override;
 
   CellKey key(const Cube& cube, const TriangleList& list, int32_t winding) const override;
-  bool take(const CellKey& key, const Cube& cube, Subject subject) override;
+  bool take(const CellKey& key, const Cube& cube, SubDagSets sets) override;
   void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                   const std::function<void(BakedRun)>& use) override;
   // A failed write is not an error; write_error() returns the reason.

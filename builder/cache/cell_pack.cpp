@@ -174,11 +174,11 @@ BakedRun Pack::extract(std::vector<TakenCell> taken, int levels, MemoryBudget* b
   for (const TakenCell& t : taken) {
     const PackEntry& entry = entries_[t.entry];
     append_range(&baked.finished, range_of(t));
-    count_voxels(t.subject, entry.voxels, &baked.voxels, &baked.layer_voxels);
+    count_voxels(t.sets, entry.voxels, &baked.voxels, &baked.layer_voxels);
     if (entry.rank == kNoNode) continue;
     SVDAG_ASSERT(int(entry.height) == levels - t.cube.level);
     baked.roots.push_back(
-        {morton(t.cube.coordinate), t.cube.level, 0, extraction.rank(entry), t.subject});
+        {morton(t.cube.coordinate), t.cube.level, 0, extraction.rank(entry), t.sets});
   }
   return baked;
 }

@@ -43,7 +43,7 @@ class Pack {
   struct TakenCell {
     size_t entry;
     Cube cube;
-    Subject subject;
+    SubDagSets sets;
   };
   // The taken cells as a run of a grid with `levels` levels; spilled if `target` is given. The pack
   // must be proven.

@@ -22,10 +22,10 @@ class CellStore {
   // The key of `cube`; `list` holds all triangles that touch it, `winding` is 0 unless the rule is
   // solid.
   virtual CellKey key(const Cube& cube, const TriangleList& list, int32_t winding) const = 0;
-  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube` and `subject`: the
-  // caller then skips the descent, and the sub-DAG is part of a later run of load_taken().
+  // Returns true if the sub-DAG of `key` is stored, and takes it for `cube`, whose `sets` share
+  // it: the caller then skips the descent, and the sub-DAG is part of a later run of load_taken().
   // Thread-safe.
-  virtual bool take(const CellKey& key, const Cube& cube, Subject subject) = 0;
+  virtual bool take(const CellKey& key, const Cube& cube, SubDagSets sets) = 0;
   // Passes the load_taken cells to `use`, as runs. target(bytes) decides whether a run of up to
   // `bytes` bytes is spilled, and where to.
   virtual void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,

@@ -15,11 +15,68 @@ constexpr int64_t kLargestPatchSide = 64;             // voxels
 constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio (Knuth)
 constexpr int kPauseLog2 = 6;  // the builder may pause before each cube of 64^3 voxels
 
-// Calls visit(subject, triangles, winding) for the union and for each layer of a list or of
-// windings, by subject. A layer that merely winds around the cube has no triangles.
+uint32_t sheets_of(Subject set) {
+  return set == kUnionSet ? kSheetOfUnion : kSheetOfLayer;
+}
+
+}  // namespace
+
+Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
+                 const MortonSet* done)
+    : grid_(grid),
+      config_(config),
+      builder_(builder),
+      table_(builder->table()),
+      full_(grid, table_),
+      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table_, &full_,
+            config.memo_bytes),
+      done_(done != nullptr && !done->empty() ? done : nullptr),
+      lists_(size_t(grid.levels)),
+      sets_(size_t(grid.levels)),
+      divided_(size_t(grid.levels)) {}
+
+void Descent::run(const Cube& cube, const TriangleList& list, const LayerWindings& windings) {
+  check_interrupt();
+  known_.fill({});  // its addresses may belong to other triangles by now
+  memo_.forget();
+  cell_side_ = std::ldexp(1.0, grid_.levels - cube.level);
+  partly_done_ = done_ != nullptr &&
+                 done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
+  builder_->begin(cube);
+  node(cube, list, {shared_sets(list, windings), windings});
+  update_memo(builder_->end());
+}
+
+void Descent::add_reduced(const Cube& cube, std::span<const SetsDag> dags) {
+  builder_->begin(cube);
+  for (const auto& [sets, dag] : dags) builder_->add(cube.level, 0, sets, dag);
+  update_memo(builder_->end());
+}
+
+std::optional<SubDagSets> Descent::shared_sets(const TriangleList& list,
+                                               const LayerWindings& windings) const {
+  if (!is_of_one_layer(list)) return std::nullopt;
+  Subject subject = subject_of(list);
+  if (!is_solid(config_.rule)) return SubDagSets::with_union(subject);
+  for (const LayerWinding& w : windings) {
+    if (w.subject == kUnionSet || w.subject == subject) continue;
+    if (!list.empty() || subject != kUnionSet) return std::nullopt;
+    subject = w.subject;
+  }
+  if (subject == kUnionSet) return SubDagSets();
+  if (winding_of(windings, subject) != winding_of(windings, kUnionSet)) return std::nullopt;
+  for (const ListedTriangle& entry : list) {
+    if (!is_sheet_of_both_or_none(entry.triangle->triangle.sheet)) return std::nullopt;
+  }
+  return SubDagSets::with_union(subject);
+}
+
+// A layer that merely winds around the cube has no triangles.
 template <class Visit>
-void for_each_set(const TriangleList& list, const LayerWindings& windings, const Visit& visit) {
+void Descent::for_each_set(const TriangleList& list, const CubeSets& sets, const Visit& visit) {
+  const LayerWindings& windings = sets.windings;
   visit(kUnionSet, std::span(list), winding_of(windings, kUnionSet));
+  if (sets.shared) return;
   auto known = windings.begin();
   const auto visit_before = [&](Subject subject) {
     for (; known != windings.end() && known->subject < subject; ++known) {
@@ -40,91 +97,17 @@ void for_each_set(const TriangleList& list, const LayerWindings& windings, const
   visit_before(~Subject(0));
 }
 
-// As the subject of a sub-DAG in a cube of several layers.
-Subject apart(Subject set) {
-  return set == kUnionSet ? kUnionSet : set | kApart;
-}
-
-uint32_t sheets_of(Subject set) {
-  return set == kUnionSet ? kSheetOfUnion : kSheetOfLayer;
-}
-
-}  // namespace
-
-Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
-                 const MortonSet* done)
-    : grid_(grid),
-      config_(config),
-      builder_(builder),
-      table_(builder->table()),
-      full_(table_),
-      memo_(grid.levels, config.rule, config.kernels, config.memo_repeats, table_, &full_,
-            config.memo_bytes),
-      done_(done != nullptr && !done->empty() ? done : nullptr),
-      lists_(size_t(grid.levels)),
-      dags_(size_t(grid.levels)),
-      divided_(size_t(grid.levels)) {}
-
-void Descent::run(const Cube& cube, const TriangleList& list, const LayerWindings& windings) {
-  check_interrupt();
-  admitted_.fill({});  // its addresses may belong to other triangles by now
-  memo_.forget();
-  cell_side_ = std::ldexp(1.0, grid_.levels - cube.level);
-  partly_done_ = done_ != nullptr &&
-                 done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
-  builder_->begin(cube);
-  if (const auto subject = only_subject(list, windings)) {
-    builder_->set_subject(*subject);
-    // Without triangles there, only the union may wind around a cube.
-    const bool wanted = config_.with_union || *subject != kUnionSet || !list.empty();
-    return update_memo(
-        builder_->end(cube, wanted ? node(cube, list, winding_of(windings, kUnionSet)) : SubDag()));
-  }
-  SubjectDags dags;
-  node(cube, list, windings, &dags);
-  end(cube, std::move(dags));
-}
-
-std::optional<Subject> Descent::only_subject(const TriangleList& list,
-                                             const LayerWindings& windings) const {
-  if (!is_of_one_layer(list)) return std::nullopt;
-  Subject subject = subject_of(list);
-  if (!is_solid(config_.rule)) return subject;
-  for (const LayerWinding& w : windings) {
-    if (w.subject == kUnionSet || w.subject == subject) continue;
-    if (!list.empty() || subject != kUnionSet) return std::nullopt;
-    subject = w.subject;
-  }
-  if (subject == kUnionSet) return subject;
-  if (winding_of(windings, subject) != winding_of(windings, kUnionSet)) return std::nullopt;
-  for (const ListedTriangle& entry : list) {
-    if (!is_sheet_of_both_or_none(entry.triangle->triangle.sheet)) return std::nullopt;
-  }
-  return subject;
-}
-
 LayerWindings Descent::windings_at(const Cube& to, const Cube& from, const TriangleList& list,
                                    const LayerWindings& windings) const {
   const LatticePoint a = first_centre(from.corner(grid_.levels), grid_.fraction());
   const LatticePoint b = first_centre(to.corner(grid_.levels), grid_.fraction());
   LayerWindings result;
-  for_each_set(list, windings,
+  for_each_set(list, {std::nullopt, windings},
                [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
                  winding += crossings(of_set, a, b, sheets_of(subject));
                  if (winding != 0) result.push_back({subject, winding});
                });
   return result;
-}
-
-void Descent::adopt(const Cube& cube, SubjectDags dags) {
-  builder_->begin(cube);
-  end(cube, std::move(dags));
-}
-
-void Descent::end(const Cube& cube, SubjectDags dags) {
-  if (!config_.with_union)
-    std::erase_if(dags, [](const SubjectDag& dag) { return dag.subject == kUnionSet; });
-  update_memo(builder_->end(cube, dags));
 }
 
 void Descent::update_memo(SubDagBuilder::Pause pause) {
@@ -137,9 +120,11 @@ void Descent::update_memo(SubDagBuilder::Pause pause) {
   }
 }
 
-Descent::Need Descent::need_of(const Cube& cube, bool is_empty) const {
-  if (is_empty || (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))))
-    return Need::kNothing;
+Descent::Need Descent::need_of(const Cube& cube, const TriangleList& list,
+                               const LayerWindings& windings) const {
+  const auto is_full = [&](const LayerWinding& w) { return is_inside(config_.rule, w.winding); };
+  if (list.empty() && std::ranges::none_of(windings, is_full)) return Need::kNothing;
+  if (grid_.bounded && !grid_.selection.meets(cube.voxels(grid_.levels))) return Need::kNothing;
   if (!partly_done_) return Need::kAll;
   const MortonSet::Coverage state = done_->coverage(morton_range(cube, grid_.levels));
   if (state == MortonSet::Coverage::kAll) return Need::kNothing;
@@ -152,143 +137,95 @@ void Descent::pause_at(const Cube& cube) {
   update_memo(builder_->pause(cube.level, morton_range(cube, grid_.levels).begin));
 }
 
-SubDag Descent::node(const Cube& cube, const TriangleList& list, int32_t winding) {
-  const Need need = need_of(cube, list.empty() && !is_inside(config_.rule, winding));
-  if (need == Need::kNothing) return {};
-  if (list.empty()) return full(cube, winding, need);
-  if (cube.level == table_->brick_level())
-    return brick(voxels_of(cube, list, winding, kSheetOfUnion));
-  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch) {
-    if (const auto known = find_in_memo(cube, list, winding, kSheetOfUnion)) return *known;
-  }
+void Descent::node(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
+  const Need need = need_of(cube, list, sets.windings);
+  if (need == Need::kNothing) return;
+  if (list.empty() && need == Need::kAll) return add_full(cube, list, sets);
+  if (cube.level == table_->brick_level()) return brick(cube, list, sets);
+  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
+      find_in_memo(cube, list, sets))
+    return;
   const bool selected = !grid_.bounded || grid_.selection.holds(cube.voxels(grid_.levels));
   if (config_.cubes && cube.level + 1 == table_->brick_level() && need == Need::kAll && selected &&
-      !is_solid(config_.rule))
-    return eight_bricks(cube, list);
+      sets.shared && !is_solid(config_.rule))
+    return eight_bricks(cube, list, sets);
   pause_at(cube);
-  return divide(cube, list, winding, need == Need::kRest);
+  divide(cube, list, sets, need == Need::kRest);
 }
 
-// A cube without triangles, inside of the solid.
-SubDag Descent::full(const Cube& cube, int32_t winding, Need need) {
-  const bool whole = !grid_.bounded || grid_.selection.holds(cube.voxels(grid_.levels));
-  if (need == Need::kRest) return divide(cube, {}, winding, true);
-  if (whole) return full_.sub_dag(cube.level);
-  const VoxelBox all = cube.voxels(grid_.levels);
-  const LatticePoint side =
-      glm::min(all.max, grid_.selection.max) - glm::max(all.min, grid_.selection.min);
-  uint32_t* const known = full_.cut(cube, grid_.selection);
-  if (*known == 0) {
-    const SubDag dag = cube.level == table_->brick_level() ? brick(selected_voxels(cube))
-                                                           : divide(cube, {}, winding, false);
-    *known = dag.root;
-  }
-  return {*known, uint64_t(side.x) * uint64_t(side.y) * uint64_t(side.z)};
-}
-
-void Descent::node(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                   SubjectDags* dags) {
-  const Need need = need_of(cube, list.empty() && windings.empty());
-  if (need == Need::kNothing) return;
-  if (list.empty() && need == Need::kAll) return add_full(cube, list, windings, dags);
-  if (cube.level == table_->brick_level()) return bricks(cube, list, windings, dags);
-  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
-      find_in_memo(cube, list, windings, dags))
-    return;
-  pause_at(cube);
-  divide(cube, list, windings, need == Need::kRest, dags);
-}
-
-// Adds the sets that have no triangle in the cube and wind around it.
-void Descent::add_full(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                       SubjectDags* dags) {
-  for_each_set(list, windings,
-               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
-                 if (of_set.empty() && is_inside(config_.rule, winding))
-                   dags->push_back({apart(subject), full(cube, winding, Need::kAll)});
-               });
-}
-
-SubDag Descent::divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots) {
+void Descent::divide(const Cube& cube, const TriangleList& list, const CubeSets& sets,
+                     bool as_roots) {
   ++divided_[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
+  std::array<CubeSets, 8>& sets_of = sets_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
-  int32_t windings[8] = {};
-  if (is_solid(config_.rule)) {
-    windings_of_children(list, cube.corner(grid_.levels),
-                         int64_t(1) << cube.side_log2(grid_.levels), grid_.fraction(), winding,
-                         windings);
+  for (CubeSets& child : sets_of) {
+    child.shared = sets.shared;
+    child.windings.clear();
   }
-  builder_->open(cube, as_roots);
-  for (unsigned c = 0; c < 8; ++c)
-    builder_->add_child(cube.level, c, node(cube.child(c), lists[c], windings[c]));
-  return builder_->close(cube.level);
-}
-
-void Descent::divide(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                     bool as_roots, SubjectDags* dags) {
-  ++divided_[size_t(cube.level)];
-  std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
-  divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
-  std::array<LayerWindings, 8> windings_of;
   if (is_solid(config_.rule)) {
-    for_each_set(list, windings,
+    for_each_set(list, sets,
                  [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
                    int32_t at[8];
                    windings_of_children(of_set, cube.corner(grid_.levels),
                                         int64_t(1) << cube.side_log2(grid_.levels),
                                         grid_.fraction(), winding, at, sheets_of(subject));
                    for (unsigned c = 0; c < 8; ++c) {
-                     if (at[c] != 0) windings_of[c].push_back({subject, at[c]});
+                     if (at[c] != 0) sets_of[c].windings.push_back({subject, at[c]});
                    }
                  });
   }
-  builder_->open(cube, as_roots);
-  SubjectDags& of_child = dags_[size_t(cube.level)];
-  for (unsigned c = 0; c < 8; ++c) {
-    of_child.clear();
-    if (const auto subject = only_subject(lists[c], windings_of[c])) {
-      builder_->set_subject(*subject);
-      const SubDag dag = node(cube.child(c), lists[c], winding_of(windings_of[c], kUnionSet));
-      of_child = {{kUnionSet, dag}};
-      if (*subject != kUnionSet) of_child.push_back({*subject | kApart, dag});
-    } else {
-      node(cube.child(c), lists[c], windings_of[c], &of_child);
-    }
-    for (const auto& [subject, dag] : of_child) {
-      if (config_.with_union || subject != kUnionSet)
-        builder_->add_child(cube.level, c, subject, dag);
-    }
+  if (!sets.shared) {
+    for (unsigned c = 0; c < 8; ++c)
+      sets_of[c].shared = shared_sets(lists[c], sets_of[c].windings);
   }
-  builder_->close(cube.level, dags);
+  builder_->open(cube, sets.shared, as_roots);
+  for (unsigned c = 0; c < 8; ++c) node(cube.child(c), lists[c], sets_of[c]);
+  builder_->close(cube.level);
 }
 
-// Whether the memo knows the sub-DAG of every set.
-bool Descent::find_in_memo(const Cube& cube, const TriangleList& list,
-                           const LayerWindings& windings, SubjectDags* dags) {
+void Descent::add(const Cube& cube, const CubeSets& sets, Subject subject, const SubDag& dag) {
+  builder_->add(cube.level, cube.index_in_parent(),
+                sets.shared ? *sets.shared : SubDagSets::only(subject), dag);
+}
+
+void Descent::add_brick(const Cube& cube, const CubeSets& sets, Subject subject, Brick voxels) {
+  if (voxels != 0)
+    add(cube, sets, subject, {table_->add_brick(voxels), uint64_t(std::popcount(voxels))});
+}
+
+void Descent::add_full(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
+  for_each_set(list, sets,
+               [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
+                 if (of_set.empty() && is_inside(config_.rule, winding))
+                   add(cube, sets, subject, full_.sub_dag(cube));
+               });
+}
+
+bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
   bool known = true;
-  for_each_set(list, windings,
+  found_.clear();
+  for_each_set(list, sets,
                [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
                  if (!known || of_set.empty()) return;
-                 const auto dag =
-                     of_set.size() == list.size()
-                         ? find_in_memo(cube, list, winding, sheets_of(subject))
-                         : find_in_memo(cube, TriangleList(of_set.begin(), of_set.end()), winding,
-                                        sheets_of(subject));
+                 const auto dag = find_set(cube, of_set, winding, sheets_of(subject));
                  known = dag.has_value();
-                 if (known) dags->push_back({apart(subject), *dag});
+                 if (known) found_.push_back({subject, *dag});
                });
-  known ? add_full(cube, list, windings, dags) : dags->clear();
-  return known;
+  if (!known) return false;
+  for (const auto& [subject, dag] : found_) add(cube, sets, subject, dag);
+  if (!sets.shared) add_full(cube, list, sets);
+  return true;
 }
 
-std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList& list,
-                                            int32_t winding, uint32_t sheets) {
+std::optional<SubDag> Descent::find_set(const Cube& cube,
+                                        std::span<const ListedTriangle> list, int32_t winding,
+                                        uint32_t sheets) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
   if (list.size() > 1)
     return config_.patches ? find_patch(cube, list, winding, sheets) : std::nullopt;
   if (!covers(*list[0].triangle, list[0].edges)) return std::nullopt;
-  const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(*list[0].triangle);
+  const std::optional<PlaneMemo::AdmittedPlane>& known = known_plane(*list[0].triangle);
   if (!known || cube.level < known->min_query_level) return std::nullopt;
   const auto range = offsets_in_column(known->plane, cube.corner(grid_.levels),
                                        int64_t(1) << cube.side_log2(grid_.levels));
@@ -300,7 +237,7 @@ std::optional<SubDag> Descent::find_in_memo(const Cube& cube, const TriangleList
 
 // Which sides of the plane are inside of the solid, by the winding numbers of the cube's extreme
 // voxels along the plane's normal.
-FilledSides Descent::filled_sides(const Cube& cube, const TriangleList& list,
+FilledSides Descent::filled_sides(const Cube& cube, std::span<const ListedTriangle> list,
                                   const LatticePlane& plane, int32_t winding,
                                   uint32_t sheets) const {
   if (!is_solid(config_.rule)) return 0;
@@ -315,8 +252,9 @@ FilledSides Descent::filled_sides(const Cube& cube, const TriangleList& list,
          (is_inside(config_.rule, at_high) ? kHighSide : 0);
 }
 
-std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& list,
-                                          int32_t winding, uint32_t sheets) {
+std::optional<SubDag> Descent::find_patch(const Cube& cube,
+                                          std::span<const ListedTriangle> list, int32_t winding,
+                                          uint32_t sheets) {
   const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
   if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
   const auto covering = std::find_if(list.begin(), list.end(), [](const ListedTriangle& entry) {
@@ -328,7 +266,7 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
   if (!covered && !has_no_border(list, first.dominant, corner, side, config_.patch))
     return std::nullopt;
-  const std::optional<PlaneMemo::AdmittedPlane>& known = admitted(first);
+  const std::optional<PlaneMemo::AdmittedPlane>& known = known_plane(first);
   if (!known) return std::nullopt;
   const auto range = offsets_of_patch(list, known->plane, corner, side, config_.patch);
   if (!range) return std::nullopt;
@@ -343,18 +281,18 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube, const TriangleList& 
 
 // The slot depends on the triangle, not on its address, so the lookups, and what the memo computes,
 // are the same in every run.
-const std::optional<PlaneMemo::AdmittedPlane>& Descent::admitted(const TriangleSetup& triangle) {
+const std::optional<PlaneMemo::AdmittedPlane>& Descent::known_plane(
+    const TriangleSetup& triangle) {
   const LatticeTriangle& t = triangle.triangle;
   const uint64_t sum = uint64_t(t.v[0][0]) + 3 * uint64_t(t.v[1][1]) + 5 * uint64_t(t.v[2][2]);
-  const size_t slot = (sum * kMultiplier >> 32) % admitted_.size();
-  if (admitted_[slot].triangle != &triangle)
-    admitted_[slot] = {&triangle, memo_.admit(triangle, cell_side_)};
-  return admitted_[slot].known;
+  KnownTriangle& known = known_[(sum * kMultiplier >> 32) % known_.size()];
+  if (known.triangle != &triangle) known = {&triangle, memo_.admit(triangle, cell_side_)};
+  return known.plane;
 }
 
 Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding,
                          uint32_t sheets) {
-  const Brick wanted = grid_.bounded ? selected_voxels(cube) : ~Brick(0);
+  const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   const auto kernel =
       config_.rule == Rule::kThin ? config_.kernels->thin : config_.kernels->conservative;
@@ -370,20 +308,15 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
   return voxels & wanted;
 }
 
-SubDag Descent::brick(Brick voxels) {
-  if (voxels == 0) return {};
-  return {table_->add_brick(voxels), uint64_t(std::popcount(voxels))};
-}
-
 // As divide() into bricks.
-SubDag Descent::eight_bricks(const Cube& cube, const TriangleList& list) {
+void Descent::eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
   ++divided_[size_t(cube.level)];
   Brick bricks[8];
   const auto kernel =
       config_.rule == Rule::kThin ? config_.kernels->thin_cube : config_.kernels->conservative_cube;
   const uint32_t voxels = kernel(list.data(), list.size(), cube.corner(grid_.levels),
                                  grid_.fraction(), config_.covering, bricks, &decisions_);
-  if (voxels == 0) return {};
+  if (voxels == 0) return;
   unsigned children = 0;
   for (unsigned c = 0; c < 8; ++c) children |= unsigned(bricks[c] != 0) << c;
   NodeKey key{};
@@ -391,38 +324,21 @@ SubDag Descent::eight_bricks(const Cube& cube, const TriangleList& list) {
     const int c = std::countr_zero(children);
     key[size_t(c)] = table_->add_brick(bricks[c]);
   }
-  return {table_->add_node(cube.level, key), voxels};
+  add(cube, sets, kUnionSet, {table_->add_node(cube.level, key), voxels});
 }
 
-void Descent::bricks(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                     SubjectDags* dags) {
-  const bool solid = is_solid(config_.rule);
-  Brick of_all = 0;
-  for_each_set(list, windings,
+void Descent::brick(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
+  const bool is_or_of_layers = !sets.shared && !is_solid(config_.rule);  // the union's brick
+  Brick all = 0;
+  for_each_set(list, sets,
                [&](Subject subject, std::span<const ListedTriangle> of_set, int32_t winding) {
-                 if (of_set.empty() || (subject == kUnionSet && !solid)) return;
+                 if (of_set.empty() || (is_or_of_layers && subject == kUnionSet)) return;
                  const Brick voxels = voxels_of(cube, of_set, winding, sheets_of(subject));
-                 of_all |= voxels;
-                 dags->push_back({apart(subject), brick(voxels)});
+                 all |= voxels;
+                 add_brick(cube, sets, subject, voxels);
                });
-  if (!solid) dags->push_back({kUnionSet, brick(of_all)});
-  add_full(cube, list, windings, dags);
-}
-
-Brick Descent::selected_voxels(const Cube& cube) const {
-  const auto inside = [&](int a, unsigned i) {
-    const int64_t k = 4 * cube.coordinate[a] + i;
-    return k >= grid_.selection.min[a] && k < grid_.selection.max[a];
-  };
-  Brick voxels = 0;
-  for (unsigned x = 0; x < 4; ++x) {
-    for (unsigned y = 0; y < 4; ++y) {
-      for (unsigned z = 0; z < 4; ++z) {
-        if (inside(0, x) && inside(1, y) && inside(2, z)) voxels |= Brick(1) << brick_bit(x, y, z);
-      }
-    }
-  }
-  return voxels;
+  if (is_or_of_layers) add_brick(cube, sets, kUnionSet, all);
+  if (!sets.shared) add_full(cube, list, sets);
 }
 
 }  // namespace svdag

@@ -9,12 +9,13 @@
 // (builder/winding/crossing.h). Triangles of the cube change it on the way to its children and
 // through its bricks; a cube without triangles is empty or a full node.
 //
-// Layers (builder/octree/sub_dag_root.h): a cube that several layers touch is descended once, with
-// one list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it,
-// cubes that one layer touches are descended as without layers, and what they give is shared; so
-// layers cost only where they meet. A brick's voxels are the OR over its triangles, so the union's
-// brick is the OR of the layers' bricks. With the solid rules it is not: the union has a winding
-// number of its own, and a layer is also where it has no triangle, but winds around the cube.
+// Layers (builder/octree/subject.h): a cube that several layers touch is descended once, with one
+// list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it, a
+// cube that only one layer touches has one set of voxels, as every cube has in a bake without
+// layers; so layers cost only where they meet. A brick's voxels are the OR over its triangles, so
+// the union's brick is the OR of the layers' bricks. With the solid rules it is not: the union has a
+// winding number of its own, and a layer is also where it has no triangle, but winds around the
+// cube.
 // Rejected: the layers one after the other, and the union by recursive OR of their nodes (the upper
 // cubes are divided once for each layer).
 #pragma once
@@ -49,9 +50,14 @@ struct DescentConfig {
   bool cubes = true;                 // decide the voxels of the last two levels at once
   bool patches = true;               // also cubes with a near-planar patch; needs `plane_memo`
   PatchConditions patch = {};        // for tests: without all of them voxels are wrong
-  bool with_union = true;            // also keep the union where several layers are
 
   OverlapConfig overlap() const { return {kernels, covering}; }
+};
+
+// A sub-DAG and the sets that share it.
+struct SetsDag {
+  SubDagSets sets;
+  SubDag dag;
 };
 
 class Descent {
@@ -63,15 +69,15 @@ class Descent {
   // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint. The
   // solid rules need the winding numbers at its first_centre().
   void run(const Cube& cube, const TriangleList& list, const LayerWindings& windings = {});
-  // The subject of a cube whose sets are one: no other layer is there, and the union winds like it.
-  std::optional<Subject> only_subject(const TriangleList& list,
-                                      const LayerWindings& windings) const;
+  // The sets of a cube that has one sub-DAG: only one layer is there, and the union winds like it.
+  // Nullopt if it may have several.
+  std::optional<SubDagSets> shared_sets(const TriangleList& list,
+                                        const LayerWindings& windings) const;
   // The winding numbers at the first_centre() of `to`, in the cube `from` of the other arguments.
   LayerWindings windings_at(const Cube& to, const Cube& from, const TriangleList& list,
                             const LayerWindings& windings) const;
   // Adds `cube`, whose sub-DAGs were reduced to the builder's table otherwise.
-  using SubjectDags = std::vector<SubjectDag>;
-  void adopt(const Cube& cube, SubjectDags dags);
+  void add_reduced(const Cube& cube, std::span<const SetsDag> dags);
 
   const DecisionCounts& decisions() const { return decisions_; }
   const PlaneMemoCounts& memo() const { return memo_.counts(); }
@@ -80,44 +86,45 @@ class Descent {
 
  private:
   // A triangle of this cell that was looked up in the memo, and the result.
-  struct Admitted {
+  struct KnownTriangle {
     const TriangleSetup* triangle = nullptr;
-    std::optional<PlaneMemo::AdmittedPlane> known;
+    std::optional<PlaneMemo::AdmittedPlane> plane;
+  };
+  // The sets of voxels in a cube. If they share a sub-DAG, the cube is descended for the union's
+  // triangles and winding number, which are theirs.
+  struct CubeSets {
+    std::optional<SubDagSets> shared;
+    LayerWindings windings;  // at first_centre()
   };
 
   // What a cube needs: nothing, or to be descended, its children as roots since some are done.
   enum class Need { kNothing, kAll, kRest };
-  Need need_of(const Cube& cube, bool is_empty) const;
+  Need need_of(const Cube& cube, const TriangleList& list, const LayerWindings& windings) const;
+  // Calls visit(subject, triangles, winding) for each set, by subject.
+  template <class Visit>
+  static void for_each_set(const TriangleList& list, const CubeSets& sets, const Visit& visit);
   void pause_at(const Cube& cube);
-  SubDag node(const Cube& cube, const TriangleList& list, int32_t winding);
-  SubDag divide(const Cube& cube, const TriangleList& list, int32_t winding, bool as_roots);
-  SubDag full(const Cube& cube, int32_t winding, Need need);
-  // The same for a cube of several layers.
-  void node(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-            SubjectDags* dags);
-  void divide(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-              bool as_roots, SubjectDags* dags);
-  bool find_in_memo(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                    SubjectDags* dags);
-  void bricks(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-              SubjectDags* dags);
-  void add_full(const Cube& cube, const TriangleList& list, const LayerWindings& windings,
-                SubjectDags* dags);
-  void end(const Cube& cube, SubjectDags dags);
+  void node(const Cube& cube, const TriangleList& list, const CubeSets& sets);
+  void divide(const Cube& cube, const TriangleList& list, const CubeSets& sets, bool as_roots);
+  void eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets);
+  void brick(const Cube& cube, const TriangleList& list, const CubeSets& sets);
+  // Adds the sets that have no triangle in the cube and wind around it.
+  void add_full(const Cube& cube, const TriangleList& list, const CubeSets& sets);
+  void add(const Cube& cube, const CubeSets& sets, Subject subject, const SubDag& dag);
+  void add_brick(const Cube& cube, const CubeSets& sets, Subject subject, Brick voxels);
   void update_memo(SubDagBuilder::Pause pause);
+  // Whether the memo knows the sub-DAG of every set; adds them.
+  bool find_in_memo(const Cube& cube, const TriangleList& list, const CubeSets& sets);
   // `sheets`: of the set (builder/winding/crossing.h).
-  std::optional<SubDag> find_in_memo(const Cube& cube, const TriangleList& list, int32_t winding,
-                                     uint32_t sheets);
-  std::optional<SubDag> find_patch(const Cube& cube, const TriangleList& list, int32_t winding,
-                                   uint32_t sheets);
-  FilledSides filled_sides(const Cube& cube, const TriangleList& list, const LatticePlane& plane,
-                           int32_t winding, uint32_t sheets) const;
-  const std::optional<PlaneMemo::AdmittedPlane>& admitted(const TriangleSetup& triangle);
+  std::optional<SubDag> find_set(const Cube& cube, std::span<const ListedTriangle> list,
+                                 int32_t winding, uint32_t sheets);
+  std::optional<SubDag> find_patch(const Cube& cube, std::span<const ListedTriangle> list,
+                                   int32_t winding, uint32_t sheets);
+  FilledSides filled_sides(const Cube& cube, std::span<const ListedTriangle> list,
+                           const LatticePlane& plane, int32_t winding, uint32_t sheets) const;
+  const std::optional<PlaneMemo::AdmittedPlane>& known_plane(const TriangleSetup& triangle);
   Brick voxels_of(const Cube& cube, std::span<const ListedTriangle> list, int32_t winding,
                   uint32_t sheets);
-  SubDag brick(Brick voxels);
-  SubDag eight_bricks(const Cube& cube, const TriangleList& list);
-  Brick selected_voxels(const Cube& cube) const;
 
   Grid grid_;
   DescentConfig config_;
@@ -125,13 +132,14 @@ class Descent {
   NodeTable* table_;  // of the builder
   FullNodes full_;
   PlaneMemo memo_;
-  std::array<Admitted, 64> admitted_;  // direct-mapped, see admitted()
-  double cell_side_ = 0;               // of the cell being baked, in voxels
+  std::array<KnownTriangle, 64> known_;  // direct-mapped, see known_plane()
+  double cell_side_ = 0;                 // of the cell being baked, in voxels
 
   const MortonSet* done_;                           // null: nothing
   bool partly_done_ = false;                        // a part of the cell being baked is in done_
   std::vector<std::array<TriangleList, 8>> lists_;  // [level], reused
-  std::vector<SubjectDags> dags_;                   // [level], reused
+  std::vector<std::array<CubeSets, 8>> sets_;       // [level], reused
+  std::vector<std::pair<Subject, SubDag>> found_;   // in the memo, reused
   std::vector<uint64_t> divided_;
   DecisionCounts decisions_;
 };

@@ -115,7 +115,7 @@ class LabelledReduction {
       add_brick();
       code_ = voxel.brick;
     }
-    const Subject layer = subject_of(voxel.label()) | kApart;
+    const Subject layer = subject_of(voxel.label());
     if (sets_.empty() || sets_.back().subject != layer) sets_.push_back({layer, 0});
     sets_.back().brick |= voxel.bit();
   }

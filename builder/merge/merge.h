@@ -23,7 +23,6 @@
 #include <span>
 #include <vector>
 
-#include "builder/octree/sub_dag_root.h"
 #include "builder/reduce/run.h"
 #include "builder/run/bake_output.h"
 #include "builder/workspace/scratch.h"

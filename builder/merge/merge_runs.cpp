@@ -72,10 +72,10 @@ std::vector<SubDagRoot> numbered_roots(const RunFile& file, uint32_t run, const 
   std::vector<SubDagRoot> roots = file.roots();
   for (SubDagRoot& root : roots) {
     root.run = run;
-    if (!has_layer(root.subject)) continue;
-    const std::string& name = file.layers().layers[layer_of(root.subject)].name;
+    if (!is_layer(root.sets.subject)) continue;
+    const std::string& name = file.layers().layers[layer_of(root.sets.subject)].name;
     const auto at = std::ranges::lower_bound(table.layers, name, {}, &Layer::name);
-    root.subject = subject_of(uint32_t(at - table.layers.begin())) | kApart;
+    root.sets = SubDagSets::only(subject_of(uint32_t(at - table.layers.begin())));
   }
   return roots;
 }

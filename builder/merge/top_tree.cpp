@@ -18,10 +18,10 @@ TopTree::TopTree(std::vector<SubDagRoot> roots, const GridPart& part, bool with_
     : roots_(std::move(roots)), part_(part) {
   // From here on, a root is of one set.
   for (size_t i = 0, count = roots_.size(); i < count; ++i) {
-    const Subject subject = std::exchange(roots_[i].subject, roots_[i].subject & ~kApart);
-    if (!has_layer(subject) || !has_union(subject) || !with_union) continue;
+    const SubDagSets sets = std::exchange(roots_[i].sets, SubDagSets::only(roots_[i].sets.subject));
+    if (!is_layer(sets.subject) || !sets.in_union || !with_union) continue;
     roots_.push_back(roots_[i]);
-    roots_.back().subject = kUnionSet;
+    roots_.back().sets = {};
   }
   std::sort(roots_.begin(), roots_.end(), [](const SubDagRoot& a, const SubDagRoot& b) {
     return level_and_run(a) != level_and_run(b) ? level_and_run(a) < level_and_run(b)
@@ -69,7 +69,7 @@ void TopTree::end_level(int level) {
   });
   std::erase_if(cubes_, [&](const TopCube& cube) {
     const bool top = part_.is_top(level, cube.morton);
-    if (top) tops_.push_back({cube.morton, level, 0, cube.index, cube.subject});
+    if (top) tops_.push_back({cube.morton, level, 0, cube.index, SubDagSets::only(cube.subject)});
     return top;
   });
 }

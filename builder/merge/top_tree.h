@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "builder/octree/grid_part.h"
-#include "builder/octree/sub_dag_root.h"
+#include "builder/reduce/run.h"
 #include "io/dag/node_key.h"
 
 namespace svdag {
@@ -15,7 +15,7 @@ namespace svdag {
 class TopTree {
  public:
   // The roots are in `part`, which must outlive the tree.
-  // `with_union`: whether roots of a layer alone are roots of the union, too.
+  // `with_union`: whether the roots that a layer shares with the union are roots of the union too.
   TopTree(std::vector<SubDagRoot> roots, const GridPart& part, bool with_union = true);
 
   // To be called after level `level` is merged, in this order: resolve_own() with the indices of
@@ -28,7 +28,7 @@ class TopTree {
   template <class Map>
   void resolve_run(int level, uint32_t run, const Map& map) {
     for (auto [root, end] = roots_of(level, run); root != end; ++root)
-      if (map.holds(root->rank)) cubes_.push_back({root->subject, root->morton, map[root->rank]});
+      if (map.holds(root->rank)) cubes_.push_back({root->sets.subject, root->morton, map[root->rank]});
   }
   void end_level(int level);
 

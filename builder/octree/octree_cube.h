@@ -1,6 +1,7 @@
 // A cube of the octree: its level and coordinate.
 #pragma once
 
+#include "io/brick.h"
 #include "io/grid.h"
 
 namespace svdag {
@@ -14,6 +15,11 @@ struct Cube {
     return {level + 1,
             {2 * coordinate.x + (c >> 2 & 1), 2 * coordinate.y + (c >> 1 & 1),
              2 * coordinate.z + (c & 1)}};
+  }
+  // The cube is child(index_in_parent()) of its parent.
+  unsigned index_in_parent() const noexcept {
+    return child_index(unsigned(coordinate.x & 1), unsigned(coordinate.y & 1),
+                       unsigned(coordinate.z & 1));
   }
   // log2 of the side in lattice units, of a grid with `levels` levels.
   int side_log2(int levels) const noexcept { return levels - level + fraction_bits(levels); }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "builder/octree/sub_dag_root.h"
+#include "builder/octree/subject.h"
 #include "builder/overlap/triangle_setup.h"
 
 namespace svdag {
@@ -17,7 +17,8 @@ struct ListedTriangle {
 };
 using TriangleList = std::vector<ListedTriangle>;
 
-// Whether a list that is grouped by layer (all are, if the bake has layers) has one layer alone.
+// Whether all triangles of a list that is grouped by layer are of one layer. In a bake with layers
+// all lists are grouped.
 inline bool is_of_one_layer(const TriangleList& list) {
   return list.empty() ||
          list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "builder/octree/morton.h"
-#include "builder/octree/sub_dag_root.h"
 #include "builder/reduce/run.h"
 
 namespace svdag {
@@ -27,13 +26,14 @@ struct BakedCell {
   uint64_t voxels;
 };
 
-// Adds `voxels`, those of a sub-DAG, to what `subject` names.
-inline void count_voxels(Subject subject, uint64_t voxels, uint64_t* of_union,
+// Adds the `voxels` of a sub-DAG to its sets.
+inline void count_voxels(SubDagSets sets, uint64_t voxels, uint64_t* of_union,
                          std::vector<uint64_t>* of_layers) {
-  if (has_union(subject)) *of_union += voxels;
-  if (!has_layer(subject)) return;
-  if (layer_of(subject) >= of_layers->size()) of_layers->resize(layer_of(subject) + 1);
-  (*of_layers)[layer_of(subject)] += voxels;
+  if (sets.in_union) *of_union += voxels;
+  if (!is_layer(sets.subject)) return;
+  const uint32_t layer = layer_of(sets.subject);
+  if (layer >= of_layers->size()) of_layers->resize(layer + 1);
+  (*of_layers)[layer] += voxels;
 }
 
 struct BakedRun {

@@ -9,19 +9,11 @@ namespace svdag {
 BrickReduction::BrickReduction(SubDagBuilder* builder, bool has_layers)
     : builder_(builder), brick_level_(builder->table()->brick_level()), has_layers_(has_layers) {
   builder_->begin(Cube());
-  builder_->open(Cube());
+  open(Cube());
 }
 
-void BrickReduction::close_last() {
-  const unsigned c = code_at(open_) & 7;
-  if (has_layers_) {
-    dags_.clear();
-    builder_->close(open_, &dags_);
-    for (const auto& [subject, dag] : dags_) builder_->add_child(open_ - 1, c, subject, dag);
-  } else {
-    builder_->add_child(open_ - 1, c, builder_->close(open_));
-  }
-  --open_;
+void BrickReduction::open(const Cube& cube) {
+  builder_->open(cube, has_layers_ ? std::nullopt : std::optional(SubDagSets()));
 }
 
 // Makes the parent of cube `code` of `level` the last cube of the open path.
@@ -29,17 +21,12 @@ void BrickReduction::open_path(uint64_t code, int level) {
   const uint64_t brick = code << (3 * (brick_level_ - level));
   SVDAG_ASSERT(brick >= code_);
   const auto holds = [&](int k) { return brick >> (3 * (brick_level_ - k)) == code_at(k); };
-  while (open_ >= level || !holds(open_)) close_last();
+  while (open_ >= level || !holds(open_)) builder_->close(open_--);
   code_ = brick;
   while (open_ < level - 1) {
     ++open_;
-    builder_->open({open_, unmorton(code_at(open_))});
+    open({open_, unmorton(code_at(open_))});
   }
-}
-
-void BrickReduction::add_child(uint64_t code, int level, const SubDag& dag) {
-  builder_->add_child(level - 1, code & 7, dag);
-  pause(code, level);
 }
 
 void BrickReduction::pause(uint64_t code, int level) {
@@ -48,18 +35,17 @@ void BrickReduction::pause(uint64_t code, int level) {
 }
 
 void BrickReduction::add(uint64_t code, Brick brick) {
-  SVDAG_ASSERT(brick != 0 && !has_layers_);
-  open_path(code, brick_level_);
-  add_child(code, brick_level_,
-            {builder_->table()->add_brick(brick), uint64_t(std::popcount(brick))});
+  SVDAG_ASSERT(!has_layers_);
+  const SubjectBrick of_union{kUnionSet, brick};
+  add(code, std::span(&of_union, 1));
 }
 
 void BrickReduction::add(uint64_t code, std::span<const SubjectBrick> bricks) {
-  SVDAG_ASSERT(has_layers_);
   open_path(code, brick_level_);
   for (const auto& [subject, brick] : bricks) {
+    SVDAG_ASSERT(brick != 0);
     const SubDag dag{builder_->table()->add_brick(brick), uint64_t(std::popcount(brick))};
-    builder_->add_child(brick_level_ - 1, code & 7, subject, dag);
+    builder_->add(brick_level_, code & 7, SubDagSets::only(subject), dag);
   }
   pause(code, brick_level_);
 }
@@ -81,18 +67,13 @@ void BrickReduction::add_full(uint64_t code, int level) {
     return;
   }
   open_path(code, level);
-  add_child(code, level, full_cube(level));
+  builder_->add(level, code & 7, {}, full_cube(level));
+  pause(code, level);
 }
 
 void BrickReduction::finish() {
-  while (open_ > 0) close_last();
-  if (!has_layers_) {
-    builder_->end(Cube(), builder_->close(0));
-    return;
-  }
-  dags_.clear();
-  builder_->close(0, &dags_);
-  builder_->end(Cube(), dags_);
+  while (open_ >= 0) builder_->close(open_--);
+  builder_->end();
 }
 
 }  // namespace svdag

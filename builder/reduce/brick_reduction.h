@@ -7,13 +7,12 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "builder/reduce/sub_dag_builder.h"
 
 namespace svdag {
 
-// What a brick holds of one set.
+// The voxels of a brick that are of one set.
 struct SubjectBrick {
   Subject subject;
   Brick brick;  // not zero
@@ -25,7 +24,7 @@ class BrickReduction {
 
   // Adds a brick that is not zero. `code`: Morton code of its position in bricks; ascending.
   void add(uint64_t code, Brick brick);
-  // The same with layers: the brick of the union, and of each layer with kApart.
+  // The same with layers: the brick of the union, and of each layer.
   void add(uint64_t code, std::span<const SubjectBrick> bricks);
   // Without layers: adds a cube of `level` < levels - 2 whose voxels are all set. `code`: Morton
   // code of its position among the cubes of its level; it follows all that was added before.
@@ -35,18 +34,16 @@ class BrickReduction {
 
  private:
   uint64_t code_at(int level) const { return code_ >> (3 * (brick_level_ - level)); }
+  void open(const Cube& cube);
   void open_path(uint64_t code, int level);
-  void close_last();
   SubDag full_cube(int level);
-  void add_child(uint64_t code, int level, const SubDag& dag);
   void pause(uint64_t code, int level);
 
   SubDagBuilder* builder_;
   const int brick_level_;
   const bool has_layers_;
-  std::vector<SubjectDag> dags_;  // reused
-  int open_ = 0;                  // level of the last cube of the open path
-  uint64_t code_ = 0;             // Morton code of a brick in it
+  int open_ = 0;       // level of the last cube of the open path
+  uint64_t code_ = 0;  // Morton code of a brick in it
 };
 
 }  // namespace svdag

@@ -26,34 +26,40 @@ SubDagBuilder::SubDagBuilder(int levels, SubDagBuilderConfig config)
       path_(size_t(levels)) {}
 
 void SubDagBuilder::begin(const Cube& cube) {
+  begun_ = cube;
   first_level_ = cube.level;
   finished_end_ = morton_range(cube, table_.levels()).begin;
 }
 
-SubDagBuilder::Pause SubDagBuilder::end(const Cube& cube) {
-  const uint64_t end = morton_range(cube, table_.levels()).end;
-  const Pause paused = pause(cube.level, end);
+SubDagBuilder::Pause SubDagBuilder::end() {
+  const uint64_t end = morton_range(begun_, table_.levels()).end;
+  const Pause paused = pause(begun_.level, end);
   append_range(&finished_, {finished_end_, end});
   return paused;
 }
 
-void SubDagBuilder::close(int level, std::vector<SubjectDag>* dags) {
+// A sub-DAG that a layer shares with the union is a child in both.
+void SubDagBuilder::add_to_several(OpenCube* parent, unsigned c, SubDagSets sets,
+                                   const SubDag& dag) {
+  const auto add_to = [&](Subject subject) {
+    const auto at = std::ranges::lower_bound(parent->nodes, subject, {},
+                                             [](const OpenNode& n) { return Subject(n.sets.subject); });
+    const bool found = at != parent->nodes.end() && at->sets.subject == subject;
+    OpenNode& node = found ? *at : *parent->nodes.insert(at, {SubDagSets::only(subject)});
+    node.add(c, dag);
+  };
+  if (sets.in_union && config_.with_union) add_to(kUnionSet);
+  if (is_layer(sets.subject)) add_to(sets.subject);
+}
+
+void SubDagBuilder::close(int level) {
   OpenCube& cube = path_[size_t(level)];
-  if (cube.as_roots) make_roots(&cube);
-  auto& children = cube.of_layers;
-  std::stable_sort(children.begin(), children.end(),
-                   [](const auto& a, const auto& b) { return a.subject < b.subject; });
-  for (auto at = children.begin(); at != children.end();) {
-    const Subject subject = at->subject;
-    NodeKey key{};
-    uint64_t voxels = 0;
-    for (; at != children.end() && at->subject == subject; ++at) {
-      key[at->c] = at->root;
-      voxels += at->voxels;
-    }
-    dags->push_back({subject, {table_.add_node(level, key), voxels}});
+  if (cube.as_roots) return make_roots(&cube);
+  const unsigned c = cube.cube.index_in_parent();
+  for (const OpenNode& node : cube.nodes) {
+    if (node.voxels != 0)
+      add(level, c, node.sets, {table_.add_node(level, node.children), node.voxels});
   }
-  children.clear();
 }
 
 bool SubDagBuilder::is_late() const {
@@ -94,8 +100,9 @@ void SubDagBuilder::reset() {
 void SubDagBuilder::flush(int level) {
   table_.flush();
   for (int k = first_level_; k < level; ++k) {
-    for (uint32_t& child : path_[size_t(k)].children) child = table_.settled(k + 1, child);
-    for (auto& child : path_[size_t(k)].of_layers) child.root = table_.settled(k + 1, child.root);
+    for (OpenNode& node : path_[size_t(k)].nodes) {
+      for (uint32_t& child : node.children) child = table_.settled(k + 1, child);
+    }
   }
   for (; settled_roots_ < roots_.size(); ++settled_roots_) {
     SubDagRoot& root = roots_[settled_roots_];
@@ -103,13 +110,20 @@ void SubDagBuilder::flush(int level) {
   }
 }
 
+void SubDagBuilder::add_root(const Cube& cube, SubDagSets sets, uint32_t node, uint64_t voxels) {
+  if (!is_layer(sets.subject) && !config_.with_union) return;
+  roots_.push_back({morton(cube.coordinate), cube.level, 0, node - 1, sets});
+  count_voxels(sets, voxels, &voxels_, &layer_voxels_);
+}
+
 void SubDagBuilder::make_roots(OpenCube* cube) {
-  for (unsigned c = 0; c < 8; ++c) add_root(cube->cube.child(c), subject_, cube->children[c]);
-  cube->children.fill(0);
-  count_voxels(subject_, std::exchange(cube->voxels, 0), &voxels_, &layer_voxels_);
-  for (const auto& child : cube->of_layers)
-    add_root(cube->cube.child(child.c), child.subject, child.root, child.voxels);
-  cube->of_layers.clear();
+  for (OpenNode& node : cube->nodes) {
+    uint64_t voxels = std::exchange(node.voxels, 0);  // counted with the first root
+    for (unsigned c = 0; c < 8; ++c) {
+      if (const uint32_t child = std::exchange(node.children[c], 0); child != 0)
+        add_root(cube->cube.child(c), node.sets, child, std::exchange(voxels, 0));
+    }
+  }
 }
 
 BakedRun SubDagBuilder::take_run(const SpillTarget* target) {

@@ -8,9 +8,10 @@ namespace svdag {
 
 void DagOutput::finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
                        LayerTable layers) {
-  for (const SubDagRoot& root : roots)
-    (has_layer(root.subject) ? layers.layers[layer_of(root.subject)].root : layers.union_root) =
-        root.rank;
+  for (const SubDagRoot& root : roots) {
+    const Subject subject = root.sets.subject;
+    (is_layer(subject) ? layers.layers[layer_of(subject)].root : layers.union_root) = root.rank;
+  }
   writer_.finish(voxels, largest_snap, std::move(layers));
 }
 

@@ -162,7 +162,7 @@ void RunFile::read_roots(MemoryBudget* budget) {
     require_run(std::pair(position, set) >= next && part_.is_top(int(level), root.code), file_,
                 "a root is not a top of the part or not in order", offsetof(RunHeader, roots));
     next = {position, set + 1};
-    roots_.push_back({root.code, int32_t(level), 0, root.rank, set});
+    roots_.push_back({root.code, int32_t(level), 0, root.rank, SubDagSets::only(set)});
   }
 }
 

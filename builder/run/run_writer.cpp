@@ -31,7 +31,8 @@ std::vector<SubDagRoot> sort_layers(std::span<const SubDagRoot> roots, LayerTabl
   table->layers = std::move(sorted);
   std::vector<SubDagRoot> renumbered(roots.begin(), roots.end());
   for (SubDagRoot& root : renumbered) {
-    if (has_layer(root.subject)) root.subject = subject_of(number[layer_of(root.subject)]);
+    const Subject subject = root.sets.subject;
+    if (is_layer(subject)) root.sets = SubDagSets::only(subject_of(number[layer_of(subject)]));
   }
   return renumbered;
 }
@@ -108,11 +109,12 @@ void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
     return root.morton << 3 * (part_.levels() - root.level);
   };
   std::sort(sorted.begin(), sorted.end(), [&](const SubDagRoot& a, const SubDagRoot& b) {
-    return std::pair(position(a), a.subject) < std::pair(position(b), b.subject);
+    return std::pair(position(a), Subject(a.sets.subject)) <
+           std::pair(position(b), Subject(b.sets.subject));
   });
   for (const SubDagRoot& root : sorted) {
     SVDAG_ASSERT(part_.is_top(root.level, root.morton));
-    const StoredRoot out = {root.morton, uint32_t(root.level) | root.subject << 8, root.rank};
+    const StoredRoot out = {root.morton, uint32_t(root.level) | root.sets.subject << 8, root.rank};
     append(&out, sizeof out);
   }
   header_.roots = sorted.size();

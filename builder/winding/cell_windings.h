@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "builder/octree/sub_dag_root.h"
+#include "builder/octree/subject.h"
 #include "builder/winding/winding_lines.h"
 #include "streaming/memory/memory_budget.h"
 

@@ -30,7 +30,7 @@ class ActingStore final : public CellStore {
     std::call_once(once_, action_);
     return {};
   }
-  bool take(const CellKey&, const Cube&, Subject) override { return false; }
+  bool take(const CellKey&, const Cube&, SubDagSets) override { return false; }
   void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>&,
                   const std::function<void(BakedRun)>&) override {}
   void keep(const BakedRun&, SpillFile*) override {}

@@ -82,7 +82,7 @@ TEST(PlaneMemo, ComputesAboutOneNodePerNodeOfTheResult) {
   MemoryBudget budget;
   NodeTable table(kLevels, &budget);
   const TriangleSetup t = make_setup(covering(random, middle, false, false));
-  FullNodes full(&table);
+  FullNodes full(test_grid(), &table);
   PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table, &full);
   const auto known = memo.admit(t, 4096);
   ASSERT_TRUE(known.has_value());
@@ -105,7 +105,7 @@ TEST(PlaneMemo, ComputesAboutOneNodePerNodeOfTheResult) {
 TEST(PlaneMemo, AdmitsATessellatedWallOnceItsTrianglesRepeat) {
   MemoryBudget budget;
   NodeTable table(kLevels, &budget);
-  FullNodes full(&table);
+  FullNodes full(test_grid(), &table);
   PlaneMemo memo(kLevels, Rule::kConservative, &kernels(), 1, &table, &full);
   const int64_t voxel = int64_t(1) << fraction_bits(kLevels);
   int rejected = 0;
