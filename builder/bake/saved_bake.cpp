@@ -132,7 +132,7 @@ void put_roots(const std::vector<SubDagRoot>& roots, RecordWriter* out) {
     out->put(root.morton);
     out->put(root.level);
     out->put(root.rank);
-    out->put(uint32_t(root.sets.subject) | (root.sets.in_union ? 0 : kNotInUnion));
+    out->put(root.sets.subject | (root.sets.in_union ? 0 : kNotInUnion));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "builder/descend/voxelize_window.h"
+#include "builder/overlap/kernels/rules.h"
 
 namespace svdag {
 
@@ -18,7 +19,7 @@ DenseCube::DenseCube(const Grid& grid, const Cube& cube, const DescentConfig& co
   reservation_ = budget->reserve(bricks * per_brick, "voxels of a dense cube");
   bricks_.assign(bricks, 0);
   if (!solid) return;
-  surface_.rule = Rule::kConservative;
+  surface_.rule = surface_rule(rule_).rule;
   lines_.emplace(grid.levels, cube, grid.levels);
   steps_.assign(lines_->points(), 0);
 }

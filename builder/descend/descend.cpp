@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "builder/overlap/kernels/rules.h"
 #include "builder/winding/crossing.h"
 #include "streaming/process/interrupt.h"
 
@@ -25,6 +26,7 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* b
                  const MortonSet* done)
     : grid_(grid),
       config_(config),
+      voxels_(config.kernels->*surface_rule(config.rule).kernels),
       builder_(builder),
       table_(builder->table()),
       full_(grid, table_),
@@ -294,12 +296,10 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
                          uint32_t sheets) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
-  const auto kernel =
-      config_.rule == Rule::kThin ? config_.kernels->thin : config_.kernels->conservative;
   if (!is_solid(config_.rule))
-    return kernel(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+    return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
   const Brick touched =
-      kernel(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &decisions_);
+      voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &decisions_);
   Brick voxels = touched;
   for_each_untouched(list, corner, grid_.fraction(), winding, touched, sheets,
                      [&](Brick component, int32_t at) {
@@ -312,10 +312,8 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
 void Descent::eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
   ++divided_[size_t(cube.level)];
   Brick bricks[8];
-  const auto kernel =
-      config_.rule == Rule::kThin ? config_.kernels->thin_cube : config_.kernels->conservative_cube;
-  const uint32_t voxels = kernel(list.data(), list.size(), cube.corner(grid_.levels),
-                                 grid_.fraction(), config_.covering, bricks, &decisions_);
+  const uint32_t voxels = voxels_.cube(list.data(), list.size(), cube.corner(grid_.levels),
+                                       grid_.fraction(), config_.covering, bricks, &decisions_);
   if (voxels == 0) return;
   unsigned children = 0;
   for (unsigned c = 0; c < 8; ++c) children |= unsigned(bricks[c] != 0) << c;

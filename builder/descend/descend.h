@@ -128,6 +128,7 @@ class Descent {
 
   Grid grid_;
   DescentConfig config_;
+  RuleKernels voxels_;  // of the rule
   SubDagBuilder* builder_;
   NodeTable* table_;  // of the builder
   FullNodes full_;

@@ -77,21 +77,18 @@ PlaneHeights PlaneContents::heights_of(const int64_t n[3]) const {
     if (std::abs(n[a]) > std::abs(n[w])) w = a;
   }
   const int64_t c = std::abs(n[w]);
-  int64_t negative = 0, positive = 0;
-  for (int a = 0; a < 3; ++a) (n[a] < 0 ? negative : positive) += n[a];
-  // Rule thin: the first voxel is set iff o in (m - d, m + d], m = F (negative + positive) / 2 and
-  // d = c F / 2, so height 0 is at m - d, plus 1 for the half-open end.
-  const int64_t corner = rule_ == Rule::kThin ? ((negative + positive - c) << (fraction - 1)) + 1
-                                              : negative << fraction;
+  int64_t negative = 0;
+  for (int a = 0; a < 3; ++a) negative += std::min<int64_t>(n[a], 0);
   const auto step = [&](int64_t m) {
     return int32_t(std::lrint(std::ldexp(double(std::abs(m)), kHeightBits) / double(c)));
   };
   PlaneHeights h;
-  h.zero = corner + 7 * (negative << fraction);
+  h.zero = rule_.voxel_offsets(n, fraction).low + 7 * (negative << fraction);
   h.unit = c << fraction;
   h.scale = std::ldexp(1.0, kHeightBits) / double(h.unit);
   h.step_u = step(n[(w + 1) % 3]);
   h.step_v = step(n[(w + 2) % 3]);
+  h.drop = rule_.is_one_per_column ? 0 : h.step_u + h.step_v;
   const unsigned reflected = unsigned(n[0] < 0) << 2 | unsigned(n[1] < 0) << 1 | unsigned(n[2] < 0);
   h.orientation = w | reflected << 2;
   return h;
@@ -155,15 +152,15 @@ PlaneAnswer PlaneContents::find(const PlaneHeights& plane, const Query& q,
 // side is filled by moving the heights that bound the plane's own voxels out of the brick.
 Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first, FilledSides sides) const {
   const Axes axes(p.orientation);
-  int32_t drop = rule_ == Rule::kThin ? 0 : p.step_u + p.step_v;
+  int32_t drop = p.drop;
   if ((sides & kLowSide) != 0) drop += kBeyondBrick;
   if ((sides & kHighSide) != 0) first += kBeyondBrick, drop += kBeyondBrick;
-  BrickLayers layers = kernels_->layers(first, p.step_u, p.step_v, drop);
+  BrickSlabs slabs = kernels_->slabs(first, p.step_u, p.step_v, drop);
   const std::array<Brick, 16>& rows = kRows[axes.v][axes.flip(axes.v) != 0];
   Brick voxels = 0;
   for (unsigned k = 0; k < 4; ++k) {
-    for (unsigned i = 0; i < 4; ++i, layers >>= 4) {
-      voxels |= rows[layers & 15] << (kBrickBit[axes.w][k ^ axes.flip(axes.w)] +
+    for (unsigned i = 0; i < 4; ++i, slabs >>= 4) {
+      voxels |= rows[slabs & 15] << (kBrickBit[axes.w][k ^ axes.flip(axes.w)] +
                                       kBrickBit[axes.u][i ^ axes.flip(axes.u)]);
     }
   }

@@ -9,7 +9,8 @@
 // negative are reflected. In reflected coordinates, in voxels, the plane's height over the point
 // (i, j) is
 //   h(i, j) = (o - zero) / (c F) - i |n_u| / c - j |n_v| / c,
-//   zero = 8 F s for s the sum of the negative components of n (rule thin: see heights_of()).
+//   zero = 7 F s + the first offset that sets the voxel at the corner, for s the sum of the negative
+//   components of n (so 8 F s, except for rule thin, where the end is half-open).
 // Voxel (i, j, k) is set iff k <= h(i, j) and h(i+1, j+1) <= k + 1 (thin: iff k = floor h(i, j)).
 // So if no height is an integer, column (i, j) holds floor h(i+1, j+1) ... floor h(i, j) (thin:
 // floor h(i, j)), as far as that is in 0 ... 7. Clamping the heights to [-1/2, 8 1/2] changes no
@@ -39,10 +40,9 @@
 #include <span>
 #include <vector>
 
-#include "builder/overlap/kernels/kernels.h"
+#include "builder/overlap/kernels/rules.h"
 #include "builder/overlap/lattice_plane.h"
 #include "builder/reduce/node_table.h"
-#include "io/dag/format.h"
 #include "io/grid.h"
 #include "streaming/memory/huge_pages.h"
 
@@ -88,6 +88,7 @@ struct PlaneHeights {
   int64_t unit;            // offset per voxel of height
   double scale;            // heights per offset, in units of 2^-kHeightBits voxels
   int32_t step_u, step_v;  // in these units
+  int32_t drop;            // h(i, j) - drop is the lowest height in column (i, j)
   uint32_t orientation;    // w, and above it a bit per reflected axis
 };
 
@@ -104,7 +105,7 @@ class PlaneContents {
   };
 
   PlaneContents(int levels, Rule rule, const Kernels* kernels, NodeTable* table)
-      : levels_(levels), rule_(rule), kernels_(kernels), table_(table) {}
+      : levels_(levels), rule_(surface_rule(rule)), kernels_(kernels), table_(table) {}
 
   // Level of the cubes.
   int level() const { return levels_ - 3; }
@@ -144,7 +145,7 @@ class PlaneContents {
   Brick brick_voxels(const PlaneHeights& plane, int32_t first, FilledSides sides) const;
 
   int levels_;
-  Rule rule_;
+  const SurfaceRule& rule_;
   const Kernels* kernels_;
   NodeTable* table_;
   HugePages memory_;

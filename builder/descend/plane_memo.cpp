@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "builder/overlap/brick_tables.h"
+#include "builder/overlap/kernels/rules.h"
 
 namespace svdag {
 namespace {
@@ -169,14 +170,7 @@ void PlaneMemo::add_plane(const Normal& normal) {
 
 PlaneBrick PlaneMemo::make_plane_brick(const Plane& p) const {
   const int fraction = fraction_bits(levels_);
-  // The range of offsets that set the voxel at the corner.
-  int64_t first = p.negative << fraction, last = p.positive << fraction;
-  if (rule_ == Rule::kThin) {
-    const int64_t dominant = std::max({std::abs(p.n[0]), std::abs(p.n[1]), std::abs(p.n[2])});
-    const int64_t centre = (p.negative + p.positive) << (fraction - 1);
-    first = centre - (dominant << (fraction - 1)) + 1;
-    last = centre + (dominant << (fraction - 1));
-  }
+  const auto [first, last] = surface_rule(rule_).voxel_offsets(p.n, fraction);
   PlaneBrick brick;
   brick.span = last - first;
   for (unsigned c = 0; c < 8; ++c) {

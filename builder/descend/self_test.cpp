@@ -1,6 +1,7 @@
 #include "builder/descend/self_test.h"
 
 #include "builder/descend/voxelize_window.h"
+#include "builder/overlap/kernels/rules.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
 
@@ -60,12 +61,11 @@ Hash128 hash_of_voxels(const DescentConfig& config, uint64_t* bricks) {
 
 uint64_t self_test(const DescentConfig& config) {
   uint64_t bricks = 0;
-  DescentConfig surface = config;  // the triangles bound no solid
-  if (is_solid(config.rule)) surface.rule = Rule::kConservative;
+  const SurfaceRule& rule = surface_rule(config.rule);
+  DescentConfig surface = config;
+  surface.rule = rule.rule;  // the triangles bound no solid
   const std::string found = to_hex(hash_of_voxels(surface, &bricks));
-  const char* expected = config.rule == Rule::kThin ? "46fe9462a409d09ba88bfb5c1a55ae18"
-                                                    : "50597f380fa601c724e6f99b8d00c7f5";
-  if (found != expected)
+  if (found != rule.self_test_hash)
     throw Error(ExitCode::kInternal, std::string("the self-test of the voxelizer failed: this "
                                                  "machine or this build computes wrong voxels "
                                                  "(kernels ") +

@@ -26,14 +26,13 @@ constexpr uint32_t layer_of(Subject subject) {
 // The sets that have a sub-DAG in common. In a cube that only one layer touches, the layer's voxels
 // are the union's, so both have the same sub-DAG; elsewhere each set has its own.
 struct SubDagSets {
-  Subject subject : 31 = kUnionSet;
-  uint32_t in_union : 1 = true;  // also the union's; always true if `subject` is the union
+  Subject subject = kUnionSet;
+  bool in_union = true;  // also the union's; always true if `subject` is the union
 
   static constexpr SubDagSets only(Subject subject) { return {subject, subject == kUnionSet}; }
   // Of `subject` and the union.
   static constexpr SubDagSets with_union(Subject subject) { return {subject, true}; }
 };
-static_assert(sizeof(SubDagSets) == 4);
 
 // Whether a triangle counts alike for the windings of its layer and of the union (io/triangle.h).
 constexpr bool is_sheet_of_both_or_none(uint32_t sheet) {

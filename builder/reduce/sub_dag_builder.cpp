@@ -42,9 +42,8 @@ SubDagBuilder::Pause SubDagBuilder::end() {
 void SubDagBuilder::add_to_several(OpenCube* parent, unsigned c, SubDagSets sets,
                                    const SubDag& dag) {
   const auto add_to = [&](Subject subject) {
-    const auto at = std::ranges::lower_bound(parent->nodes, subject, {},
-                                             [](const OpenNode& n) { return Subject(n.sets.subject); });
-    const bool found = at != parent->nodes.end() && at->sets.subject == subject;
+    const auto at = std::ranges::lower_bound(parent->nodes, subject, {}, &OpenNode::subject);
+    const bool found = at != parent->nodes.end() && at->subject() == subject;
     OpenNode& node = found ? *at : *parent->nodes.insert(at, {SubDagSets::only(subject)});
     node.add(c, dag);
   };

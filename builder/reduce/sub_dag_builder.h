@@ -95,6 +95,7 @@ class SubDagBuilder {
     NodeKey children = {};  // 1 + handle each; 0: empty
     uint64_t voxels = 0;    // of the children
 
+    Subject subject() const { return sets.subject; }
     void add(unsigned c, const SubDag& dag) {
       children[c] = dag.root;
       voxels += dag.voxels;

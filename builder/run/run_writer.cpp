@@ -109,8 +109,7 @@ void RunWriter::append_roots(std::span<const SubDagRoot> roots) {
     return root.morton << 3 * (part_.levels() - root.level);
   };
   std::sort(sorted.begin(), sorted.end(), [&](const SubDagRoot& a, const SubDagRoot& b) {
-    return std::pair(position(a), Subject(a.sets.subject)) <
-           std::pair(position(b), Subject(b.sets.subject));
+    return std::pair(position(a), a.sets.subject) < std::pair(position(b), b.sets.subject);
   });
   for (const SubDagRoot& root : sorted) {
     SVDAG_ASSERT(part_.is_top(root.level, root.morton));

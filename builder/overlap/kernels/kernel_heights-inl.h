@@ -56,11 +56,11 @@ ColumnParities heights(int32_t first, int32_t step_u, int32_t step_v) noexcept {
 alignas(32) constexpr int32_t kBrickI[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(32) constexpr int32_t kBrickJ[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 
-BrickLayers layers(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
+BrickSlabs slabs(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
   constexpr int32_t kVoxel = 1 << kHeightBits;
   const Ints d;
   const auto corner = hn::Set(d, first), u = hn::Set(d, step_u), v = hn::Set(d, step_v);
-  BrickLayers out = 0;
+  BrickSlabs out = 0;
   for (size_t lane = 0; lane < 16; lane += kInts) {
     const auto row = hn::Sub(corner, hn::Mul(hn::Load(d, kBrickI + lane), u));
     const auto top = hn::Sub(row, hn::Mul(hn::Load(d, kBrickJ + lane), v));
@@ -68,7 +68,7 @@ BrickLayers layers(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) 
     for (int k = 0; k < 4; ++k) {
       const auto set = hn::And(hn::Gt(top, hn::Set(d, k * kVoxel - 1)),
                                hn::Gt(hn::Set(d, (k + 1) * kVoxel), bottom));
-      out |= BrickLayers(bits(d, set)) << (16 * unsigned(k) + lane);
+      out |= BrickSlabs(bits(d, set)) << (16 * unsigned(k) + lane);
     }
   }
   return out;

@@ -85,15 +85,15 @@ ColumnParities plain_heights(int32_t first, int32_t step_u, int32_t step_v) noex
   return out;
 }
 
-BrickLayers plain_layers(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
-  BrickLayers layers = 0;
+BrickSlabs plain_slabs(int32_t first, int32_t step_u, int32_t step_v, int32_t drop) noexcept {
+  BrickSlabs slabs = 0;
   for (int bit = 0; bit < 64; ++bit) {
     const int k = bit >> 4, i = bit >> 2 & 3, j = bit & 3;
     const int32_t h = first - i * step_u - j * step_v;
     const bool set = k <= h >> kHeightBits && (h - drop) >> kHeightBits <= k;
-    layers |= BrickLayers(set) << bit;
+    slabs |= BrickSlabs(set) << bit;
   }
-  return layers;
+  return slabs;
 }
 
 }  // namespace
@@ -102,13 +102,12 @@ const Kernels& plain_kernels() {
   static constexpr Kernels kPlain = {"plain",
                                      1,
                                      plain_children,
-                                     plain_voxels<overlap_brick>,
-                                     plain_voxels<overlap_brick_thin>,
-                                     plain_cube<overlap_brick>,
-                                     plain_cube<overlap_brick_thin>,
+                                     {plain_voxels<overlap_brick>, plain_cube<overlap_brick>},
+                                     {plain_voxels<overlap_brick_thin>,
+                                      plain_cube<overlap_brick_thin>},
                                      plain_plane,
                                      plain_heights,
-                                     plain_layers};
+                                     plain_slabs};
   return kPlain;
 }
 

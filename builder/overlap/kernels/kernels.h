@@ -49,11 +49,28 @@ struct ColumnParities {
   int32_t min_fraction, max_fraction;
 };
 
-// The voxels of a brick by layers: bit 16 k + 4 i + j is set iff k <= h(i, j) and h(i, j) - drop <
-// k + 1, for heights h(i, j) = first - i step_u - j step_v as above, not clamped.
-using BrickLayers = uint64_t;
+// The voxels of a brick by slabs of height k: bit 16 k + 4 i + j is set iff k <= h(i, j) and
+// h(i, j) - drop < k + 1, for heights h(i, j) = first - i step_u - j step_v as above, not clamped.
+using BrickSlabs = uint64_t;
 
 constexpr int64_t kFarOffset = std::numeric_limits<int64_t>::max() / 2;  // beyond every offset
+
+// The kernels of a rule.
+struct RuleKernels {
+  // The voxels among `candidates` that any of the entries sets, in the brick at `corner`.
+  using BrickVoxels = Brick (*)(const ListedTriangle* entries, size_t count,
+                                const LatticePoint& corner, int fraction, Brick candidates,
+                                DecisionCounts* counts) noexcept;
+  // The voxels of the cube of 8^3 at `corner`: out[c], the brick of child c. As Kernels::children
+  // and `brick` for each child, but without lists. `covering`: see OverlapConfig. Returns the
+  // number of voxels.
+  using CubeVoxels = uint32_t (*)(const ListedTriangle* entries, size_t count,
+                                  const LatticePoint& corner, int fraction, bool covering,
+                                  Brick out[8], DecisionCounts* counts) noexcept;
+
+  BrickVoxels brick;
+  CubeVoxels cube;
+};
 
 struct Kernels {
   // Sets out[i], for each of `count` entries, to the children of a cube that the triangle may
@@ -61,33 +78,20 @@ struct Kernels {
   // two).
   using Children = void (*)(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                             int64_t side, ChildOverlap* out) noexcept;
-  // The voxels among `candidates` that any of the entries sets, in the brick at `corner`.
-  using Voxels = Brick (*)(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
-                           int fraction, Brick candidates, DecisionCounts* counts) noexcept;
-
-  // The voxels of the cube of 8^3 at `corner`: out[c], the brick of child c. As `children` and the
-  // kernel of voxels for each child, but without lists. `covering`: see OverlapConfig. Returns the
-  // number of voxels.
-  using CubeVoxels = uint32_t (*)(const ListedTriangle* entries, size_t count,
-                                  const LatticePoint& corner, int fraction, bool covering,
-                                  Brick out[8], DecisionCounts* counts) noexcept;
-
   using Plane = PlaneVoxels (*)(const PlaneBrick& plane, int64_t low, int64_t high) noexcept;
 
   using Heights = ColumnParities (*)(int32_t first, int32_t step_u, int32_t step_v) noexcept;
-  using Layers = BrickLayers (*)(int32_t first, int32_t step_u, int32_t step_v,
-                                 int32_t drop) noexcept;
+  using Slabs = BrickSlabs (*)(int32_t first, int32_t step_u, int32_t step_v,
+                               int32_t drop) noexcept;
 
   const char* name;  // of the instruction set
   int lanes;         // floats per vector
   Children children;
-  Voxels conservative;
-  Voxels thin;
-  CubeVoxels conservative_cube;
-  CubeVoxels thin_cube;
+  RuleKernels conservative;
+  RuleKernels thin;
   Plane plane;
   Heights heights;
-  Layers layers;
+  Slabs slabs;
 };
 
 // The reference: one triangle after the other, by builder/overlap/overlap.h.

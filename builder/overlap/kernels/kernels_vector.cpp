@@ -14,8 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 
 Kernels kernels_of_target() {
-  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, conservative, thin,
-          conservative_cube,           thin_cube,     plane,    heights,      layers};
+  return {hwy::TargetName(HWY_TARGET),
+          int(kSixteen),
+          children,
+          {conservative, conservative_cube},
+          {thin, thin_cube},
+          plane,
+          heights,
+          slabs};
 }
 
 }  // namespace svdag::HWY_NAMESPACE

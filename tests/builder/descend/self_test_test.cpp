@@ -28,19 +28,19 @@ TEST(SelfTest, ComparesAHundredThousandVoxelsWithEveryKernel) {
 
 int correct_calls = 0;  // calls left before the wrong one
 
-template <Kernels::Voxels Kernels::*kVoxels>
+template <RuleKernels Kernels::*kRule>
 Brick err_once(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                int fraction, Brick wanted, DecisionCounts* counts) noexcept {
-  const Brick brick = (plain_kernels().*kVoxels)(entries, count, corner, fraction, wanted, counts);
+  const Brick brick = (plain_kernels().*kRule).brick(entries, count, corner, fraction, wanted, counts);
   return correct_calls-- == 0 ? brick ^ (wanted & -wanted) : brick;
 }
 
-template <Kernels::CubeVoxels Kernels::*kVoxels>
+template <RuleKernels Kernels::*kRule>
 uint32_t err_once_in_cube(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                           int fraction, bool covering, Brick out[8],
                           DecisionCounts* counts) noexcept {
   const uint32_t voxels =
-      (plain_kernels().*kVoxels)(entries, count, corner, fraction, covering, out, counts);
+      (plain_kernels().*kRule).cube(entries, count, corner, fraction, covering, out, counts);
   if (correct_calls-- != 0) return voxels;
   out[3] ^= 1;
   return (out[3] & 1) != 0 ? voxels + 1 : voxels - 1;
@@ -48,10 +48,9 @@ uint32_t err_once_in_cube(const ListedTriangle* entries, size_t count, const Lat
 
 TEST(SelfTest, FindsOneWrongVoxel) {
   Kernels kernels = plain_kernels();
-  kernels.conservative = err_once<&Kernels::conservative>;
-  kernels.thin = err_once<&Kernels::thin>;
-  kernels.conservative_cube = err_once_in_cube<&Kernels::conservative_cube>;
-  kernels.thin_cube = err_once_in_cube<&Kernels::thin_cube>;
+  kernels.conservative = {err_once<&Kernels::conservative>,
+                          err_once_in_cube<&Kernels::conservative>};
+  kernels.thin = {err_once<&Kernels::thin>, err_once_in_cube<&Kernels::thin>};
   for (const Rule rule : kRules) {
     for (const bool cubes : {false, true}) {
       for (const int correct : {0, 10, 100}) {

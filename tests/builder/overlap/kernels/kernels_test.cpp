@@ -78,14 +78,14 @@ TEST(Kernels, SetTheVoxelsOfThePlainOnes) {
     DecisionCounts counts;
     const Kernels& plain = plain_kernels();
     const Brick conservative =
-        plain.conservative(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
+        plain.conservative.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
     const Brick thin =
-        plain.thin(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
+        plain.thin.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
     for (const Kernels& k : all) {
-      ASSERT_EQ(k.conservative(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
+      ASSERT_EQ(k.conservative.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
                 conservative)
           << k.name;
-      ASSERT_EQ(k.thin(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts), thin)
+      ASSERT_EQ(k.thin.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts), thin)
           << k.name;
     }
   }
@@ -163,13 +163,13 @@ TEST(Kernels, SetTheVoxelsOfACubeAsBrickByBrick) {
     for (const Kernels& k : all) {
       for (const bool covering : {false, true}) {
         Brick ours[8];
-        ASSERT_EQ(k.conservative_cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours,
+        ASSERT_EQ(k.conservative.cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours,
                                       &counts),
                   voxels)
             << k.name;
         ASSERT_TRUE(std::equal(ours, ours + 8, truth)) << k.name;
         ASSERT_EQ(
-            k.thin_cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours, &counts),
+            k.thin.cube(list.data(), list.size(), LatticePoint(0), kF, covering, ours, &counts),
             voxels_thin)
             << k.name;
         ASSERT_TRUE(std::equal(ours, ours + 8, truth_thin)) << k.name;
@@ -223,7 +223,7 @@ TEST(Kernels, AgreeOnTheHeightsOfAPlane) {
       ASSERT_EQ(ours.min_fraction, truth.min_fraction) << k.name;
       ASSERT_EQ(ours.max_fraction, truth.max_fraction) << k.name;
       for (const int32_t drop : {0, u + v})
-        ASSERT_EQ(k.layers(first, u, v, drop), plain_kernels().layers(first, u, v, drop)) << k.name;
+        ASSERT_EQ(k.slabs(first, u, v, drop), plain_kernels().slabs(first, u, v, drop)) << k.name;
     }
   }
 }
