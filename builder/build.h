@@ -36,23 +36,14 @@ struct ReadySplit {
 // Default of --checkpoint, in seconds.
 constexpr double kCheckpointSeconds = 30;
 
-struct BuildConfig {
+struct BuildConfig : ContentOptions {
   SceneConfig scene;
   const ReadySplit* ready = nullptr;  // replaces `scene` and the grid options
   std::string output;                 // path; `.run` writes a run file, any other name a `.svdag`
   std::optional<CellRange> part;      // bakes only these cells; the output is a `.run`
-  int levels = 0;                     // -r: L of the grid; 0 if the voxel size is given instead
-  double voxel_size = 0;              // --voxel-size, in world units; 0 if the resolution is given
-  DescentConfig descent;              // --rule
-  bool open_as_sheets = false;        // --open surface
-  Layout layout = Layout::kPlain;     // --layout
-  LayerKind layers = LayerKind::kNone;  // --layers
-  bool with_union = true;               // --no-union
-  std::optional<Box> bounds;            // --bounds, in world units
-  std::optional<GridCube> cube;         // --cube, in world units; needs levels
-  std::optional<Point> origin;          // --origin, in world units; needs voxel_size
-  uint64_t memory = 0;                  // --memory in bytes; 0: half of the machine
-  int cell_level = -1;                  // octree level of the cells; -1: chosen by the grid
+  FastPaths fast_paths;               // for measurements and tests
+  uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
+  int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   bool hash_files = false;  // --report: read the scene's files a second time to hash them

@@ -73,14 +73,12 @@ ChosenGrid read_grid(const BuildConfig& config, const Scene& scene,
 
 SplitConfig split_config(const Tools& tools, const ChosenGrid& chosen, const GridPart& part) {
   SplitConfig split;
+  split.content = tools.config;
   split.cell_level =
       choose_cell_level(tools.config, chosen.grid, tools.workspace->budget()->limit());
-  split.rule = tools.config.descent.rule;
-  split.open_as_sheets = tools.config.open_as_sheets;
   split.workers = tools.executor->workers();
   split.triangle_bytes = tools.workspace->shares().triangles;
   split.scratch = tools.workspace->scratch();
-  split.layers = tools.config.layers;
   split.part = tools.config.part ? &part : nullptr;
   split.on_batch = [progress = tools.progress](uint64_t triangles) {
     progress->advance(triangles, triangles);
@@ -117,7 +115,7 @@ void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, S
     split->tree.reset();  // the sort needs the memory
     return;
   }
-  BinBaker baker(grid, config, tools.config.descent, &done, voxelizer, workspace->budget(),
+  BinBaker baker(grid, config, &done, voxelizer, workspace->budget(),
                  tools.executor, tools.progress);
   SpillFile* const file = tools.config.ready != nullptr ? tools.config.ready->triangles
                                                         : workspace->scratch()->triangles();
@@ -187,7 +185,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   const auto& [config, executor, progress, workspace, disk_need] = tools;
   PhaseMeter meter(workspace->budget());
   BuildReport report;
-  report.rule = config.descent.rule;
+  report.rule = config.rule;
   report.resumed = saved.has_value();
   if (config.ready == nullptr) description->watch_files();
 
@@ -240,7 +238,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   report.voxels_kept = runs.set().voxels;
   Voxelizer voxelizer(
       grid,
-      {config.descent, workspace->shares().table, config.checkpoint, config.with_union,
+      {{config.fast_paths, config.rule}, workspace->shares().table, config.checkpoint, config.with_union,
        workspace->scratch(), &done, store.get(),
        [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
       workspace->budget(), executor);

@@ -16,12 +16,11 @@ constexpr int kSmallestCellLog2 = 6;  // of the side of such a cell in voxels
 
 }  // namespace
 
-BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
-                   const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget,
-                   Executor* executor, Progress* progress)
+BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const MortonSet* done,
+                   Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
+                   Progress* progress)
     : grid_(grid),
       split_(split),
-      descent_(descent),
       done_(done),
       voxelizer_(voxelizer),
       budget_(budget),
@@ -40,7 +39,7 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& all, const CellWindings*
   if (bake_tree(file, bin, windings)) return;
   // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
   if (done == MortonSet::Coverage::kNone &&
-      grid_.levels - bin.cube.level <= DenseCube::max_side_log2(descent_.rule))
+      grid_.levels - bin.cube.level <= DenseCube::max_side_log2(split_.content.rule))
     return bake_dense(file, bin, windings);
   bake_parts(file, bin, windings);
 }
@@ -90,7 +89,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
       sizeof(LatticeTriangle) + sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
   const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
-  DenseCube cube(grid_, bin.cube, descent_, budget_);
+  DenseCube cube(grid_, bin.cube, voxelizer_->descent(), budget_);
   progress_->phase("voxelize a dense cube", bin.triangles);
   const LayerWindings at_cube = windings != nullptr ? windings->at(bin.cube) : LayerWindings();
   std::set<Subject> subjects;

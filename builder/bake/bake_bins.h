@@ -26,9 +26,8 @@ void for_each_bin(const std::vector<TriangleBin>& bins, Progress* progress, cons
 class BinBaker {
  public:
   // All must outlive the baker. `split` holds the cell level and the share of memory.
-  BinBaker(const Grid& grid, const SplitConfig& split, const DescentConfig& descent,
-           const MortonSet* done, Voxelizer* voxelizer, MemoryBudget* budget, Executor* executor,
-           Progress* progress);
+  BinBaker(const Grid& grid, const SplitConfig& split, const MortonSet* done, Voxelizer* voxelizer,
+           MemoryBudget* budget, Executor* executor, Progress* progress);
 
   // `file` holds the bin. `windings`: of the cubes of a level, that of the bin or a finer one, for
   // the solid rules; else null.
@@ -47,7 +46,6 @@ class BinBaker {
 
   const Grid& grid_;
   const SplitConfig& split_;
-  const DescentConfig& descent_;
   const MortonSet* done_;
   Voxelizer* voxelizer_;
   MemoryBudget* budget_;

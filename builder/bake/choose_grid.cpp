@@ -38,7 +38,7 @@ Grid choose_grid(const BuildConfig& config, const Scene& scene, SceneExtent* ext
 int choose_cell_level(const BuildConfig& config, const Grid& grid, uint64_t memory) {
   // Winding numbers are known at cubes of a level, and lists of triangles from the cells down.
   const int finest =
-      is_solid(config.descent.rule) ? CellWindings::level_of_grid(grid.levels) : grid.levels - 2;
+      is_solid(config.rule) ? CellWindings::level_of_grid(grid.levels) : grid.levels - 2;
   if (config.cell_level >= 0) return std::min(config.cell_level, finest);
   return std::clamp(grid.levels - 6, 0, memory < uint64_t(512) << 20 ? 5 : 6);
 }

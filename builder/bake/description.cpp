@@ -55,6 +55,38 @@ std::string rule_and_size(Rule rule, int levels, double voxel_size) {
          '\n';
 }
 
+std::string coordinates(const Point& p) {
+  std::string text;
+  for (int a = 0; a < 3; ++a) text += ' ' + format_double(p[a]);
+  return text;
+}
+
+// Every member is bound, so a new one must be described or, if it changes no byte, left out here.
+void describe_options(const ContentOptions& options, std::ostream* out) {
+  const auto& [layout, rule, levels, voxel_size, open_as_sheets, layers, with_union, cube, origin,
+               bounds] = options;
+  if (layout != Layout::kPlain) *out << "layout: " << layout_name(layout) << '\n';
+  *out << "algorithm: " << kAlgorithm << '\n';
+  *out << rule_and_size(rule, levels, voxel_size);
+  if (open_as_sheets) *out << "open parts: surfaces\n";
+  if (layers != LayerKind::kNone)
+    *out << "layers: " << layer_kind_name(layers) << (with_union ? "" : ", without union") << '\n';
+  if (cube) *out << "cube:" << coordinates(cube->min) << ' ' << format_double(cube->side) << '\n';
+  if (origin) *out << "origin:" << coordinates(*origin) << '\n';
+  if (bounds) *out << "bounds:" << coordinates(bounds->min) << coordinates(bounds->max) << '\n';
+}
+
+// The same. The files are described by their content, and colours follow from the layers.
+void describe_scene(const SceneConfig& scene, std::ostream* out) {
+  [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, transform, up,
+                                scale, colours, only] = scene;
+  *out << "included parts: " << list(names.include) << '\n';
+  *out << "excluded parts: " << list(names.exclude) << '\n';
+  if (const Affine to_world = scene.to_world(); to_world != Affine())
+    *out << "transform: " << format_transform(to_world) << '\n';
+  *out << "invalid triangles: " << (skip_invalid ? "dropped" : "refused") << '\n';
+}
+
 }  // namespace
 
 std::vector<SceneFile> scene_files(const Scene& scene) {
@@ -72,35 +104,8 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
     out << "part: cells " << config.part->begin << " to " << config.part->end << " of level "
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
-  if (config.layout != Layout::kPlain) out << "layout: " << layout_name(config.layout) << '\n';
-  out << "algorithm: " << kAlgorithm << '\n';
-  out << rule_and_size(config.descent.rule, config.levels, config.voxel_size);
-  if (config.open_as_sheets) out << "open parts: surfaces\n";
-  if (config.layers != LayerKind::kNone)
-    out << "layers: " << layer_kind_name(config.layers)
-        << (config.with_union ? "" : ", without union") << '\n';
-  if (config.cube) {
-    out << "cube:";
-    for (int a = 0; a < 3; ++a) out << ' ' << format_double(config.cube->min[a]);
-    out << ' ' << format_double(config.cube->side) << '\n';
-  }
-  if (config.origin) {
-    out << "origin:";
-    for (int a = 0; a < 3; ++a) out << ' ' << format_double((*config.origin)[a]);
-    out << '\n';
-  }
-  if (config.bounds) {
-    out << "bounds:";
-    for (const Point& p : {config.bounds->min, config.bounds->max}) {
-      for (int a = 0; a < 3; ++a) out << ' ' << format_double(p[a]);
-    }
-    out << '\n';
-  }
-  out << "included parts: " << list(config.scene.names.include) << '\n';
-  out << "excluded parts: " << list(config.scene.names.exclude) << '\n';
-  if (const Affine to_world = config.scene.to_world(); to_world != Affine())
-    out << "transform: " << format_transform(to_world) << '\n';
-  out << "invalid triangles: " << (config.scene.skip_invalid ? "dropped" : "refused") << '\n';
+  describe_options(config, &out);
+  describe_scene(config.scene, &out);
   for (const SceneFile& file : files)
     out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
   return out.str();

@@ -57,6 +57,7 @@ class Voxelizer {
   // Freezes the rest of the tables, to the scratch if `spill`, else in memory. The last call.
   std::vector<BakedRun> finish(bool spill);
 
+  const DescentConfig& descent() const { return config_.descent; }
   VoxelizeCounts counts() const;
 
  private:

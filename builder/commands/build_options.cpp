@@ -24,16 +24,16 @@ CellRange parse_part(const std::string& text) {
   return GridPart::share(number, count);
 }
 
-void add_measurement_options(CLI::App* app, DescentConfig* descent) {
+void add_measurement_options(CLI::App* app, FastPaths* fast_paths) {
   constexpr const char* kGroup = "Measurements (the result is the same)";
   app->add_flag_callback(
-         "--no-plane-memo", [descent] { descent->plane_memo = descent->patches = false; },
+         "--no-plane-memo", [fast_paths] { fast_paths->plane_memo = fast_paths->patches = false; },
          "Compute every cube, without the memo of repeated planes")
       ->group(kGroup);
   suggests(
       app->add_option_function<std::string>(
           "--vectors",
-          [descent](const std::string& name) { descent->kernels = &kernels_by_name(name); },
+          [fast_paths](const std::string& name) { fast_paths->kernels = &kernels_by_name(name); },
           "Instruction set of the inner loops, for example AVX2, or plain (default: the best)"),
       {"plain", "AVX2"})
       ->type_name("NAME")
@@ -167,7 +167,7 @@ void add_options(CLI::App* app, BuildOptions* options) {
   add_quiet(app, &options->bake.output);
   add_verbose(app, &options->bake.output, "Print seconds per phase, memory, and what was skipped");
   add_progress(app, &options->bake.output);
-  add_measurement_options(app, &build->descent);
+  add_measurement_options(app, &build->fast_paths);
   app->parse_complete_callback([=] { options->given = given_options(app, grid); });
   add_examples(app,
                {"svdag build city.glb -o city.svdag -r 64K",

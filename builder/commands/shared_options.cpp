@@ -163,7 +163,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
          "Bake only this box, in scene units")
       ->type_name("x0,y0,z0,x1,y1,z1");
   suggests(app->add_option_function<std::string>(
-               "--rule", [build](const std::string& s) { build->descent.rule = parse_rule(s); },
+               "--rule", [build](const std::string& s) { build->rule = parse_rule(s); },
                "conservative (default): every voxel that a triangle touches; thin: 6-separating, "
                "often 1.05 (walls) to 1.9 (curved surfaces) times fewer voxels; solid: "
                "conservative, and the inside of closed surfaces"),
@@ -173,7 +173,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   suggests(app->add_option_function<std::string>(
                "--inside",
                [build](const std::string& s) {
-                 build->descent.rule = parse_inside(s, build->descent.rule);
+                 build->rule = parse_inside(s, build->rule);
                },
                "With --rule solid, inside is where the surface winds around: nonzero (default), or "
                "odd, for surfaces without consistent orientation"),
@@ -182,7 +182,7 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   suggests(app->add_option_function<std::string>(
                "--open",
                [build](const std::string& s) {
-                 build->open_as_sheets = parse_open(s, build->descent.rule);
+                 build->open_as_sheets = parse_open(s, build->rule);
                },
                "With --rule solid, what to do with a scene that is not closed: error (default), or "
                "bake its open objects as surfaces"),

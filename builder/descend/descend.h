@@ -38,10 +38,8 @@
 
 namespace svdag {
 
-// The rule, and the fast paths. Fast paths do not change the result: each can be switched off, and
-// tests compare the rest.
-struct DescentConfig {
-  Rule rule = Rule::kConservative;  // which voxels are set
+// They do not change the result: each can be switched off, and tests compare the rest.
+struct FastPaths {
   const Kernels* kernels = &svdag::kernels();
   bool covering = true;       // switch edges of a triangle off where it covers a cube
   bool plane_memo = true;     // answer covered cubes from a memo; needs `covering`
@@ -52,6 +50,10 @@ struct DescentConfig {
   PatchConditions patch = {};        // for tests: without all of them voxels are wrong
 
   OverlapConfig overlap() const { return {kernels, covering}; }
+};
+
+struct DescentConfig : FastPaths {
+  Rule rule = Rule::kConservative;  // which voxels are set
 };
 
 // A sub-DAG and the sets that share it.

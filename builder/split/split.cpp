@@ -137,7 +137,7 @@ void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeS
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
                  MemoryBudget* budget) {
-  if (config.layers == LayerKind::kFile) require_different_names(scene.config().paths);
+  if (config.content.layers == LayerKind::kFile) require_different_names(scene.config().paths);
   const Lattice lattice(grid);
   SplitScene result;
   SplitCounts& counts = result.counts;
@@ -153,21 +153,21 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     kept.triangles.clear();
   };
   double largest_move = 0;
-  result.layers = SceneLayers(config.layers);
+  result.layers = SceneLayers(config.content.layers);
   std::shared_ptr<CellWindings> windings;
-  if (is_solid(config.rule)) {
+  if (is_solid(config.content.rule)) {
     windings = std::make_shared<CellWindings>(grid.levels, Cube(),
                                               CellWindings::level_of_grid(grid.levels), budget);
   }
   EdgeSum edges;
   OpenParts open, open_layers;
-  if (is_solid(config.rule) && config.open_as_sheets) open = OpenParts(scene, grid, config.rule);
-  if (is_solid(config.rule) && config.layers != LayerKind::kNone)
-    open_layers = OpenParts(scene, grid, config.rule, config.layers);
+  if (is_solid(config.content.rule) && config.content.open_as_sheets) open = OpenParts(scene, grid, config.content.rule);
+  if (is_solid(config.content.rule) && config.content.layers != LayerKind::kNone)
+    open_layers = OpenParts(scene, grid, config.content.rule, config.content.layers);
   counts.open_parts = open.size();
   counts.open_layers = open_layers.size();
   const LatticeBox whole = grid.closed(grid.whole());
-  const bool layered = config.layers != LayerKind::kNone;
+  const bool layered = config.content.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
     const bool open_part = open.contains(batch);
@@ -202,7 +202,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   storing.finish();
   store.finish(&result);
   // Of open parts the others were tested alone.
-  if (is_solid(config.rule) && open.size() == 0) require_closed(scene, grid, config.rule, edges);
+  if (is_solid(config.content.rule) && open.size() == 0) require_closed(scene, grid, config.content.rule, edges);
   if (windings) windings->finish();
   result.windings = std::move(windings);
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());

@@ -12,24 +12,23 @@
 #include <memory>
 #include <vector>
 
-#include "builder/winding/cell_windings.h"
 #include "builder/octree/grid_part.h"
 #include "builder/split/cell_tree.h"
+#include "builder/split/content_options.h"
 #include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
+#include "builder/winding/cell_windings.h"
 #include "io/scene/scene.h"
 #include "streaming/process/progress.h"
 
 namespace svdag {
 
 struct SplitConfig {
+  ContentOptions content;
   int cell_level = 0;
-  Rule rule = Rule::kConservative;
-  bool open_as_sheets = false;  // solid rules: open parts are baked as surfaces
   size_t workers = 1;
   uint64_t triangle_bytes = UINT64_MAX;  // triangles are spilled above this CellTree::bytes()
   Scratch* scratch = nullptr;            // null: triangles are never spilled
-  LayerKind layers = LayerKind::kNone;   // what becomes a layer
   const GridPart* part = nullptr;        // triangles that miss it are dropped; null: the whole grid
   // Called once, when spilling begins: `read` triangles (dropped ones included) took `bytes` in
   // bins, and more will follow.

@@ -47,13 +47,13 @@ TEST(Build, GivesTheSameBytesWithoutAnyOfItsShortcuts) {
     write_stl(path, scene.triangles);
     for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
       BuildConfig config = config_for(path, output, 9);
-      config.descent.rule = rule;
+      config.rule = rule;
       SequentialExecutor one;
       bake(config, &one);
       const std::string expected = read_bytes(output);
       for (const DescentPath& way : descent_paths()) {
-        config.descent = way.config;
-        config.descent.rule = rule;
+        config.fast_paths = way.config;
+        config.rule = rule;
         bake(config, &one);
         EXPECT_EQ(read_bytes(output), expected) << scene.name << ' ' << way.name;
       }
@@ -123,7 +123,7 @@ TEST(Build, SubdivisionChangesNothing) {
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
     BuildConfig config = config_for(path, output, 0);
     config.voxel_size = 1.0 / 256;
-    config.descent.rule = rule;
+    config.rule = rule;
     config.cell_level = 3;
     write_stl(path, mesh);
     bake(config);

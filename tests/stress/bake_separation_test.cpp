@@ -71,7 +71,7 @@ void expect_no_leaks(const std::string& path, int windows) {
     const Point at = mesh[random.below(mesh.size())].v[0];
     config.bounds = Box{at - Point(24 * config.voxel_size), at + Point(24 * config.voxel_size)};
     for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-      config.descent.rule = rule;
+      config.rule = rule;
       SequentialExecutor executor;
       Progress progress;
       build(config, &executor, &progress);

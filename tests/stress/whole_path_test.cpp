@@ -70,7 +70,7 @@ Grid bake(const std::string& scene, const std::string& output, Rule rule, const 
   config.scene.paths = {scene};
   config.output = output;
   config.voxel_size = kVoxel;
-  config.descent.rule = rule;
+  config.rule = rule;
   config.cell_level = setup.cell_level;
   ParallelExecutor executor(setup.threads);
   Progress progress;

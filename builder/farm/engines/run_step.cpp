@@ -19,12 +19,10 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
       plan.description, plan.grid,   plan.counts,  bins_of(plan.bins, step.cells, plan.grid.levels),
       &triangles,       plan.layers, plan.windings};
   BuildConfig build;
+  static_cast<ContentOptions&>(build) = plan.content;
   build.ready = &ready;
   build.part = step.cells;
   build.output = output;
-  build.descent.rule = plan.rule;
-  build.layers = plan.layers.kind();
-  build.with_union = plan.with_union;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
   // An unfinished bake in the plan's folder belongs to the plan; beside another output it may

@@ -173,8 +173,8 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   if (!is_of_this_algorithm(plan->description)) fail_plan(*plan, kOtherVersion);
   visit_fields(plan->grid, GetJson{json.at("grid"), *plan});
   if (!plan->grid.is_valid()) fail_plan(*plan, "invalid grid");
-  plan->rule = get_rule(json.at("rule"), *plan);
-  if (!describes(plan->description, plan->rule, plan->grid))
+  plan->content.rule = get_rule(json.at("rule"), *plan);
+  if (!describes(plan->description, plan->content.rule, plan->grid))
     fail_plan(*plan, "rule and grid are not those of the description");
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
@@ -228,7 +228,7 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
     json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"hash", input.hash}});
   json["description"] = plan.description;
   visit_fields(plan.grid, PutJson{&json["grid"]});
-  json["rule"] = rule_name(plan.rule);
+  json["rule"] = rule_name(plan.content.rule);
   visit_count_fields(plan.counts, PutJson{&json["scene"]});
   json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
   json["bins"] = plan.bins.size();

@@ -55,9 +55,8 @@ struct Plan {
   std::vector<PlanInput> inputs;
   std::string description;  // builder/bake/description.h
   Grid grid;
-  Rule rule = Rule::kConservative;
+  ContentOptions content;  // of a loaded plan: those that the shards use
   SplitCounts counts;
-  bool with_union = true;       // --no-union
   double one_bake_cpu = 0;      // seconds, predicted
   size_t cells = 0;             // number of non-empty cells
   std::vector<PlanStep> steps;  // shards first, in order; each merge after its inputs

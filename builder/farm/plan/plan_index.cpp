@@ -15,6 +15,22 @@ std::string hash_of(std::span<const std::byte> bytes) {
   return to_hex(hasher.digest());
 }
 
+// Every member is bound, so a new one that the shards use must be stored. The split has used the
+// others but for the rule (in plan.json), the kind of the layers (with their names) and the layout
+// (of the merge).
+void put_content(const ContentOptions& options, RecordWriter* record) {
+  [[maybe_unused]] const auto& [layout, rule, levels, voxel_size, open_as_sheets, layers,
+                                with_union, cube, origin, bounds] = options;
+  record->put(uint32_t(with_union));
+}
+
+void get_content(RecordReader* in, ContentOptions* options) {
+  uint32_t with_union = 0;
+  in->get(&with_union);
+  in->require(with_union <= 1, "impossible layers");
+  options->with_union = with_union == 1;
+}
+
 }  // namespace
 
 std::string save_index(const Plan& plan) {
@@ -23,7 +39,7 @@ std::string save_index(const Plan& plan) {
   put_bins(plan.bins, &record);
   put_layers(plan.layers, &record);
   put_windings(plan.windings.get(), &record);
-  record.put(uint32_t(plan.with_union));
+  put_content(plan.content, &record);
   AtomicFile file(plan.path(kIndex));
   file.append(record.bytes());
   file.commit();
@@ -44,11 +60,10 @@ void load_index(const std::string& hash, Plan* plan) {
   plan->bins = get_bins(&in, plan->grid.levels);
   plan->layers = get_layers(&in);
   plan->windings = get_windings(&in, plan->grid.levels);
-  in.require((plan->windings != nullptr) == is_solid(plan->rule), "winding numbers do not fit the rule");
-  uint32_t with_union = 0;
-  in.get(&with_union);
-  in.require(with_union <= 1, "impossible layers");
-  plan->with_union = with_union == 1;
+  in.require((plan->windings != nullptr) == is_solid(plan->content.rule),
+             "winding numbers do not fit the rule");
+  plan->content.layers = plan->layers.kind();
+  get_content(&in, &plan->content);
   in.finish();
 }
 

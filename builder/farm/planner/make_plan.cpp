@@ -13,6 +13,7 @@
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/farm/planner/pilot.h"
+#include "builder/overlap/kernels/rules.h"
 #include "builder/workspace/workspace.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -120,24 +121,21 @@ void Planner::read_scene() {
   inputs_ = scene_.watch();
   plan_.folder = config_.folder;
   plan_.grid = choose_grid(config_.build, scene_);
-  plan_.rule = config_.build.descent.rule;
+  plan_.content = config_.build;
   progress_->phase("hash", 0);
   describe_inputs();
   progress_->phase("split", 0);
   SplitConfig split_config;
+  split_config.content = plan_.content;
   split_config.cell_level = std::clamp(plan_.grid.levels - 6, 0, kMaxBinLevel);
   split_config.triangle_bytes = workspace_.shares().triangles;
   split_config.scratch = workspace_.scratch();
-  split_config.rule = plan_.rule;
-  split_config.open_as_sheets = config_.build.open_as_sheets;
-  split_config.layers = config_.build.layers;
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();
   plan_.counts = scene.counts;
   plan_.layers = scene.layers;
   if (scene.windings)  // a copy, since the plan outlives the budget
     plan_.windings = CellWindings::of_grid(plan_.grid.levels, scene.windings->entries());
-  plan_.with_union = config_.build.with_union;
   if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);
   progress_->phase("distribute triangles", 0);
   LeafConfig leaf;
@@ -163,8 +161,8 @@ void Planner::describe_inputs() {
 
 void Planner::survey() {
   progress_->phase("survey", 0);
-  pilot_config_.descent = config_.build.descent;
-  if (is_solid(plan_.rule)) pilot_config_.descent.rule = Rule::kConservative;  // inside: few nodes
+  pilot_config_.descent = {config_.build.fast_paths,
+                           surface_rule(plan_.content.rule).rule};  // the inside has few nodes
   pilot_config_.shards = config_.shards;
   pilot_config_.table_bytes = workspace_.shares().pilot_table;
   pilot_config_.triangle_bytes = workspace_.shares().triangles;

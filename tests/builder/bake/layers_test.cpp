@@ -73,14 +73,14 @@ class Layers : public ::testing::Test {
     config.output = folder_.file("layers.svdag");
     config.levels = int(3 + pick(7));
     config.cube = GridCube{Point(-0.1 - 1.2 * double(pick(2))), 1.2 + 1.4 * double(pick(2))};
-    config.descent.rule = pick(2) ? Rule::kConservative : Rule::kThin;
-    if (solids_) config.descent.rule = pick(2) ? Rule::kSolid : Rule::kSolidOdd;
+    config.rule = pick(2) ? Rule::kConservative : Rule::kThin;
+    if (solids_) config.rule = pick(2) ? Rule::kSolid : Rule::kSolidOdd;
     config.open_as_sheets = solids_;
     config.layers = LayerKind::kFile;
     config.with_union = pick(4) != 0;
     if (pick(4) == 0) config.layout = Layout::kCompact;
     if (pick(3) == 0) config.cell_level = int(pick(uint64_t(config.levels - 1)));
-    if (pick(3) == 0) config.descent.plane_memo = config.descent.patches = false;
+    if (pick(3) == 0) config.fast_paths.plane_memo = config.fast_paths.patches = false;
     return config;
   }
 
@@ -114,7 +114,7 @@ class Layers : public ::testing::Test {
                 nodes_of(layer_alone(plain, chosen[i], room_)));
       paths.push_back(folder_.file(its.name));
     }
-    const bool is_or = !solids_ && config.descent.rule != Rule::kSolid;
+    const bool is_or = !solids_ && config.rule != Rule::kSolid;
     if (is_or && !paths.empty()) {
       EXPECT_EQ(nodes_of(layer_alone(file, {}, room_)), alone(config, paths));
     }
@@ -194,7 +194,7 @@ TEST_F(Layers, FacesOfABoxAreSurfacesAndTheUnionIsSolid) {
   config.levels = 7;
   config.cube = GridCube{Point(-0.25), 1.5};
   config.layers = LayerKind::kFile;
-  config.descent.rule = Rule::kSolid;
+  config.rule = Rule::kSolid;
   EXPECT_EQ(bake(config).split.open_layers, 6U);
   config.open_as_sheets = true;  // for each alone
   check(config);

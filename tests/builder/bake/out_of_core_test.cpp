@@ -28,7 +28,7 @@ class OutOfCore : public ::testing::Test {
                       Rule rule = Rule::kConservative) {
     write_stl(folder_.file("scene.stl"), triangles);
     BuildConfig config = config_for(folder_.file("scene.stl"), folder_.file("out.svdag"), levels);
-    config.descent.rule = rule;
+    config.rule = rule;
     bake(config);
     expected_ = read_bytes(config.output);
     std::filesystem::remove(config.output);
@@ -73,7 +73,7 @@ TEST_F(OutOfCore, TablesAreEmptiedWithinCellsOfEverySize) {
   BuildConfig config = prepare(random_soup(4000, 0.3, 3), 9);
   config.memory = 4 * kMiB;
   for (const Rule rule : {Rule::kConservative, Rule::kThin}) {
-    config.descent.rule = rule;
+    config.rule = rule;
     config.cell_level = -1;
     config.memory = 0;
     bake(config);
@@ -219,7 +219,7 @@ TEST_F(OutOfCore, AnUnfinishedBakeIsNeitherLostNorMistakenForAnother) {
   other.levels = 9;
   EXPECT_SVDAG_ERROR(bake(other), ExitCode::kUsage, "resolution: 256");
   other = config;
-  other.descent.rule = Rule::kThin;
+  other.rule = Rule::kThin;
   EXPECT_SVDAG_ERROR(bake(other), ExitCode::kUsage, "rule: thin");
   write_stl(folder_.file("scene.stl"), random_soup(20'000, 0.1, 14));
   EXPECT_SVDAG_ERROR(bake(config), ExitCode::kUsage, "content of scene.stl");

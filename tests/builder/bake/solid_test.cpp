@@ -114,10 +114,10 @@ class Solid : public ::testing::Test {
       config.bounds->add(a);
       config.bounds->add(b + 0.3);
     }
-    config.descent.rule = pick(2) ? Rule::kSolid : Rule::kSolidOdd;
+    config.rule = pick(2) ? Rule::kSolid : Rule::kSolidOdd;
     if (pick(3) == 0) config.cell_level = int(pick(uint64_t(config.levels - 1)));
-    if (pick(2) == 0) config.descent.memo_repeats = 0;
-    if (pick(5) == 0) config.descent.plane_memo = config.descent.patches = false;
+    if (pick(2) == 0) config.fast_paths.memo_repeats = 0;
+    if (pick(5) == 0) config.fast_paths.plane_memo = config.fast_paths.patches = false;
     return config;
   }
 
@@ -222,7 +222,7 @@ TEST_F(Solid, ACrowdedCubeIsFilledByTheBitmap) {
   config.levels = 9;
   config.cube = GridCube{Point(0), 1};
   for (const Rule rule : {Rule::kSolid, Rule::kSolidOdd}) {
-    config.descent.rule = rule;
+    config.rule = rule;
     config.memory = 8 * kMiB;
     EXPECT_LE(bake(config).peak_counted, config.memory);
     check(config);
@@ -238,7 +238,7 @@ TEST_F(Solid, ASelectionInsideTakesFewNodes) {
   config.levels = 16;
   config.cube = GridCube{Point(0), 1};
   config.bounds = Box{Point(0.1, 0.2, 0.3), Point(0.9, 0.77, 0.61)};
-  config.descent.rule = Rule::kSolid;
+  config.rule = Rule::kSolid;
   const BuildReport report = bake(config);
   const VoxelBox& selection = report.grid.selection;
   uint64_t all = 1;
@@ -257,7 +257,7 @@ TEST_F(Solid, InsideIsWhereTheSurfaceWindsAroundOrWindsAroundOddly) {
     config.output = folder_.file("boxes.svdag");
     config.levels = 5;
     config.cube = GridCube{Point(0), 32};
-    config.descent.rule = rule;
+    config.rule = rule;
     return bake(config).voxels;
   };
   Mesh twice = box(Point(4.5), Point(19.5)), cavity = twice, same = twice;
@@ -278,7 +278,7 @@ TEST_F(Solid, AnOpenSurfaceIsRefusedWithTheFirstOpenEdge) {
   mesh.pop_back();
   BuildConfig config = config_for(folder_.file("open.stl"), folder_.file("open.svdag"), 5);
   write_stl(config.scene.paths[0], mesh);
-  config.descent.rule = Rule::kSolid;
+  config.rule = Rule::kSolid;
   EXPECT_SVDAG_ERROR(bake(config), ExitCode::kBadInput, "the scene is not closed: 3 open edges");
 }
 
@@ -287,9 +287,9 @@ TEST_F(Solid, ASurfaceOfMixedOrientationNeedsOdd) {
   std::swap(mesh[5].v[0], mesh[5].v[1]);
   BuildConfig config = config_for(folder_.file("mixed.stl"), folder_.file("mixed.svdag"), 5);
   write_stl(config.scene.paths[0], mesh);
-  config.descent.rule = Rule::kSolid;
+  config.rule = Rule::kSolid;
   EXPECT_SVDAG_ERROR(bake(config), ExitCode::kBadInput, "--inside odd");
-  config.descent.rule = Rule::kSolidOdd;
+  config.rule = Rule::kSolidOdd;
   EXPECT_EQ(bake(config).voxels, 32U * 32U * 32U);
 }
 

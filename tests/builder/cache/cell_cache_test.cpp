@@ -34,7 +34,7 @@ class Cache : public ::testing::Test {
     write_stl(folder_.file("scene.stl"), triangles);
     BuildConfig config = config_for(folder_.file("scene.stl"), folder_.file("out.svdag"), levels);
     config.cell_level = 3;
-    config.descent.rule = rule;
+    config.rule = rule;
     config.bounds = Box{Point(0), Point(1)};  // the grid stays where it is
     bake(config);
     expected_ = read_bytes(config.output);

@@ -65,12 +65,12 @@ TEST(PlaneMemo, GivesTheVoxelsOfThePlainDescentTiesIncluded) {
                          int64_t(random() % 128)}};  // 32^3 voxels
       const LatticeTriangle triangle =
           covering(random, window.corner(kLevels), random() % 2 == 0, random() % 2 == 0);
-      const DescentConfig memo{.rule = rule, .memo_repeats = 0};
-      const DescentConfig plain{.rule = rule,
-                                .kernels = &plain_kernels(),
-                                .covering = false,
-                                .plane_memo = false,
-                                .cubes = false};
+      const DescentConfig memo{{.memo_repeats = 0}, rule};
+      const DescentConfig plain{{.kernels = &plain_kernels(),
+                                 .covering = false,
+                                 .plane_memo = false,
+                                 .cubes = false},
+                                rule};
       ASSERT_EQ(bricks_of(memo, window, triangle), bricks_of(plain, window, triangle)) << i;
     }
   }

@@ -75,7 +75,7 @@ class EditLayers : public ::testing::Test {
     config.output = content_name(name);
     config.levels = 6;
     config.cube = cube_;
-    config.descent.rule = rule;
+    config.rule = rule;
     config.layers = kind;
     config.with_union = kind == LayerKind::kNone || pick(4) != 0;
     if (pick(3) == 0) config.layout = Layout::kCompact;

@@ -35,7 +35,7 @@ std::vector<Case> cases() {
       {"thin boxes", boxes_and_quad(40, 2),
        [](BuildConfig* c) {
          c->levels = 8;
-         c->descent.rule = Rule::kThin;
+         c->rule = Rule::kThin;
        }},
       {"lattice", bumpy_sphere(30), [](BuildConfig* c) { c->voxel_size = 0.0131; }},
       {"lattice in bounds", random_soup(2000, 0.1, 4),
@@ -293,7 +293,7 @@ TEST_F(MergeRuns, RejectsRunsThatDoNotBelongTogether) {
     EXPECT_FALSE(std::filesystem::exists(path("x.run")));
   };
   expect_rejected("the resolution differs", [](BuildConfig* c) { c->levels = 8; });
-  expect_rejected("the rule differs", [](BuildConfig* c) { c->descent.rule = Rule::kThin; });
+  expect_rejected("the rule differs", [](BuildConfig* c) { c->rule = Rule::kThin; });
   expect_rejected("one was baked with --resolution, the other with --voxel-size",
                   [](BuildConfig* c) {
                     c->levels = 0;

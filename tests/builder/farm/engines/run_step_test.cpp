@@ -58,11 +58,11 @@ TEST_F(Steps, GiveTheBytesOfOneBakeWithRuleBoundsAndLittleMemory) {
   prepare(bumpy_sphere(60), 8);
   BuildConfig one = config_for(scene_, folder_.file("one.svdag"), 8);
   one.bounds = Box{{-0.5, -0.9, -0.4}, {0.8, 0.2, 0.7}};
-  one.descent.rule = Rule::kThin;
+  one.rule = Rule::kThin;
   bake(one);
   PlanConfig c = config("plan", 6);
   c.build.bounds = one.bounds;
-  c.build.descent.rule = one.descent.rule;
+  c.build.rule = one.rule;
   const Plan plan = plan_of(c);
   StepConfig little;
   little.memory = uint64_t(4) << 20;
