@@ -64,6 +64,12 @@ struct SceneFile {
 // The description_hash of the report that this bake would give. Reads all files of the scene.
 std::string description_hash_of(const BuildConfig& config);
 
+// What a phase took.
+struct PhaseUse {
+  double seconds = 0;
+  uint64_t peak = 0;  // bytes, counted by the memory budget
+};
+
 struct BuildReport {
   // If BuildConfig::hash_files is set.
   std::vector<SceneFile> files;
@@ -73,14 +79,10 @@ struct BuildReport {
   int cell_level = 0;
   Rule rule = Rule::kConservative;
   SplitCounts split;
-  DecisionCounts decisions;
-  PlaneMemoCounts memo;
-  std::vector<uint64_t> divided;     // per level, cubes inside the cells that the descent divided
-  uint64_t cells = 0;                // visited
-  uint64_t runs = 0;                 // merged, including those of interrupted processes
-  uint64_t cache_hits = 0;           // cells found in the cache
-  uint64_t cache_packs_skipped = 0;  // packs of the cache that did not fit in memory
-  std::string cache_write_error;     // why cells were not cached; empty if all were
+  uint64_t cells = 0;  // visited
+  DescentCounts descent;
+  CellStoreCounts cache;
+  uint64_t runs = 0;  // merged, including those of interrupted processes
   bool resumed = false;
   uint64_t voxels_kept = 0;     // of `voxels`, those baked before this process resumed
   uint64_t voxels = 0;          // of the union
@@ -89,13 +91,11 @@ struct BuildReport {
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits, as `svdag info` prints it
   size_t threads = 0;
-  struct Seconds {
-    double bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0, total = 0;
-    double cpu = 0;  // of all threads of the process
-  } seconds;
-  struct PhaseBytes {
-    uint64_t bounds = 0, split = 0, voxelize = 0, sort = 0, merge = 0, write = 0;
-  } phase_peaks;  // counted by the memory budget
+  struct Phases {
+    PhaseUse bounds, split, voxelize, sort, merge, write;
+  } phases;
+  double seconds = 0;
+  double cpu_seconds = 0;  // of all threads of the process
   struct ScratchBytes {
     uint64_t estimated = 0, peak = 0, written = 0, read = 0;
   } scratch;                   // of this process only

@@ -27,33 +27,31 @@ struct Tools {
   DiskNeed* disk_need;
 };
 
-// The progress of the bake's phases in one line.
-class PhaseProgress {
+// Shows and measures the phases, one after the other.
+class Phases {
  public:
-  explicit PhaseProgress(Progress* progress) : progress_(progress), interval_(progress, 0, 1) {}
-  void begin(const char* name, PhaseShare share) {
+  Phases(Progress* progress, MemoryBudget* budget)
+      : progress_(progress), budget_(budget), interval_(progress, 0, 1) {}
+
+  // Ends the phase before, and begins one whose use is to be measured.
+  void begin(const char* name, PhaseShare share, PhaseUse* use) {
+    end();
+    use_ = use;
+    timer_.lap();
     interval_.move_to(share.begin, share.end);
     progress_->phase(name, 0);
+  }
+  void end() {
+    if (use_ != nullptr) *use_ = {timer_.lap(), budget_->lap_peak()};
+    use_ = nullptr;
   }
 
  private:
   Progress* progress_;
-  Progress::Interval interval_;
-};
-
-// Measures the phases, one after the other.
-class PhaseMeter {
- public:
-  explicit PhaseMeter(MemoryBudget* budget) : budget_(budget) {}
-  void skip() { timer_.lap(); }
-  void end_phase(double* seconds, uint64_t* peak) {
-    *seconds = timer_.lap();
-    *peak = budget_->lap_peak();
-  }
-
- private:
   MemoryBudget* budget_;
+  Progress::Interval interval_;
   LapTimer timer_;
+  PhaseUse* use_ = nullptr;  // null: between two phases
 };
 
 struct ChosenGrid {
@@ -105,7 +103,7 @@ SplitScene split_scene(const Tools& tools, const Scene& scene, const ChosenGrid&
   return split;
 }
 
-// Bakes all triangles of `split`, but for those in `done`. The last runs stay in the voxelizer.
+// Bakes all triangles of `split`, except in `done`. The last runs stay in the voxelizer.
 void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, SplitScene* split,
               const MortonSet& done, Voxelizer* voxelizer) {
   Workspace* const workspace = tools.workspace;
@@ -138,17 +136,6 @@ MortonSet finished_ranges(const GridPart& part, const std::optional<SavedBake>& 
   return MortonSet(std::move(ranges));
 }
 
-void report_work(const VoxelizeCounts& counts, const CellStore* store, BuildReport* report) {
-  report->cells = counts.cells;
-  report->decisions = counts.decisions;
-  report->memo = counts.memo;
-  report->divided = counts.divided;
-  if (store == nullptr) return;
-  report->cache_hits = store->hits();
-  report->cache_packs_skipped = store->skipped_packs();
-  report->cache_write_error = store->write_error();
-}
-
 std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPart& part,
                                    BakeOutput* output) {
   Workspace* const workspace = tools.workspace;
@@ -174,7 +161,7 @@ void report_resources(const Tools& tools, const BakeOutput& output, BuildReport*
   report->scratch = {tools.disk_need->estimate(), scratch.peak_bytes(), scratch.written_bytes(),
                      scratch.read_bytes()};
   report->threads = tools.executor->workers();
-  report->seconds.cpu = cpu_seconds();
+  report->cpu_seconds = cpu_seconds();
   report->peak_counted = tools.workspace->budget()->peak();
   report->peak_resident = peak_resident_bytes();
 }
@@ -183,15 +170,14 @@ void report_resources(const Tools& tools, const BakeOutput& output, BuildReport*
 BuildReport bake(const Tools& tools, const Scene& scene, Description* description,
                  Checkpoint* checkpoint, std::optional<SavedBake> saved) {
   const auto& [config, executor, progress, workspace, disk_need] = tools;
-  PhaseMeter meter(workspace->budget());
   BuildReport report;
   report.rule = config.rule;
   report.resumed = saved.has_value();
   if (config.ready == nullptr) description->watch_files();
 
   progress->show_memory(workspace->budget());
-  PhaseProgress phases(progress);
-  phases.begin("read bounds", kBoundsShare);
+  Phases phases(progress, workspace->budget());
+  phases.begin("read bounds", kBoundsShare, &report.phases.bounds);
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
   report.scene_bounds = chosen.scene_bounds;
@@ -199,14 +185,14 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
                               workspace->shares().triangles / PackedTriangles::kMinBytes);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
-  meter.end_phase(&report.seconds.bounds, &report.phase_peaks.bounds);
+  phases.end();
   // Opened before the work begins, so that an unwritable folder is reported at once.
   const auto output =
       open_output(config.output, grid, report.rule, part, config.layout, workspace->room());
   std::unique_ptr<CellStore> store;
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 
-  phases.begin("split", kSplitShare);
+  phases.begin("split", kSplitShare, &report.phases.split);
   const SplitConfig splitting = split_config(tools, chosen, part);
   SplitScene split;
   if (saved && saved->split) {
@@ -220,15 +206,14 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   SVDAG_ASSERT(is_solid(report.rule) == (split.windings != nullptr));
   report.split = split.counts;
   report.cell_level = splitting.cell_level;
-  meter.end_phase(&report.seconds.split, &report.phase_peaks.split);
+  phases.end();
   // Hashed at once: the files must not change until then.
   if (config.hash_files) {
     report.files = description->files();
     report.description_hash = hash_of_description(description->text());
   }
 
-  meter.skip();
-  phases.begin("voxelize", kVoxelizeShare);
+  phases.begin("voxelize", kVoxelizeShare, &report.phases.voxelize);
   const MortonSet done = finished_ranges(part, saved);
   RunCollector runs(grid, workspace, checkpoint, description, disk_need, config.output, store.get(),
                     progress);
@@ -243,29 +228,28 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
        [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
       workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
-  meter.end_phase(&report.seconds.voxelize, &report.phase_peaks.voxelize);
 
-  phases.begin("sort", kSortShare);
+  phases.begin("sort", kSortShare, &report.phases.sort);
   for (BakedRun& baked : voxelizer.finish(runs.set().spilled)) runs.add_last(std::move(baked));
   runs.take_from_store();
-  report_work(voxelizer.counts(), store.get(), &report);
+  report.cells = voxelizer.cells();
+  report.descent = voxelizer.counts();
+  if (store != nullptr) report.cache = store->counts();
   store.reset();
   RunSet set = runs.take_set();
   report.voxels = config.with_union ? set.voxels : 0;
   report.layers = table_of(split.layers, set, config.with_union);
   report.runs = set.runs.size();
-  meter.end_phase(&report.seconds.sort, &report.phase_peaks.sort);
 
-  phases.begin("merge", kMergeShare);
+  phases.begin("merge", kMergeShare, &report.phases.merge);
   const std::vector<SubDagRoot> tops = merge_runs(tools, &set, part, output.get());
-  meter.end_phase(&report.seconds.merge, &report.phase_peaks.merge);
 
-  phases.begin("write", kWriteShare);
+  phases.begin("write", kWriteShare, &report.phases.write);
   output->finish(tops, report.voxels, report.split.largest_snap, report.layers);
   std::ranges::sort(report.layers.layers, {}, &Layer::name);
   report.voxels = report.layers.default_voxels(report.voxels);
   checkpoint->discard();
-  meter.end_phase(&report.seconds.write, &report.phase_peaks.write);
+  phases.end();
   progress->finish();
   report_resources(tools, *output, &report);
   return report;
@@ -287,7 +271,7 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   try {
     BuildReport report = bake({config, executor, progress, &workspace, &disk_need}, scene,
                               &description, &checkpoint, std::move(saved));
-    report.seconds.total = total.lap();
+    report.seconds = total.lap();
     return report;
   } catch (Interrupted& interrupted) {
     interrupted.resumable = checkpoint.has_saved_work();

@@ -37,7 +37,7 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& all, const CellWindings*
       done_ != nullptr ? done_->coverage(own) : MortonSet::Coverage::kNone;
   if (done == MortonSet::Coverage::kAll) return voxelizer_->bake_untouched(bin.range, windings);
   if (bake_tree(file, bin, windings)) return;
-  // A dense cube is baked whole: one of which a part is done, or is not wanted, is divided.
+  // A dense cube is baked whole. A cube that is partly done or outside the part is divided.
   if (done == MortonSet::Coverage::kNone &&
       grid_.levels - bin.cube.level <= DenseCube::max_side_log2(split_.content.rule))
     return bake_dense(file, bin, windings);

@@ -84,7 +84,8 @@ class Voxelizer::Worker {
                          : descent_.windings_at(cube, known, cursor_->list(known), at_known);
   }
 
-  // A cell in whose middle the table was emptied is in two runs, and useless to others.
+  // If the table is emptied in the middle of a cell, the cell's nodes end up in two runs; such a
+  // cell is not cached.
   void bake_for_store(const Cube& cell, const TriangleList& list, const LayerWindings& windings,
                       const CellKey& key) {
     const size_t first = builder_.roots().size(), runs = runs_;
@@ -179,16 +180,9 @@ std::vector<BakedRun> Voxelizer::finish(bool spill) {
   return runs;
 }
 
-VoxelizeCounts Voxelizer::counts() const {
-  VoxelizeCounts counts;
-  counts.cells = cells_;
-  counts.divided.resize(size_t(grid_.levels));
-  for (const auto& worker : workers_) {
-    const Descent& descent = worker->descent();
-    counts.decisions += descent.decisions();
-    counts.memo += descent.memo();
-    for (size_t k = 0; k < counts.divided.size(); ++k) counts.divided[k] += descent.divided()[k];
-  }
+DescentCounts Voxelizer::counts() const {
+  DescentCounts counts;
+  for (const auto& worker : workers_) counts += worker->descent().counts();
   return counts;
 }
 

@@ -22,13 +22,6 @@
 
 namespace svdag {
 
-struct VoxelizeCounts {
-  uint64_t cells = 0;  // cells with at least one triangle in their list
-  DecisionCounts decisions;
-  PlaneMemoCounts memo;
-  std::vector<uint64_t> divided;  // cubes divided per level, inside the cells
-};
-
 struct VoxelizeConfig {
   DescentConfig descent;
   uint64_t table_bytes = UINT64_MAX;  // freeze_bytes() from which on a table is frozen
@@ -58,7 +51,9 @@ class Voxelizer {
   std::vector<BakedRun> finish(bool spill);
 
   const DescentConfig& descent() const { return config_.descent; }
-  VoxelizeCounts counts() const;
+  // Number of cells with at least one triangle in their list.
+  uint64_t cells() const { return cells_; }
+  DescentCounts counts() const;
 
  private:
   class Worker;

@@ -92,7 +92,7 @@ void CellCache::open_packs() {
       Pack pack(config_.folder + "/" + file.name);
       const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(CellAddress);
       if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
-        ++skipped_packs_;
+        ++counts_.skipped_packs;
         continue;
       }
       pack.read_entries(budget_);
@@ -163,33 +163,33 @@ bool CellCache::take(const CellKey& key, const Cube& cube, SubDagSets sets) {
   const PackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !is_usable(&open)) return false;
-  open.load_taken.push_back({found->entry, cube, sets});
-  ++hits_;
+  open.taken.push_back({found->entry, cube, sets});
+  ++counts_.hits;
   return true;
 }
 
 void CellCache::load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                            const std::function<void(BakedRun)>& use) {
   for (OpenPack& open : packs_) {
-    if (open.load_taken.empty()) continue;
+    if (open.taken.empty()) continue;
     const std::optional<SpillTarget> spill_target = target(open.pack.bytes());
-    use(open.pack.extract(std::move(open.load_taken), grid_.levels, budget_,
+    use(open.pack.extract(std::move(open.taken), grid_.levels, budget_,
                           spill_target ? &*spill_target : nullptr));
-    open.load_taken.clear();
+    open.taken.clear();
   }
 }
 
 void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
   {
     const std::lock_guard lock(mutex_);
-    if (!write_error_.empty()) return;
+    if (!counts_.write_error.empty()) return;
   }
   try {
     write_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     const std::lock_guard lock(mutex_);
-    write_error_ = std::string("cannot write the cell cache: ") + error.what();
+    counts_.write_error = std::string("cannot write the cell cache: ") + error.what();
   }
 }
 

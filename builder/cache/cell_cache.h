@@ -5,8 +5,8 @@
 // meets, and adds packs of its own at its end. A pack gets a random name, by a rename once it is
 // complete, so any number of bakes can share the folder.
 //
-// A pack is read completely before a cell is load_taken from it, and then stays open, since another
-// bake may remove it. A damaged pack is removed. A pack that cannot be opened or read is skipped.
+// A pack is read completely before a cell is taken from it, and then stays open, since another bake
+// may remove it. A damaged pack is removed. A pack that cannot be opened or read is skipped.
 // So are packs beyond the number that may be open at once, and the least recently used packs if the
 // entries of all do not fit in their share of the memory (builder/workspace/memory_shares.h).
 //
@@ -43,11 +43,9 @@ class CellCache final : public CellStore {
   bool take(const CellKey& key, const Cube& cube, SubDagSets sets) override;
   void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                   const std::function<void(BakedRun)>& use) override;
-  // A failed write is not an error; write_error() returns the reason.
+  // A failed write is not an error; counts() has the reason.
   void keep(const BakedRun& baked, SpillFile* runs) override;
-  uint64_t hits() const override { return hits_; }
-  uint64_t skipped_packs() const override { return skipped_packs_; }
-  std::string write_error() const override { return write_error_; }
+  CellStoreCounts counts() const override { return counts_; }
 
  private:
   // Entry `entry` of packs_[pack].
@@ -61,7 +59,7 @@ class CellCache final : public CellStore {
   };
   struct OpenPack {
     Pack pack;
-    std::vector<Pack::TakenCell> load_taken;
+    std::vector<Pack::TakenCell> taken;
     bool proven = false, unusable = false;
   };
   std::vector<PackFile> find_packs() const;
@@ -84,8 +82,7 @@ class CellCache final : public CellStore {
   MemoryBudget::Reservation counted_;   // of addresses_
   std::vector<CellAddress> addresses_;  // of all keys, sorted by key
   std::mutex mutex_;
-  uint64_t hits_ = 0, skipped_packs_ = 0;
-  std::string write_error_;
+  CellStoreCounts counts_;
 };
 
 }  // namespace svdag

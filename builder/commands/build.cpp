@@ -56,16 +56,16 @@ Json files_json(const std::vector<SceneFile>& files) {
 }
 
 Json memory_json(const BuildReport& r) {
-  const auto& p = r.phase_peaks;
+  const auto& p = r.phases;
   return {{"peak_counted", r.peak_counted},
           {"peak_resident", r.peak_resident},
           {"phases",
-           {{"bounds", p.bounds},
-            {"split", p.split},
-            {"voxelize", p.voxelize},
-            {"sort", p.sort},
-            {"merge", p.merge},
-            {"write", p.write}}}};
+           {{"bounds", p.bounds.peak},
+            {"split", p.split.peak},
+            {"voxelize", p.voxelize.peak},
+            {"sort", p.sort.peak},
+            {"merge", p.merge.peak},
+            {"write", p.write.peak}}}};
 }
 
 double bits_per_voxel(const BuildReport& r) {
@@ -74,11 +74,12 @@ double bits_per_voxel(const BuildReport& r) {
 
 // Fraction of the voxel decisions that were unsure in double and made in integers.
 double exact_share(const BuildReport& r) {
-  return r.decisions.total == 0 ? 0 : double(r.decisions.exact) / double(r.decisions.total);
+  const DecisionCounts& decisions = r.descent.decisions;
+  return decisions.total == 0 ? 0 : double(decisions.exact) / double(decisions.total);
 }
 
 std::string report_json(const BakeCommand& config, const BuildReport& r) {
-  const auto& s = r.seconds;
+  const auto& p = r.phases;
   Json json = {{"svdag", SVDAG_VERSION},
                {"scene", config.build.scene.paths},
                {"files", files_json(r.files)},
@@ -97,20 +98,20 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"images_unread", r.split.scene.unread_images},
                {"largest_snap_voxels", r.split.largest_snap},
                {"quantisation_voxels", r.split.scene.quantisation / r.grid.voxel_size},
-               {"decisions", r.decisions.total},
+               {"decisions", r.descent.decisions.total},
                {"decisions_exact_share", exact_share(r)},
                {"plane_memo",
-                {{"asked", r.memo.queries},
-                 {"answered", r.memo.answered},
-                 {"hits", r.memo.hits},
-                 {"computed", r.memo.computed}}},
+                {{"asked", r.descent.memo.queries},
+                 {"answered", r.descent.memo.answered},
+                 {"hits", r.descent.memo.hits},
+                 {"computed", r.descent.memo.computed}}},
                {"vectors", config.build.fast_paths.kernels->name},
                {"lanes", config.build.fast_paths.kernels->lanes},
-               {"cubes_divided", r.divided},
+               {"cubes_divided", r.descent.divided},
                {"cell_level", r.cell_level},
                {"cells", r.cells},
-               {"cache_hits", r.cache_hits},
-               {"cache_packs_ignored", r.cache_packs_skipped},
+               {"cache_hits", r.cache.hits},
+               {"cache_packs_ignored", r.cache.skipped_packs},
                {"open_parts", r.split.open_parts},
                {"open_layers", r.split.open_layers},
                {"volume_voxels", r.split.volume},
@@ -122,14 +123,14 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"content_hash", r.content_hash},
                {"threads", r.threads},
                {"seconds",
-                {{"bounds", s.bounds},
-                 {"split", s.split},
-                 {"voxelize", s.voxelize},
-                 {"sort", s.sort},
-                 {"merge", s.merge},
-                 {"write", s.write},
-                 {"total", s.total},
-                 {"cpu", s.cpu}}},
+                {{"bounds", p.bounds.seconds},
+                 {"split", p.split.seconds},
+                 {"voxelize", p.voxelize.seconds},
+                 {"sort", p.sort.seconds},
+                 {"merge", p.merge.seconds},
+                 {"write", p.write.seconds},
+                 {"total", r.seconds},
+                 {"cpu", r.cpu_seconds}}},
                {"runs", r.runs},
                {"resumed", r.resumed},
                {"voxels_kept", r.voxels_kept},
@@ -149,7 +150,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
               config.build.output.c_str(), format_resolution(uint64_t(r.grid.resolution())).c_str(),
               format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
               format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
-              r.seconds.total);
+              r.seconds);
   print_scene_notes(r.split.scene);
   if (r.rule == Rule::kSolid && r.split.volume != 0)
     std::printf("  the surface encloses %s voxels%s\n",
@@ -164,7 +165,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
     std::printf("  no voxel is set: %s triangles meet the grid\n",
                 format_count(r.split.scene.triangles - r.split.outside).c_str());
   if (!config.output.verbose) return;
-  const auto& s = r.seconds;
+  const auto& p = r.phases;
   std::printf(
       "  triangles: %s outside the grid, %s clipped by it, %s of zero area, %s dropped as "
       "invalid\n",
@@ -172,24 +173,25 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
       format_count(r.split.degenerate).c_str(), format_count(r.split.scene.invalid).c_str());
   std::printf(
       "  accuracy: largest snap move %.3g voxel; %.3g %% of %s decisions made in integers\n",
-      r.split.largest_snap, 100 * exact_share(r), format_count(r.decisions.total).c_str());
+      r.split.largest_snap, 100 * exact_share(r), format_count(r.descent.decisions.total).c_str());
   if (r.split.scene.quantisation > 0)
     std::printf("  the scene's positions are quantised in steps of %.3g voxel (Draco)\n",
                 r.split.scene.quantisation / r.grid.voxel_size);
   std::printf("  %s cells visited", format_count(r.cells).c_str());
   if (!config.cache.folder.empty())
-    std::printf(", %s of them found in the cache", format_count(r.cache_hits).c_str());
-  if (r.cache_packs_skipped != 0)
+    std::printf(", %s of them found in the cache", format_count(r.cache.hits).c_str());
+  if (r.cache.skipped_packs != 0)
     std::printf("; %s of its packs ignored because --memory is too small",
-                format_count(r.cache_packs_skipped).c_str());
+                format_count(r.cache.skipped_packs).c_str());
   std::printf("\n");
   std::printf("  planes: %s cubes looked up in the memo, %s answered; %s nodes computed for it\n",
-              format_count(r.memo.queries).c_str(), format_count(r.memo.answered).c_str(),
-              format_count(r.memo.computed).c_str());
+              format_count(r.descent.memo.queries).c_str(), format_count(r.descent.memo.answered).c_str(),
+              format_count(r.descent.memo.computed).c_str());
   std::printf(
       "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "
       "CPU %.2f on %zu threads\n",
-      s.bounds, s.split, s.voxelize, s.sort, s.merge, s.write, s.cpu, r.threads);
+      p.bounds.seconds, p.split.seconds, p.voxelize.seconds, p.sort.seconds, p.merge.seconds,
+      p.write.seconds, r.cpu_seconds, r.threads);
   if (r.scratch.written != 0)
     std::printf("  scratch: %s at most (%s estimated), %s written, %s read; %s runs merged%s\n",
                 format_bytes(r.scratch.peak).c_str(), format_bytes(r.scratch.estimated).c_str(),
@@ -234,8 +236,8 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
       return std::make_unique<CellCache>(command.cache, grid, rule, budget);
     };
   const BuildReport report = build(build_config, &executor, &progress);
-  if (!report.cache_write_error.empty())
-    std::fprintf(stderr, "svdag: %s\n", report.cache_write_error.c_str());
+  if (!report.cache.write_error.empty())
+    std::fprintf(stderr, "svdag: %s\n", report.cache.write_error.c_str());
   // Only on request: nlohmann's destructors allocate, which terminates if memory is exhausted.
   const std::string json = needs_json ? report_json(command, report) : "";
   if (report_file) {

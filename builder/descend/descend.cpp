@@ -22,6 +22,14 @@ uint32_t sheets_of(Subject set) {
 
 }  // namespace
 
+DescentCounts& DescentCounts::operator+=(const DescentCounts& other) {
+  decisions += other.decisions;
+  memo += other.memo;
+  divided.resize(std::max(divided.size(), other.divided.size()));
+  for (size_t k = 0; k < other.divided.size(); ++k) divided[k] += other.divided[k];
+  return *this;
+}
+
 Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
                  const MortonSet* done)
     : grid_(grid),
@@ -35,7 +43,13 @@ Descent::Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* b
       done_(done != nullptr && !done->empty() ? done : nullptr),
       lists_(size_t(grid.levels)),
       sets_(size_t(grid.levels)),
-      divided_(size_t(grid.levels)) {}
+      counts_{{}, {}, std::vector<uint64_t>(size_t(grid.levels))} {}
+
+DescentCounts Descent::counts() const {
+  DescentCounts counts = counts_;
+  counts.memo = memo_.counts();
+  return counts;
+}
 
 void Descent::run(const Cube& cube, const TriangleList& list, const LayerWindings& windings) {
   check_interrupt();
@@ -157,7 +171,7 @@ void Descent::node(const Cube& cube, const TriangleList& list, const CubeSets& s
 
 void Descent::divide(const Cube& cube, const TriangleList& list, const CubeSets& sets,
                      bool as_roots) {
-  ++divided_[size_t(cube.level)];
+  ++counts_.divided[size_t(cube.level)];
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   std::array<CubeSets, 8>& sets_of = sets_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
@@ -297,9 +311,9 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
   const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   if (!is_solid(config_.rule))
-    return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted, &decisions_);
+    return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted, &counts_.decisions);
   const Brick touched =
-      voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &decisions_);
+      voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &counts_.decisions);
   Brick voxels = touched;
   for_each_untouched(list, corner, grid_.fraction(), winding, touched, sheets,
                      [&](Brick component, int32_t at) {
@@ -310,10 +324,10 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
 
 // As divide() into bricks.
 void Descent::eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
-  ++divided_[size_t(cube.level)];
+  ++counts_.divided[size_t(cube.level)];
   Brick bricks[8];
   const uint32_t voxels = voxels_.cube(list.data(), list.size(), cube.corner(grid_.levels),
-                                       grid_.fraction(), config_.covering, bricks, &decisions_);
+                                       grid_.fraction(), config_.covering, bricks, &counts_.decisions);
   if (voxels == 0) return;
   unsigned children = 0;
   for (unsigned c = 0; c < 8; ++c) children |= unsigned(bricks[c] != 0) << c;

@@ -56,6 +56,15 @@ struct DescentConfig : FastPaths {
   Rule rule = Rule::kConservative;  // which voxels are set
 };
 
+struct DescentCounts {
+  DecisionCounts decisions;
+  PlaneMemoCounts memo;
+  // [level]: number of cubes divided; the other non-empty cubes were answered by the memo.
+  std::vector<uint64_t> divided;
+
+  DescentCounts& operator+=(const DescentCounts& other);
+};
+
 // A sub-DAG and the sets that share it.
 struct SetsDag {
   SubDagSets sets;
@@ -81,10 +90,7 @@ class Descent {
   // Adds `cube`, whose sub-DAGs were reduced to the builder's table otherwise.
   void add_reduced(const Cube& cube, std::span<const SetsDag> dags);
 
-  const DecisionCounts& decisions() const { return decisions_; }
-  const PlaneMemoCounts& memo() const { return memo_.counts(); }
-  // [level]: number of cubes divided; the other non-empty cubes were answered by the memo.
-  const std::vector<uint64_t>& divided() const { return divided_; }
+  DescentCounts counts() const;
 
  private:
   // A triangle of this cell that was looked up in the memo, and the result.
@@ -143,8 +149,7 @@ class Descent {
   std::vector<std::array<TriangleList, 8>> lists_;  // [level], reused
   std::vector<std::array<CubeSets, 8>> sets_;       // [level], reused
   std::vector<std::pair<Subject, SubDag>> found_;   // in the memo, reused
-  std::vector<uint64_t> divided_;
-  DecisionCounts decisions_;
+  DescentCounts counts_;                            // without those of memo_
 };
 
 }  // namespace svdag

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "builder/overlap/exact.h"
-#include "builder/split/open_edges.h"
+#include "builder/split/solid_watch.h"
 #include "io/lattice.h"
-#include "io/scene/open_parts.h"
 #include "streaming/error.h"
 #include "streaming/process/stage.h"
 
@@ -103,36 +101,6 @@ void require_different_names(const std::vector<std::string>& paths) {
   }
 }
 
-// Of the tetrahedron on the triangle with its apex at the grid's corner, in voxels. The sum over a
-// closed surface is the volume that it winds around.
-double volume_of(const LatticeTriangle& t, int fraction) {
-  const Point a(t.v[0]), b(t.v[1]), c(t.v[2]);
-  return std::ldexp(glm::dot(a, glm::cross(b, c)) / 6, -3 * fraction);
-}
-
-BoundaryChain boundary_chain(const Scene& scene, const Grid& grid) {
-  const Lattice lattice(grid);
-  BoundaryChain chain;
-  scene.stream([&](const TriangleBatch& batch) {
-    for (const Triangle& t : batch.triangles)
-      chain.add(
-          LatticeTriangle{{lattice.snap(t.v[0]), lattice.snap(t.v[1]), lattice.snap(t.v[2])}});
-  });
-  return chain;
-}
-
-// Error (kBadInput) unless the rule is defined for the surface.
-void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeSum& edges) {
-  if (is_closed(edges, rule) || is_closed(boundary_chain(scene, grid), rule)) return;
-  const OpenEdges open = find_open_edges(scene, grid);
-  throw Error(ExitCode::kBadInput,
-              open.closed_mod_2
-                  ? "the triangles of the scene are not oriented alike at " + describe(open) +
-                        ": give --inside odd"
-                  : "the scene is not closed: " + describe(open) +
-                        ": repair it, or bake its open parts as surfaces with --open surface");
-}
-
 }  // namespace
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
@@ -154,25 +122,13 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   };
   double largest_move = 0;
   result.layers = SceneLayers(config.content.layers);
-  std::shared_ptr<CellWindings> windings;
-  if (is_solid(config.content.rule)) {
-    windings = std::make_shared<CellWindings>(grid.levels, Cube(),
-                                              CellWindings::level_of_grid(grid.levels), budget);
-  }
-  EdgeSum edges;
-  OpenParts open, open_layers;
-  if (is_solid(config.content.rule) && config.content.open_as_sheets) open = OpenParts(scene, grid, config.content.rule);
-  if (is_solid(config.content.rule) && config.content.layers != LayerKind::kNone)
-    open_layers = OpenParts(scene, grid, config.content.rule, config.content.layers);
-  counts.open_parts = open.size();
-  counts.open_layers = open_layers.size();
+  std::optional<SolidWatch> solid;
+  if (is_solid(config.content.rule)) solid.emplace(scene, grid, config.content, budget);
   const LatticeBox whole = grid.closed(grid.whole());
   const bool layered = config.content.layers != LayerKind::kNone;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
-    const bool open_part = open.contains(batch);
-    const uint32_t sheet =
-        (open_part ? kSheetOfUnion : 0) | (open_layers.contains(batch) ? kSheetOfLayer : 0);
+    const uint32_t sheet = solid ? solid->sheet_of(batch) : 0;
     for (const Triangle& triangle : batch.triangles) {
       LatticeTriangle snapped;
       snapped.subject = subject;
@@ -182,13 +138,9 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       const BoxPlacement placement = placement_of(snapped, grid, config.part);
       counts.outside += placement == BoxPlacement::kOutside;
       counts.clipped += placement == BoxPlacement::kClipped;
-      if (windings) windings->add_with_ray(snapped);
-      if (windings && !open_part) {
-        edges.add(snapped);
-        counts.volume += volume_of(snapped, grid.fraction());
-      }
+      if (solid) solid->add(snapped);
       if (placement == BoxPlacement::kOutside) {
-        if (windings && box_of(snapped).meets(whole)) keep(snapped);
+        if (solid && box_of(snapped).meets(whole)) keep(snapped);
         continue;
       }
       counts.degenerate += has_zero_area(snapped);
@@ -201,10 +153,12 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   storing.put(&kept);
   storing.finish();
   store.finish(&result);
-  // Of open parts the others were tested alone.
-  if (is_solid(config.content.rule) && open.size() == 0) require_closed(scene, grid, config.content.rule, edges);
-  if (windings) windings->finish();
-  result.windings = std::move(windings);
+  if (solid) {
+    result.windings = solid->finish();
+    counts.open_parts = solid->open_parts();
+    counts.open_layers = solid->open_layers();
+    counts.volume = solid->volume();
+  }
   counts.largest_snap = std::ldexp(largest_move, -grid.fraction());
   return result;
 }

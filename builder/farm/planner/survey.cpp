@@ -64,8 +64,9 @@ class Survey::Baker {
   void run(const Cube& cell, const TriangleList& list) { descent_.run(cell, list); }
 
   Work work() const {
-    const auto& divided = descent_.divided();
-    return {std::accumulate(divided.begin(), divided.end(), 0.0), double(descent_.memo().computed)};
+    const DescentCounts& counts = descent_.counts();
+    return {std::accumulate(counts.divided.begin(), counts.divided.end(), 0.0),
+            double(counts.memo.computed)};
   }
 
   uint64_t bricks() {

@@ -34,9 +34,7 @@ class ActingStore final : public CellStore {
   void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>&,
                   const std::function<void(BakedRun)>&) override {}
   void keep(const BakedRun&, SpillFile*) override {}
-  uint64_t hits() const override { return 0; }
-  uint64_t skipped_packs() const override { return 0; }
-  std::string write_error() const override { return {}; }
+  CellStoreCounts counts() const override { return {}; }
 
  private:
   Action action_;

@@ -47,7 +47,7 @@ class Cache : public ::testing::Test {
     fs::remove(config.output);
     const BuildReport report = bake(config, threads);
     EXPECT_TRUE(read_bytes(config.output) == expected_);
-    EXPECT_EQ(report.cache_write_error, "");
+    EXPECT_EQ(report.cache.write_error, "");
     return report;
   }
   std::vector<fs::path> packs() const {
@@ -73,10 +73,10 @@ class Cache : public ::testing::Test {
 TEST_F(Cache, ASecondBakeTakesEveryCell) {
   const BuildConfig config = prepare(random_soup(3000, 0.1, 1), 8);
   const BuildReport first = bake_as_expected(config);
-  EXPECT_EQ(first.cache_hits, 0U);
+  EXPECT_EQ(first.cache.hits, 0U);
   const BuildReport second = bake_as_expected(config, 2);
   EXPECT_GT(second.cells, 100U);
-  EXPECT_EQ(second.cache_hits, second.cells);
+  EXPECT_EQ(second.cache.hits, second.cells);
   EXPECT_EQ(second.voxels, first.voxels);
   EXPECT_EQ(second.decisions.total, 0U);
 }
@@ -86,8 +86,8 @@ TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
   bake_as_expected(prepare(soup, 8));
   for (Point& p : soup[7].v) p += Point(0.01, 0, 0);
   const BuildReport report = bake_as_expected(prepare(soup, 8));
-  EXPECT_LT(report.cache_hits, report.cells);
-  EXPECT_GT(report.cache_hits, report.cells - 20);
+  EXPECT_LT(report.cache.hits, report.cells);
+  EXPECT_GT(report.cache.hits, report.cells - 20);
 }
 
 // The same triangles in a cell bound another solid if the surface is turned, or is in another one.
@@ -102,10 +102,10 @@ TEST_F(Cache, ACellOfASolidServesTheSameWindingsOnly) {
     return mesh;
   };
   bake_as_expected(prepare(ball, 8, Rule::kSolid));
-  EXPECT_GT(bake_as_expected(prepare(ball, 8, Rule::kSolid)).cache_hits, 0U);
+  EXPECT_GT(bake_as_expected(prepare(ball, 8, Rule::kSolid)).cache.hits, 0U);
   for (const auto& mesh : {turned, in_a_box(ball), in_a_box(turned)}) {
-    EXPECT_EQ(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache_hits, 0U);
-    EXPECT_GT(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache_hits, 0U);
+    EXPECT_EQ(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache.hits, 0U);
+    EXPECT_GT(bake_as_expected(prepare(mesh, 8, Rule::kSolid)).cache.hits, 0U);
   }
 }
 
@@ -145,7 +145,7 @@ TEST_F(Cache, CellsOfDamagedPacksAreBakedAgain) {
     }
     std::ofstream(fs::path(cache_.folder) / "0123456789abcdef.cells", std::ios::binary) << broken;
     const BuildReport report = bake_as_expected(config);
-    EXPECT_EQ(report.cache_hits, 0U) << "byte " << at;
+    EXPECT_EQ(report.cache.hits, 0U) << "byte " << at;
     EXPECT_FALSE(fs::exists(fs::path(cache_.folder) / "0123456789abcdef.cells")) << "byte " << at;
   }
 }
@@ -242,7 +242,7 @@ TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
   const BuildReport newest = bake_as_expected(config, 2);
-  EXPECT_GT(newest.cache_hits, newest.cells - 20) << "the most recently used packs are read first";
+  EXPECT_GT(newest.cache.hits, newest.cells - 20) << "the most recently used packs are read first";
   EXPECT_GE(newest.cache_packs_skipped, 25U);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
@@ -306,7 +306,7 @@ TEST_F(Cache, AFolderThatCannotBeWrittenDoesNotFailTheBake) {
   };
   const BuildReport report = bake(config);
   EXPECT_TRUE(read_bytes(config.output) == expected_);
-  EXPECT_NE(report.cache_write_error, "");
+  EXPECT_NE(report.cache.write_error, "");
 }
 
 // The key of a cube of 32^3 voxels with `triangles`.

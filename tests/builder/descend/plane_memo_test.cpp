@@ -142,8 +142,8 @@ TEST(PlaneMemo, ComputesTheSameForAnyMemoryAddressesOfItsTriangles) {
     SubDagBuilder builder(kLevels, {.budget = &budget});
     Descent descent(test_grid(), {}, &builder);
     descent.run({0, {0, 0, 0}}, list);
-    EXPECT_GT(descent.memo().hits, 100u);
-    computed.insert(descent.memo().computed);
+    EXPECT_GT(descent.counts().memo.hits, 100u);
+    computed.insert(descent.counts().memo.computed);
   }
   EXPECT_EQ(computed.size(), 1u);
 }
