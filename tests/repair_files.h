@@ -8,7 +8,7 @@
 #include <string>
 
 #include "builder/cache/cell_pack.h"
-#include "builder/cache/pack_payload.h"
+#include "builder/cache/cell_pack_file.h"
 #include "builder/run/run_format.h"
 #include "streaming/file/checksum.h"
 
@@ -54,7 +54,7 @@ inline void repair_run(std::string* bytes) {
 
 // The payload of a pack is what its size leaves for blocks and their checksums.
 inline void repair_pack(std::string* bytes) {
-  PackHeader h;
+  CellPackHeader h;
   if (bytes->size() < sizeof h) return;
   std::memcpy(&h, bytes->data(), sizeof h);
   const size_t rest = bytes->size() - sizeof h;
@@ -68,7 +68,8 @@ inline void repair_pack(std::string* bytes) {
       std::memcpy(bytes->data() + sizeof h + payload + 8 * i, &sum, 8);
     }
   }
-  h.checksum = checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(PackHeader, checksum)));
+  h.checksum =
+      checksum64(std::as_bytes(std::span(&h, 1)).first(offsetof(CellPackHeader, checksum)));
   std::memcpy(bytes->data(), &h, sizeof h);
 }
 

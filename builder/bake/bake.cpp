@@ -113,8 +113,8 @@ void voxelize(const Tools& tools, const Grid& grid, const SplitConfig& config, S
     split->tree.reset();  // the sort needs the memory
     return;
   }
-  BinBaker baker(grid, config, &done, voxelizer, workspace->budget(),
-                 tools.executor, tools.progress);
+  BinBaker baker(grid, config, &done, voxelizer, workspace->budget(), tools.executor,
+                 tools.progress);
   SpillFile* const file = tools.config.ready != nullptr ? tools.config.ready->triangles
                                                         : workspace->scratch()->triangles();
   uint64_t at = 0;
@@ -221,12 +221,16 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }
   report.voxels_kept = runs.set().voxels;
-  Voxelizer voxelizer(
-      grid,
-      {{config.fast_paths, config.rule}, workspace->shares().table, config.checkpoint, config.with_union,
-       workspace->scratch(), &done, store.get(),
-       [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
-      workspace->budget(), executor);
+  Voxelizer voxelizer(grid,
+                      {{config.fast_paths, config.rule},
+                       workspace->shares().table,
+                       config.checkpoint,
+                       config.with_union,
+                       workspace->scratch(),
+                       &done,
+                       store.get(),
+                       [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
+                      workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
 
   phases.begin("sort", kSortShare, &report.phases.sort);

@@ -118,17 +118,16 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
   fill({});
   same &= subjects.size() == 1 &&
           winding_of(at_cube, *subjects.begin()) == winding_of(at_cube, kUnionSet);
-  voxelizer_->bake(bin.cube, windings, bin.range,
-                   [&](NodeTable* table, std::vector<SetsDag>* dags) {
-                     if (same)
-                       return dags->push_back(
-                           {SubDagSets::with_union(*subjects.begin()), cube.reduce(table)});
-                     dags->push_back({{}, cube.reduce(table)});
-                     for (const Subject subject : subjects) {
-                       fill(subject);
-                       dags->push_back({SubDagSets::only(subject), cube.reduce(table)});
-                     }
-                   });
+  voxelizer_->bake(
+      bin.cube, windings, bin.range, [&](NodeTable* table, std::vector<SetsDag>* dags) {
+        if (same)
+          return dags->push_back({SubDagSets::with_union(*subjects.begin()), cube.reduce(table)});
+        dags->push_back({{}, cube.reduce(table)});
+        for (const Subject subject : subjects) {
+          fill(subject);
+          dags->push_back({SubDagSets::only(subject), cube.reduce(table)});
+        }
+      });
 }
 
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {

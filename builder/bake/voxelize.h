@@ -26,7 +26,7 @@ struct VoxelizeConfig {
   DescentConfig descent;
   uint64_t table_bytes = UINT64_MAX;  // freeze_bytes() from which on a table is frozen
   double max_seconds = std::numeric_limits<double>::infinity();  // between two times it is frozen
-  bool with_union = true;  // false: what is only the union's is not kept
+  bool with_union = true;              // false: what is only the union's is not kept
   Scratch* scratch = nullptr;          // null: tables are never frozen before finish()
   const MortonSet* done = nullptr;     // what is baked already; null: nothing
   CellStore* store = nullptr;          // of cells baked before; null: none

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "builder/cache/cell_key.h"
-#include "builder/cache/pack_payload.h"
+#include "builder/cache/cell_pack_file.h"
 #include "builder/workspace/memory_shares.h"
 #include "streaming/counts.h"
 
@@ -89,7 +89,7 @@ void CellCache::open_packs() {
   std::reverse(found.begin(), found.end());
   for (const PackFile& file : found) {
     try {
-      Pack pack(config_.folder + "/" + file.name);
+      CellPack pack(config_.folder + "/" + file.name);
       const uint64_t bytes = pack.index_bytes() + pack.entry_count() * sizeof(CellAddress);
       if (bytes > left || pack.marks_bytes() > shares.cache_marks) {
         ++counts_.skipped_packs;
@@ -99,7 +99,7 @@ void CellCache::open_packs() {
       packs_.push_back({std::move(pack), {}});
       left -= bytes;
       entries += packs_.back().pack.entry_count();
-    } catch (const DamagedPack&) {
+    } catch (const DamagedCellPack&) {
       discard(file.name);
     } catch (const Error& error) {
       rethrow_if_internal(error);
@@ -145,7 +145,7 @@ bool CellCache::is_usable(OpenPack* open) {
     ++open_packs_;
     std::error_code unused;  // a read-only cache can still be used
     fs::last_write_time(open->pack.path(), fs::file_time_type::clock::now(), unused);
-  } catch (const DamagedPack&) {
+  } catch (const DamagedCellPack&) {
     discard(fs::path(open->pack.path()).filename().string());
   } catch (const Error& error) {
     rethrow_if_internal(error);
@@ -160,7 +160,7 @@ bool CellCache::take(const CellKey& key, const Cube& cube, SubDagSets sets) {
   if (found == addresses_.end() || key_at(*found) != key) return false;
   const std::lock_guard lock(mutex_);
   OpenPack& open = packs_[found->pack];
-  const PackEntry& entry = open.pack.entries()[found->entry];
+  const CellPackEntry& entry = open.pack.entries()[found->entry];
   const bool fits = entry.rank == kNoNode || int(entry.height) == grid_.levels - cube.level;
   if (!fits || !is_usable(&open)) return false;
   open.taken.push_back({found->entry, cube, sets});
@@ -185,7 +185,7 @@ void CellCache::keep(const BakedRun& baked, SpillFile* runs) {
     if (!counts_.write_error.empty()) return;
   }
   try {
-    write_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
+    write_cell_pack(config_.folder + "/" + random_name(), baked, grid_.levels, runs, budget_);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kOutput) throw;
     const std::lock_guard lock(mutex_);

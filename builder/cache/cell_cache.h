@@ -58,8 +58,8 @@ class CellCache final : public CellStore {
     uint64_t bytes;
   };
   struct OpenPack {
-    Pack pack;
-    std::vector<Pack::TakenCell> taken;
+    CellPack pack;
+    std::vector<CellPack::TakenCell> taken;
     bool proven = false, unusable = false;
   };
   std::vector<PackFile> find_packs() const;

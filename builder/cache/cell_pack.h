@@ -1,6 +1,5 @@
-// A pack: a file of a cell cache with the sub-DAGs of the cells of one node table.
-//
-// Its layout: builder/cache/pack_layout.h. Reading cells from it: builder/cache/pack_extraction.h.
+// A pack of cells: a file of a cell cache with the sub-DAGs of the cells of one node table
+// (builder/cache/cell_pack_file.h).
 #pragma once
 
 #include <memory>
@@ -8,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "builder/cache/cell_pack_file.h"
 #include "builder/cache/cell_store.h"
-#include "builder/cache/pack_layout.h"
 #include "builder/reduce/baked_run.h"
 #include "streaming/file/file.h"
 
@@ -17,13 +16,13 @@ namespace svdag {
 
 // Writes a pack with the cells of `baked` that have keys; writes nothing if there are none.
 // `levels` is L of the grid; `runs` holds the run of `baked` if it is spilled.
-void write_pack(const std::string& path, const BakedRun& baked, int levels, SpillFile* runs,
-                MemoryBudget* budget);
+void write_cell_pack(const std::string& path, const BakedRun& baked, int levels, SpillFile* runs,
+                     MemoryBudget* budget);
 
-class Pack {
+class CellPack {
  public:
-  // Reads the header. DamagedPack (builder/cache/pack_payload.h) if it is invalid.
-  explicit Pack(std::string path);
+  // Reads the header. DamagedCellPack if it is invalid.
+  explicit CellPack(std::string path);
 
   const std::string& path() const { return path_; }
   uint64_t bytes() const { return header_.file_bytes; }
@@ -33,11 +32,12 @@ class Pack {
   // Largest memory of extract() in bytes, without that of the run.
   uint64_t marks_bytes() const;
 
-  // Must be called once, before the functions below. DamagedPack if the entries are invalid.
+  // Must be called once, before the functions below. DamagedCellPack if the entries are invalid.
   void read_entries(MemoryBudget* budget);
-  std::span<const PackEntry> entries() const { return entries_; }
-  // Opens the file, keeps it open, and reads it once to the end. DamagedPack if a byte differs from
-  // what was written, or its nodes cannot be those of a run; another Error if it cannot be read.
+  std::span<const CellPackEntry> entries() const { return entries_; }
+  // Opens the file, keeps it open, and reads it once to the end. DamagedCellPack if a byte differs
+  // from what was written, or its nodes cannot be those of a run; another Error if it cannot be
+  // read.
   void prove();
 
   struct TakenCell {
@@ -56,9 +56,9 @@ class Pack {
                    const std::function<void(std::span<std::byte>)>& use) const;
 
   std::string path_;
-  PackHeader header_{};
+  CellPackHeader header_{};
   MemoryBudget::Reservation counted_;  // of the next two
-  std::vector<PackEntry> entries_;
+  std::vector<CellPackEntry> entries_;
   std::vector<uint64_t> checksums_;  // of the blocks
   File file_;
 };

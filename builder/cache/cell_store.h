@@ -33,8 +33,8 @@ class CellStore {
   // it: the caller then skips the descent, and load_taken() passes the sub-DAG later.
   // Thread-safe.
   virtual bool take(const CellKey& key, const Cube& cube, SubDagSets sets) = 0;
-  // Passes the cells that were taken to `use`, as runs. target(bytes) decides whether a run of up to
-  // `bytes` bytes is spilled, and where to.
+  // Passes the cells that were taken to `use`, as runs. target(bytes) decides whether a run of up
+  // to `bytes` bytes is spilled, and where to.
   virtual void load_taken(const std::function<std::optional<SpillTarget>(uint64_t)>& target,
                           const std::function<void(BakedRun)>& use) = 0;
   // Stores the cells of `baked`; `runs` holds its run if that is spilled. Thread-safe.

@@ -185,7 +185,8 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
                 format_count(r.cache.skipped_packs).c_str());
   std::printf("\n");
   std::printf("  planes: %s cubes looked up in the memo, %s answered; %s nodes computed for it\n",
-              format_count(r.descent.memo.queries).c_str(), format_count(r.descent.memo.answered).c_str(),
+              format_count(r.descent.memo.queries).c_str(),
+              format_count(r.descent.memo.answered).c_str(),
               format_count(r.descent.memo.computed).c_str());
   std::printf(
       "  seconds: bounds %.2f, split %.2f, voxelize %.2f, sort %.2f, merge %.2f, write %.2f; "

@@ -170,23 +170,20 @@ CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
            {"conservative", "thin", "solid"})
       ->type_name("RULE");
   // After --rule, since options are applied in the order of their definition.
-  suggests(app->add_option_function<std::string>(
-               "--inside",
-               [build](const std::string& s) {
-                 build->rule = parse_inside(s, build->rule);
-               },
-               "With --rule solid, inside is where the surface winds around: nonzero (default), or "
-               "odd, for surfaces without consistent orientation"),
-           {"nonzero", "odd"})
+  suggests(
+      app->add_option_function<std::string>(
+          "--inside", [build](const std::string& s) { build->rule = parse_inside(s, build->rule); },
+          "With --rule solid, inside is where the surface winds around: nonzero (default), or "
+          "odd, for surfaces without consistent orientation"),
+      {"nonzero", "odd"})
       ->type_name("KIND");
-  suggests(app->add_option_function<std::string>(
-               "--open",
-               [build](const std::string& s) {
-                 build->open_as_sheets = parse_open(s, build->rule);
-               },
-               "With --rule solid, what to do with a scene that is not closed: error (default), or "
-               "bake its open objects as surfaces"),
-           {"error", "surface"})
+  suggests(
+      app->add_option_function<std::string>(
+          "--open",
+          [build](const std::string& s) { build->open_as_sheets = parse_open(s, build->rule); },
+          "With --rule solid, what to do with a scene that is not closed: error (default), or "
+          "bake its open objects as surfaces"),
+      {"error", "surface"})
       ->type_name("KIND");
   add_scene_options(app, &build->scene);
   return grid;

@@ -192,8 +192,7 @@ void Descent::divide(const Cube& cube, const TriangleList& list, const CubeSets&
                  });
   }
   if (!sets.shared) {
-    for (unsigned c = 0; c < 8; ++c)
-      sets_of[c].shared = shared_sets(lists[c], sets_of[c].windings);
+    for (unsigned c = 0; c < 8; ++c) sets_of[c].shared = shared_sets(lists[c], sets_of[c].windings);
   }
   builder_->open(cube, sets.shared, as_roots);
   for (unsigned c = 0; c < 8; ++c) node(cube.child(c), lists[c], sets_of[c]);
@@ -234,9 +233,8 @@ bool Descent::find_in_memo(const Cube& cube, const TriangleList& list, const Cub
   return true;
 }
 
-std::optional<SubDag> Descent::find_set(const Cube& cube,
-                                        std::span<const ListedTriangle> list, int32_t winding,
-                                        uint32_t sheets) {
+std::optional<SubDag> Descent::find_set(const Cube& cube, std::span<const ListedTriangle> list,
+                                        int32_t winding, uint32_t sheets) {
   if (grid_.bounded && !grid_.selection.holds(cube.voxels(grid_.levels))) return std::nullopt;
   if (list.size() > 1)
     return config_.patches ? find_patch(cube, list, winding, sheets) : std::nullopt;
@@ -268,9 +266,8 @@ FilledSides Descent::filled_sides(const Cube& cube, std::span<const ListedTriang
          (is_inside(config_.rule, at_high) ? kHighSide : 0);
 }
 
-std::optional<SubDag> Descent::find_patch(const Cube& cube,
-                                          std::span<const ListedTriangle> list, int32_t winding,
-                                          uint32_t sheets) {
+std::optional<SubDag> Descent::find_patch(const Cube& cube, std::span<const ListedTriangle> list,
+                                          int32_t winding, uint32_t sheets) {
   const int64_t voxels = int64_t(1) << (grid_.levels - cube.level);
   if (voxels > kLargestPatchSide || !may_be_patch(list, voxels)) return std::nullopt;
   const auto covering = std::find_if(list.begin(), list.end(), [](const ListedTriangle& entry) {
@@ -297,8 +294,7 @@ std::optional<SubDag> Descent::find_patch(const Cube& cube,
 
 // The slot depends on the triangle, not on its address, so the lookups, and what the memo computes,
 // are the same in every run.
-const std::optional<PlaneMemo::AdmittedPlane>& Descent::known_plane(
-    const TriangleSetup& triangle) {
+const std::optional<PlaneMemo::AdmittedPlane>& Descent::known_plane(const TriangleSetup& triangle) {
   const LatticeTriangle& t = triangle.triangle;
   const uint64_t sum = uint64_t(t.v[0][0]) + 3 * uint64_t(t.v[1][1]) + 5 * uint64_t(t.v[2][2]);
   KnownTriangle& known = known_[(sum * kMultiplier >> 32) % known_.size()];
@@ -311,9 +307,10 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
   const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
   if (!is_solid(config_.rule))
-    return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted, &counts_.decisions);
-  const Brick touched =
-      voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0), &counts_.decisions);
+    return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted,
+                         &counts_.decisions);
+  const Brick touched = voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), ~Brick(0),
+                                      &counts_.decisions);
   Brick voxels = touched;
   for_each_untouched(list, corner, grid_.fraction(), winding, touched, sheets,
                      [&](Brick component, int32_t at) {
@@ -326,8 +323,9 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
 void Descent::eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets) {
   ++counts_.divided[size_t(cube.level)];
   Brick bricks[8];
-  const uint32_t voxels = voxels_.cube(list.data(), list.size(), cube.corner(grid_.levels),
-                                       grid_.fraction(), config_.covering, bricks, &counts_.decisions);
+  const uint32_t voxels =
+      voxels_.cube(list.data(), list.size(), cube.corner(grid_.levels), grid_.fraction(),
+                   config_.covering, bricks, &counts_.decisions);
   if (voxels == 0) return;
   unsigned children = 0;
   for (unsigned c = 0; c < 8; ++c) children |= unsigned(bricks[c] != 0) << c;

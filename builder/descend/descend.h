@@ -13,8 +13,8 @@
 // list that is grouped by layer, and gives a sub-DAG per layer and one of the union. Below it, a
 // cube that only one layer touches has one set of voxels, as every cube has in a bake without
 // layers; so layers cost only where they meet. A brick's voxels are the OR over its triangles, so
-// the union's brick is the OR of the layers' bricks. With the solid rules it is not: the union has a
-// winding number of its own, and a layer is also where it has no triangle, but winds around the
+// the union's brick is the OR of the layers' bricks. With the solid rules it is not: the union has
+// a winding number of its own, and a layer is also where it has no triangle, but winds around the
 // cube.
 // Rejected: the layers one after the other, and the union by recursive OR of their nodes (the upper
 // cubes are divided once for each layer).

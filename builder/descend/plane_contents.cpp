@@ -161,7 +161,7 @@ Brick PlaneContents::brick_voxels(const PlaneHeights& p, int32_t first, FilledSi
   for (unsigned k = 0; k < 4; ++k) {
     for (unsigned i = 0; i < 4; ++i, slabs >>= 4) {
       voxels |= rows[slabs & 15] << (kBrickBit[axes.w][k ^ axes.flip(axes.w)] +
-                                      kBrickBit[axes.u][i ^ axes.flip(axes.u)]);
+                                     kBrickBit[axes.u][i ^ axes.flip(axes.u)]);
     }
   }
   return voxels;

@@ -9,8 +9,8 @@
 // negative are reflected. In reflected coordinates, in voxels, the plane's height over the point
 // (i, j) is
 //   h(i, j) = (o - zero) / (c F) - i |n_u| / c - j |n_v| / c,
-//   zero = 7 F s + the first offset that sets the voxel at the corner, for s the sum of the negative
-//   components of n (so 8 F s, except for rule thin, where the end is half-open).
+//   zero = 7 F s + the first offset that sets the voxel at the corner, for s the sum of the
+//   negative components of n (so 8 F s, except for rule thin, where the end is half-open).
 // Voxel (i, j, k) is set iff k <= h(i, j) and h(i+1, j+1) <= k + 1 (thin: iff k = floor h(i, j)).
 // So if no height is an integer, column (i, j) holds floor h(i+1, j+1) ... floor h(i, j) (thin:
 // floor h(i, j)), as far as that is in 0 ... 7. Clamping the heights to [-1/2, 8 1/2] changes no

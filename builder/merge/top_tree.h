@@ -28,7 +28,8 @@ class TopTree {
   template <class Map>
   void resolve_run(int level, uint32_t run, const Map& map) {
     for (auto [root, end] = roots_of(level, run); root != end; ++root)
-      if (map.holds(root->rank)) cubes_.push_back({root->sets.subject, root->morton, map[root->rank]});
+      if (map.holds(root->rank))
+        cubes_.push_back({root->sets.subject, root->morton, map[root->rank]});
   }
   void end_level(int level);
 

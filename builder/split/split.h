@@ -45,7 +45,7 @@ struct SplitCounts {
   // Solid rules:
   uint64_t open_parts = 0;   // baked as surfaces
   uint64_t open_layers = 0;  // the same, of the layers
-  double volume = 0;        // that the closed parts wind around, signed, in voxels
+  double volume = 0;         // that the closed parts wind around, signed, in voxels
 };
 
 // Calls visit(name, field) for every stored field: the field list of journals and plans.
@@ -66,9 +66,9 @@ void visit_count_fields(AnyCounts& counts, const Visit& visit) {
 
 struct SplitScene {
   SplitCounts counts;
-  std::unique_ptr<CellTree> tree;               // sealed; null if the triangles were spilled
-  std::vector<TriangleBin> bins;                // in Morton order, in the scratch's `triangles`
-  SceneLayers layers;                           // by the subjects of the triangles
+  std::unique_ptr<CellTree> tree;                // sealed; null if the triangles were spilled
+  std::vector<TriangleBin> bins;                 // in Morton order, in the scratch's `triangles`
+  SceneLayers layers;                            // by the subjects of the triangles
   std::shared_ptr<const CellWindings> windings;  // of the grid; null unless the rule is solid
 };
 

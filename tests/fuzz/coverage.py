@@ -29,7 +29,7 @@ READERS = {
     "report": ["verify/report/report_html.cpp"],
     "run": ["builder/run/run_file.cpp", "builder/run/run_check.cpp", "builder/run/run_format.cpp"],
     "journal": ["streaming/spill/journal.cpp", "streaming/spill/record.h", "builder/bake/saved_bake.cpp", "builder/split/bin_record.cpp"],
-    "pack": ["builder/cache/cell_pack.cpp", "builder/cache/pack_payload.cpp"],
+    "pack": ["builder/cache/cell_pack.cpp", "builder/cache/cell_pack_file.cpp"],
     "plan": ["builder/farm/plan/plan.cpp", "builder/farm/plan/plan_index.cpp", "builder/farm/plan/receipt.cpp"],
     "command_line": [f"builder/commands/{kind}_options.cpp" for kind in ("build", "farm", "info", "shared")],
     "batch": ["builder/commands/batch.cpp"],

@@ -13,11 +13,11 @@ void try_pack(const std::string& bytes) {
   expect_only_errors([&] {
     const MemoryFile memory(bytes);
     MemoryBudget budget(uint64_t(64) << 20);
-    Pack pack(memory.file().path());
+    CellPack pack(memory.file().path());
     pack.read_entries(&budget);
     pack.prove();
     for (size_t i = 0; i < std::min(pack.entries().size(), kMaxTaken); ++i) {
-      const PackEntry& entry = pack.entries()[i];
+      const CellPackEntry& entry = pack.entries()[i];
       const int levels = entry.rank == kNoNode ? 3 : std::max(3, int(entry.height));
       if (levels > kMaxLevels) continue;
       const Cube cube{entry.rank == kNoNode ? 1 : levels - int(entry.height), {}};
@@ -33,9 +33,9 @@ void try_pack(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::string bytes(reinterpret_cast<const char*>(data), size);
   svdag::try_pack(bytes);
-  if (size >= sizeof(svdag::PackHeader)) {
+  if (size >= sizeof(svdag::CellPackHeader)) {
     const uint64_t file_bytes = size;
-    std::memcpy(bytes.data() + offsetof(svdag::PackHeader, file_bytes), &file_bytes, 8);
+    std::memcpy(bytes.data() + offsetof(svdag::CellPackHeader, file_bytes), &file_bytes, 8);
   }
   svdag::repair_pack(&bytes);
   svdag::try_pack(bytes);

@@ -1,10 +1,10 @@
 // Vector kernel: the 64 voxels of a brick, conservative rule.
 // Included once per instruction set (builder/overlap/kernels/kernels_vector.cpp).
-#if defined(SVDAG_BUILDER_KERNEL_VOXELS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef SVDAG_BUILDER_KERNEL_VOXELS_INL_H
-#undef SVDAG_BUILDER_KERNEL_VOXELS_INL_H
+#if defined(SVDAG_BUILDER_KERNEL_CONSERVATIVE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVDAG_BUILDER_KERNEL_CONSERVATIVE_INL_H
+#undef SVDAG_BUILDER_KERNEL_CONSERVATIVE_INL_H
 #else
-#define SVDAG_BUILDER_KERNEL_VOXELS_INL_H
+#define SVDAG_BUILDER_KERNEL_CONSERVATIVE_INL_H
 #endif
 
 #include "builder/overlap/brick_tables.h"

@@ -99,15 +99,15 @@ BrickSlabs plain_slabs(int32_t first, int32_t step_u, int32_t step_v, int32_t dr
 }  // namespace
 
 const Kernels& plain_kernels() {
-  static constexpr Kernels kPlain = {"plain",
-                                     1,
-                                     plain_children,
-                                     {plain_voxels<overlap_brick>, plain_cube<overlap_brick>},
-                                     {plain_voxels<overlap_brick_thin>,
-                                      plain_cube<overlap_brick_thin>},
-                                     plain_plane,
-                                     plain_heights,
-                                     plain_slabs};
+  static constexpr Kernels kPlain = {
+      "plain",
+      1,
+      plain_children,
+      {plain_voxels<overlap_brick>, plain_cube<overlap_brick>},
+      {plain_voxels<overlap_brick_thin>, plain_cube<overlap_brick_thin>},
+      plain_plane,
+      plain_heights,
+      plain_slabs};
   return kPlain;
 }
 

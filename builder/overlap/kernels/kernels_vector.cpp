@@ -14,14 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace svdag::HWY_NAMESPACE {
 
 Kernels kernels_of_target() {
-  return {hwy::TargetName(HWY_TARGET),
-          int(kSixteen),
-          children,
-          {conservative, conservative_cube},
-          {thin, thin_cube},
-          plane,
-          heights,
-          slabs};
+  return {hwy::TargetName(HWY_TARGET), int(kSixteen), children, {conservative, conservative_cube},
+          {thin, thin_cube},           plane,         heights,  slabs};
 }
 
 }  // namespace svdag::HWY_NAMESPACE

@@ -13,9 +13,9 @@ namespace svdag {
 
 struct SurfaceRule {
   Rule rule;
-  RuleKernels Kernels::* kernels;
-  // The offsets of a plane with the normal n (builder/overlap/lattice_plane.h) for which it sets the
-  // voxel at the corner; `fraction` is F of the grid.
+  RuleKernels Kernels::*kernels;
+  // The offsets of a plane with the normal n (builder/overlap/lattice_plane.h) for which it sets
+  // the voxel at the corner; `fraction` is F of the grid.
   OffsetRange (*voxel_offsets)(const int64_t n[3], int fraction);
   // Whether a plane sets exactly one voxel in each column along its dominant axis.
   bool is_one_per_column;

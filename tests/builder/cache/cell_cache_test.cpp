@@ -58,10 +58,10 @@ class Cache : public ::testing::Test {
 
   static std::vector<CellKey> keys_of(const fs::path& path) {
     MemoryBudget budget;
-    Pack pack(path);
+    CellPack pack(path);
     pack.read_entries(&budget);
     std::vector<CellKey> keys;
-    for (const PackEntry& entry : pack.entries()) keys.push_back(entry.key);
+    for (const CellPackEntry& entry : pack.entries()) keys.push_back(entry.key);
     return keys;
   }
 
@@ -227,7 +227,7 @@ void write_unused_pack(const std::string& path, size_t count) {
   for (size_t i = 0; i < count; ++i)
     baked.cells.push_back({{{random(), random(), random(), random()}}, BakedCell::kNoRoot, 0});
   MemoryBudget budget;
-  write_pack(path, baked, 6, nullptr, &budget);
+  write_cell_pack(path, baked, 6, nullptr, &budget);
 }
 
 TEST_F(Cache, ALargeCacheFitsInLittleMemory) {

@@ -66,11 +66,9 @@ TEST(PlaneMemo, GivesTheVoxelsOfThePlainDescentTiesIncluded) {
       const LatticeTriangle triangle =
           covering(random, window.corner(kLevels), random() % 2 == 0, random() % 2 == 0);
       const DescentConfig memo{{.memo_repeats = 0}, rule};
-      const DescentConfig plain{{.kernels = &plain_kernels(),
-                                 .covering = false,
-                                 .plane_memo = false,
-                                 .cubes = false},
-                                rule};
+      const DescentConfig plain{
+          {.kernels = &plain_kernels(), .covering = false, .plane_memo = false, .cubes = false},
+          rule};
       ASSERT_EQ(bricks_of(memo, window, triangle), bricks_of(plain, window, triangle)) << i;
     }
   }

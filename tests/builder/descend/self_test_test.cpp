@@ -31,7 +31,8 @@ int correct_calls = 0;  // calls left before the wrong one
 template <RuleKernels Kernels::*kRule>
 Brick err_once(const ListedTriangle* entries, size_t count, const LatticePoint& corner,
                int fraction, Brick wanted, DecisionCounts* counts) noexcept {
-  const Brick brick = (plain_kernels().*kRule).brick(entries, count, corner, fraction, wanted, counts);
+  const Brick brick =
+      (plain_kernels().*kRule).brick(entries, count, corner, fraction, wanted, counts);
   return correct_calls-- == 0 ? brick ^ (wanted & -wanted) : brick;
 }
 

@@ -77,15 +77,17 @@ TEST(Kernels, SetTheVoxelsOfThePlainOnes) {
     const Brick candidates = draw.bits() % 4 == 0 ? draw.bits() : ~Brick(0);
     DecisionCounts counts;
     const Kernels& plain = plain_kernels();
-    const Brick conservative =
-        plain.conservative.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
+    const Brick conservative = plain.conservative.brick(list.data(), list.size(), LatticePoint(0),
+                                                        kF, candidates, &counts);
     const Brick thin =
         plain.thin.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts);
     for (const Kernels& k : all) {
-      ASSERT_EQ(k.conservative.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
-                conservative)
+      ASSERT_EQ(
+          k.conservative.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
+          conservative)
           << k.name;
-      ASSERT_EQ(k.thin.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts), thin)
+      ASSERT_EQ(k.thin.brick(list.data(), list.size(), LatticePoint(0), kF, candidates, &counts),
+                thin)
           << k.name;
     }
   }

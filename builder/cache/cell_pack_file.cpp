@@ -1,4 +1,4 @@
-#include "builder/cache/pack_payload.h"
+#include "builder/cache/cell_pack_file.h"
 
 #include <algorithm>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 namespace svdag {
 
-void PackBlockWriter::append(std::span<const std::byte> bytes) {
+void CellPackWriter::append(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const size_t n = std::min(bytes.size(), block_.size() - filled_);
     std::memcpy(block_.data() + filled_, bytes.data(), n);
@@ -18,12 +18,12 @@ void PackBlockWriter::append(std::span<const std::byte> bytes) {
   }
 }
 
-void PackBlockWriter::align() {
+void CellPackWriter::align() {
   static constexpr std::byte kZeros[kPackAlignment] = {};
   append(std::span(kZeros).first(align_pack(filled_) - filled_));
 }
 
-void PackBlockWriter::flush() {
+void CellPackWriter::flush() {
   check_interrupt();
   const std::span<const std::byte> block = std::span(block_).first(filled_);
   file_->write_at(kPackBegin + checksums_.size() * kPackBlock, block);
@@ -31,7 +31,7 @@ void PackBlockWriter::flush() {
   filled_ = 0;
 }
 
-uint64_t PackBlockWriter::finish() {
+uint64_t CellPackWriter::finish() {
   const uint64_t end = kPackBegin + checksums_.size() * kPackBlock + filled_;
   if (filled_ > 0) flush();
   const auto table = std::as_bytes(std::span(checksums_));
@@ -39,8 +39,9 @@ uint64_t PackBlockWriter::finish() {
   return end + table.size();
 }
 
-void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t payload,
-               uint64_t begin, uint64_t end, const std::function<void(std::span<std::byte>)>& use) {
+void read_cell_pack(const File& file, std::span<const uint64_t> checksums, uint64_t payload,
+                    uint64_t begin, uint64_t end,
+                    const std::function<void(std::span<std::byte>)>& use) {
   std::vector<std::byte> memory(std::min(kPackBlock, payload));
   for (uint64_t at = begin; at < end;) {
     check_interrupt();
@@ -49,8 +50,8 @@ void read_pack(const File& file, std::span<const uint64_t> checksums, uint64_t p
         std::span(memory).first(std::min(kPackBlock, payload - first));
     file.read_at(kPackBegin + first, block);
     if (checksum64(block) != checksums[index])
-      throw DamagedPack(file.path(), "is damaged: a block does not match its checksum",
-                        kPackBegin + first);
+      throw DamagedCellPack(file.path(), "is damaged: a block does not match its checksum",
+                            kPackBegin + first);
     const uint64_t stop = std::min(end, first + block.size());
     use(block.subspan(at - first, stop - at));
     at = stop;
