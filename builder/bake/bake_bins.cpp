@@ -97,7 +97,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
     if (w.subject != kUnionSet) subjects.insert(w.subject);
   }
   bool same = true;  // the union and the only layer, if there is one
-  // Fills the bitmap with all triangles, or those of a layer.
+  // Fills the bitmap with all triangles, or with the triangles of a layer.
   const auto fill = [&](std::optional<Subject> only) {
     cube.clear(only ? kSheetOfLayer : kSheetOfUnion);
     read(file, bin, most, [&](std::vector<LatticeTriangle>* triangles) {
@@ -131,7 +131,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
 }
 
 void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
-  // A surface in 4^depth parts of as many: deep enough that most fit.
+  // A surface meets about 4^depth parts. They are deep enough that most fit.
   const uint64_t fitting = split_.triangle_bytes / (2 * PackedTriangles::kMinBytes);
   const int most =
       TriangleBins::depth_for(split_.triangle_bytes / 2, *split_.scratch, grid_, bin.cube);

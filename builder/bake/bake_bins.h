@@ -29,8 +29,8 @@ class BinBaker {
   BinBaker(const Grid& grid, const SplitConfig& split, const MortonSet* done, Voxelizer* voxelizer,
            MemoryBudget* budget, Executor* executor, Progress* progress);
 
-  // `file` holds the bin. `windings`: of the cubes of a level, that of the bin or a finer one, for
-  // the solid rules; else null.
+  // `file` holds the bin. `windings`: for the solid rules, of the cubes of the bin's level or a
+  // finer one; else null.
   void bake(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
 
  private:

@@ -9,8 +9,7 @@ namespace svdag {
 namespace {
 
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
-// layout begin with the length of their description instead, which is that of a text of several
-// lines.
+// layout begin with the length of their description instead, a text of several lines.
 constexpr uint32_t kLayout = 6;
 
 // Writes a field in a form without padding or bool.

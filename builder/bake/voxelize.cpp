@@ -49,7 +49,7 @@ class Voxelizer::Worker {
     descent_.add_reduced(cube, dags);
   }
   const Descent& descent() const { return descent_; }
-  // Voxels set since the previous call; those of a run that was taken in between may be missing.
+  // Voxels set since the previous call; voxels of a run that was taken in between may be missing.
   uint64_t new_voxels() {
     const uint64_t before = std::exchange(seen_voxels_, builder_.voxels());
     return seen_voxels_ >= before ? seen_voxels_ - before : seen_voxels_;
@@ -75,7 +75,7 @@ class Voxelizer::Worker {
                                           cell, builder_.levels())) == MortonSet::Coverage::kNone;
   }
 
-  // Cubes in heavy cells are smaller than those of `windings`.
+  // Cubes in heavy cells are smaller than the cubes of `windings`.
   LayerWindings windings_at(const Cube& cube, const CellWindings* windings) {
     if (windings == nullptr) return {};
     const Cube known = ancestor(cube, std::min(cube.level, windings->level()));

@@ -1,7 +1,7 @@
 // Interface of a store of baked cells, which finds the sub-DAG of a cell by its content.
 //
 // The voxelizer uses this interface; CellCache (builder/cache/cell_cache.h) implements it in a
-// folder. Rejected: CellCache alone, without an interface (a test acts between two phases of a bake
+// folder. Rejected: CellCache without an interface (a test acts between two phases of a bake
 // through a store of its own).
 #pragma once
 

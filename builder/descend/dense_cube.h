@@ -32,7 +32,7 @@ class DenseCube {
   // Sets the voxels inside of the solid, given the winding number at the cube's first_centre(). To
   // be called once, after all triangles were added; does nothing for the other rules.
   void fill(int32_t winding);
-  // Empties the bitmap, for the triangles of a set whose sheets are those of `sheets`.
+  // Empties the bitmap for the triangles of another set, except its sheets, which have `sheets`.
   void clear(uint32_t sheets) {
     std::fill(bricks_.begin(), bricks_.end(), 0);
     std::fill(steps_.begin(), steps_.end(), 0);

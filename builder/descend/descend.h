@@ -3,7 +3,7 @@
 // Invariant: the list of a cube holds every triangle that touches the cube, each once, and possibly
 // some that do not touch it. Empty space is never visited: a child without triangles ends the
 // descent. A cube that one triangle covers is answered by the plane memo without descending.
-// Only bricks decide voxels, and they decide exactly, so the result depends on the voxels alone.
+// Only bricks decide voxels, and they decide exactly, so the result depends only on the voxels.
 //
 // Solid rules: the descent also knows the winding number at each cube's first voxel centre
 // (builder/winding/crossing.h). Triangles of the cube change it on the way to its children and

@@ -1,7 +1,7 @@
 // Plane memo: a cache of the content of cubes that a plane crosses, computed once per content
 // instead of once per cube.
 //
-// Where one triangle covers a cube, the cube's voxels depend on the plane alone: on its normal n_q
+// Where one triangle covers a cube, the cube's voxels depend only on the plane: on its normal n_q
 // and on the offset o of the plane from the cube's corner (builder/overlap/lattice_plane.h). They
 // do not change while o is between two neighbouring critical values, so every computed node has a
 // closed integer interval [low, high] of offsets with the same content:
@@ -79,10 +79,10 @@ class PlaneMemo {
   // Discards all planes if they have exceeded the memory.
   void forget();
 
-  // The sub-DAG of a cube (min_query_level <= level <= brick level) of which triangles whose
-  // offsets are in `range` cover all that the plane meets; none if the range straddles a critical
-  // value. `sides` is 0 but for the solid rules. *witness is a voxel that the plane sets, if there
-  // is any.
+  // The sub-DAG of a cube (min_query_level <= level <= brick level), if triangles with offsets in
+  // `range` cover all of the cube that the plane meets; none if the range straddles a critical
+  // value. `sides` is 0 except for the solid rules. *witness is a voxel that the plane sets, if
+  // there is any.
   std::optional<SubDag> find(const AdmittedPlane& known, const Cube& cube, const OffsetRange& range,
                              FilledSides sides, std::optional<Witness>* witness);
   // Replaces pending handles; must be called after each flush of the table.

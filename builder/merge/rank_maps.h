@@ -35,8 +35,8 @@ class RankMaps {
     return {{}, scratch, budget};
   }
 
-  // Sets the index of a key of `source`. Ranks of a spilled map come in order, by one thread at a
-  // time; those of one in memory in any order, by several.
+  // Sets the index of a key of `source`. The ranks of a spilled map come in order, from one thread
+  // at a time; the ranks of a map in memory come in any order, from several threads.
   void set(size_t source, uint64_t rank, uint32_t index) {
     if (writers_.empty()) {
       maps_[source].indices[rank] = index;
@@ -47,7 +47,7 @@ class RankMaps {
   // Must be called after the last set().
   void finish();
   // Appends the map of one more source: the map `member` of *into composed with the map `group` of
-  // out_of. All maps are spilled; that of `member` is freed.
+  // out_of. All maps are spilled; the map `member` is freed.
   void append_composed(RankMaps* into, size_t member, const RankMaps& out_of, size_t group);
 
   bool spilled() const { return scratch_ != nullptr; }

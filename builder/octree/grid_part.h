@@ -1,7 +1,7 @@
 // A part of the grid: whole bricks, as ranges of Morton codes. A run holds the voxels of one part.
 //
 // The *tops* of a part are its maximal cubes: octree cubes that are entirely in the part while
-// their parents are not. They depend on the set of voxels alone, not on how the ranges were
+// their parents are not. They depend only on the set of voxels, not on how the ranges were
 // combined, so one sub-DAG per non-empty top is a canonical form of the content of a part.
 // Rejected: the cells as roots (their level is a choice of each bake), and one root for all (its
 // upper nodes would describe cubes that are only partly in this run).

@@ -13,7 +13,7 @@
 //
 // Each line of centres that meets the projected triangle sets exactly one voxel of the line, and
 // the segments of a line share no point, so shared edges and vertices neither leak nor count twice.
-// A triangle of zero area sets nothing. Rejected: the dominant axis alone (leaks in 177 of 1,500
+// A triangle of zero area sets nothing. Rejected: only the dominant axis (leaks in 177 of 1,500
 // tetrahedra), ties by epsilon.
 #include <algorithm>
 #include <bit>

@@ -15,7 +15,7 @@
 //
 // A projection with n_w = 0 has its edge functions off: they are parallel to the plane's normal, so
 // the plane test covers them. A triangle of zero area is a segment (a "polygon" with the two edges
-// a->b and b->a, all projections on, plane trivially met) or a point (box test alone).
+// a->b and b->a, all projections on, plane trivially met) or a point (only the box test).
 //
 // Functions are scaled so that the magnitudes of their coefficients add up to 1: over a cube of
 // side D each of them varies by D, so one error bound holds for all.

@@ -130,7 +130,7 @@ class UniqueSet {
   }
 
   // Spreads the slots over `size` slots, in place. Invariant: slots are in the order of their tags
-  // but for probing, so home(tag) only moves up. From the last to the first, each maximal range of
+  // except for probing, so home(tag) only moves up. From the last to the first, each maximal range of
   // taken slots is taken out and put back; from begin > 0 its slots move to 2 * begin or beyond, so
   // no slot that is still to be moved is in the way.
   void grow_slots(size_t size) {

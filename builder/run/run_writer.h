@@ -5,13 +5,13 @@
 //   part (its tops, builder/octree/grid_part.h), not from how it was baked.
 //   Every node is reached from a root, since a merge of closed runs adds no unreachable nodes.
 //   Nodes are numbered by their rank in content order; roots and ranges are in Morton order.
-//   The largest snap move is that of all triangles that meet the closed part, and the maximum over
-//   parts is that of the whole (GridPart::meets).
+//   The largest snap move is over all triangles that meet the closed part, so the maximum over the
+//   parts is the move of the whole (GridPart::meets).
 //   Blocks are filled without gaps, and neither times nor the names of users, hosts or programs are
 //   stored.
 // So the content hash identifies the content, whatever threads, memory or tree of merges produced
 // it.
-// Rejected: compressed blocks (their bytes would be those of a version of the compressor).
+// Rejected: compressed blocks (their bytes would depend on the version of the compressor).
 #pragma once
 
 #include <string>

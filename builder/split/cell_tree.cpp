@@ -11,7 +11,7 @@ namespace svdag {
 namespace {
 
 // Memory of a prepared triangle in a cell: its setup, and its entries in the divided lists of the
-// levels below, most of which are in ever smaller cubes.
+// levels below. Most of these are in ever smaller cubes.
 constexpr uint64_t kPreparedBytes = sizeof(TriangleSetup) + 4 * sizeof(ListedTriangle);
 
 void group_by_layer(TriangleList* list) {
@@ -111,7 +111,7 @@ uint64_t CellTree::prepared_bytes(size_t workers) const {
 
 uint64_t CellTree::bytes(size_t workers) const {
   // A triangle of an inner node may be in the list of one cube on every level down to bricks, and
-  // in those of 7 of its children: a plane meets that many.
+  // in the lists of 7 of its children: a plane meets that many.
   const uint64_t levels = uint64_t(grid_.levels - 2 - root_cube_.level);
   const uint64_t on_a_path =
       std::accumulate(max_inner_triangles_.begin(), max_inner_triangles_.end(), uint64_t(0));

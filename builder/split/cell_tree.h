@@ -57,7 +57,7 @@ class CellTree {
                ? kNoOctant
                : morton(ancestor(cube, root_cube_.level + 1).coordinate) & 7;
   }
-  // Frees the triangles of an octant, in which no list may be asked for any more.
+  // Frees the triangles of an octant. After this call its lists are no longer valid.
   void release(size_t octant) { triangles_[octant].clear(); }
 
  private:

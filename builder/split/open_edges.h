@@ -2,7 +2,7 @@
 //
 // An open interval of a line is what is left of its directed edges (io/scene/boundary_chain.h); it
 // has two ends. The ends are found in two passes over the scene with little memory: the first sums
-// them up by hash in buckets, of which almost all come out as zero; the second keeps the ends in
+// them up by hash in buckets, almost all of which come out as zero; the second keeps the ends in
 // the other buckets. Rejected: an external sort of all edges.
 #pragma once
 

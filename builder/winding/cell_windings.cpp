@@ -88,7 +88,7 @@ void CellWindings::finish(const LayerWindings& at_root) {
     const Subject subject = begin->subject;
     const auto end =
         std::find_if(begin, changes.end(), [&](const Entry& e) { return e.subject != subject; });
-    // Most layers change lines along z alone, each from one of its points to its end.
+    // Most layers change only lines along z, each from one of its points to its end.
     if (std::none_of(begin, end, [&](const Entry& e) { return lines_.begins_line(e.point); })) {
       int32_t winding = 0;
       for (; begin != end; ++begin) {

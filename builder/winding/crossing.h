@@ -38,8 +38,8 @@ bool is_crossed_by_line(const TriangleSetup& t, EdgeMask edges, int w,
 // Whether x is on the front side of the plane of a triangle that has an area.
 bool is_in_front(const TriangleSetup& t, const LatticePoint& x) noexcept;
 
-// The winding number at `to` minus that at `from`, points of the cube of which `list` is the list:
-// the crossings along up to three segments, in the order x, y, z.
+// The winding number at `to` minus the winding number at `from`: the crossings along up to three
+// segments, in the order x, y, z. Both points are in the cube whose list is `list`.
 int crossings(std::span<const ListedTriangle> list, const LatticePoint& from,
               const LatticePoint& to, uint32_t sheets = kSheetOfUnion) noexcept;
 

@@ -3,13 +3,13 @@
 //
 // Notation: the points are p(i, j, k) = p(0, 0, 0) + (i, j, k) side, 0 <= i, j, k < n, p(0, 0, 0)
 // the centre of the root's minimum voxel (builder/winding/crossing.h). Each point is reached from
-// p(0, 0, 0) by a path along x, then y, then z, of which only the last step is its own: the step to
-// (i, j, k) is along z if k > 0, else along y if j > 0, else along x. A triangle changes the one
+// p(0, 0, 0) by a path along x, then y, then z. Only the last step of the path is its own: the step
+// to (i, j, k) is along z if k > 0, else along y if j > 0, else along x. A triangle changes the one
 // step of a line that crosses it, so it costs little more than the lines of points that pass
 // through its box: mostly none. sum() makes winding numbers of the changes.
 //
-// The winding number at p(0, 0, 0) of the whole grid is that of a ray which comes along z from
-// outside of the scene, so triangles that the split drops count as well. Below a cube, it is the
+// A ray along z from outside of the scene counts the winding number at p(0, 0, 0) of the whole
+// grid, so triangles that the split drops count as well. Below a cube, it is the
 // winding number at the cube.
 #pragma once
 
