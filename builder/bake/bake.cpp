@@ -3,10 +3,11 @@
 #include <optional>
 
 #include "builder/bake/bake_bins.h"
+#include "builder/bake/checkpoint.h"
 #include "builder/bake/choose_grid.h"
+#include "builder/bake/description.h"
 #include "builder/bake/phase_shares.h"
 #include "builder/bake/run_collector.h"
-#include "builder/bake/unfinished.h"
 #include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
@@ -257,6 +258,34 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   progress->finish();
   report_resources(tools, *output, &report);
   return report;
+}
+
+// The unfinished bake of an earlier process, if config.unfinished resumes it. If it is discarded,
+// the scratch folder is empty afterwards. An unfinished bake that must neither be resumed nor
+// discarded is an Error (kUsage).
+std::optional<SavedBake> find_unfinished(const BuildConfig& config, Workspace* workspace,
+                                         Checkpoint* checkpoint, Description* description) {
+  std::optional<SavedBake> saved;
+  if (workspace->has_unfinished_bake()) {
+    const auto wanted = [&](const std::string& text) {
+      return config.unfinished != Unfinished::kResumeSame || text == description->text();
+    };
+    if (config.unfinished != Unfinished::kRestart) saved = checkpoint->resume(wanted);
+    if (saved && saved->runs.empty() && !saved->split) saved.reset();
+    if (!saved) checkpoint->discard();
+  }
+  if (!saved) {
+    workspace->folder()->clear();
+    return saved;
+  }
+  if (config.unfinished == Unfinished::kRefuse)
+    fail_usage(config.output + ": an unfinished bake of it is in " + workspace->folder()->path() +
+               ": continue it with --resume or discard it with --restart");
+  const std::string other = difference(saved->description, description->text());
+  if (!other.empty())
+    fail_usage(config.output + ": the unfinished bake is another one: " + other +
+               "; discard it with --restart");
+  return saved;
 }
 
 // As bake(); an error also reports whether --resume can continue.

@@ -44,8 +44,8 @@ void BinBaker::bake(SpillFile* file, const TriangleBin& all, const CellWindings*
   bake_parts(file, bin, windings);
 }
 
-std::unique_ptr<CellWindings> BinBaker::finer(const CellWindings* known, const Cube& cube,
-                                              int level) {
+std::unique_ptr<CellWindings> BinBaker::finer_windings(const CellWindings* known, const Cube& cube,
+                                                       int level) {
   if (known == nullptr || level <= known->level()) return nullptr;
   return std::make_unique<CellWindings>(grid_.levels, cube, level, budget_);
 }
@@ -69,7 +69,7 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWind
   const int wanted = std::max(split_.cell_level, bin.cube.level + kCellsBelow);
   const int cell_level = std::min({wanted, finest, grid_.levels - 2});
   CellTree tree(grid_, bin.cube, cell_level, budget_);
-  const auto own = finer(windings, bin.cube, cell_level);
+  const auto own = finer_windings(windings, bin.cube, cell_level);
   const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
     for (const LatticeTriangle& triangle : *triangles) {
       tree.add(triangle);
@@ -139,7 +139,7 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWin
   while (depth < most && (fitting << (2 * depth)) < bin.triangles) ++depth;
   SpillFile* transient = split_.scratch->transient();
   TriangleBins bins(grid_, bin.cube, depth, transient, split_.scratch);
-  const auto own = finer(windings, bin.cube, bin.cube.level + depth);
+  const auto own = finer_windings(windings, bin.cube, bin.cube.level + depth);
   read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
     for (const LatticeTriangle& triangle : *triangles) {
       bins.add(triangle);

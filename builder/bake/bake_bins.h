@@ -39,7 +39,8 @@ class BinBaker {
   bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
   // The winding numbers of the cubes of `level` in the bin; null if `known` has that level. The
   // bin's triangles are to be added.
-  std::unique_ptr<CellWindings> finer(const CellWindings* known, const Cube& cube, int level);
+  std::unique_ptr<CellWindings> finer_windings(const CellWindings* known, const Cube& cube,
+                                               int level);
   bool bake_tree(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
   void bake_dense(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
   void bake_parts(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);

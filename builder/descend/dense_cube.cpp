@@ -3,8 +3,8 @@
 #include <atomic>
 #include <bit>
 
+#include "builder/descend/rules.h"
 #include "builder/descend/voxelize_window.h"
-#include "builder/overlap/kernels/rules.h"
 
 namespace svdag {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "builder/overlap/kernels/rules.h"
+#include "builder/descend/rules.h"
 #include "builder/winding/crossing.h"
 #include "streaming/process/interrupt.h"
 

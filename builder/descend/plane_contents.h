@@ -40,7 +40,7 @@
 #include <span>
 #include <vector>
 
-#include "builder/overlap/kernels/rules.h"
+#include "builder/descend/rules.h"
 #include "builder/overlap/lattice_plane.h"
 #include "builder/reduce/node_table.h"
 #include "io/grid.h"

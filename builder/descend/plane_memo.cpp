@@ -6,8 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "builder/descend/rules.h"
 #include "builder/overlap/brick_tables.h"
-#include "builder/overlap/kernels/rules.h"
 
 namespace svdag {
 namespace {
@@ -67,10 +67,11 @@ std::optional<PlaneMemo::AdmittedPlane> PlaneMemo::admit(const TriangleSetup& t,
   const double area = std::max(n.area, 0.5 * whole * whole);  // includes its later cells
   const auto repeats = [&](int level) {
     const double s = double(int64_t(1) << (levels_ - level));
-    return area >= repeats_ * contents(n.n, level).count * s * s;
+    return area >= repeats_ * estimate_contents(n.n, level).count * s * s;
   };
   int stored = levels_ - 2;
-  if (area < kMinBrickRepeats * repeats_ * contents(n.n, stored).count * 16) return std::nullopt;
+  if (area < kMinBrickRepeats * repeats_ * estimate_contents(n.n, stored).count * 16)
+    return std::nullopt;
   while (stored > 0 && repeats(stored - 1)) --stored;
   if (n.number == 0) {
     add_plane(n);
@@ -86,7 +87,7 @@ int PlaneMemo::first_level(const LatticePlane& plane) const {
   if (is_solid(rule_)) exact = std::max(exact, levels_ - kMaxSolidSideLog2);
   if (plane.exact) return exact;
   int level = std::max(exact, levels_ - kMaxRoundedSideLog2);
-  while (level > exact && contents(plane.n, level - 1).dimensions == 1) --level;
+  while (level > exact && estimate_contents(plane.n, level - 1).dimensions == 1) --level;
   return level;
 }
 
@@ -139,7 +140,7 @@ PlaneMemo::Normal* PlaneMemo::find_normal(const LatticePlane& p) {
 // c of the normal. Where a and b are small (an almost axis-aligned plane) the sums form s + 1
 // clusters, and almost every cube is in a long interval between two of them. Where only a is small
 // there are (s + 1)^2 clusters.
-PlaneMemo::Contents PlaneMemo::contents(const int64_t n[3], int level) const {
+PlaneMemo::ContentEstimate PlaneMemo::estimate_contents(const int64_t n[3], int level) const {
   double c[3] = {std::abs(double(n[0])), std::abs(double(n[1])), std::abs(double(n[2]))};
   std::sort(c, c + 3);
   const double s = double(int64_t(1) << (levels_ - level));
@@ -160,7 +161,7 @@ void PlaneMemo::add_plane(const Normal& normal) {
   Plane plane{{normal.n[0], normal.n[1], normal.n[2]}, 0, 0, {}, {}, {}};
   for (const int64_t n : plane.n) (n < 0 ? plane.negative : plane.positive) += n;
   for (int level = 0; level < contents_.level(); ++level) {
-    const int log2 = std::ilogb(contents(plane.n, level).length);
+    const int log2 = std::ilogb(estimate_contents(plane.n, level).length);
     plane.bucket_log2[size_t(level)] = int8_t(std::clamp(log2, 0, 61));
   }
   plane.brick = make_plane_brick(plane);

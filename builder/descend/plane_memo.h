@@ -125,12 +125,12 @@ class PlaneMemo {
   static constexpr size_t kWays = 4;
 
   Normal* find_normal(const LatticePlane& plane);
-  struct Contents {
+  struct ContentEstimate {
     int dimensions;  // number of dimensions of the clusters of offsets
     double count;
     double length;  // of an interval
   };
-  Contents contents(const int64_t n[3], int level) const;
+  ContentEstimate estimate_contents(const int64_t n[3], int level) const;
   int first_level(const LatticePlane& plane) const;
   void add_plane(const Normal& normal);
   PlaneBrick make_plane_brick(const Plane& plane) const;

@@ -1,7 +1,7 @@
 #include "builder/descend/self_test.h"
 
+#include "builder/descend/rules.h"
 #include "builder/descend/voxelize_window.h"
-#include "builder/overlap/kernels/rules.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "builder/octree/subject.h"
+#include "builder/octree/sub_dag_root.h"
 #include "builder/reduce/node_table.h"
 #include "builder/workspace/scratch.h"
 #include "streaming/memory/huge_vector.h"
@@ -32,16 +32,6 @@ struct RunLevel {
 struct Run {
   RunLevel<Brick> bricks;
   std::vector<RunLevel<NodeKey>> nodes;  // [level], 0 .. L-3
-};
-
-// Node `rank` of the cube's level in run `run`. The cube is a cell, a cube in a cell in which a
-// node table was emptied, or a top of a grid part.
-struct SubDagRoot {
-  uint64_t morton;  // of the cube, at its level
-  int32_t level;
-  uint32_t run;
-  uint32_t rank;
-  SubDagSets sets;
 };
 
 // Where a run is spilled: one stream per level, numbered from `first_stream`.

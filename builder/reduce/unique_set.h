@@ -130,9 +130,9 @@ class UniqueSet {
   }
 
   // Spreads the slots over `size` slots, in place. Invariant: slots are in the order of their tags
-  // except for probing, so home(tag) only moves up. From the last to the first, each maximal range of
-  // taken slots is taken out and put back; from begin > 0 its slots move to 2 * begin or beyond, so
-  // no slot that is still to be moved is in the way.
+  // except for probing, so home(tag) only moves up. From the last to the first, each maximal range
+  // of taken slots is taken out and put back; from begin > 0 its slots move to 2 * begin or beyond,
+  // so no slot that is still to be moved is in the way.
   void grow_slots(size_t size) {
     const size_t old_size = memory_.bytes() / sizeof(uint64_t);
     reservation_.resize(size * sizeof(uint64_t), kPurpose);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "builder/octree/grid_part.h"
-#include "builder/reduce/run.h"
+#include "builder/octree/sub_dag_root.h"
 #include "io/dag/dag_writer.h"
 
 namespace svdag {

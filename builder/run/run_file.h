@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "builder/octree/grid_part.h"
-#include "builder/reduce/run.h"
+#include "builder/octree/sub_dag_root.h"
 #include "builder/run/run_format.h"
 #include "io/dag/format.h"
 #include "io/dag/layers/layer_table.h"

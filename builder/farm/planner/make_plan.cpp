@@ -8,12 +8,12 @@
 
 #include "builder/bake/choose_grid.h"
 #include "builder/bake/description.h"
+#include "builder/descend/rules.h"
 #include "builder/farm/plan/leaf_bins.h"
 #include "builder/farm/plan/merge_tree.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/farm/planner/pilot.h"
-#include "builder/overlap/kernels/rules.h"
 #include "builder/workspace/workspace.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"

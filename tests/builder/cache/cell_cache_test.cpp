@@ -78,7 +78,7 @@ TEST_F(Cache, ASecondBakeTakesEveryCell) {
   EXPECT_GT(second.cells, 100U);
   EXPECT_EQ(second.cache.hits, second.cells);
   EXPECT_EQ(second.voxels, first.voxels);
-  EXPECT_EQ(second.decisions.total, 0U);
+  EXPECT_EQ(second.descent.decisions.total, 0U);
 }
 
 TEST_F(Cache, OnlyTheCellsOfATriangleThatMovedAreBaked) {
@@ -191,11 +191,11 @@ TEST_F(Cache, APackThatCannotBeOpenedIsKept) {
   {
     CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
     const NoDescriptorLeft none;
-    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
+    EXPECT_FALSE(cache.take(key, {3, {0, 0, 0}}, {}));
   }
   EXPECT_EQ(packs(), before);
   CellCache cache(cache_, grid_of(6), Rule::kConservative, &budget);
-  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, {}));
 }
 
 TEST_F(Cache, TheNumberOfOpenPacksIsLimited) {
@@ -212,7 +212,7 @@ TEST_F(Cache, TheNumberOfOpenPacksIsLimited) {
   std::set<fs::path> used;
   for (const fs::path& path : packs()) {
     for (const CellKey& key : keys_of(path)) {
-      if (cache.take(key, {3, {0, 0, 0}}, kUnionSet)) used.insert(path);
+      if (cache.take(key, {3, {0, 0, 0}}, {})) used.insert(path);
     }
   }
   EXPECT_EQ(used.size(), 2U);
@@ -234,7 +234,7 @@ TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
   BuildConfig config = prepare(random_soup(20'000, 0.1, 3), 8);
   config.memory = uint64_t(9) << 20;
   const BuildReport alone = bake_as_expected(config, 2);
-  EXPECT_EQ(alone.cache_packs_skipped, 0U);
+  EXPECT_EQ(alone.cache.skipped_packs, 0U);
   const std::vector<fs::path> own = packs();
   for (int i = 0; i < 30; ++i)  // the entries take more than twice the budget
     write_unused_pack(cache_.folder + "/" + std::to_string(1000000000000000 + i) + ".cells",
@@ -243,7 +243,7 @@ TEST_F(Cache, ALargeCacheFitsInLittleMemory) {
     fs::last_write_time(pack, fs::file_time_type::clock::now() + std::chrono::hours(1));
   const BuildReport newest = bake_as_expected(config, 2);
   EXPECT_GT(newest.cache.hits, newest.cells - 20) << "the most recently used packs are read first";
-  EXPECT_GE(newest.cache_packs_skipped, 25U);
+  EXPECT_GE(newest.cache.skipped_packs, 25U);
   for (const fs::path& pack : own)
     fs::last_write_time(pack, fs::file_time_type::clock::now() - std::chrono::hours(1));
   bake_as_expected(config, 2);
@@ -378,9 +378,9 @@ TEST_F(Cache, AKeyThatDiffersInOneByteIsNotFound) {
   for (size_t byte = 0; byte < sizeof key; ++byte) {
     CellKey other = key;
     reinterpret_cast<unsigned char*>(other.words.data())[byte] ^= 1;
-    EXPECT_FALSE(cache.take(other, {3, {0, 0, 0}}, kUnionSet));
+    EXPECT_FALSE(cache.take(other, {3, {0, 0, 0}}, {}));
   }
-  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, kUnionSet));
+  EXPECT_TRUE(cache.take(key, {3, {0, 0, 0}}, {}));
 }
 
 }  // namespace

@@ -88,11 +88,12 @@ TEST(Crossings, GiveTheVoxelsOfABrickTheirWindings) {
         LatticePoint(int64_t(random() % 16), int64_t(random() % 16), int64_t(random() % 16)) *
         kCrossingVoxel;
     DecisionCounts counts;
-    const Brick touched = plain_kernels().conservative(surface.list().data(), surface.list().size(),
-                                                       corner, kFraction, ~Brick(0), &counts);
+    const Brick touched = plain_kernels().conservative.brick(
+        surface.list().data(), surface.list().size(), corner, kFraction, ~Brick(0), &counts);
     Brick seen = touched;
     for_each_untouched(
-        surface.list(), corner, kFraction, 7, touched, kSheetOfUnion, [&](Brick component, int32_t winding) {
+        surface.list(), corner, kFraction, 7, touched, kSheetOfUnion,
+        [&](Brick component, int32_t winding) {
           ASSERT_EQ(seen & component, 0U);
           seen |= component;
           for (unsigned bit = 0; bit < 64; ++bit) {

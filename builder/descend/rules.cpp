@@ -1,4 +1,4 @@
-#include "builder/overlap/kernels/rules.h"
+#include "builder/descend/rules.h"
 
 #include <algorithm>
 #include <cstdlib>
