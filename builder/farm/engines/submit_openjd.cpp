@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
+constexpr double kTimeoutFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr int kMinSeconds = 600;
 constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the shard or merge of a task
 
@@ -88,7 +88,7 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
              {{"onRun",
                {{"command", "{{Param.Svdag}}"},
                 {"args", arguments},
-                {"timeout", std::max(kMinSeconds, int(kTimeFactor * seconds))}}}}}}}};
+                {"timeout", std::max(kMinSeconds, int(kTimeoutFactor * seconds))}}}}}}}};
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr size_t kMaxArraySize = 10000;     // a longer task list may not fit in
 constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr uint64_t kMinMinutes = 10;
 constexpr uint64_t kMiB = uint64_t(1) << 20;
-constexpr auto kPollInterval = std::chrono::milliseconds(500);
+constexpr auto kQueuePollInterval = std::chrono::milliseconds(500);
 constexpr int kMaxFailedPolls = 120;  // consecutive failures of squeue
 
 // The steps submitted by one sbatch.
@@ -275,7 +275,7 @@ bool Submission::any_queued(const std::string& ids) const {
 void Submission::wait() const {
   const std::string ids = job_ids();
   for (int failures = 0;;) {
-    std::this_thread::sleep_for(kPollInterval);
+    std::this_thread::sleep_for(kQueuePollInterval);
     check_interrupt();
     try {
       if (!any_queued(ids)) break;
