@@ -81,12 +81,27 @@ def print_failure(case):
             print(line)
 
 
-def build(preset):
+def stream(command, pattern, environment):
+    """Runs a command and prints its progress: `pattern` matches (done, total) in a line of its output, a line is printed
+    at every tenth of the way. Returns its exit code and output."""
+    start, tenths, output = time.monotonic(), 0, []
+    with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True) as process:
+        for line in process.stdout:
+            output.append(line)
+            step = re.match(pattern, line)
+            if step and int(step[2]) >= 10 and 10 * int(step[1]) // int(step[2]) > tenths:
+                tenths = 10 * int(step[1]) // int(step[2])
+                print(f"  {step[1]} of {step[2]}, {time.monotonic() - start:.0f} s", flush=True)
+    return process.returncode, "".join(output)
+
+
+def build(preset, environment):
     start = time.monotonic()
     for command in (["cmake", "--preset", preset, "--log-level=WARNING"], ["cmake", "--build", "--preset", preset]):
-        done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if done.returncode != 0:
-            sys.exit(f"{done.stdout}\nthe build of {preset} failed")
+        code, output = stream(command, r"\[(\d+)/(\d+)\]", environment)
+        if code != 0:
+            sys.exit(f"{output}\nthe build of {preset} failed")
     return time.monotonic() - start
 
 
@@ -97,10 +112,9 @@ def run(preset, label, environment):
     subprocess.run(["rm", "-rf", results])
     results.mkdir(parents=True)
     start = time.monotonic()
-    subprocess.run(["ctest", "--test-dir", folder, "-L", f"^{label}$", "-j", str(os.cpu_count()), "-Q",
-                    "--output-junit", results / "ctest.xml", "--test-output-size-passed", "1000000",
-                    "--test-output-size-failed", "1000000"],
-                   env=dict(environment, GTEST_OUTPUT=f"json:{results}/"))
+    stream(["ctest", "--test-dir", folder, "-L", f"^{label}$", "-j", str(os.cpu_count()), "--output-junit",
+            results / "ctest.xml", "--test-output-size-passed", "1000000", "--test-output-size-failed", "1000000"],
+           r"\s*(\d+)/(\d+) Test ", dict(environment, GTEST_OUTPUT=f"json:{results}/"))
     seconds = time.monotonic() - start
     cases = list(xml.parse(results / "ctest.xml").getroot().iter("testcase"))
     if not cases:
@@ -131,8 +145,10 @@ def main():
         environment.pop("SVDAG_SCENES", None)  # real scenes are too slow under ASan
     total = Counts()
     for preset, tiers in SANITIZED if sanitized else RELEASE:
-        print_tier(f"build {preset}", build(preset))
+        print(f"building {preset}", flush=True)
+        print_tier(f"build {preset}", build(preset, environment))
         for tier, label in tiers:
+            print(f"running {tier}", flush=True)
             counts, seconds = run(preset, label, environment)
             print_tier(tier, seconds, counts)
             total += counts
