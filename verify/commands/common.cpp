@@ -4,6 +4,8 @@
 
 #include "io/dag/dag_file.h"
 #include "io/units.h"
+#include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {
@@ -12,6 +14,23 @@ Stopwatch::~Stopwatch() {
   if (!enabled_) return;
   std::fprintf(stderr, "%.2f s, peak memory %s\n", timer_.lap(),
                format_bytes(peak_resident_bytes()).c_str());
+}
+
+Verdict begin_verdict(const char* command, const DagFile& file) {
+  Verdict verdict;
+  verdict.for_programs("command", command);
+  verdict.for_programs("file", file.path());
+  verdict.for_programs("content_hash", to_hex(file.header().content_hash));
+  return verdict;
+}
+
+int finish(const CommonConfig& config, const Verdict& verdict, bool ok) {
+  if (config.json) {
+    std::puts(verdict.json().c_str());
+  } else if (!config.quiet) {
+    std::fputs(verdict.text().c_str(), stdout);
+  }
+  return int(ok ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
 std::string describe_grid(const DagFile& file) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/grid.h"
+#include "io/verdict.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/process/progress.h"
 
@@ -29,8 +30,14 @@ class Stopwatch {
   LapTimer timer_;
 };
 
-// "1K^3 box, voxel size 0.5, corner (0, 0, 0), rule conservative".
+// The verdict of `command` about `file`, which it names.
 class DagFile;
+Verdict begin_verdict(const char* command, const DagFile& file);
+
+// Prints the verdict, as text or as JSON. Returns the exit code: kOk if `ok`, else kDiffers.
+int finish(const CommonConfig& config, const Verdict& verdict, bool ok);
+
+// "1K^3 box, voxel size 0.5, corner (0, 0, 0), rule conservative".
 std::string describe_grid(const DagFile& file);
 
 }  // namespace svdag
