@@ -14,7 +14,7 @@
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
-#include "streaming/spill/invalid_scratch.h"
+#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {

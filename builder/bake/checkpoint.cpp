@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "streaming/spill/invalid_scratch.h"
+#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {

@@ -11,7 +11,7 @@
 #include "builder/merge/rank_maps.h"
 #include "builder/reduce/run.h"
 #include "streaming/error.h"
-#include "streaming/spill/block_source.h"
+#include "streaming/spill/spill_block.h"
 
 namespace svdag {
 

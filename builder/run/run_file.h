@@ -19,7 +19,7 @@
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/memory/memory_budget.h"
-#include "streaming/spill/block_source.h"
+#include "streaming/spill/spill_block.h"
 
 namespace svdag {
 

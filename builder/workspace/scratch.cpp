@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "streaming/error.h"
-#include "streaming/spill/invalid_scratch.h"
+#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {

@@ -39,7 +39,8 @@ void AtomicFile::check(const std::string& target, bool keep_existing) {
 }
 
 AtomicFile::AtomicFile(const std::string& target)
-    : target_(checked(target)), file_(File::create_anonymous(folder_of(target), target)) {}
+    : target_(checked(target)),
+      file_(File::create_anonymous(folder_of(target), target, File::kOutputMode)) {}
 
 void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
   file_.write_at(offset, bytes);

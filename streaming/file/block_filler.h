@@ -41,7 +41,7 @@ struct FilledBlocks {
 
 class BlockFiller {
  public:
-  // Blocks of `size` bytes, the first `margin` of which are the writer's.
+  // Blocks of `size` bytes; the first `margin` bytes are the writer's.
   explicit BlockFiller(size_t size, size_t margin = 0);
 
   // Appends `bytes`; the blocks that are full then are added to *filled.

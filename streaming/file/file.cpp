@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -91,36 +90,6 @@ bool leave_direct(int fd) {
   return flags >= 0 && (flags & O_DIRECT) != 0 && ::fcntl(fd, F_SETFL, flags & ~O_DIRECT) == 0;
 }
 
-// umask() can only be read by setting it, for all threads: called before other threads exist.
-mode_t mask_at_start() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return mask;
-}
-const mode_t kMaskAtStart = mask_at_start();
-
-// The current umask, from the second line of /proc/self/status (since Linux 4.7).
-mode_t current_mask() {
-  constexpr const char* kName = "\nUmask:";
-  const int fd = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return kMaskAtStart;
-  char text[512];
-  const ssize_t n = retry_interrupted([&] { return ::read(fd, text, sizeof text - 1); });
-  ::close(fd);
-  text[std::max<ssize_t>(n, 0)] = '\0';
-  const char* const line = std::strstr(text, kName);
-  return line != nullptr ? mode_t(std::strtoul(line + std::strlen(kName), nullptr, 8) & 0777)
-                         : kMaskAtStart;
-}
-
-// Sets the file's permissions to 0666 & ~umask. Ignores failures of file systems that have no
-// permissions or map the file to another user.
-void apply_mask(int fd, const std::string& path) {
-  if (::fchmod(fd, 0666 & ~current_mask()) == 0) return;
-  if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
-    fail_call(ExitCode::kOutput, "permissions cannot be set", path, errno);
-}
-
 }  // namespace
 
 void fail_call(ExitCode code, const char* what, const std::string& path, int error) {
@@ -143,10 +112,10 @@ File File::open_read(const std::string& path) {
   return file;
 }
 
-File File::create_anonymous(const std::string& folder, const std::string& shown_as) {
+File File::create_anonymous(const std::string& folder, const std::string& shown_as, mode_t mode) {
   const std::string& shown = shown_as.empty() ? folder : shown_as;
   int fd = retry_interrupted(
-      [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
+      [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode); });
   if (fd >= 0 && can_be_named()) return File(fd, shown, ExitCode::kOutput);
   if (fd >= 0) {
     ::close(fd);
@@ -156,10 +125,10 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
   if (::access(folder.c_str(), F_OK) != 0)
     fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   // Allocated before the file exists: if an allocation failed later, the file would stay.
-  std::string name = folder + "/.svdag-" + random_suffix() + ".tmp";
+  std::string name = folder + "/" + kTemporary + random_suffix() + ".tmp";
   File file(-1, shown, ExitCode::kOutput);
   fd = retry_interrupted([&] {
-    return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    return ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
   });
   if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", folder, errno);
   file.fd_ = fd;
@@ -218,6 +187,12 @@ void File::read_at(uint64_t offset, std::span<std::byte> out) const {
   if (n < out.size()) throw Error(unreadable_, "ends too early", path_, offset + n);
 }
 
+std::string File::text() const {
+  std::string text(size(), '\0');
+  read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
 void File::write_at(uint64_t offset, std::span<const std::byte> bytes) {
   size_t done = 0;
   while (done < bytes.size()) {
@@ -256,13 +231,12 @@ void File::sync() {
 
 void File::link_as(const std::string& path) {
   if (temporary_.empty()) {
-    std::string name = folder_of(path) + "/.svdag-" + random_suffix() + ".tmp";
+    std::string name = folder_of(path) + "/" + kTemporary + random_suffix() + ".tmp";
     const std::string self = "/proc/self/fd/" + std::to_string(fd_);
     if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
       fail_call(ExitCode::kOutput, "cannot be created", path, errno);
     temporary_ = std::move(name);  // not a copy: if it ran out of memory, the name would stay
   }
-  apply_mask(fd_, path);
   if (::rename(temporary_.c_str(), path.c_str()) != 0 &&
       !(errno == ENOENT && is_name_of(path, fd_)))
     fail_call(ExitCode::kOutput, "cannot be replaced", path, errno);
@@ -274,6 +248,16 @@ void File::close() {
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0 && errno != EINTR)
     fail_call(ExitCode::kOutput, "cannot be closed", path_, errno);
+}
+
+bool is_locked(const std::string& path) {
+  try {
+    const File file = File::open_read(path);
+    const auto lock = [&] { return ::flock(file.descriptor(), LOCK_SH | LOCK_NB); };
+    return retry_interrupted(lock) != 0 && errno == EWOULDBLOCK;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 void sync_folder(const std::string& folder) {

@@ -9,6 +9,8 @@
 // Rejected: mmap for scenes (a file that shrinks raises SIGBUS), FILE* (errors surface late).
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,11 +25,17 @@ class File {
   // Opens a regular file for reading. Rejects folders, devices and pipes (kBadInput), and "-"
   // (kUsage).
   static File open_read(const std::string& path);
-  // Creates an anonymous file in `folder` for reading and writing (O_TMPFILE, mode 0600): it has no
-  // name, and vanishes with the process unless link_as() gives it one. Falls back to a random,
-  // exclusively created name where the file system has no O_TMPFILE. Errors show `shown_as` as the
-  // path, or `folder` if that is empty.
-  static File create_anonymous(const std::string& folder, const std::string& shown_as = {});
+  // Permissions of an output, less the umask, and of scratch files.
+  static constexpr mode_t kOutputMode = 0666, kScratchMode = 0600;
+  // Prefix of the names of files that will be renamed or removed.
+  static constexpr const char* kTemporary = ".svdag-";
+
+  // Creates an anonymous file in `folder` for reading and writing (O_TMPFILE): it has no name, and
+  // vanishes with the process unless link_as() gives it one. Falls back to a random, exclusively
+  // created name where the file system has no O_TMPFILE. Errors show `shown_as` as the path, or
+  // `folder` if that is empty.
+  static File create_anonymous(const std::string& folder, const std::string& shown_as = {},
+                               mode_t mode = kScratchMode);
 
   // A File without descriptor (-1).
   File() = default;
@@ -47,6 +55,8 @@ class File {
   // Like read_at(), but returns the number of bytes read: less than out.size() only at the end of
   // the file.
   size_t read_some_at(uint64_t offset, std::span<std::byte> out) const;
+  // The whole content.
+  std::string text() const;
   // Writes all `bytes` at byte `offset`; a gap before them reads as zeros.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   // Sets the size in bytes.
@@ -62,8 +72,8 @@ class File {
 
   // fsync: makes the content durable, but not the name.
   void sync();
-  // Gives the file the name `path`, atomically replacing a file of that name, and permissions
-  // 0666 & ~umask where the file system has permissions. sync_folder() then makes the name durable.
+  // Gives the file the name `path`, atomically replacing a file of that name. sync_folder() then
+  // makes the name durable.
   void link_as(const std::string& path);
   // Closes the file and reports errors, which the destructor ignores.
   void close();
@@ -79,6 +89,13 @@ class File {
   std::string path_;
   std::string temporary_;  // name to unlink unless link_as() succeeds; empty: none
 };
+
+// True if a process holds the lock of a file (File::try_lock). Also false if the file cannot be
+// opened or its file system has no locks. The test takes a shared lock for a moment: it does not
+// disturb other tests, and a try_lock() fails only in that moment. NFS implements flock with
+// byte-range locks, where an exclusive lock needs a file opened for writing; the shared one works
+// with a file opened for reading.
+bool is_locked(const std::string& path);
 
 // fsync of a folder: makes renames in it durable. Error: kOutput.
 void sync_folder(const std::string& folder);

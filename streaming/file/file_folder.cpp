@@ -6,7 +6,6 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -89,14 +88,7 @@ Folder::~Folder() {
 
 // A file server or a mount may map this user to another one. It then maps new files, too.
 bool Folder::new_files_belong_to(uid_t owner) const {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  const std::string name = kProbe + std::to_string(::getpid()) + "-" + std::to_string(now);
-  const int fd = retry_interrupted(
-      [&] { return ::openat(fd_, name.c_str(), kFile | O_CREAT | O_EXCL, 0600); });
-  if (fd < 0 && (errno == EACCES || errno == EPERM)) return false;
-  if (fd < 0) fail_call(ExitCode::kOutput, "cannot write in this folder", path_, errno);
-  const File probe(fd, path_of(name), ExitCode::kOutput);
-  remove(name);
+  const File probe = File::create_anonymous("/proc/self/fd/" + std::to_string(fd_), path_);
   struct stat status;
   return ::fstat(probe.descriptor(), &status) == 0 && status.st_uid == owner;
 }

@@ -15,10 +15,7 @@ namespace svdag {
 
 class Folder {
  public:
-  // Prefix of the names of short-lived files that test who owns new files.
-  static constexpr const char* kProbe = ".svdag-probe-";
-
-  // Opens a folder for this user alone: creates it if necessary, and sets its mode to 0700. Rejects
+  // Opens a folder for this user only: creates it if necessary, and sets its mode to 0700. Rejects
   // links, folders of other users and everything that is not a folder. Its parent must exist.
   static Folder open_private(std::string path);
   // Opens a folder that other users may own and use; creates it (0700) if necessary. Keeps the mode
@@ -59,7 +56,7 @@ class Folder {
   Folder(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
   static Folder open_or_create_folder(std::string path);
   struct stat status() const;
-  // True if new files in the folder belong to `owner`; creates and removes one to test it.
+  // True if a new file in the folder, which is removed at once, belongs to `owner`.
   bool new_files_belong_to(uid_t owner) const;
   std::string path_of(const std::string& name) const { return path_ + "/" + name; }
   File regular(int fd, const std::string& name) const;

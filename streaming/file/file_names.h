@@ -1,4 +1,4 @@
-// A set of files in which all paths to one file are equal: "a", "./a" and a link to it.
+// A set of files. All paths to one file are equal: "a", "./a" and a link to it.
 //
 // A file that does not exist yet is identified by its folder and its last path component, so
 // outputs can be compared with inputs, and with each other, before they are written.

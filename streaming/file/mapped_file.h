@@ -16,7 +16,7 @@
 #include <string>
 
 #include "streaming/file/file.h"
-#include "streaming/file/file_state.h"
+#include "streaming/file/input_watch.h"
 
 namespace svdag {
 

@@ -7,7 +7,7 @@
 
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
-#include "streaming/file/file_lock.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 namespace {
@@ -28,11 +28,11 @@ std::string shortened(const std::string& name, size_t max_bytes) {
 }
 
 // True if the folder has files but is not a scratch folder: an owner creates its lock first, except
-// for a probe of file ownership, and removes it last.
+// for a temporary file that shows who owns new files, and removes it last.
 bool has_only_foreign_files(const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), kOwner) != names.end()) return false;
   return !std::all_of(names.begin(), names.end(),
-                      [](const std::string& name) { return name.starts_with(Folder::kProbe); });
+                      [](const std::string& name) { return name.starts_with(File::kTemporary); });
 }
 
 }  // namespace

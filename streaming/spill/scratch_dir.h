@@ -2,7 +2,7 @@
 //
 // It is OUT.svdag.scratch/ beside the output, or a folder under --scratch DIR, with mode 0700. Its
 // owner is the process that holds the flock on its file `owner`. A lock ends with its process, so
-// the folder of a killed owner can be taken over at once, and that of a running one never. Files in
+// the folder of a killed owner can be taken over at once, and a running owner's never. Files in
 // it are created with O_EXCL | O_NOFOLLOW, mode 0600: planted files and links are neither followed
 // nor written to.
 // Rejected: process ids as locks (they are reused), names under /tmp (shared, often in memory).
@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/file/file_folder.h"
 
@@ -24,6 +25,15 @@ class ScratchInUse : public Error {
   explicit ScratchInUse(const std::string& path)
       : Error(ExitCode::kUsage, "another bake is using this scratch folder: wait for it, or end it",
               path) {}
+};
+
+// The Error for a scratch folder whose content cannot be resumed: it is damaged, or of another
+// version of svdag. A caller that may discard it starts over. A full or failing disk is a plain
+// Error, because the work can be resumed later.
+class InvalidScratch : public Error {
+ public:
+  using Error::Error;
+  explicit InvalidScratch(const Error& error) : Error(error) {}
 };
 
 class ScratchDir {

@@ -31,6 +31,15 @@ class SpillBlock {
   std::unique_ptr<std::byte, Delete> data_;
 };
 
+// A sequence of bytes that is read block by block.
+class BlockSource {
+ public:
+  virtual ~BlockSource() = default;
+  // Returns the payload of the next block; empty at the end. Aligned to 64 bytes. The caller may
+  // modify it; valid until the next call.
+  virtual std::span<std::byte> next() = 0;
+};
+
 constexpr size_t kSpillHeader = 64;  // bytes
 
 // The identity of a block: its stream and index. Its position in the file is not part of it.

@@ -23,7 +23,7 @@ struct SpillTransfer {
   uint32_t position = 0;  // in the file, in blocks
   bool writes = false;
   bool done = true;
-  std::exception_ptr failure;  // of a read; check() throws that of a write
+  std::exception_ptr failure;  // of a read; check() throws a write's
 };
 
 class SpillQueue {

@@ -16,17 +16,10 @@ namespace {
 
 constexpr size_t kSample = 64;  // tiles of a level that are cut for an estimate
 
-std::string read_whole(const std::string& path) {
-  const File file = File::open_read(path);
-  std::string text(file.size(), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return text;
-}
-
 // Without fsync: a run that continues checks what is there.
 void write_whole(const std::string& folder, const std::string& name, std::string_view text) {
   const std::string path = folder + "/" + name;
-  File file = File::create_anonymous(std::filesystem::path(path).parent_path(), path);
+  File file = File::create_anonymous(folder_of(path), path, File::kOutputMode);
   file.write_at(0, std::as_bytes(std::span(text)));
   file.link_as(path);
 }
@@ -42,7 +35,7 @@ void open_folder(const std::string& folder, const std::string& scene) {
   const std::string scene_path = folder + "/scene.json";
   create_folder(folder);
   if (std::filesystem::exists(scene_path)) {
-    if (read_whole(scene_path) != scene)
+    if (File::open_read(scene_path).text() != scene)
       fail_usage(folder + ": holds the page of another scene or level; choose another folder");
   } else if (!std::filesystem::is_empty(folder)) {
     fail_usage(folder + ": is not empty and not such a page; choose another folder");
@@ -55,7 +48,7 @@ void open_folder(const std::string& folder, const std::string& scene) {
 // The bytes of a tile that an earlier run has written; 0 without a valid one.
 uint64_t valid_bytes(const std::string& path) {
   if (!std::filesystem::exists(path)) return 0;
-  const std::string text = read_whole(path);
+  const std::string text = File::open_read(path).text();
   return decode_tile(std::as_bytes(std::span(text))) ? text.size() : 0;
 }
 

@@ -145,10 +145,10 @@ void Planner::read_scene() {
   leaf.open_bytes = workspace_.shares().open_bins;
   plan_.block_bytes = std::clamp(std::bit_floor(size_t(leaf.light * kBytesPerTriangle / 4)),
                                  kMinBlockBytes, workspace_.scratch()->block_bytes());
-  triangles_ = std::make_unique<SpillFile>(config_.folder.empty()
-                                               ? workspace_.folder()->create(kPlanTriangles)
-                                               : File::create_anonymous(config_.folder),
-                                           plan_.block_bytes);
+  triangles_ = std::make_unique<SpillFile>(
+      config_.folder.empty() ? workspace_.folder()->create(kPlanTriangles)
+                             : File::create_anonymous(config_.folder, {}, File::kOutputMode),
+      plan_.block_bytes);
   plan_.bins = make_leaf_bins(&scene, plan_.grid, leaf, workspace_.scratch(), triangles_.get());
 }
 

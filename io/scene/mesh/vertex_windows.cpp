@@ -56,7 +56,7 @@ void VertexWindows::add(std::span<const std::byte> positions) {
         throw Error(ExitCode::kMemory,
                     "a mesh of more than " + std::to_string(size_) +
                         " vertices does not fit the memory budget: raise --memory");
-      positions_out_ = new_stream();
+      positions_out_.emplace(new_stream());
     }
     positions_out_->append(positions.first(size_t(n * position_bytes_)));
     positions = positions.subspan(size_t(n * position_bytes_));
@@ -73,7 +73,7 @@ void VertexWindows::finish_window() {
 
 void VertexWindows::open_references(uint64_t w) {
   if (w >= references_.size()) references_.resize(size_t(w) + 1);
-  references_[size_t(w)] = new_stream();
+  references_[size_t(w)].emplace(new_stream());
 }
 
 void VertexWindows::join() {
@@ -132,7 +132,7 @@ void VertexWindows::rewind() {
 
 // A position that crosses the end of the block.
 Point VertexWindows::next_beyond(Cursor& from, const OwnedStream& stream) {
-  if (!from.reader && !stream.empty()) from.reader = stream.read(budget_);
+  if (!from.reader && !stream.empty()) from.reader.emplace(stream.read(budget_));
   std::array<std::byte, 3 * sizeof(double)> position;
   for (size_t done = 0; done < position_bytes_;) {
     if (from.here == from.end) {

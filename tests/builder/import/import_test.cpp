@@ -6,7 +6,7 @@
 #include <random>
 
 #include "io/dag/layers/layer_alone.h"
-#include "streaming/file/file_state.h"
+#include "streaming/file/input_watch.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"

@@ -178,7 +178,7 @@ TEST(ScratchDir, AProbeOfFileOwnershipIsNotAForeignFile) {
   const TempFolder folder;
   const std::string path = folder.file("s");
   std::filesystem::create_directory(path);
-  folder.write("s/.svdag-probe-12-345", "");
+  folder.write("s/.svdag-0123456789abcdef.tmp", "");
   { ScratchDir dir(path); }
   EXPECT_EQ(folder.entries(), 0U);
 }
