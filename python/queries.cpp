@@ -38,7 +38,7 @@ void look_up_together(const DagView& dag, const std::array<uint32_t, 3>* voxels,
     for (size_t i = 0; i < count; ++i) {
       if (nodes[i] == kNoChild) continue;
       const auto& v = voxels[i];
-      const unsigned c = 4 * (v[0] >> s & 1) + 2 * (v[1] >> s & 1) + (v[2] >> s & 1);
+      const unsigned c = octant_of(v[0], v[1], v[2], s);
       nodes[i] = dag_child(dag, level, nodes[i], c);
       if (nodes[i] == kNoChild) continue;
       if (level + 1 == dag.brick_level())

@@ -45,6 +45,7 @@
 #include "builder/reduce/node_table.h"
 #include "io/grid.h"
 #include "streaming/memory/huge_pages.h"
+#include "streaming/memory/multiply_fold.h"
 
 namespace svdag {
 
@@ -59,9 +60,7 @@ struct PlaneMemoCounts {
 
 // Hash of two words for the tables of planes and contents.
 inline uint64_t mix(uint64_t a, uint64_t b) noexcept {
-  const unsigned __int128 product =
-      static_cast<unsigned __int128>(a ^ 0xa0761d6478bd642f) * (b ^ 0xe7037ed1a0b428db);
-  return uint64_t(product) ^ uint64_t(product >> 64);
+  return multiply_fold(a ^ 0xa0761d6478bd642f, b ^ 0xe7037ed1a0b428db);
 }
 
 // The sides of a plane that are inside of a solid, as a mask. The low side has the smaller n . x.

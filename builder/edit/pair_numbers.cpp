@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "streaming/error.h"
+#include "streaming/memory/multiply_fold.h"
 
 namespace svdag {
 namespace {
 
 constexpr const char* kPairsPurpose = "pairs of nodes of the edit";
 constexpr size_t kFirstSlots = 64;
-
-uint64_t hash(uint64_t pair) {
-  const unsigned __int128 product =
-      static_cast<unsigned __int128>(pair ^ 0x9e3779b97f4a7c15) * 0xd6e8feb86659fd93;
-  return uint64_t(product) ^ uint64_t(product >> 64);
-}
 
 }  // namespace
 
@@ -24,7 +19,7 @@ PairNumbers::PairNumbers(MemoryBudget* budget) : memory_(budget->reserve(0, kPai
 }
 
 size_t PairNumbers::slot_of(NodePair pair) const {
-  size_t slot = hash(uint64_t(pair.a) << 32 | pair.b) & (slots_.size() - 1);
+  size_t slot = fold_hash(uint64_t(pair.a) << 32 | pair.b) & (slots_.size() - 1);
   for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
     const NodePair& found = pairs_[slots_[slot] - 1];
     if (found.a == pair.a && found.b == pair.b) break;

@@ -14,6 +14,7 @@
 #include "builder/reduce/unique_set.h"
 #include "io/brick.h"
 #include "io/dag/node_key.h"
+#include "streaming/memory/multiply_fold.h"
 
 namespace svdag {
 
@@ -77,21 +78,16 @@ class NodeTable {
   SegmentedArray<NodeKey> take_nodes(int level) { return nodes_[size_t(level)].take_keys(); }
 
  private:
-  // Multiply-and-fold hashes (after wyhash): the table compares whole keys, so quality only costs
-  // time.
-  static uint64_t fold(uint64_t a, uint64_t b) {
-    const unsigned __int128 product = static_cast<unsigned __int128>(a) * b;
-    return uint64_t(product) ^ uint64_t(product >> 64);
-  }
   struct BrickHash {
-    uint64_t operator()(Brick b) const { return fold(b ^ 0x9e3779b97f4a7c15, 0xd6e8feb86659fd93); }
+    uint64_t operator()(Brick b) const { return fold_hash(b); }
   };
   struct NodeHash {
     uint64_t operator()(const NodeKey& k) const {
       const auto pair = [&](int i) { return uint64_t(k[size_t(i)]) << 32 | k[size_t(i) + 1]; };
-      return fold(
-          fold(pair(0) ^ 0xa0761d6478bd642f, pair(2) ^ 0xe7037ed1a0b428db),
-          fold(pair(4) ^ 0x8ebc6af09c88c6e3, pair(6) ^ 0x589965cc75374cc3) ^ 0x1d8e4e27c47d124f);
+      return multiply_fold(
+          multiply_fold(pair(0) ^ 0xa0761d6478bd642f, pair(2) ^ 0xe7037ed1a0b428db),
+          multiply_fold(pair(4) ^ 0x8ebc6af09c88c6e3, pair(6) ^ 0x589965cc75374cc3) ^
+              0x1d8e4e27c47d124f);
     }
   };
 

@@ -21,8 +21,7 @@ inline CubeAt cube_at(const DagView& dag, const LatticePoint& voxel) {
     return CubeAt{set, level, {voxel.x & mask, voxel.y & mask, voxel.z & mask}};
   };
   const auto octant = [&](int shift) {
-    return unsigned(4 * (voxel.x >> shift & 1) + 2 * (voxel.y >> shift & 1) +
-                    (voxel.z >> shift & 1));
+    return octant_of(uint32_t(voxel.x), uint32_t(voxel.y), uint32_t(voxel.z), uint32_t(shift));
   };
   if (dag.empty()) return at_level(false, 0);
   uint32_t node = 0;

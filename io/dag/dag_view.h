@@ -50,6 +50,11 @@ SVDAG_HD inline double voxel_from_world(const DagView& dag, int axis, double wor
   return (world - dag.corner[axis]) / dag.voxel_size;
 }
 
+// The number (io/brick.h) of the child cube, of side 2^shift, that holds voxel (x, y, z).
+SVDAG_HD inline unsigned octant_of(uint32_t x, uint32_t y, uint32_t z, uint32_t shift) {
+  return (x >> shift & 1U) << 2 | (y >> shift & 1U) << 1 | (z >> shift & 1U);
+}
+
 // The child mask of the node at `index` of `level` < brick_level().
 SVDAG_HD inline uint32_t dag_mask(const DagView& dag, uint32_t level, uint32_t index) {
   if (dag.layout == Layout::kPlain) return dag.words[level][index] & 0xffU;
@@ -92,9 +97,7 @@ SVDAG_HD inline uint64_t dag_brick(const DagView& dag, uint32_t x, uint32_t y, u
   if (dag.empty()) return 0;
   uint32_t node = 0;
   for (uint32_t level = 0; level < dag.brick_level(); ++level) {
-    const uint32_t shift = dag.brick_level() - 1 - level;
-    const unsigned c = 4 * ((x >> shift) & 1U) + 2 * ((y >> shift) & 1U) + ((z >> shift) & 1U);
-    node = dag_child(dag, level, node, c);
+    node = dag_child(dag, level, node, octant_of(x, y, z, dag.brick_level() - 1 - level));
     if (node == kNoChild) return 0;
   }
   return dag.bricks[node];
@@ -102,9 +105,8 @@ SVDAG_HD inline uint64_t dag_brick(const DagView& dag, uint32_t x, uint32_t y, u
 
 // Whether voxel (x, y, z) is set.
 SVDAG_HD inline bool dag_voxel(const DagView& dag, uint32_t x, uint32_t y, uint32_t z) {
-  const unsigned outer = 4 * ((x >> 1) & 1U) + 2 * ((y >> 1) & 1U) + ((z >> 1) & 1U);
-  const unsigned inner = 4 * (x & 1U) + 2 * (y & 1U) + (z & 1U);
-  return (dag_brick(dag, x >> 2, y >> 2, z >> 2) >> (8 * outer + inner)) & 1U;
+  const unsigned bit = 8 * octant_of(x, y, z, 1) + octant_of(x, y, z, 0);
+  return (dag_brick(dag, x >> 2, y >> 2, z >> 2) >> bit) & 1U;
 }
 
 // A view of the file at `data` (8-byte aligned). The file must have been validated

@@ -61,9 +61,8 @@ class LayerLabels {
     const DagView layer = file_.view_of(label);
     uint32_t node = 0;
     for (uint32_t k = 0; k < level; ++k) {
-      const uint32_t bit = dag.levels - 1 - k;
       const unsigned c =
-          unsigned(4 * (at.x >> bit & 1) + 2 * (at.y >> bit & 1) + (at.z >> bit & 1));
+          octant_of(uint32_t(at.x), uint32_t(at.y), uint32_t(at.z), dag.levels - 1 - k);
       node = dag_present_child(layer, k, node, c);
     }
     return walk->is_full(level, node) ? std::optional(label) : std::nullopt;

@@ -1,4 +1,4 @@
-#include "verify/compare/diff_clusters.h"
+#include "verify/compare/dag_diff.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "verify/compare/difference_points.h"
+#include "verify/compare/dag_diff.h"
 
 #include <cmath>
 #include <cstring>

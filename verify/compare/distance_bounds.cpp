@@ -90,17 +90,12 @@ class WindowCheck {
     result_.file_voxels += set;
     result_.inner += selected && d <= 0.5;
     if (set && !selected) {  // wrong at any distance
-      ++result_.extra;
-      record_wrong(voxel, false);
+      result_.add(voxel, false);
     } else if (set) {
       if (d >= upper() - tolerance_) suspects_.push_back({voxel, true, d > upper() + tolerance_});
     } else if (!thin_ && d <= 0.5 + tolerance_ && selected) {
       suspects_.push_back({voxel, false, d < 0.5 - tolerance_});
     }
-  }
-
-  void record_wrong(const LatticePoint& voxel, bool missing) {
-    if (result_.first.size() < Comparison::kShown) result_.first.push_back({voxel, missing});
   }
 
   // Checks the file's voxels in blocks without distances.
@@ -129,8 +124,7 @@ class WindowCheck {
       const bool wrong = s.set != s.near;
       if (!s.certain) ++result_.exact;
       if (wrong) {
-        ++(s.set ? result_.extra : result_.missing);
-        record_wrong(s.voxel, !s.set);
+        result_.add(s.voxel, !s.set);
       } else if (s.certain) {
         ++result_.vdb_errors;
       }
@@ -163,16 +157,13 @@ class WindowCheck {
 }  // namespace
 
 void BoundsComparison::append(const BoundsComparison& later) {
+  WrongVoxels::append(later);
   windows += later.windows;
   tested += later.tested;
   file_voxels += later.file_voxels;
   inner += later.inner;
-  missing += later.missing;
-  extra += later.extra;
   exact += later.exact;
   vdb_errors += later.vdb_errors;
-  for (const WrongVoxel& wrong : later.first)
-    if (first.size() < Comparison::kShown) first.push_back(wrong);
 }
 
 BoundsWindows::BoundsWindows(const Grid& grid)

@@ -30,18 +30,15 @@
 
 namespace svdag {
 
-struct BoundsComparison {
+// Missing: not set, d <= 1/2. Extra: set, d beyond the upper bound or not in the selection.
+struct BoundsComparison : WrongVoxels {
   uint64_t windows = 0;
   uint64_t tested = 0;       // voxels in the windows, each compared with both bounds
   uint64_t file_voxels = 0;  // the set ones among them
   uint64_t inner = 0;        // in the selection with d <= 1/2, by OpenVDB
-  uint64_t missing = 0;      // violations: not set, d <= 1/2
-  uint64_t extra = 0;        // violations: set, d beyond the upper bound or not in the selection
   uint64_t exact = 0;        // voxels within the float error of a bound, decided in integers
   uint64_t vdb_errors = 0;   // voxels whose distance by OpenVDB was too large by more than that
-  std::vector<WrongVoxel> first;
 
-  bool holds() const { return missing == 0 && extra == 0; }
   void append(const BoundsComparison& later);
 };
 

@@ -26,7 +26,7 @@ struct ScaledGrid {
   double reach = 0;  // upper bound of its coordinates
 };
 
-// One way in which grids correspond: the positions that must agree, in voxels from the first and
+// One way that grids correspond: the positions that must agree, in voxels from the first and
 // the last plane of each grid, and the kind of grid to which it applies (none: any).
 struct Alignment {
   double first, last;

@@ -1,10 +1,10 @@
 // The map from the voxels of a foreign grid to ours.
 //
-// The centre of their voxel i is origin + sum of i_a * axes_a; that of our voxel u is c + u * size,
-// c being the centre of our voxel 0. The grids fit if each of their centres is one of ours: then
-// u = P i + shift with a signed permutation P, so axes may be swapped and mirrored. The difference
-// between the true map and this one is an affine function, largest at a corner of the box of their
-// voxels, so eight points prove it for all.
+// The centre of their voxel i is origin + sum of i_a * axes_a; the centre of our voxel u is c + u *
+// size, c being the centre of our voxel 0. The grids fit if each of their centres is one of ours:
+// then u = P i + shift with a signed permutation P, so axes may be swapped and mirrored. The
+// difference between the true map and this one is an affine function, largest at a corner of the
+// box of their voxels, so eight points prove it for all.
 //
 // Far from zero a voxel is only a few steps of a double, or less. Positions are therefore relative
 // to our first centre, not to zero: our own exports match to the last bit, so they fit at any

@@ -29,7 +29,7 @@ struct LayerIndexView {
   SVDAG_HD uint32_t cube_of(uint32_t levels, uint32_t x, uint32_t y, uint32_t z) const {
     uint32_t cube = 0;
     for (uint32_t shift = levels; shift-- > levels - level;)
-      cube = cube << 3 | (x >> shift & 1U) << 2 | (y >> shift & 1U) << 1 | (z >> shift & 1U);
+      cube = cube << 3 | octant_of(x, y, z, shift);
     return cube;
   }
 };
@@ -38,17 +38,14 @@ struct LayerIndexView {
 // brick level, is on its path.
 SVDAG_HD inline bool dag_cube_is_set(const DagView& dag, uint32_t level, uint32_t node, uint32_t to,
                                      uint32_t x, uint32_t y, uint32_t z) {
-  const auto octant = [&](uint32_t shift) {
-    return 4 * (x >> shift & 1U) + 2 * (y >> shift & 1U) + (z >> shift & 1U);
-  };
   for (; level < dag.brick_level(); ++level) {
     if (level >= to) return true;
-    node = dag_child(dag, level, node, octant(dag.levels - 1 - level));
+    node = dag_child(dag, level, node, octant_of(x, y, z, dag.levels - 1 - level));
     if (node == kNoChild) return false;
   }
   if (to <= level) return true;
-  const uint32_t block = uint32_t(dag.bricks[node] >> 8 * octant(1)) & 0xffU;
-  return to < dag.levels ? block != 0 : (block >> octant(0) & 1U) != 0;
+  const uint32_t block = uint32_t(dag.bricks[node] >> 8 * octant_of(x, y, z, 1)) & 0xffU;
+  return to < dag.levels ? block != 0 : (block >> octant_of(x, y, z, 0) & 1U) != 0;
 }
 
 // The first layer with a voxel in the cube of level `to` <= L that holds voxel (x, y, z); kNoLayer

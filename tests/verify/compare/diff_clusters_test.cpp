@@ -1,5 +1,5 @@
 // Clusters of differences against the voxels that differ.
-#include "verify/compare/diff_clusters.h"
+#include "verify/compare/dag_diff.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "tests/verify/soup.h"
 #include "tests/voxel_sets.h"
 #include "verify/compare/centre_distance.h"
-#include "verify/judge/judge_vdb.h"
 #include "verify/judge/centre_lines.h"
+#include "verify/judge/judge_vdb.h"
 #include "verify/sample/window_triangles.h"
 
 namespace svdag {
@@ -56,7 +56,7 @@ TEST_F(DistanceBoundsTest, CorrectFilesAreWithinTheBounds) {
       const auto soup = random_soup(grid, 60, uint64_t(levels), side);
       const VoxelSet voxels = soup_voxels(grid, soup);
       const BoundsComparison result = judge(grid, voxels, soup);
-      EXPECT_TRUE(result.holds()) << result.missing << " missing, " << result.extra << " extra";
+      EXPECT_TRUE(result.agrees()) << result.missing << " missing, " << result.extra << " extra";
       EXPECT_EQ(result.file_voxels, voxels.size());
       EXPECT_EQ(result.tested, uint64_t(1) << (3 * levels));
     }
@@ -72,9 +72,9 @@ TEST_F(DistanceBoundsTest, ThinFilesAreWithinTheInnerBall) {
         LatticePoint p = run.first;
         for (int64_t i = 0; i < run.count; ++i, ++p[run.axis]) voxels.emplace(p.x, p.y, p.z);
       });
-    EXPECT_TRUE(judge(grid, voxels, soup, Rule::kThin).holds());
+    EXPECT_TRUE(judge(grid, voxels, soup, Rule::kThin).agrees());
     // A voxel that only the outer ball reaches violates this bound.
-    EXPECT_FALSE(judge(grid, soup_voxels(grid, soup), soup, Rule::kThin).holds());
+    EXPECT_FALSE(judge(grid, soup_voxels(grid, soup), soup, Rule::kThin).agrees());
   }
 }
 
@@ -93,8 +93,8 @@ TEST_F(DistanceBoundsTest, ExactlyTheVoxelsOutsideTheBoundsAreWrong) {
   const BoundsComparison full = judge(grid, all, soup);
   EXPECT_EQ(full.missing, 0U);
   EXPECT_EQ(full.extra, 4096 - outer.size());
-  EXPECT_TRUE(judge(grid, inner, soup).holds());
-  EXPECT_TRUE(judge(grid, outer, soup).holds());
+  EXPECT_TRUE(judge(grid, inner, soup).agrees());
+  EXPECT_TRUE(judge(grid, outer, soup).agrees());
 }
 
 TEST_F(DistanceBoundsTest, AShiftByHalfAVoxelIsFound) {
@@ -104,7 +104,7 @@ TEST_F(DistanceBoundsTest, AShiftByHalfAVoxelIsFound) {
     auto shifted = soup;
     for (LatticeTriangle& t : shifted)
       for (LatticePoint& p : t.v) p[a] += int64_t(1) << (grid.fraction() - 1);
-    EXPECT_FALSE(judge(grid, soup_voxels(grid, shifted), soup).holds());
+    EXPECT_FALSE(judge(grid, soup_voxels(grid, shifted), soup).agrees());
   }
 }
 
@@ -136,7 +136,7 @@ TEST_F(DistanceBoundsTest, DistancesOnABoundAreDecidedExactly) {
     const BoundsComparison result = judge(grid, {}, wall);
     EXPECT_EQ(result.missing, inner.size());
     EXPECT_GE(result.exact, inner.size());
-    EXPECT_TRUE(judge(grid, inner, wall).holds());
+    EXPECT_TRUE(judge(grid, inner, wall).agrees());
     EXPECT_EQ(inner.count({15, 16, 5}), step == 0 ? 1U : 0U);
   }
 }
@@ -162,7 +162,7 @@ TEST_F(DistanceBoundsTest, HugeTrianglesAreCutToTheWindow) {
   const BoundsComparison none = judge(grid, {}, soup, Rule::kConservative, &window);
   EXPECT_EQ(none.missing, inner.size());
   EXPECT_EQ(none.vdb_errors, 0U);
-  EXPECT_TRUE(judge(grid, inner, soup, Rule::kConservative, &window).holds());
+  EXPECT_TRUE(judge(grid, inner, soup, Rule::kConservative, &window).agrees());
 }
 
 TEST_F(DistanceBoundsTest, VoxelsOutsideTheSelectionNeedNotBeSet) {
@@ -170,7 +170,7 @@ TEST_F(DistanceBoundsTest, VoxelsOutsideTheSelectionNeedNotBeSet) {
   const auto soup = random_soup(grid, 40, 3, 20);
   grid.bounded = true;
   grid.selection = {{10, 12, 14}, {40, 50, 60}};
-  EXPECT_TRUE(judge(grid, soup_voxels(grid, soup), soup).holds());
+  EXPECT_TRUE(judge(grid, soup_voxels(grid, soup), soup).agrees());
 }
 
 TEST_F(DistanceBoundsTest, SetVoxelsOutsideTheSelectionAreExtraAtAnyDistance) {

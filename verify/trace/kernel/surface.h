@@ -2,7 +2,7 @@
 //
 // Idea: Hoppe et al. 1992. The set voxels near a hit are samples of the surface; the direction of
 // their smallest covariance is its normal. Where the voxels do not form a sheet (a wire, a single
-// voxel), the normal is that of the face that the ray entered.
+// voxel), the normal is of the face that the ray entered.
 #pragma once
 
 #include "verify/trace/kernel/vector.h"
@@ -47,8 +47,7 @@ class BrickPath {
       ++level;
     x_ = x, y_ = y, z_ = z;
     for (; level < bricks; ++level) {
-      const uint32_t shift = bricks - 1 - level;
-      const unsigned c = 4 * (x >> shift & 1U) + 2 * (y >> shift & 1U) + (z >> shift & 1U);
+      const unsigned c = octant_of(x, y, z, bricks - 1 - level);
       nodes_[level + 1] = dag_child(dag_, level, nodes_[level], c);
       if (nodes_[level + 1] == kNoChild) break;
     }
@@ -130,9 +129,9 @@ SVDAG_HD inline Vec3 face_normal(const Hit& hit, const Vec3& direction) {
 }
 
 // Unit normal at the hit, on the side from which the ray came. If a cut ended the ray above the
-// voxels, the normal is that of the entered face.
+// voxels, the normal is the entered face's.
 //
-// The side is that of the ray a voxel before the hit, relative to the mean of the voxels: at the
+// The side is where the ray is a voxel before the hit, relative to the mean of the voxels: at the
 // rim of a shape, the ray is nearly in the surface, and its direction would not decide.
 SVDAG_HD inline Vec3 surface_normal(const DagView& dag, const Hit& hit, const Ray& ray) {
   constexpr double kBefore = 1;

@@ -6,7 +6,7 @@
 //   descend  one bit per axis and level selects the child, without arithmetic on times
 //   advance  the first of the three far planes is the exit; the new cell is origin + slope * t,
 //            rounded down
-//   ascend   the highest bit in which old and new cell differ gives the level of their common
+//   ascend   the highest bit that differs between old and new cell gives the level of their common
 //            ancestor, where the walk resumes at once, without popping. The same holds from ray to
 //            ray: rays that start close together share most of their first path.
 //
@@ -15,14 +15,14 @@
 // node is left at once. Bricks are tested in the same way, as 64-bit and as 8-bit masks.
 //
 // Exactness: comparing time(a, plane) decides the cell. The rounding error of origin + slope * t is
-// at most 6 * 2^-53 * (|origin| + N), and so is that of the comparison. Farther than margin =
+// at most 6 * 2^-53 * (|origin| + N), and so is the comparison's. Farther than margin =
 // 2^-50 * (|origin| + N) from a plane, the rounded cell is therefore the right one; nearer, the
 // plane's time is compared. The axis of the exit needs neither: its cell is at that plane. For
 // origins more than 2^40 voxels away, neighbouring planes can have the same time, and the cell is
 // found by bisection over the times of each axis. Rejected: times of middle planes during the
 // descent (three per level).
 //
-// Depends on ray.h alone, for host and CUDA. Pointers are trusted: DagFile::open validated them.
+// Depends only on ray.h, for host and CUDA. Pointers are trusted: DagFile::open validated them.
 #pragma once
 
 #include "verify/trace/kernel/ray.h"
@@ -72,7 +72,7 @@ class Tracer {
 
  private:
   template <bool kCut>
-  class Walk;
+  class RayWalk;
 
   const DagView& dag_;
   uint32_t cell_[3] = {};     // last cell of the previous ray, in file coordinates
@@ -80,11 +80,11 @@ class Tracer {
   uint32_t path_[kMaxSections];
 };
 
-// The walk of one ray. Coordinates are mirrored; those of Tracer are not.
+// The walk of one ray. Coordinates are mirrored; Tracer's are not.
 template <bool kCut>
-class Tracer::Walk {
+class Tracer::RayWalk {
  public:
-  SVDAG_HD Walk(Tracer* tracer, const Ray& ray, const Cut& cut)
+  SVDAG_HD RayWalk(Tracer* tracer, const Ray& ray, const Cut& cut)
       : tracer_(*tracer),
         dag_(tracer->dag_),
         ray_(ray, dag_.resolution()),
@@ -172,7 +172,7 @@ class Tracer::Walk {
   }
 
   SVDAG_HD unsigned child_at(uint32_t shift) const {
-    return (cell_[0] >> shift & 1U) << 2 | (cell_[1] >> shift & 1U) << 1 | (cell_[2] >> shift & 1U);
+    return octant_of(cell_[0], cell_[1], cell_[2], shift);
   }
 
   // Leaves the cube of side side_ that contains the cell. False at the end of the ray.
@@ -227,7 +227,7 @@ class Tracer::Walk {
     }
   }
 
-  // The level of the deepest node that the previous ray's path shares with that of the first cell.
+  // The level of the deepest node that the previous ray's path shares with the first cell's.
   SVDAG_HD uint32_t resume() {
     alone_[0] = dag_.resolution();
     if (kCut) return 0;  // cubes of the shared path may be solid
@@ -261,8 +261,8 @@ class Tracer::Walk {
 };
 
 SVDAG_HD inline Hit Tracer::closest(const Ray& ray, const Span& span, const Cut& cut) {
-  return cut.cuts(dag_.levels) ? Walk<true>(this, ray, cut).closest(span)
-                               : Walk<false>(this, ray, cut).closest(span);
+  return cut.cuts(dag_.levels) ? RayWalk<true>(this, ray, cut).closest(span)
+                               : RayWalk<false>(this, ray, cut).closest(span);
 }
 
 SVDAG_HD inline Hit trace_closest(const DagView& dag, const Ray& ray, const Span& span = {},

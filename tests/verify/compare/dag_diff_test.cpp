@@ -1,5 +1,6 @@
-// Tests that the difference of two DAGs is that of their voxel sets, at the coarser resolution.
-#include "verify/compare/diff.h"
+// Tests that the difference of two DAGs is the difference of their voxel sets, at the coarser
+// resolution.
+#include "verify/compare/dag_diff.h"
 
 #include <gtest/gtest.h>
 

@@ -1,19 +1,25 @@
-#include "verify/compare/diff.h"
+#include "verify/compare/dag_diff.h"
 
 #include <algorithm>
 #include <bit>
 
 #include "io/dag/dag_level.h"
 #include "streaming/error.h"
+#include "streaming/memory/multiply_fold.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
 
+namespace {
+
+std::array<uint32_t, 3> corner_of_child(const std::array<uint32_t, 3>& at, unsigned c) {
+  return {2 * at[0] + (c >> 2 & 1), 2 * at[1] + (c >> 1 & 1), 2 * at[2] + (c & 1)};
+}
+
+}  // namespace
+
 size_t DagDiff::Memo::home_slot(Pair pair) const {
-  const uint64_t key = uint64_t(pair.a) << 32 | pair.b;
-  const unsigned __int128 product =
-      static_cast<unsigned __int128>(key ^ 0x9e3779b97f4a7c15) * 0xd6e8feb86659fd93;
-  return size_t(uint64_t(product) ^ uint64_t(product >> 64)) & (slots_.size() - 1);
+  return size_t(fold_hash(uint64_t(pair.a) << 32 | pair.b)) & (slots_.size() - 1);
 }
 
 DagDiff::Counts* DagDiff::Memo::find(Pair pair) {
@@ -126,9 +132,7 @@ void DagDiff::visit_cubes(uint32_t level, Pair pair, const std::array<uint32_t, 
   if (counts.only_a == 0 && counts.only_b == 0) return;
   if (level == last) return sink(at, counts.only_a, counts.only_b);
   for (unsigned c = 0; c < 8; ++c) {
-    const std::array<uint32_t, 3> corner{2 * at[0] + (c >> 2 & 1), 2 * at[1] + (c >> 1 & 1),
-                                         2 * at[2] + (c & 1)};
-    visit_cubes(level + 1, child(level, pair, c), corner, last, sink);
+    visit_cubes(level + 1, child(level, pair, c), corner_of_child(at, c), last, sink);
   }
 }
 
@@ -143,9 +147,7 @@ bool DagDiff::visit(uint32_t level, Pair pair, const std::array<uint32_t, 3>& at
   SVDAG_ASSERT(cached != nullptr);
   if (cached->only_a == 0 && cached->only_b == 0) return true;
   for (unsigned c = 0; c < 8; ++c) {
-    const std::array<uint32_t, 3> corner{2 * at[0] + (c >> 2 & 1), 2 * at[1] + (c >> 1 & 1),
-                                         2 * at[2] + (c & 1)};
-    if (!visit(level + 1, child(level, pair, c), corner, sink)) return false;
+    if (!visit(level + 1, child(level, pair, c), corner_of_child(at, c), sink)) return false;
   }
   return true;
 }

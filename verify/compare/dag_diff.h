@@ -14,9 +14,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "io/dag/dag_view.h"
+#include "io/grid.h"
 
 namespace svdag {
 
@@ -87,5 +89,23 @@ class DagDiff {
   uint32_t levels_;
   std::vector<Memo> memos_;  // [level], above the bricks
 };
+
+// Clusters of differences: where two DAGs differ, in a few boxes instead of millions of voxels.
+//
+// The grid is divided into 64^3 cells (of at least one brick). Cells that hold a difference and
+// touch, by a face, edge or corner, are one cluster. So a cluster's box is exact to a cell.
+// Rejected: clusters of single voxels, which take memory for each of them.
+struct DiffCluster {
+  VoxelBox box;  // of its cells, in voxels of the comparison
+  uint64_t only_a = 0, only_b = 0;
+};
+
+// After diff->count(). The clusters with most differing voxels first; equal ones in Morton order.
+std::vector<DiffCluster> diff_clusters(DagDiff* diff);
+
+// Writes a binary PLY of the centres of differing voxels: red where only A is set, blue where only
+// B. `grid` is A's. More than `max_points` voxels are an Error (kUsage). Call after diff->count().
+void write_difference(DagDiff* diff, const DiffCounts& counts, const Grid& grid,
+                      const std::string& path, uint64_t max_points);
 
 }  // namespace svdag
