@@ -39,17 +39,18 @@ FigureValue FigureValue::of_unsigned(uint64_t value) {
   return {Stored(value), format_count(value)};
 }
 
-std::string formatted(double value, const char* format) {
+std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-FigureValue shown(double value, const char* format) {
-  return shown(FigureValue(value), formatted(value, format));
+FigureValue rounded(double value, const char* format) {
+  return shown(FigureValue(value), formatted(format, value));
 }
 
 void Verdict::add(const std::string& key, std::string label, FigureValue value, std::string unit) {
+  if (hidden_) return for_programs(key, std::move(value));
   const auto* list = std::get_if<FigureValue::List>(&value.stored_);
   const auto is_text = [](const FigureValue& item) {
     return std::holds_alternative<std::string>(item.stored_);
@@ -63,7 +64,7 @@ void Verdict::add(const std::string& key, std::string label, FigureValue value, 
 }
 
 void Verdict::also(const std::string& key, FigureValue value, const std::string& unit) {
-  lines_.back().text += ", " + with_unit(value.text_, unit);
+  if (!hidden_) lines_.back().text += ", " + with_unit(value.text_, unit);
   for_programs(key, std::move(value));
 }
 
@@ -72,6 +73,7 @@ void Verdict::for_programs(const std::string& key, FigureValue value) {
 }
 
 void Verdict::for_people(std::string label, std::string line) {
+  if (hidden_) return;
   lines_.push_back({std::move(label), std::move(line)});
 }
 

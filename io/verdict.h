@@ -44,9 +44,12 @@ class FigureValue {
       : stored_(std::move(stored)), text_(std::move(text)) {}
   template <class Number>
   static FigureValue of_integer(Number value) {
-    if constexpr (std::is_same_v<Number, bool>) return of_bool(value);
-    else if constexpr (std::is_signed_v<Number>) return of_signed(value);
-    else return of_unsigned(value);
+    if constexpr (std::is_same_v<Number, bool>)
+      return of_bool(value);
+    else if constexpr (std::is_signed_v<Number>)
+      return of_signed(value);
+    else
+      return of_unsigned(value);
   }
   static FigureValue of_bool(bool value);
   static FigureValue of_signed(int64_t value);
@@ -56,10 +59,11 @@ class FigureValue {
   std::string text_;
 };
 
-// `value` in a printf format: "%.1f".
-std::string formatted(double value, const char* format);
-FigureValue shown(double value, const char* format);
 FigureValue shown(FigureValue value, std::string text);
+// `value` in a printf format: "%.1f".
+std::string formatted(const char* format, double value);
+// A value with that text.
+FigureValue rounded(double value, const char* format);
 
 // A key may name a member of a nested object or of a list: "layers/0/name".
 class Verdict {
@@ -72,6 +76,8 @@ class Verdict {
   void for_programs(const std::string& key, FigureValue value);
   // A line without a figure; an empty label starts at the first column.
   void for_people(std::string label, std::string line);
+  // While hidden, figures are only for programs: those that do not apply to this file.
+  void hide(bool hidden) { hidden_ = hidden; }
 
   // Labels are padded to the widest one.
   std::string text() const;
@@ -84,6 +90,7 @@ class Verdict {
   };
   std::vector<std::pair<std::string, FigureValue>> figures_;
   std::vector<TextLine> lines_;
+  bool hidden_ = false;
 };
 
 }  // namespace svdag

@@ -79,7 +79,7 @@ ALLOWED = {
     "verify/view": STREAMING + ["io", *DAG],
     "verify/report": STREAMING + ["io", *DAG, "verify/integrity", "verify/view"],
     "verify/trace/kernel": STREAMING + [*DAG],
-    "verify/trace": STREAMING + ["io", *DAG, "verify/trace/kernel"],
+    "verify/trace": STREAMING + ["io", *DAG, "io/help", "verify/trace/kernel"],
     "verify/trace/judge": STREAMING + ["io", *DAG, "verify/trace/kernel"],
     "verify/trace/program": STREAMING + ["io", *DAG, "io/help", "verify/trace/kernel", "verify/trace"],
     "python": STREAMING + ["io", *DAG, "io/pack", "builder/import", "verify/trace/kernel"],
@@ -125,7 +125,7 @@ EXACT = {
 }
 
 LIBRARIES = {
-    r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace/program)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
+    r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace(/program)?)/(main|\w+_options)\.cpp|io/help/(command_line|lost_value)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
     r"meshoptimizer": r"io/scene/decoders/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
@@ -142,7 +142,7 @@ LIBRARIES = {
     r"xxhash": r"streaming/file/\w+\.cpp",
     r"zstd\.h>": r"io/pack/zstd\.cpp",
     r"nanobind/": r"python/module\.cpp",
-    r"nlohmann/": r"io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
+    r"nlohmann/": r"io/verdict\.cpp|io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
 }
 
 # Matches text that is not code: comments, strings, directives.

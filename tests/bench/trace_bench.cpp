@@ -14,7 +14,7 @@
 #include "verify/trace/kernel/rays.h"
 #include "verify/trace/kernel/tree64.h"
 #include "verify/trace/kernel/workload.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {

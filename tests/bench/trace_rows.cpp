@@ -17,7 +17,7 @@
 #include "tests/bench/relaid_dag.h"
 #include "tests/verify/trace/plain_traversal.h"
 #include "verify/sample/snapped_scene.h"
-#include "verify/trace/judge/triangle.h"
+#include "verify/trace/judge/voxel_triangle.h"
 #include "verify/trace/kernel/beam.h"
 #include "verify/trace/kernel/processor.h"
 #include "verify/trace/kernel/rays.h"
@@ -221,13 +221,15 @@ std::vector<FloatTriangle> load(const char* path, const Grid& grid, const Vec3& 
   config.paths = {path};
   MemoryBudget budget;
   std::vector<FloatTriangle> triangles;
-  stream_snapped(Scene(config, &budget), grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
-    for (const LatticeTriangle& lattice : batch) {
-      const VoxelTriangle t = in_voxels(lattice, grid.fraction());
-      FloatTriangle& to = triangles.emplace_back();
-      for (int i = 0; i < 9; ++i) to.v[i / 3][i % 3] = float(t.v[i / 3][i % 3] - middle[i % 3]);
-    }
-  });
+  stream_snapped(Scene(config, &budget), grid,
+                 [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+                   for (const LatticeTriangle& lattice : batch) {
+                     const VoxelTriangle t = in_voxels(lattice, grid.fraction());
+                     FloatTriangle& to = triangles.emplace_back();
+                     for (int i = 0; i < 9; ++i)
+                       to.v[i / 3][i % 3] = float(t.v[i / 3][i % 3] - middle[i % 3]);
+                   }
+                 });
   return triangles;
 }
 

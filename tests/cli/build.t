@@ -136,7 +136,7 @@ $ svdag-verify mesh box.svdag box.obj | tail -3
 | extra      0
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh box.svdag box.obj --sample 100 | grep anywhere
-|            100 points anywhere, 0 in wrong bricks: at most 2.95 % of the selection is
+| drawn      100 points anywhere, 0 in wrong bricks, so at most 2.95 % of the selection
 $ svdag-verify mesh box.svdag box.obj --judge cgal -q
 $ svdag-verify trace box.svdag box.obj --rays 10000 -q
 $ svdag-scene scan -n 20K -q -o scan.ply
@@ -167,10 +167,11 @@ $ svdag info turned.obj | tail -2
 |   0 open edges, 0 non-manifold edges
 |   closed at 64K^3, but not oriented alike at 4 edges in box, the first at (1, 0, 0)
 $ svdag-verify diff box.svdag turned.svdag
-| compared at 64^3, 4 pairs of nodes
-| both    262,144 voxels
-| only A  0
-| only B  0
+| compared  at 64^3, 4 pairs of nodes
+| both      262,144 voxels
+| only A    0
+| only B    0
+| clusters  0
 | same
 # A scene too small for a grid is neither closed nor open.
 $ printf 'v 0 0 0\nv 1e-310 0 0\nv 0 1e-310 0\nf 1 2 3\n' > tiny.obj
@@ -209,8 +210,8 @@ $ svdag info two.svdag --layers | tail -3
 |                   12              6              6  #f2d0ae  box.obj
 |              432,513          3,212              0  #9e634f  scan.ply
 $ svdag-verify mesh two.svdag scan.ply box.obj | tail -3
-| layer      box.obj: 12 voxels judged, 0 missing, 0 extra
-| layer      scan.ply: 432,513 voxels judged, 0 missing, 0 extra
+| layer      box.obj, 12 voxels in the file, 12 by the judge, 0 missing, 0 extra
+| layer      scan.ply, 432,513 voxels in the file, 432,513 by the judge, 0 missing, 0 extra
 | ok: every voxel agrees with the scene
 $ svdag build scan.ply box.obj -o small.svdag -r 128 --rule solid --layers file -m 8M -q && cmp two.svdag small.svdag
 $ svdag build scan.ply open.obj -o mixed.svdag -r 128 --rule solid --open surface --layers file | sed 's/, [0-9.]* s$//'
@@ -219,8 +220,8 @@ $ svdag build scan.ply open.obj -o mixed.svdag -r 128 --rule solid --open surfac
 |   open parts, baked as surfaces: 1
 |   open layers, baked as surfaces: 1
 $ svdag-verify mesh mixed.svdag scan.ply open.obj | tail -3
-| layer      open.obj: 12 voxels judged, 0 missing, 0 extra
-| layer      scan.ply: 432,513 voxels judged, 0 missing, 0 extra
+| layer      open.obj, 12 voxels in the file, 12 by the judge, 0 missing, 0 extra
+| layer      scan.ply, 432,513 voxels in the file, 432,513 by the judge, 0 missing, 0 extra
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh mixed.svdag scan.ply open.obj --sample 100 | tail -1
 | ok: no sampled voxel differs

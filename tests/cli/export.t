@@ -233,8 +233,8 @@ $ svdag-verify vdb a.svdag window --show 2
 | both     17,396 voxels
 | missing  0
 | extra    310,912
-|   extra   voxel (0, 0, 0) at (-48, -1, -48)
-|   extra   voxel (0, 0, 1) at (-48, -1, -47.6235294)
+|   extra  voxel (0, 0, 0) at (-48, -1, -48)
+|   extra  voxel (0, 0, 1) at (-48, -1, -47.6235294)
 | different
 ? 1
 $ svdag export a.svdag -o fog.vdb --vdb-type float -q

@@ -71,10 +71,11 @@ $ svdag-verify check cut.svdag
 ? 3
 $ svdag import other.svdag -o back.svdag -q
 $ svdag-verify diff back.svdag r.svdag
-| compared at 256^3, 637 pairs of nodes
-| both    79,262 voxels
-| only A  0
-| only B  0
+| compared  at 256^3, 637 pairs of nodes
+| both      79,262 voxels
+| only A    0
+| only B    0
+| clusters  0
 | same
 
 ## query
@@ -164,7 +165,7 @@ $ svdag-verify view t.svdag --level 11
 ! svdag-verify: --level: t.svdag has levels 3 to 10 to show
 ? 2
 $ svdag-verify view t.svdag --up w
-! svdag-verify: --up: "w" is not x, y or z
+! svdag-verify: --up: "w" is not one of x, y, z; see svdag-verify view --help
 ? 2
 $ svdag-verify view t.svdag --at 70000
 ! svdag-verify: --at: "70000" is not PORT or PORT/TOKEN with 16 or more letters and digits

@@ -35,9 +35,9 @@ $ svdag-verify render a.svdag -o x.png --layer wall --layer floor --size 64x36
 | x.png: 64x36, colour
 $ svdag-verify render two.svdag -o y.png -q --size 64x36 && cmp x.png y.png
 $ svdag-verify diff a.svdag two.svdag --layer wall --layer floor | tail -4
-| only B  0
-| layer floor: both 33,151, only A 0, only B 0
-| layer wall: both 98,941, only A 0, only B 0
+| layer     floor, 33,151 in both, 0 only A, 0 only B
+| layer     wall, 98,941 in both, 0 only A, 0 only B
+| clusters  0
 | same
 # The unnamed layer has the name that is shown, unless a layer has that very name.
 $ svdag convert a.svdag -q -o unnamed.svdag --layer '(unnamed)' && svdag-verify check unnamed.svdag | sed -n 4p
@@ -582,9 +582,9 @@ $ svdag build wave_*.ply -o wave.svdag -r 64 --layers file --no-union -q && svda
 $ svdag-verify check wave.svdag | tail -1
 | ok: sound, in canonical order and minimal
 $ svdag-verify mesh wave.svdag wave_*.ply | tail -4
-| layer      wave_0001.ply: 13,189 voxels judged, 0 missing, 0 extra
-| layer      wave_0002.ply: 13,251 voxels judged, 0 missing, 0 extra
-| layer      wave_0003.ply: 13,188 voxels judged, 0 missing, 0 extra
+| layer      wave_0001.ply, 13,189 voxels in the file, 13,189 by the judge, 0 missing, 0 extra
+| layer      wave_0002.ply, 13,251 voxels in the file, 13,251 by the judge, 0 missing, 0 extra
+| layer      wave_0003.ply, 13,188 voxels in the file, 13,188 by the judge, 0 missing, 0 extra
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh wave.svdag wave_*.ply --judge openvdb
 ! svdag-verify: wave.svdag: has layers without their union, which --judge openvdb would judge: use svdag-verify mesh, or one layer (svdag convert --layer)

@@ -117,16 +117,16 @@ $ trace cloth.svdag --layer cloth
 ! svdag-trace: --layer: the file has no layers
 ? 2
 $ svdag-verify trace plain.svdag a.obj --rays 20000 | grep -E "layers|ok"
-| layers     0 of 13,561 triangle hits are in voxels that are not in their layer
+| layers      0 triangle hits are in voxels that are not in their layer, 13,561 judged
 | ok: all judged voxels and triangles agree
 $ sed 's/usemtl blue cloth/usemtl stone/' a.obj > b.obj
 $ svdag-verify trace plain.svdag b.obj --rays 20000 > out
 ? 1
 $ grep -E "layers|ray |ok" out | cut -c1-60 | head -4
-| layers     217 of 13,561 triangle hits are in voxels that ar
-|   ray 103 hits a triangle of layer stone at (-1.14094531, 7.
-|   ray 329 hits a triangle of layer stone at (2.57245599, 1.1
-|   ray 339 hits a triangle of layer stone at (0.532769249, 1.
+| layers      217 triangle hits are in voxels that are not in 
+|   layer     ray 103 hits a triangle of layer stone at (-1.14
+|   layer     ray 329 hits a triangle of layer stone at (2.572
+|   layer     ray 339 hits a triangle of layer stone at (0.532
 
 ## trace_no_gpu
 $ svdag-scene speck -n 8 -q -o a.ply

@@ -5,7 +5,7 @@ $ svdag-scene scan -n 5K -q -o a.ply
 $ svdag build a.ply -r 512 -o fine.svdag -q
 $ svdag build a.ply -r 256 -o coarse.svdag -q
 $ svdag-verify diff fine.svdag coarse.svdag --show 0 --json
-| {"a":"fine.svdag","b":"coarse.svdag","both":215303,"clusters":3,"command":"diff","first":[],"largest_clusters":[{"bounds":[-42.34844755706489,-48.27107023772895,-45.21941923675239,35.095282567690504,59.476728196713324,38.95854829015563],"only_a":20997,"only_b":20137},{"bounds":[16.576129711770733,34.22333793864091,17.072276733159555,18.259689062308894,35.90689728917907,20.439395434235877],"only_a":2,"only_b":0},{"bounds":[16.576129711770733,39.27401599025539,13.705158032083233,19.943248412847055,40.957575340793554,15.388717382621394],"only_a":1,"only_b":1}],"only_a":21000,"only_b":20138,"pairs":4608,"resolution":256,"same":false}
+| {"command":"diff","a":"fine.svdag","b":"coarse.svdag","resolution":256,"pairs":4608,"both":215303,"only_a":21000,"only_b":20138,"clusters":3,"largest_clusters":[{"only_a":20997,"only_b":20137,"bounds":[-42.34844755706489,-48.27107023772895,-45.21941923675239,35.095282567690504,59.476728196713324,38.95854829015563]},{"only_a":2,"only_b":0,"bounds":[16.576129711770733,34.22333793864091,17.072276733159555,18.259689062308894,35.90689728917907,20.439395434235877]},{"only_a":1,"only_b":1,"bounds":[16.576129711770733,39.27401599025539,13.705158032083233,19.943248412847055,40.957575340793554,15.388717382621394]}],"first":[],"same":false}
 ? 1
 
 ## verify_diff_different
@@ -14,14 +14,15 @@ $ svdag-scene scan -n 5K -q -o a.ply
 $ svdag build a.ply -r 128 -o whole.svdag -q
 $ svdag build a.ply -r 128 --rule thin -o thin.svdag -q
 $ svdag-verify diff thin.svdag whole.svdag --show 3 --write-diff d.ply
-| compared at 128^3, 1,068 pairs of nodes
-| both    33,448 voxels
-| only A  0
-| only B  24,601
-| cluster 1 of 1  0 voxels only A, 24,601 only B, in (-42.6666005, -48.5892232, -45.5375722) to (35.2344745, 59.7948811, 39.1375093)
-| only B  voxel (25, 21, 31)
-| only B  voxel (25, 22, 31)
-| only B  voxel (26, 20, 31)
+| compared  at 128^3, 1,068 pairs of nodes
+| both      33,448 voxels
+| only A    0
+| only B    24,601
+| clusters  1
+| cluster   0 voxels only A, 24,601 only B, in (-42.6666005, -48.5892232, -45.5375722) to (35.2344745, 59.7948811, 39.1375093)
+| only B    voxel (25, 21, 31)
+| only B    voxel (25, 22, 31)
+| only B    voxel (26, 20, 31)
 | different
 ? 1
 $ svdag-verify diff thin.svdag whole.svdag -q --write-diff d.ply --write-most 10
@@ -73,18 +74,20 @@ $ for name in cube moved larger half half_moved; do
 $ svdag export moved.svdag --format symvox -o other.svdag -q
 $ svdag import other.svdag -o back.svdag -q
 $ svdag-verify diff back.svdag moved.svdag
-| compared at 1K^3, 165 pairs of nodes
-| both    6,279,176 voxels
-| only A  0
-| only B  0
+| compared  at 1K^3, 165 pairs of nodes
+| both      6,279,176 voxels
+| only A    0
+| only B    0
+| clusters  0
 | same
 $ svdag export moved.svdag -o level.npz -q --level 8
 $ svdag import level.npz -o level.svdag -q
 $ svdag-verify diff moved.svdag level.svdag
-| compared at 256^3, 113 pairs of nodes
-| both    390,152 voxels
-| only A  0
-| only B  0
+| compared  at 256^3, 113 pairs of nodes
+| both      390,152 voxels
+| only A    0
+| only B    0
+| clusters  0
 | same
 
 ## verify_diff_render
@@ -132,8 +135,9 @@ $ svdag-scene scan -n 5K -q -o a.ply
 $ svdag build a.ply -r 512 -o a.svdag -q
 $ svdag build a.ply -r 512 -o b.svdag -q -m 16M -j 1
 $ svdag-verify diff a.svdag b.svdag
-| compared at 512^3, 17,732 pairs of nodes
-| both    947,906 voxels
-| only A  0
-| only B  0
+| compared  at 512^3, 17,732 pairs of nodes
+| both      947,906 voxels
+| only A    0
+| only B    0
+| clusters  0
 | same

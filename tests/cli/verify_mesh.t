@@ -48,7 +48,7 @@ $ svdag-verify mesh thin.svdag a.ply --judge openvdb
 | ok: every voxel tested is between the bounds
 $ svdag build a.ply -r 8K -o large.svdag -q
 $ svdag-verify mesh large.svdag a.ply --judge openvdb --sample 3 --json
-| {"bounded":false,"command":"mesh","content_hash":"f8257f5312db940833ef174de0d6cd4b","decided_exactly":0,"extra":0,"file":"large.svdag","file_voxels":3500034,"first_wrong":[],"grid_defects":[],"grid_recomputed":true,"inner":3500034,"invalid_triangles":0,"judge":"openvdb","missing":0,"ok":true,"openvdb_errors":0,"patterns_unmatched":[],"rule":"conservative","sampled":true,"selection":[0,0,0,8192,8192,8192],"tested":402653184,"triangles":3000,"windows":3}
+| {"command":"mesh","file":"large.svdag","content_hash":"f8257f5312db940833ef174de0d6cd4b","rule":"conservative","grid_recomputed":true,"bounded":false,"selection":[0,0,0,8192,8192,8192],"grid_defects":[],"triangles":3000,"invalid_triangles":0,"patterns_unmatched":[],"judge":"openvdb","sampled":true,"windows":3,"tested":402653184,"file_voxels":3500034,"inner":3500034,"missing":0,"extra":0,"first_wrong":[],"decided_exactly":0,"openvdb_errors":0,"ok":true}
 $ svdag-verify mesh a.svdag b.ply --judge openvdb | grep -v "^  "
 | grid       256^3 box, voxel size 0.3764705882352941, corner (-48.188235294117646, -1.188235294117647, -48.188235294117646), rule conservative, matches the scene's bounds
 | judge      openvdb: distances of its mesh-to-volume, {d <= 1/2} in file in {d <= sqrt(3)/2}
@@ -75,14 +75,14 @@ $ svdag-verify mesh one.svdag two.ply
 | voxels     17,465 in the file, 15,721 by the judge
 | missing    3,873
 | extra      5,617
-|   missing voxel (1, 5, 1) at (-46.4761905, 6.61904762, -46.4761905)
-|   missing voxel (1, 5, 2) at (-46.4761905, 6.61904762, -44.952381)
-|   missing voxel (1, 5, 3) at (-46.4761905, 6.61904762, -43.4285714)
-|   missing voxel (1, 6, 1) at (-46.4761905, 8.14285714, -46.4761905)
-|   missing voxel (1, 6, 2) at (-46.4761905, 8.14285714, -44.952381)
-|   missing voxel (1, 6, 3) at (-46.4761905, 8.14285714, -43.4285714)
-|   missing voxel (2, 5, 1) at (-44.952381, 6.61904762, -46.4761905)
-|   missing voxel (3, 5, 1) at (-43.4285714, 6.61904762, -46.4761905)
+|   missing  voxel (1, 5, 1) at (-46.4761905, 6.61904762, -46.4761905)
+|   missing  voxel (1, 5, 2) at (-46.4761905, 6.61904762, -44.952381)
+|   missing  voxel (1, 5, 3) at (-46.4761905, 6.61904762, -43.4285714)
+|   missing  voxel (1, 6, 1) at (-46.4761905, 8.14285714, -46.4761905)
+|   missing  voxel (1, 6, 2) at (-46.4761905, 8.14285714, -44.952381)
+|   missing  voxel (1, 6, 3) at (-46.4761905, 8.14285714, -43.4285714)
+|   missing  voxel (2, 5, 1) at (-44.952381, 6.61904762, -46.4761905)
+|   missing  voxel (3, 5, 1) at (-43.4285714, 6.61904762, -46.4761905)
 | not ok: file and scene differ
 ? 1
 
@@ -107,13 +107,13 @@ $ svdag-verify mesh all.svdag scene.obj --sample 1000
 | voxels     2,153 in the file, 2,153 by the judge
 | missing    0
 | extra      0
-| drawn      500 bricks of the file, 0 wrong: at most 0.597 % of its bricks are
-|            167 points by area, 0 in wrong bricks: at most 1.78 % of the area is
-|            167 points by longest edge, 0 in wrong bricks: at most 1.78 % of that length is
-|            166 points beside triangles, 0 in wrong bricks
+| drawn      500 bricks of the file, 0 wrong, so at most 0.597 % of its bricks
+| drawn      167 points by area, 0 in wrong bricks, so at most 1.78 % of the area
+| drawn      167 points by longest edge, 0 in wrong bricks, so at most 1.78 % of that length
+| drawn      166 points beside triangles, 0 in wrong bricks
 | bounds     each at 95 % confidence; the number of missing bricks is not bounded
 | ok: no sampled voxel differs
-$ svdag-verify mesh dots.svdag scene.obj --sample 1000 | grep -v "^  missing voxel"
+$ svdag-verify mesh dots.svdag scene.obj --sample 1000 | grep -v "^  missing"
 | grid       2K^3 lattice, voxel size 0.004, corner (-4.094, -4.094, -4.094), rule conservative, matches the scene's bounds
 | judge      integer: exact clipping
 | triangles  3,003
@@ -121,16 +121,16 @@ $ svdag-verify mesh dots.svdag scene.obj --sample 1000 | grep -v "^  missing vox
 | voxels     171 in the file, 1,251 by the judge
 | missing    1,080
 | extra      0
-| drawn      500 bricks of the file, 0 wrong: at most 0.597 % of its bricks are
-|            167 points by area, 0 in wrong bricks: at most 1.78 % of the area is
-|            167 points by longest edge, 158 in wrong bricks: at most 97.2 % of that length is
-|            166 points beside triangles, 0 in wrong bricks
+| drawn      500 bricks of the file, 0 wrong, so at most 0.597 % of its bricks
+| drawn      167 points by area, 0 in wrong bricks, so at most 1.78 % of the area
+| drawn      167 points by longest edge, 158 in wrong bricks, so at most 97.2 % of that length
+| drawn      166 points beside triangles, 0 in wrong bricks
 | bounds     each at 95 % confidence; the number of missing bricks is not bounded
 | not ok: file and scene differ
 $ svdag-verify mesh dots.svdag scene.obj --sample 100 -q
 ? 1
 $ svdag-verify mesh all.svdag scene.obj --sample 6 --json
-| {"bounded":false,"bricks":6,"command":"mesh","content_hash":"bab50f34ab6d00034fe49f0debdc1a50","extra":0,"file":"all.svdag","file_voxels":33,"first_wrong":[],"grid_defects":[],"grid_recomputed":true,"invalid_triangles":0,"judge":"integer","judge_voxels":33,"missing":0,"ok":true,"patterns_unmatched":[],"rule":"conservative","sample":{"beside_triangles":{"draws":1,"wrong":0},"file_bricks":{"draws":3,"wrong":0,"wrong_file_bricks_bound_95":0.6315968501359612},"scene_area":{"area_in_wrong_bricks_bound_95":0.95,"draws":1,"wrong":0},"scene_longest_edges":{"draws":1,"length_in_wrong_bricks_bound_95":0.95,"wrong":0}},"sampled":true,"selection":[0,0,0,2048,2048,2048],"triangles":3003,"wrong_bricks":0}
+| {"command":"mesh","file":"all.svdag","content_hash":"bab50f34ab6d00034fe49f0debdc1a50","rule":"conservative","grid_recomputed":true,"bounded":false,"selection":[0,0,0,2048,2048,2048],"grid_defects":[],"triangles":3003,"invalid_triangles":0,"patterns_unmatched":[],"judge":"integer","sampled":true,"bricks":6,"wrong_bricks":0,"file_voxels":33,"judge_voxels":33,"missing":0,"extra":0,"first_wrong":[],"sample":{"file_bricks":{"draws":3,"wrong":0,"wrong_file_bricks_bound_95":0.6315968501359612},"scene_area":{"draws":1,"wrong":0,"area_in_wrong_bricks_bound_95":0.95},"scene_longest_edges":{"draws":1,"wrong":0,"length_in_wrong_bricks_bound_95":0.95},"beside_triangles":{"draws":1,"wrong":0}},"ok":true}
 
 ## verify_mesh_sample_nothing
 # A sample of an empty file draws from the scene; if that is empty too, the result is not "ok".
@@ -179,7 +179,7 @@ $ svdag-verify mesh scan.svdag scan.ply --judge cgal
 | extra      0
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh scan.svdag scan.ply --judge cgal --sample 100 --json --memory 64M
-| {"bounded":false,"bricks":95,"command":"mesh","content_hash":"55b85ed665a97273086562a65ea38fb0","extra":0,"file":"scan.svdag","file_voxels":1095,"first_wrong":[],"grid_defects":[],"grid_recomputed":true,"invalid_triangles":0,"judge":"cgal","judge_voxels":1095,"missing":0,"ok":true,"patterns_unmatched":[],"rule":"thin","sample":{"beside_triangles":{"draws":16,"wrong":0},"file_bricks":{"draws":50,"wrong":0,"wrong_file_bricks_bound_95":0.05815507911697225},"scene_area":{"area_in_wrong_bricks_bound_95":0.16156611126074005,"draws":17,"wrong":0},"scene_longest_edges":{"draws":17,"length_in_wrong_bricks_bound_95":0.16156611126074005,"wrong":0}},"sampled":true,"selection":[0,0,0,64,64,64],"triangles":972,"wrong_bricks":0}
+| {"command":"mesh","file":"scan.svdag","content_hash":"55b85ed665a97273086562a65ea38fb0","rule":"thin","grid_recomputed":true,"bounded":false,"selection":[0,0,0,64,64,64],"grid_defects":[],"triangles":972,"invalid_triangles":0,"patterns_unmatched":[],"judge":"cgal","sampled":true,"bricks":95,"wrong_bricks":0,"file_voxels":1095,"judge_voxels":1095,"missing":0,"extra":0,"first_wrong":[],"sample":{"file_bricks":{"draws":50,"wrong":0,"wrong_file_bricks_bound_95":0.05815507911697225},"scene_area":{"draws":17,"wrong":0,"area_in_wrong_bricks_bound_95":0.16156611126074005},"scene_longest_edges":{"draws":17,"wrong":0,"length_in_wrong_bricks_bound_95":0.16156611126074005},"beside_triangles":{"draws":16,"wrong":0}},"ok":true}
 
 ## verify_mesh_unmatched
 # A pattern that matches no part is reported: a mistyped name would verify against another scene.
@@ -196,4 +196,4 @@ $ svdag-verify mesh scan.svdag scan.ply --exclude 'sky*' --allow-empty
 | extra      0
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh scan.svdag scan.ply --exclude 'sky*' --allow-empty --json
-| {"bounded":false,"bricks":3471,"command":"mesh","content_hash":"07a2c65e7cf1d8a33f30cc17e872a5f0","extra":0,"file":"scan.svdag","file_voxels":58049,"first_wrong":[],"grid_defects":[],"grid_recomputed":true,"invalid_triangles":0,"judge":"integer","judge_voxels":58049,"missing":0,"ok":true,"patterns_unmatched":["--exclude 'sky*'"],"rule":"conservative","sampled":false,"selection":[0,0,0,128,128,128],"triangles":4800,"wrong_bricks":0}
+| {"command":"mesh","file":"scan.svdag","content_hash":"07a2c65e7cf1d8a33f30cc17e872a5f0","rule":"conservative","grid_recomputed":true,"bounded":false,"selection":[0,0,0,128,128,128],"grid_defects":[],"triangles":4800,"invalid_triangles":0,"patterns_unmatched":["--exclude 'sky*'"],"judge":"integer","sampled":false,"bricks":3471,"wrong_bricks":0,"file_voxels":58049,"judge_voxels":58049,"missing":0,"extra":0,"first_wrong":[],"ok":true}

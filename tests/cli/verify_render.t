@@ -18,7 +18,7 @@ $ svdag-verify render a.svdag -o a.png --mode x-ray
 $ svdag-scene speck -n 8 -q -o a.ply
 $ svdag build a.ply -r 16 -o a.svdag -q
 $ svdag-verify render a.svdag -o a.png --preset below
-! svdag-verify: --preset: "below" is not iso, front, back, left, right, top or inside
+! svdag-verify: --preset: "below" is not one of iso, front, back, left, right, top, inside; see svdag-verify render --help
 ? 2
 
 ## verify_render_clip
@@ -73,10 +73,10 @@ $ for cone in -1 -2 45 nan; do
 | exit 2
 | exit 2
 | exit 2
-! svdag-verify: --cone: give 0 degrees or more, and less than 45
-! svdag-verify: --cone: give 0 degrees or more, and less than 45
-! svdag-verify: --cone: give 0 degrees or more, and less than 45
-! svdag-verify: --cone: give 0 degrees or more, and less than 45
+! svdag-verify: --cone: "-1" is not an angle from 0 to less than 45 degrees
+! svdag-verify: --cone: "-2" is not an angle from 0 to less than 45 degrees
+! svdag-verify: --cone: "45" is not an angle from 0 to less than 45 degrees
+! svdag-verify: --cone: "nan" is not an angle from 0 to less than 45 degrees
 $ svdag-verify render a.svdag -o a.png --mode ao --cone 0 --size 8x8
 | a.png: 8x8, ao
 

@@ -4,16 +4,20 @@
 $ svdag-scene scan -n 5K -q -o a.ply
 $ svdag build a.ply -r 512 -o a.svdag -q
 $ svdag-verify trace a.svdag a.ply --rays 20K
-|* grid       512^3 box, voxel size *, corner *, rule conservative, matches the scene's bounds
-| judge      embree: its hits and distances, rechecked in double
-| triangles  4,800
-| in grid    4,800 triangles
-|* rays       20,480: 10,* hit both, 9,* neither, 0 only triangles, [34]?? only voxels
-|* one side   * per million rays: camera *, chord *, inside *, axis *, surface *
-|* late       0 of 10,* triangle hits have no voxel at or before them (* more pass within 4.6e-10 voxels of an edge)
-|* far        0 of 13,* voxels are more than 0.8660 voxels from the scene
-| uncovered  0 of 2,048 points of the surface are more than 0.8660 voxels from a voxel
-| nearer     the voxel's hit is nearer than the triangle's by ... voxels:
+|* grid        512^3 box, voxel size *, corner *, rule conservative, matches the scene's bounds
+| judge       embree: its hits and distances, rechecked in double
+| triangles   4,800
+| in grid     4,800 triangles
+|* rays        20,480, 10,* hit both, 9,* neither, 0 only triangles, [34]?? only voxels
+|* one side    * of kind camera, * per million, 4,096 rays
+|* one side    * of kind chord, * per million, 4,096 rays
+|* one side    * of kind inside, * per million, 4,096 rays
+|* one side    * of kind axis, * per million, 4,096 rays
+|* one side    * of kind surface, * per million, 4,096 rays
+|* late        0 triangle hits have no voxel at or before them, 10,* judged, * doubtful, within 4.6e-10 voxels of an edge
+|* far         0 voxels are too far from the scene, more than 0.8660 voxels, 13,* judged
+| uncovered   0 points of the surface are more than 0.8660 voxels from a voxel, 2,048 judged
+| nearer      the voxel's hit is nearer than the triangle's by ... voxels:
 |   < -1      0
 |   -1 .. 0   0
 |*   0 .. 0.5  1,*
@@ -21,11 +25,11 @@ $ svdag-verify trace a.svdag a.ply --rays 20K
 |*   1 .. 2    4,*
 |*   2 .. 4    1,*
 |*   >= 4      1,*
-|* Hausdorff  0.8* voxels from scene to voxels, 0.8* from voxels to scene (to centres; 2,048 points, 13,* voxels)
+|* Hausdorff   0.8* voxels from scene to voxels, 2,048 points, 0.8* from voxels to scene (to centres)
 | ok: all judged voxels and triangles agree
 $ svdag build a.ply -r 512 --rule thin -o thin.svdag -q
 $ svdag-verify trace thin.svdag a.ply --rays 20K --seed 7 --json
-|* {"both":*,"command":"trace",*,"far":0,"file":"thin.svdag","first":[[][]],*"late":0,*"ok":true,*"points":2048,"points_judged":0,"rays":20480,"resolution":512,"rule":"thin",*}
+|* {"command":"trace","file":"thin.svdag",*"rule":"thin",*"resolution":512,*"rays":20480,"both":*,"late":0,*"far":0,*"points_judged":0,"first":[[][]],*"points":2048,*"seed":7,"ok":true}
 
 ## verify_trace_little_memory
 $ svdag-scene scan -n 50K -q -o a.ply
@@ -51,18 +55,18 @@ $ svdag-scene scan -n 5K -q -o a.ply
 $ svdag-scene scan -n 2K -q -o b.ply
 $ svdag build a.ply -r 256 -o a.svdag -q
 $ svdag-verify trace a.svdag b.ply --rays 5K
-|* grid       256^3 box, *
-|* defect     the grid does not hold the scene: on x the scene reaches from *
-|* defect     the grid does not hold the scene: on y the scene reaches from *
-| judge      embree: its hits and distances, rechecked in double
-| triangles  1,728
-| in grid    1,728 triangles
-|* rays       5,120: *
-|* one side   * per million rays: *
-|* late       5* of 2,* triangle hits have no voxel at or before them *
-|* far        1,7* of 3,* voxels are more than 0.8660 voxels from the scene
+|* grid        256^3 box, *
+|* defect      the grid does not hold the scene: on x the scene reaches from *
+|* defect      the grid does not hold the scene: on y the scene reaches from *
+| judge       embree: its hits and distances, rechecked in double
+| triangles   1,728
+| in grid     1,728 triangles
+|* rays        5,120, *
 |...
-|*   ray * hits a triangle at (*, *, *), a voxel * voxels later
+|* late        5* triangle hits have no voxel at or before them, 2,* judged, *
+|* far         1,7* voxels are too far from the scene, more than 0.8660 voxels, 3,* judged
+|...
+|*   late      ray * hits a triangle at (*, *, *), a voxel * voxels later
 |...
 | not ok: voxels and triangles differ; --seed 1 repeats it
 ? 1
@@ -76,25 +80,25 @@ $ svdag build one.obj -r 64 -o one.svdag -q
 $ svdag build two.obj -r 64 --bounds=0,0,0,4,4,1 -o part.svdag -q
 $ svdag-verify trace one.svdag two.obj --rays 1K > answer
 ? 1
-$ grep '^defect\|^triangles\|^in grid\|^late\|^far\|^ok\|^not ok' answer | sed 's/: on .*//; s/ of .*//'
-| defect     the grid does not hold the scene
-| defect     the grid does not hold the scene
-| defect     the grid does not hold the scene
-| triangles  2
-| in grid    1 triangles
-| late       0
-| far        0
+$ grep '^defect\|^triangles\|^in grid\|^late\|^far\|^ok\|^not ok' answer | sed 's/: on .*//; s/ triangle hits .*//; s/ voxels are .*//'
+| defect      the grid does not hold the scene
+| defect      the grid does not hold the scene
+| defect      the grid does not hold the scene
+| triangles   2
+| in grid     1 triangles
+| late        0
+| far         0
 | not ok: voxels and triangles differ; --seed 1 repeats it
 $ svdag-verify trace one.svdag two.obj --rays 1K --json | grep -o '"ok":[a-z]*\|"triangles[a-z_]*":[0-9]*'
-| "ok":false
 | "triangles":2
 | "triangles_in_grid":1
+| "ok":false
 $ svdag-verify trace part.svdag two.obj --rays 1K --exclude 'sky*' --allow-empty > answer
-$ grep '^defect\|^triangles\|^unmatched\|^in grid\|^outside\|^ok' answer | sed 's/ of .*//'
-| triangles  2
-| unmatched  --exclude 'sky*'
-| in grid    1 triangles
-| outside    0
+$ grep '^defect\|^triangles\|^unmatched\|^in grid\|^outside\|^ok' answer | sed 's/ voxels are .*//'
+| triangles   2
+| unmatched   --exclude 'sky*'
+| in grid     1 triangles
+| outside     0
 | ok: all judged voxels and triangles agree
 
 ## verify_trace_point
@@ -123,19 +127,19 @@ $ for rule in conservative thin; do
 >     echo "$rule, $file"
 >     svdag-verify trace $file.svdag segments.obj --rays 10K > answer || echo "exit code $?"
 >     grep "^late\|^uncovered\|^ok\|^not ok" answer || continue  # nothing was judged
->     grep "^  point" answer | head -1 | sed 's/(.*)/(...)/'
+>     grep "^  uncovered" answer | head -1 | sed 's/(.*)/(...)/'
 >   done
 > done
 | conservative, segments
-| late       0 of 0 triangle hits have no voxel at or before them (0 more pass within 3.4e-11 voxels of an edge)
-| uncovered  0 of 1,024 points of the surface are more than 0.8660 voxels from a voxel
+| late        0 triangle hits have no voxel at or before them, 0 judged, 0 doubtful, within 3.4e-11 voxels of an edge
+| uncovered   0 points of the surface are more than 0.8660 voxels from a voxel, 1,024 judged
 | ok: all judged voxels and triangles agree
 | conservative, empty
 | exit code 1
-| late       0 of 0 triangle hits have no voxel at or before them (0 more pass within 3.4e-11 voxels of an edge)
-| uncovered  1,024 of 1,024 points of the surface are more than 0.8660 voxels from a voxel
+| late         0 triangle hits have no voxel at or before them, 0 judged, 0 doubtful, within 3.4e-11 voxels of an edge
+| uncovered    1,024 points of the surface are more than 0.8660 voxels from a voxel, 1,024 judged
 | not ok: voxels and triangles differ; --seed 1 repeats it
-|   point (...) of the surface has no voxel anywhere
+|   uncovered  point at (...) of the surface has no voxel anywhere
 | thin, segments
 | exit code 2
 | thin, empty

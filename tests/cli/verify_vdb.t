@@ -101,12 +101,12 @@ $ svdag build a.ply -r 128 --rule thin -o thin.svdag -q
 $ svdag export whole.svdag -o whole.vdb -q
 $ svdag export thin.svdag -o thin.vdb -q
 $ svdag-verify vdb thin.svdag whole.vdb --show 2 --write-diff d.vdb
-| grid     occupancy, bool, on level 7 (128^3)
-| both     33,448 voxels
-| missing  24,601
-| extra    0
-|   missing voxel (6, 31, 39) at (-37.1627202, -21.9165725, -12.090915)
-|   missing voxel (7, 30, 39) at (-36.3159694, -22.7633233, -12.090915)
+| grid       occupancy, bool, on level 7 (128^3)
+| both       33,448 voxels
+| missing    24,601
+| extra      0
+|   missing  voxel (6, 31, 39) at (-37.1627202, -21.9165725, -12.090915)
+|   missing  voxel (7, 30, 39) at (-36.3159694, -22.7633233, -12.090915)
 | different
 ? 1
 $ svdag-verify vdb whole.svdag d.vdb --grid missing --show 0
@@ -117,7 +117,7 @@ $ svdag-verify vdb whole.svdag d.vdb --grid missing --show 0
 | different
 ? 1
 $ svdag-verify vdb whole.svdag thin.vdb --json --show 1
-| {"both":33448,"command":"vdb","content_hash":"07a2c65e7cf1d8a33f30cc17e872a5f0","extra":24601,"file":"whole.svdag","first_extra":[[25,21,31]],"first_missing":[],"grid":"occupancy","level":7,"missing":0,"same":false,"type":"bool","vdb":"thin.vdb"}
+| {"command":"vdb","file":"whole.svdag","content_hash":"07a2c65e7cf1d8a33f30cc17e872a5f0","vdb":"thin.vdb","grid":"occupancy","type":"bool","level":7,"both":33448,"missing":0,"extra":24601,"first_missing":[],"first_extra":[[25,21,31]],"same":false}
 ? 1
 $ svdag-verify vdb whole.svdag thin.vdb -q --write-diff d.vdb --write-most 10
 ! svdag-verify: d.vdb: would get 24601 voxels, --write-most is 10: raise --write-most

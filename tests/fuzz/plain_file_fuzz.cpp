@@ -10,8 +10,8 @@
 #include "verify/trace/kernel/rays.h"
 #include "verify/trace/kernel/tree64.h"
 #include "verify/trace/kernel/workload.h"
+#include "verify/trace/presets.h"
 #include "verify/trace/program/plain_file.h"
-#include "verify/trace/program/presets.h"
 
 namespace svdag {
 namespace {

@@ -10,7 +10,7 @@ TEST(Verdict, PrintsEveryFigureAsTextAndAsJson) {
   verdict.for_programs("command", "mesh");
   verdict.add("bricks", "bricks", 1234567u, "(all)");
   verdict.also("wrong_bricks", 0, "wrong");
-  verdict.add("distance", "far", shown(0.25, "%.4f"), "voxels");
+  verdict.add("distance", "far", rounded(0.25, "%.4f"), "voxels");
   verdict.add("ok", "", shown(true, "ok: every voxel agrees"));
   EXPECT_EQ(verdict.text(),
             "bricks  1,234,567 (all), 0 wrong\n"
@@ -40,8 +40,7 @@ TEST(Verdict, AListOfTextsGetsALineForEach) {
   verdict.add("unmatched", "unmatched", std::vector<std::string>());
   verdict.add("nodes", "nodes", std::vector<uint64_t>{1, 1000}, "on 2 levels");
   EXPECT_EQ(verdict.text(), "defect  one\ndefect  two?\nnodes   1, 1,000 on 2 levels\n");
-  EXPECT_EQ(verdict.json(),
-            R"({"defects":["one","two\n"],"unmatched":[],"nodes":[1,1000]})");
+  EXPECT_EQ(verdict.json(), R"({"defects":["one","two\n"],"unmatched":[],"nodes":[1,1000]})");
 }
 
 TEST(Verdict, OtherValues) {
@@ -50,9 +49,22 @@ TEST(Verdict, OtherValues) {
   verdict.for_programs("not_a_number", 0.0 / 0.0);
   verdict.for_programs("name", "\xff\"");
   verdict.for_programs("largest", UINT64_MAX);
-  EXPECT_EQ(verdict.json(), "{\"none\":null,\"not_a_number\":null,\"name\":\"\xEF\xBF\xBD\\\"\","
-                            "\"largest\":18446744073709551615}");
+  EXPECT_EQ(verdict.json(),
+            "{\"none\":null,\"not_a_number\":null,\"name\":\"\xEF\xBF\xBD\\\"\","
+            "\"largest\":18446744073709551615}");
   EXPECT_EQ(verdict.text(), "");
+}
+
+TEST(Verdict, HiddenFiguresAreInTheJson) {
+  Verdict verdict;
+  verdict.add("a", "a", 1);
+  verdict.hide(true);
+  verdict.add("b", "b", 2);
+  verdict.also("c", 3);
+  verdict.hide(false);
+  verdict.also("d", 4);
+  EXPECT_EQ(verdict.text(), "a  1, 4\n");
+  EXPECT_EQ(verdict.json(), R"({"a":1,"b":2,"c":3,"d":4})");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "verify/judge/exact.h"
+#include "verify/judge/exact_quotients.h"
 
 namespace svdag {
 namespace {

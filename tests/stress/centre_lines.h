@@ -9,9 +9,9 @@
 //   it.
 //
 // Method: the crossing's coordinate along w is a rational number. One exact division
-// (verify/judge/exact.h) gives its floor and whether it is an integer; ties are resolved by the
-// sign that d gives. The builder computes signs of the plane at the ends of segments instead, so
-// the two share no formula.
+// (verify/judge/exact_quotients.h) gives its floor and whether it is an integer; ties are resolved
+// by the sign that d gives. The builder computes signs of the plane at the ends of segments
+// instead, so the two share no formula.
 #pragma once
 
 #include "tests/stress/voxel_region.h"

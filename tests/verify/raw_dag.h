@@ -1,4 +1,4 @@
-// A DAG file by hand: written from docs/format.md alone, without the project's writer, so that a
+// A DAG file by hand: written only from docs/format.md, without the project's writer, so that a
 // test can also make files that no writer would make.
 #pragma once
 

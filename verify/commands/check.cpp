@@ -1,8 +1,7 @@
-#include "verify/commands/check.h"
-
 #include "io/dag/dag_file.h"
 #include "io/pack/unpack.h"
 #include "io/units.h"
+#include "verify/commands/commands.h"
 #include "verify/integrity/integrity.h"
 
 namespace svdag {
@@ -13,20 +12,20 @@ Verdict verdict_of(const DagFile& file, const IntegrityReport& report) {
   for (const uint64_t n : report.nodes) nodes += n;
   Verdict verdict = begin_verdict("check", file);
   verdict.for_people("grid", describe_grid(file));
-  verdict.add("bytes", "bytes", file.header().file_bytes,
-              "in " + format_count(file.header().checksum_bytes / 8) +
-                  " blocks, all checksums match");
-  verdict.add("nodes", "nodes",
-              shown(report.nodes, format_count(nodes) + " on " +
-                                      std::to_string(report.nodes.size()) + " levels, " +
-                                      format_count(report.nodes.back()) + " of them bricks"));
+  verdict.add(
+      "bytes", "bytes", file.header().file_bytes,
+      "in " + format_count(file.header().checksum_bytes / 8) + " blocks, all checksums match");
+  verdict.add(
+      "nodes", "nodes",
+      shown(report.nodes, format_count(nodes) + " on " + std::to_string(report.nodes.size()) +
+                              " levels, " + format_count(report.nodes.back()) + " of them bricks"));
   verdict.add("voxels", "voxels", report.voxels);
   verdict.add("defects", "defect", report.defects);
-  verdict.add("ok", "",
-              shown(report.sound(), report.sound() ? "ok: sound, in canonical order and minimal"
-                                                   : "not ok: " +
-                                                         format_count(report.defects.size()) +
-                                                         " defects"));
+  verdict.add(
+      "ok", "",
+      shown(report.sound(), report.sound()
+                                ? "ok: sound, in canonical order and minimal"
+                                : "not ok: " + format_count(report.defects.size()) + " defects"));
   return verdict;
 }
 

@@ -1,5 +1,6 @@
 #include "verify/commands/common.h"
 
+#include <array>
 #include <cstdio>
 
 #include "io/dag/dag_file.h"
@@ -33,14 +34,20 @@ int finish(const CommonConfig& config, const Verdict& verdict, bool ok) {
   return int(ok ? ExitCode::kOk : ExitCode::kDiffers);
 }
 
+FigureValue voxel_value(const Grid& grid, const LatticePoint& voxel) {
+  return shown(std::array{voxel.x, voxel.y, voxel.z},
+               "voxel (" + std::to_string(voxel.x) + ", " + std::to_string(voxel.y) + ", " +
+                   std::to_string(voxel.z) + ") at " +
+                   format_point(grid.corner() + (Point(voxel) + 0.5) * grid.voxel_size));
+}
+
 std::string describe_grid(const DagFile& file) {
   const Grid grid = file.grid();
   const Point corner = grid.corner();
-  std::string text = format_resolution(uint64_t(grid.resolution())) + "^3 " +
-                     kind_name(grid.kind) + ", voxel size " +
-                     format_double(grid.voxel_size) + ", corner (" + format_double(corner.x) +
-                     ", " + format_double(corner.y) + ", " + format_double(corner.z) + "), rule " +
-                     rule_name(file.rule());
+  std::string text = format_resolution(uint64_t(grid.resolution())) + "^3 " + kind_name(grid.kind) +
+                     ", voxel size " + format_double(grid.voxel_size) + ", corner (" +
+                     format_double(corner.x) + ", " + format_double(corner.y) + ", " +
+                     format_double(corner.z) + "), rule " + rule_name(file.rule());
   if (!grid.bounded) return text;
   const auto& [min, max] = grid.selection;
   for (int a = 0; a < 3; ++a)

@@ -37,6 +37,9 @@ Verdict begin_verdict(const char* command, const DagFile& file);
 // Prints the verdict, as text or as JSON. Returns the exit code: kOk if `ok`, else kDiffers.
 int finish(const CommonConfig& config, const Verdict& verdict, bool ok);
 
+// A voxel with its centre in the world: "voxel (1, 2, 3) at (0.5, 1, 1.5)".
+FigureValue voxel_value(const Grid& grid, const LatticePoint& voxel);
+
 // "1K^3 box, voxel size 0.5, corner (0, 0, 0), rule conservative".
 std::string describe_grid(const DagFile& file);
 

@@ -1,28 +1,20 @@
-#include "verify/commands/diff.h"
-#include "io/pack/unpack.h"
-
 #include <algorithm>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
 #include "io/dag/occupied_bounds.h"
-#include "io/json_text.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
-#include "verify/commands/render.h"
-#include "verify/compare/diff.h"
-#include "verify/compare/diff_clusters.h"
-#include "verify/compare/difference_points.h"
+#include "verify/commands/commands.h"
+#include "verify/compare/dag_diff.h"
 #include "verify/compare/grid_alignment.h"
 #include "verify/trace/difference_picture.h"
-#include "verify/trace/program/picture_name.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {
@@ -34,9 +26,8 @@ struct DifferingVoxel {
 
 // "corner (0, 0, 0), side 64": the cube of a grid in the world.
 std::string place_of(const Grid& grid) {
-  char side[32];
-  std::snprintf(side, sizeof side, "%.9g", double(grid.resolution()) * grid.voxel_size);
-  return "corner " + format_point(grid.corner()) + ", side " + side;
+  return "corner " + format_point(grid.corner()) + ", side " +
+         formatted("%.9g", double(grid.resolution()) * grid.voxel_size);
 }
 
 void require_same_place(const DagFile& a, const DagFile& b) {
@@ -82,7 +73,9 @@ ListedClusters list_clusters(DagDiff* diff, const Grid& a) {
 
 // Draws both from the default view.
 void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, Progress* progress) {
-  const RenderConfig picture = parse_size(config.size);
+  RenderConfig picture;
+  picture.width = config.size.width;
+  picture.height = config.size.height;
   const DagView &one = a.view(), &two = b.view();
   VoxelBounds box = framing_bounds(one.empty() ? two : one);
   const VoxelBounds other = framing_bounds(two.empty() ? one : two);
@@ -91,8 +84,8 @@ void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, P
     box.max[i] = std::max(box.max[i], other.max[i]);
   }
   constexpr int kUp = 1;
-  const Camera camera = preset_camera("iso", {}, box, kUp, Camera::kDefaultFov,
-                                      double(picture.width) / picture.height);
+  const Camera camera =
+      preset_camera("iso", {}, box, kUp, Camera::kDefaultFov, config.size.aspect());
   const Shading shading = make_shading(ShadeMode::kPrimary, one, camera, kUp, box);
   ParallelExecutor executor(threads_or_all(0));
   write_png(render_difference(one, two, camera, shading, picture, executor, *progress),
@@ -113,7 +106,6 @@ void check_outputs(const DiffConfig& config) {
     fail_usage(config.write_diff + ": the difference is written as a .ply");
   if (config.render.empty()) return;
   reject_other_picture_format(config.render, ".png", "pictures are PNG: choose a name in .png");
-  parse_size(config.size);
 }
 
 struct DiffLayer {
@@ -151,56 +143,56 @@ bool same(const DiffCounts& counts, const std::vector<DiffLayer>& layers) {
          std::ranges::all_of(layers, [](const DiffLayer& l) { return l.counts.same(); });
 }
 
-void print_json(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
-                const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
-                const std::vector<DifferingVoxel>& voxels) {
-  nlohmann::json json = {{"command", "diff"},       {"a", config.a},
-                         {"b", config.b},           {"same", same(counts, layers)},
-                         {"both", counts.both},     {"only_a", counts.only_a},
-                         {"only_b", counts.only_b}, {"resolution", uint64_t(1) << diff.levels()},
-                         {"pairs", counts.pairs}};
-  for (const DiffLayer& layer : layers)
-    json["layers"].push_back({{"name", layer.name},
-                              {"both", layer.counts.both},
-                              {"only_a", layer.counts.only_a},
-                              {"only_b", layer.counts.only_b}});
-  json["clusters"] = clusters.total;
-  json["largest_clusters"] = nlohmann::json::array();
-  for (size_t i = 0; i < clusters.first.size(); ++i) {
-    const auto& [min, max] = clusters.boxes[i];
-    json["largest_clusters"].push_back({{"only_a", clusters.first[i].only_a},
-                                        {"only_b", clusters.first[i].only_b},
-                                        {"bounds", {min.x, min.y, min.z, max.x, max.y, max.z}}});
-  }
-  json["first"] = nlohmann::json::array();
-  for (const DifferingVoxel& o : voxels)
-    json["first"].push_back(
-        {{"voxel", {o.voxel.x, o.voxel.y, o.voxel.z}}, {"in", o.in_a ? "a" : "b"}});
-  std::printf("%s\n", json_text(json).c_str());
+std::string member(const char* list, size_t i) {
+  return std::string(list) + "/" + std::to_string(i) + "/";
 }
 
-void print_text(const DagDiff& diff, const DiffCounts& counts, const std::vector<DiffLayer>& layers,
-                const ListedClusters& clusters, const std::vector<DifferingVoxel>& voxels) {
-  std::printf("compared at %s^3, %s pairs of nodes\n",
-              format_resolution(uint64_t(1) << diff.levels()).c_str(),
-              format_count(counts.pairs).c_str());
-  std::printf("both    %s voxels\nonly A  %s\nonly B  %s\n", format_count(counts.both).c_str(),
-              format_count(counts.only_a).c_str(), format_count(counts.only_b).c_str());
-  for (const auto& [name, of_layer] : layers)
-    std::printf("layer %s: both %s, only A %s, only B %s\n", shown_layer(name).c_str(),
-                format_count(of_layer.both).c_str(), format_count(of_layer.only_a).c_str(),
-                format_count(of_layer.only_b).c_str());
-  for (size_t i = 0; i < clusters.first.size(); ++i)
-    std::printf("cluster %zu of %zu  %s voxels only A, %s only B, in %s to %s\n", i + 1,
-                clusters.total, format_count(clusters.first[i].only_a).c_str(),
-                format_count(clusters.first[i].only_b).c_str(),
-                format_point(clusters.boxes[i].min).c_str(),
-                format_point(clusters.boxes[i].max).c_str());
-  for (const DifferingVoxel& o : voxels)
-    std::printf("only %c  voxel (%lld, %lld, %lld)\n", o.in_a ? 'A' : 'B',
-                static_cast<long long>(o.voxel.x), static_cast<long long>(o.voxel.y),
-                static_cast<long long>(o.voxel.z));
-  std::printf(same(counts, layers) ? "same\n" : "different\n");
+void add_counts(Verdict* verdict, const std::string& key, const DiffCounts& counts) {
+  verdict->also(key + "both", counts.both, "in both");
+  verdict->also(key + "only_a", counts.only_a, "only A");
+  verdict->also(key + "only_b", counts.only_b, "only B");
+}
+
+Verdict verdict_of(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
+                   const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
+                   const std::vector<DifferingVoxel>& voxels) {
+  Verdict verdict;
+  verdict.for_programs("command", "diff");
+  verdict.for_programs("a", config.a);
+  verdict.for_programs("b", config.b);
+  const uint64_t resolution = uint64_t(1) << diff.levels();
+  verdict.add("resolution", "compared",
+              shown(resolution, "at " + format_resolution(resolution) + "^3"));
+  verdict.also("pairs", counts.pairs, "pairs of nodes");
+  verdict.add("both", "both", counts.both, "voxels");
+  verdict.add("only_a", "only A", counts.only_a);
+  verdict.add("only_b", "only B", counts.only_b);
+  for (size_t i = 0; i < layers.size(); ++i) {
+    verdict.add(member("layers", i) + "name", "layer",
+                shown(layers[i].name, shown_layer(layers[i].name)));
+    add_counts(&verdict, member("layers", i), layers[i].counts);
+  }
+  verdict.add("clusters", "clusters", clusters.total);
+  verdict.for_programs("largest_clusters", FigureValue::List());
+  for (size_t i = 0; i < clusters.first.size(); ++i) {
+    const std::string key = member("largest_clusters", i);
+    const auto& [min, max] = clusters.boxes[i];
+    verdict.add(key + "only_a", "cluster", clusters.first[i].only_a, "voxels only A");
+    verdict.also(key + "only_b", clusters.first[i].only_b, "only B");
+    verdict.also(key + "bounds", shown(std::array{min.x, min.y, min.z, max.x, max.y, max.z},
+                                       "in " + format_point(min) + " to " + format_point(max)));
+  }
+  verdict.for_programs("first", FigureValue::List());
+  for (size_t i = 0; i < voxels.size(); ++i) {
+    const auto& [voxel, in_a] = voxels[i];
+    verdict.add(member("first", i) + "voxel", in_a ? "only A" : "only B",
+                shown(std::array{voxel.x, voxel.y, voxel.z},
+                      "voxel (" + std::to_string(voxel.x) + ", " + std::to_string(voxel.y) + ", " +
+                          std::to_string(voxel.z) + ")"));
+    verdict.for_programs(member("first", i) + "in", in_a ? "a" : "b");
+  }
+  verdict.add("same", "", shown(same(counts, layers), same(counts, layers) ? "same" : "different"));
+  return verdict;
 }
 
 }  // namespace
@@ -226,12 +218,8 @@ int run(const DiffConfig& config) {
   const ListedClusters clusters = list_clusters(&diff, a.grid());
   const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();
-  if (config.common.json) {
-    print_json(config, diff, counts, layers, clusters, voxels);
-  } else if (!config.common.quiet) {
-    print_text(diff, counts, layers, clusters, voxels);
-  }
-  return int(same(counts, layers) ? ExitCode::kOk : ExitCode::kDiffers);
+  return finish(config.common, verdict_of(config, diff, counts, layers, clusters, voxels),
+                same(counts, layers));
 }
 
 }  // namespace svdag

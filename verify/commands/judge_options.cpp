@@ -69,10 +69,7 @@ void add_diff(CLI::App* app, VerifyCommand* parsed) {
                                   "Draw both: voxels of both grey, of only A red, of only B blue"),
               {".png"})
       ->type_name("X.png");
-  command
-      ->add_option("--size", config->size,
-                   "Pixels of --render, 1 to 16384 each way (default 1280x720)")
-      ->type_name("WxH");
+  add_size(command, &config->size, "Pixels of --render");
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify diff old.svdag new.svdag",
                          "svdag-verify diff old.svdag new.svdag --render changes.png"});

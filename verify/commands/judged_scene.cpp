@@ -1,11 +1,10 @@
 #include "verify/commands/judged_scene.h"
 
-#include <cstdio>
+#include <array>
 
 #include "io/dag/dag_file.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/printable.h"
 
 namespace svdag {
 
@@ -37,18 +36,26 @@ void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_
   if (!defect.empty()) grid->defects.push_back(defect);
 }
 
-void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge) {
-  std::printf("grid       %s%s\n", describe_grid(file).c_str(),
-              facts.grid.recomputed ? ", matches the scene's bounds" : "");
-  for (const std::string& defect : facts.grid.defects)
-    std::printf("defect     %s\n", defect.c_str());
-  std::printf("judge      %s\n", judge.c_str());
-  std::printf("triangles  %s", format_count(facts.counts.triangles).c_str());
-  if (facts.counts.invalid > 0)
-    std::printf(", %s invalid ones skipped", format_count(facts.counts.invalid).c_str());
-  std::printf("\n");
-  for (const std::string& pattern : facts.counts.unmatched)
-    std::printf("unmatched  %s\n", printable(pattern).c_str());
+Verdict judged_verdict(const char* command, const DagFile& file, const SceneFacts& facts,
+                       const std::string& judge) {
+  Verdict verdict = begin_verdict(command, file);
+  const Grid grid = file.grid();
+  const auto [min, max] = grid.selection;
+  verdict.for_programs("rule", rule_name(file.rule()));
+  verdict.add(
+      "grid_recomputed", "grid",
+      shown(facts.grid.recomputed,
+            describe_grid(file) + (facts.grid.recomputed ? ", matches the scene's bounds" : "")));
+  verdict.for_programs("bounded", grid.bounded);
+  verdict.for_programs("selection", std::array{min.x, min.y, min.z, max.x, max.y, max.z});
+  verdict.add("grid_defects", "defect", facts.grid.defects);
+  verdict.for_people("judge", judge);
+  verdict.add("triangles", "triangles", facts.counts.triangles);
+  verdict.hide(facts.counts.invalid == 0);
+  verdict.also("invalid_triangles", facts.counts.invalid, "invalid ones skipped");
+  verdict.hide(false);
+  verdict.add("patterns_unmatched", "unmatched", facts.counts.unmatched);
+  return verdict;
 }
 
 void require_union(const DagFile& file, const char* what) {
@@ -57,29 +64,21 @@ void require_union(const DagFile& file, const char* what) {
                " would judge: use svdag-verify mesh, or one layer (svdag convert --layer)");
 }
 
-std::array<int64_t, 6> selection_of(const DagFile& file) {
-  const auto [min, max] = file.grid().selection;
-  return {min.x, min.y, min.z, max.x, max.y, max.z};
-}
-
 void require_count(const char* option, uint64_t count) {
   constexpr uint64_t kMax = uint64_t(1) << 40;
   if (count == 0) fail_usage(std::string(option) + ": give at least one");
   if (count > kMax) fail_usage(std::string(option) + ": give at most " + format_count(kMax));
 }
 
-void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,
-                        const std::vector<WrongVoxel>& first) {
-  std::printf("missing    %s\nextra      %s\n", format_count(missing).c_str(),
-              format_count(extra).c_str());
-  const Point corner = grid.corner();
-  for (const WrongVoxel& wrong : first) {
-    const LatticePoint& v = wrong.voxel;
-    const auto world = [&](int a) { return corner[a] + (double(v[a]) + 0.5) * grid.voxel_size; };
-    std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n",
-                wrong.missing ? "missing" : "extra  ", static_cast<long long>(v.x),
-                static_cast<long long>(v.y), static_cast<long long>(v.z), world(0), world(1),
-                world(2));
+void add_wrong_voxels(Verdict* verdict, const Grid& grid, const WrongVoxels& wrong) {
+  verdict->add("missing", "missing", wrong.missing);
+  verdict->add("extra", "extra", wrong.extra);
+  verdict->for_programs("first_wrong", FigureValue::List());
+  for (size_t i = 0; i < wrong.first.size(); ++i) {
+    const std::string key = "first_wrong/" + std::to_string(i) + "/";
+    const auto& [voxel, is_missing] = wrong.first[i];
+    verdict->add(key + "voxel", is_missing ? "  missing" : "  extra", voxel_value(grid, voxel));
+    verdict->for_programs(key + "missing", is_missing);
   }
 }
 

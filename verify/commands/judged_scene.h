@@ -1,7 +1,6 @@
-// Shared by the commands that judge a file by its scene: reads the scene, prints common results.
+// Shared by the commands that judge a file by its scene: reads the scene, reports common results.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -28,19 +27,18 @@ struct JudgedScene {
   SceneFacts facts;
 };
 
-// Compares counts in the header with those of a comparison of the whole file; adds defects.
+// Compares counts in the header with a comparison of the whole file; adds defects.
 void judge_header(const DagFile& file, uint64_t voxels, const SnapCounts& whole_scene,
                   GridJudgement* grid);
 
-// Prints the grid and its defects, the judge ("integer: exact clipping"), the triangles, and
-// patterns of --include and --exclude without a match.
-void print_facts(const DagFile& file, const SceneFacts& facts, const std::string& judge);
+// The verdict of `command` about the file and its scene: the grid and its defects, the judge
+// ("integer: exact clipping"), the triangles, and patterns of --include and --exclude without a
+// match.
+Verdict judged_verdict(const char* command, const DagFile& file, const SceneFacts& facts,
+                       const std::string& judge);
 
 // Error (kUsage) if the file has layers without their union, which `what` would judge.
 void require_union(const DagFile& file, const char* what);
-
-// The voxels of the file's selection: first x, y, z, then one past the last x, y, z.
-std::array<int64_t, 6> selection_of(const DagFile& file);
 
 // The verdict if there was nothing to judge.
 constexpr const char* kNothingToJudge =
@@ -50,8 +48,7 @@ constexpr const char* kNothingToJudge =
 // it overflows.
 void require_count(const char* option, uint64_t count);
 
-// Prints how many voxels are wrong, and the first of them.
-void print_wrong_voxels(const Grid& grid, uint64_t missing, uint64_t extra,
-                        const std::vector<WrongVoxel>& first);
+// Adds the numbers of wrong voxels, and the first of them.
+void add_wrong_voxels(Verdict* verdict, const Grid& grid, const WrongVoxels& wrong);
 
 }  // namespace svdag

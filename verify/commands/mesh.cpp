@@ -1,20 +1,15 @@
-#include "verify/commands/mesh.h"
-#include "io/pack/unpack.h"
-
 #include <algorithm>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "io/dag/dag_file.h"
-#include "io/json_text.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/file/checksum.h"
 #include "streaming/printable.h"
+#include "verify/commands/commands.h"
 #include "verify/commands/judged_scene.h"
-#include "verify/report/statistics.h"
 #include "verify/sample/sample.h"
+#include "verify/sample/statistics.h"
 
 namespace svdag {
 namespace {
@@ -66,7 +61,7 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
   judge_header(file, comparison.file_voxels, snapped, &result->grid);
 }
 
-// Compares the names of the layers with those of the scene; adds defects.
+// Compares the names of the layers with the scene's; adds defects.
 void judge_names(const Scene& scene, const LayerTable& table, GridJudgement* grid) {
   std::set<std::string> names;
   scene.stream(
@@ -132,107 +127,68 @@ Judgement judge(const MeshConfig& config, const JudgeChoice& choice, const DagFi
   return result;
 }
 
-// Prints what each kind of draw found, and the bound that follows for the share of the population
-// from which it draws uniformly.
-void print_draws(const SampleComparison& sample) {
-  const auto print = [](const char* name, const DrawnBricks& d, const char* what, const char* wrong,
-                        const char* bounded) {
-    std::printf("%-11s%s %s, %s %s", name, format_count(d.draws).c_str(), what,
-                format_count(d.wrong).c_str(), wrong);
-    if (bounded != nullptr && d.draws > 0)
-      std::printf(": at most %.3g %% of %s", 100 * rate_upper_bound(d.wrong, d.draws), bounded);
-    std::printf("\n");
-  };
-  const auto& [area, edge, triangle] = sample.scene;
-  constexpr const char* kInside = "in wrong bricks";
-  print("drawn", sample.file, "bricks of the file", "wrong", "its bricks are");
-  print("", area, "points by area", kInside, "the area is");
-  print("", edge, "points by longest edge", kInside, "that length is");
-  print("", triangle, "points beside triangles", kInside, nullptr);
-  if (sample.anywhere.draws > 0)
-    print("", sample.anywhere, "points anywhere", kInside, "the selection is");
-  std::printf("bounds     each at 95 %% confidence; the number of missing bricks is not bounded\n");
+// Adds what a kind of draw found, and the bound that follows for the share of the population from
+// which it draws uniformly.
+void add_draws(Verdict* verdict, const std::string& kind, const DrawnBricks& d, const char* what,
+               const char* bound, const char* of) {
+  const std::string key = "sample/" + kind + "/";
+  verdict->add(key + "draws", "drawn", d.draws, what);
+  verdict->also(key + "wrong", d.wrong, kind == "file_bricks" ? "wrong" : "in wrong bricks");
+  if (bound == nullptr || d.draws == 0) return;
+  const double rate = rate_upper_bound(d.wrong, d.draws);
+  verdict->also(key + bound, shown(rate, formatted("so at most %.3g %% of ", 100 * rate) + of));
 }
 
-const char* verdict(const Judgement& j) {
+void add_all_draws(Verdict* verdict, const SampleComparison& sample) {
+  const auto& [area, edge, triangle] = sample.scene;
+  add_draws(verdict, "file_bricks", sample.file, "bricks of the file", "wrong_file_bricks_bound_95",
+            "its bricks");
+  add_draws(verdict, "scene_area", area, "points by area", "area_in_wrong_bricks_bound_95",
+            "the area");
+  add_draws(verdict, "scene_longest_edges", edge, "points by longest edge",
+            "length_in_wrong_bricks_bound_95", "that length");
+  // A search, which proves no bound.
+  add_draws(verdict, "beside_triangles", triangle, "points beside triangles", nullptr, nullptr);
+  if (sample.anywhere.draws > 0)
+    add_draws(verdict, "anywhere", sample.anywhere, "points anywhere",
+              "selection_in_wrong_bricks_bound_95", "the selection");
+  verdict->for_people("bounds",
+                      "each at 95 % confidence; the number of missing bricks is not bounded");
+}
+
+const char* conclusion(const Judgement& j) {
   if (!j.ok()) return "not ok: file and scene differ";
   if (!j.sampled) return "ok: every voxel agrees with the scene";
   if (j.sample.both_empty) return kNothingToJudge;
   return "ok: no sampled voxel differs";
 }
 
-void print_text(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
+Verdict verdict_of(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
   const Comparison& c = j.comparison;
-  print_facts(file, j,
-              std::string(name_of(choice.kind)) + ": " + description_of(choice.kind, choice.rule));
-  if (file.layers().has_union) {
-    std::printf("bricks     %s %s, %s wrong\n", format_count(c.bricks).c_str(),
-                j.sampled ? "sampled" : "(all)", format_count(c.wrong_bricks).c_str());
-    std::printf("voxels     %s in the file, %s by the judge\n", format_count(c.file_voxels).c_str(),
-                format_count(c.judge_voxels).c_str());
-    print_wrong_voxels(file.grid(), c.missing, c.extra, c.first);
+  Verdict verdict = judged_verdict(
+      "mesh", file, j,
+      std::string(name_of(choice.kind)) + ": " + description_of(choice.kind, choice.rule));
+  verdict.for_programs("judge", name_of(choice.kind));
+  verdict.for_programs("sampled", j.sampled);
+  verdict.hide(!file.layers().has_union);
+  verdict.add("bricks", "bricks", c.bricks, j.sampled ? "sampled" : "(all)");
+  verdict.also("wrong_bricks", c.wrong_bricks, "wrong");
+  verdict.add("file_voxels", "voxels", c.file_voxels, "in the file");
+  verdict.also("judge_voxels", c.judge_voxels, "by the judge");
+  add_wrong_voxels(&verdict, file.grid(), c);
+  if (j.sampled) add_all_draws(&verdict, j.sample);
+  verdict.hide(false);
+  for (size_t i = 0; i < j.layers.size(); ++i) {
+    const std::string key = "layers/" + std::to_string(i) + "/";
+    const auto& [name, layer] = j.layers[i];
+    verdict.add(key + "name", "layer", shown(name, shown_layer(name)));
+    verdict.also(key + "file_voxels", layer.file_voxels, "voxels in the file");
+    verdict.also(key + "judge_voxels", layer.judge_voxels, "by the judge");
+    verdict.also(key + "missing", layer.missing, "missing");
+    verdict.also(key + "extra", layer.extra, "extra");
   }
-  if (j.sampled && file.layers().has_union) print_draws(j.sample);
-  for (const JudgedLayer& layer : j.layers)
-    std::printf("layer      %s: %s voxels judged, %s missing, %s extra\n",
-                shown_layer(layer.name).c_str(),
-                format_count(layer.comparison.judge_voxels).c_str(),
-                format_count(layer.comparison.missing).c_str(),
-                format_count(layer.comparison.extra).c_str());
-  std::printf("%s\n", verdict(j));
-}
-
-// Draws with the bounds they prove; beside_triangles is a search and proves none.
-nlohmann::json draws_json(const SampleComparison& sample) {
-  const auto one = [](const DrawnBricks& d, const char* bounded) {
-    nlohmann::json json = {{"draws", d.draws}, {"wrong", d.wrong}};
-    if (bounded != nullptr && d.draws > 0) json[bounded] = rate_upper_bound(d.wrong, d.draws);
-    return json;
-  };
-  const auto& [area, edge, triangle] = sample.scene;
-  nlohmann::json json = {{"file_bricks", one(sample.file, "wrong_file_bricks_bound_95")},
-                         {"scene_area", one(area, "area_in_wrong_bricks_bound_95")},
-                         {"scene_longest_edges", one(edge, "length_in_wrong_bricks_bound_95")},
-                         {"beside_triangles", one(triangle, nullptr)}};
-  if (sample.anywhere.draws > 0)
-    json["anywhere"] = one(sample.anywhere, "selection_in_wrong_bricks_bound_95");
-  return json;
-}
-
-void print_json(const DagFile& file, const JudgeChoice& choice, const Judgement& j) {
-  const Comparison& c = j.comparison;
-  nlohmann::json wrong = nlohmann::json::array();
-  for (const WrongVoxel& w : c.first)
-    wrong.push_back({{"voxel", {w.voxel.x, w.voxel.y, w.voxel.z}}, {"missing", w.missing}});
-  nlohmann::json json = {{"command", "mesh"},
-                         {"file", file.path()},
-                         {"content_hash", to_hex(file.header().content_hash)},
-                         {"ok", j.ok()},
-                         {"rule", rule_name(choice.rule)},
-                         {"judge", name_of(choice.kind)},
-                         {"grid_defects", j.grid.defects},
-                         {"grid_recomputed", j.grid.recomputed},
-                         {"bounded", file.grid().bounded},
-                         {"selection", selection_of(file)},
-                         {"triangles", j.counts.triangles},
-                         {"invalid_triangles", j.counts.invalid},
-                         {"patterns_unmatched", j.counts.unmatched},
-                         {"sampled", j.sampled},
-                         {"bricks", c.bricks},
-                         {"wrong_bricks", c.wrong_bricks},
-                         {"file_voxels", c.file_voxels},
-                         {"judge_voxels", c.judge_voxels},
-                         {"missing", c.missing},
-                         {"extra", c.extra},
-                         {"first_wrong", wrong}};
-  if (j.sampled) json["sample"] = draws_json(j.sample);
-  for (const JudgedLayer& layer : j.layers)
-    json["layers"].push_back({{"name", layer.name},
-                              {"file_voxels", layer.comparison.file_voxels},
-                              {"judge_voxels", layer.comparison.judge_voxels},
-                              {"missing", layer.comparison.missing},
-                              {"extra", layer.comparison.extra}});
-  std::printf("%s\n", json_text(json).c_str());
+  verdict.add("ok", "", shown(j.ok(), conclusion(j)));
+  return verdict;
 }
 
 }  // namespace
@@ -250,12 +206,7 @@ int run(const MeshConfig& config) {
   const JudgeChoice choice{parse_judge(config.judge), file.rule()};
   make_judge(choice);  // rejects a judge that is not in this build before reading the scene
   const Judgement judgement = judge(config, choice, file);
-  if (config.common.json) {
-    print_json(file, choice, judgement);
-  } else if (!config.common.quiet) {
-    print_text(file, choice, judgement);
-  }
-  return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+  return finish(config.common, verdict_of(file, choice, judgement), judgement.ok());
 }
 
 }  // namespace svdag

@@ -1,6 +1,6 @@
 // The command lines of `svdag-verify`, in a few *_options.cpp.
 //
-// Only those files and main.cpp include CLI11 (6 s each to compile).
+// Only those files, main.cpp and verify/trace/view_options.cpp include CLI11 (6 s each to compile).
 #pragma once
 
 #include <cstdint>

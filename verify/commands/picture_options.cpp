@@ -1,4 +1,4 @@
-// The commands that make pictures: render and report.
+// The commands that show a file: render, report and view.
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
@@ -6,34 +6,6 @@
 #include "verify/commands/options.h"
 
 namespace svdag {
-namespace {
-
-void add_light(CLI::App* command, RenderCommandConfig* config) {
-  command
-      ->add_option(
-          "--light", config->light,
-          "Position and radius of the light in scene units (default: over the left shoulder)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("x,y,z[,radius]");
-  command
-      ->add_option("--samples", config->samples,
-                   "soft, ao: rays to the light or sky for each camera ray, 1 to 4096 (default 16)")
-      ->type_name("N");
-  command
-      ->add_option("--reach", config->reach,
-                   "ao: length of the rays in scene units (default: a twentieth of the scene's "
-                   "diagonal)")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--cone", config->cone,
-                   "soft, ao: half the angle, from 0 and below 45, of the cone in which rays end "
-                   "early (default: ao 9, "
-                   "soft 0, which is exact)")
-      ->type_name("DEGREES");
-}
-
-}  // namespace
 
 void add_render(CLI::App* app, VerifyCommand* parsed) {
   auto config = std::make_shared<RenderCommandConfig>();
@@ -50,21 +22,10 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
            {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps", "colour"})
       ->type_name("MODE");
   add_layer(command, &config->layers);
-  command->add_option("--size", config->size, "Pixels, 1 to 16384 each way (default 1280x720)")
-      ->type_name("WxH");
-  command
-      ->add_option("--camera", config->camera,
-                   "Position and target in scene units, angle of view in degrees, 0.1 to 179 "
-                   "(default: frames all)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("px,py,pz,tx,ty,tz[,fov]");
-  suggests(command->add_option("--preset", config->preset,
-                               "iso, front, back, left, right, top or inside, without --camera "
-                               "(default iso)"),
-           {"iso", "front", "back", "left", "right", "top", "inside"})
-      ->type_name("NAME");
-  add_light(command, config.get());
+  add_camera(command, &config->view);
+  add_rays(command, &config->view,
+           {"over the left shoulder", "a twentieth of the scene's diagonal",
+            "ao 9, soft 0, which is exact"});
   command
       ->add_option(
           "--level", config->level,
@@ -93,10 +54,6 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
       ->add_flag("--frames", config->frames,
                  "Render each layer, in the order of svdag info --layers, as X_0001.png, ...")
       ->excludes(fly);
-  suggests(
-      command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
-      {"x", "y", "z"})
-      ->type_name("AXIS");
   command
       ->add_option("--supersample", config->supersample,
                    "N x N rays per pixel, N from 1 to 16 (default 2)")
@@ -122,18 +79,44 @@ void add_report(CLI::App* app, VerifyCommand* parsed) {
   takes_files(command->add_option("-o,--output", config->output, "The page to write"), {".html"})
       ->required()
       ->type_name("R.html");
-  suggests(
-      command->add_option("--up", config->up, "The axis that points up: x, y or z (default y)"),
-      {"x", "y", "z"})
-      ->type_name("AXIS");
-  command
-      ->add_option("--size", config->size,
-                   "Pixels of a picture, 1 to 16384 each way (default 960x540)")
-      ->type_name("WxH");
+  add_up(command, &config->up);
+  add_size(command, &config->size, "Pixels of a picture");
   add_threads(command, &config->common);
   add_common(command, &config->common, false);
   add_examples(command, {"svdag-verify report a.svdag a.json -o a.html",
                          "svdag-verify report a.svdag a.json mesh.json trace.json -o a.html"});
+  command->callback([=] { *parsed = *config; });
+}
+
+void add_view(CLI::App* app, VerifyCommand* parsed) {
+  auto config = std::make_shared<ViewConfig>();
+  CLI::App* command = app->add_subcommand("view", "Fly through the voxels in the browser");
+  add_file(command, &config->file);
+  add_up(command, &config->up);
+  command
+      ->add_option("--level", config->level,
+                   "Show nothing finer than the cubes of level K, from 3 on (default: voxels)")
+      ->type_name("K");
+  CLI::Option* to =
+      takes_folder(command->add_option("--to", config->to,
+                                       "Write the page and its tiles to a folder, for any web "
+                                       "server; a run that was stopped is continued"))
+          ->type_name("FOLDER");
+  CLI::Option* at =
+      command
+          ->add_option("--at", config->at,
+                       "Serve at this port, or at the address that an earlier run has printed "
+                       "(default: a free port, a random token)")
+          ->type_name("PORT[/TOKEN]");
+  CLI::Option* keep = command->add_flag(
+      "--keep", config->keep, "Serve until Ctrl-C (default: until the page has been closed)");
+  CLI::Option* quiet = command->add_flag_callback(
+      "--no-open", [config] { config->open = false; }, "Print the address only");
+  for (CLI::Option* const option : {at, keep, quiet}) option->excludes(to);
+  add_threads(command, &config->common);
+  add_common(command, &config->common, false);
+  add_examples(command, {"svdag-verify view scene.svdag",
+                         "svdag-verify view scene.svdag --to site --level 12"});
   command->callback([=] { *parsed = *config; });
 }
 

@@ -1,14 +1,13 @@
-#include "verify/commands/report.h"
-#include "io/pack/unpack.h"
-
 #include <cmath>
 #include <cstdio>
 
+#include "io/pack/unpack.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
-#include "verify/commands/render.h"
+#include "verify/commands/commands.h"
 #include "verify/report/report_html.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/cpu.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {
@@ -26,9 +25,7 @@ std::string read_text(const std::string& path) {
   constexpr uint64_t kMaxBytes = uint64_t(16) << 20;
   const File file = File::open_read(path);
   if (file.size() > kMaxBytes) fail_input(path, "is too large for a report or a verdict");
-  std::string text(file.size(), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return text;
+  return file.text();
 }
 
 std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFile& file) {
@@ -43,18 +40,19 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   std::vector<ReportPicture> pictures;
   const DagView& dag = file.view();
   if (dag.empty()) return pictures;
-  RenderConfig picture = parse_size(config.size);
+  RenderConfig picture;
+  picture.width = config.size.width;
+  picture.height = config.size.height;
   picture.supersample = 3;  // without moire on fine walls
   const LayerColours colours(file);
   colours.show_in(&picture);
-  const int up = int(std::string("xyz").find(config.up));
   const VoxelBounds box = framing_bounds(dag);
-  const double aspect = double(picture.width) / picture.height;
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
   for (const View& view : kViews) {
-    const Camera camera = preset_camera(view.preset, dag, box, up, Camera::kDefaultFov, aspect);
-    Shading shading = make_shading(view.mode, dag, camera, up, box);
+    const Camera camera =
+        preset_camera(view.preset, dag, box, config.up, Camera::kDefaultFov, config.size.aspect());
+    Shading shading = make_shading(view.mode, dag, camera, config.up, box);
     shading.pixel = 2 * camera.slope / picture.height;
     shading.secondary.samples = 2;  // for each of nine rays per pixel
     shading.secondary.reach = 0.05 * length(box.max - box.min);
@@ -69,8 +67,6 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
 
 int run(const ReportConfig& config) {
   const Stopwatch stopwatch(config.common);
-  if (config.up.size() != 1 || std::string("xyz").find(config.up) == std::string::npos)
-    fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   std::vector<std::string> inputs = config.inputs;
   inputs.push_back(config.file);
   for (const std::string& input : inputs) {
@@ -87,9 +83,8 @@ int run(const ReportConfig& config) {
   const DagStats stats = compute_stats(file);
   report_html(json, file, stats, integrity, {});  // rejects a wrong input before rendering
   ParallelExecutor executor(threads_or_all(config.common.threads));
-  const int up = int(std::string("xyz").find(config.up));
   const std::vector<ReportPicture> pictures = make_pictures(config, file);
-  const EmbeddedViewer viewer = embed_viewer(file, up, tile_bytes(pictures), executor);
+  const EmbeddedViewer viewer = embed_viewer(file, config.up, tile_bytes(pictures), executor);
   const ReportPage page = report_html(json, file, stats, integrity, pictures, viewer);
   output.append(page.html);
   output.commit();

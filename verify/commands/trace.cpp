@@ -1,17 +1,13 @@
-#include "verify/commands/trace.h"
-#include "io/pack/unpack.h"
-
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "io/dag/dag_file.h"
-#include "io/json_text.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/file/checksum.h"
+#include "verify/commands/commands.h"
 #include "verify/commands/judged_scene.h"
 #include "verify/sample/sample.h"
 #include "verify/trace/judge/ray_judge.h"
@@ -139,158 +135,122 @@ std::string bin_name(size_t bin) {
   return format_double(kDepthBins[bin - 1]) + " .. " + format_double(kDepthBins[bin]);
 }
 
-void print_offender(const DagFile& file, const RayOffender& offender) {
+// "ray 7 hits a triangle at (0, 1, 2), a voxel 1.5 voxels later".
+std::string sentence_of(const DagFile& file, const RayOffender& offender) {
   const Grid grid = file.grid();
-  const Point corner = grid.corner();
-  const auto world = [&](int a) { return corner[a] + offender.point[a] * grid.voxel_size; };
-  if (offender.what == RayOffender::What::kFar) {
-    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is %.6g voxels from the scene\n",
-                std::floor(offender.point[0]), std::floor(offender.point[1]),
-                std::floor(offender.point[2]), world(0), world(1), world(2), offender.by);
-    return;
-  }
-  if (offender.what == RayOffender::What::kOutside) {
-    std::printf("  voxel (%.0f, %.0f, %.0f) at (%.9g, %.9g, %.9g) is outside the bounds\n",
-                std::floor(offender.point[0]), std::floor(offender.point[1]),
-                std::floor(offender.point[2]), world(0), world(1), world(2));
-    return;
-  }
-  if (offender.what == RayOffender::What::kUncovered) {
-    std::printf("  point (%.9g, %.9g, %.9g) of the surface ", world(0), world(1), world(2));
-    if (std::isinf(offender.by)) {
-      std::printf("has no voxel anywhere\n");
-    } else {
-      std::printf("is %.6g voxels from the nearest voxel\n", offender.by);
+  const Vec3& p = offender.point;
+  const std::string at =
+      " at " + format_point(grid.corner() + Point(p[0], p[1], p[2]) * grid.voxel_size);
+  const std::string voxel = "voxel (" + formatted("%.0f", std::floor(p[0])) + ", " +
+                            formatted("%.0f", std::floor(p[1])) + ", " +
+                            formatted("%.0f", std::floor(p[2])) + ")" + at;
+  const std::string ray = "ray " + std::to_string(offender.ray) + " hits a triangle";
+  const std::string by = formatted("%.6g", offender.by);
+  const bool no_voxel = std::isinf(offender.by);
+  switch (offender.what) {
+    case RayOffender::What::kFar:
+      return voxel + " is " + by + " voxels from the scene";
+    case RayOffender::What::kOutside:
+      return voxel + " is outside the bounds";
+    case RayOffender::What::kUncovered:
+      return "point" + at + " of the surface " +
+             (no_voxel ? "has no voxel anywhere" : "is " + by + " voxels from the nearest voxel");
+    case RayOffender::What::kLayer: {
+      const auto& layers = file.layers().layers;
+      return ray + " of " +
+             (offender.by < double(layers.size())
+                  ? "layer " + shown_layer(layers[size_t(offender.by)].name)
+                  : "no layer of the file") +
+             at + "; its voxel is not in it";
     }
-    return;
+    case RayOffender::What::kLate:
+      break;
   }
-  if (offender.what == RayOffender::What::kLayer) {
-    const auto& layers = file.layers().layers;
-    const std::string name = offender.by < double(layers.size())
-                                 ? "layer " + shown_layer(layers[size_t(offender.by)].name)
-                                 : "no layer of the file";
-    std::printf("  ray %llu hits a triangle of %s at (%.9g, %.9g, %.9g); its voxel is not in it\n",
-                static_cast<unsigned long long>(offender.ray), name.c_str(), world(0), world(1),
-                world(2));
-    return;
-  }
-  std::printf("  ray %llu hits a triangle at (%.9g, %.9g, %.9g), ",
-              static_cast<unsigned long long>(offender.ray), world(0), world(1), world(2));
-  if (std::isinf(offender.by)) {
-    std::printf("and no voxel\n");
-  } else {
-    std::printf("a voxel %.6g voxels later\n", offender.by);
+  return ray + at + (no_voxel ? ", and no voxel" : ", a voxel " + by + " voxels later");
+}
+
+void add_offenders(Verdict* verdict, const DagFile& file, const std::vector<RayOffender>& first) {
+  constexpr const char* kNames[] = {"late", "far", "outside", "uncovered", "layer"};
+  verdict->for_programs("first", FigureValue::List());
+  for (size_t i = 0; i < first.size(); ++i) {
+    const RayOffender& o = first[i];
+    const std::string key = "first/" + std::to_string(i) + "/";
+    const std::string what = kNames[size_t(o.what)];
+    verdict->for_programs(key + "what", what);
+    verdict->for_programs(key + "ray", o.ray);
+    verdict->add(key + "point", "  " + what,
+                 shown(std::array{o.point[0], o.point[1], o.point[2]}, sentence_of(file, o)));
+    verdict->for_programs(key + "by", o.by);  // infinity is null in JSON
   }
 }
 
-void print_text(const DagFile& file, const TraceConfig& config, const TraceJudgement& t) {
+void add_rays(Verdict* verdict, const RayJudgement& r) {
+  verdict->add("rays", "rays", r.rays);
+  verdict->also("both", r.both, "hit both");
+  verdict->also("neither", r.neither, "neither");
+  verdict->also("triangle_only", r.triangle_only, "only triangles");
+  verdict->also("dag_only", r.dag_only, "only voxels");
+  for (size_t kind = 0; kind < r.one_side.size(); ++kind) {
+    const std::string key = std::string("one_side/") + kRayKindNames[kind] + "/";
+    const uint64_t rays = rays_of_kind(r.rays, kind);
+    verdict->add(key + "hits", "one side", r.one_side[kind],
+                 std::string("of kind ") + kRayKindNames[kind] + ", " +
+                     formatted("%.1f per million", per_million(r.one_side[kind], rays)));
+    verdict->also(key + "rays", rays, "rays");
+  }
+}
+
+// The claims (a) to (d) of ray_judge.h, with the numbers of tests and of violations.
+void add_claims(Verdict* verdict, const DagFile& file, const TraceJudgement& t) {
   const RayJudgement& r = t.result;
-  const auto count = [](uint64_t n) { return format_count(n); };
-  print_facts(file, t, "embree: its hits and distances, rechecked in double");
-  std::printf("in grid    %s triangles\n", count(t.triangles).c_str());
-  std::printf("rays       %s: %s hit both, %s neither, %s only triangles, %s only voxels\n",
-              count(r.rays).c_str(), count(r.both).c_str(), count(r.neither).c_str(),
-              count(r.triangle_only).c_str(), count(r.dag_only).c_str());
-  std::printf("one side   %.1f per million rays:",
-              per_million(r.triangle_only + r.dag_only, r.rays));
-  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
-    std::printf("%s %s %.1f", kind == 0 ? "" : ",", kRayKindNames[kind],
-                per_million(r.one_side[kind], rays_of_kind(r.rays, kind)));
-  std::printf("\n");
-  std::printf("late       %s of %s triangle hits have no voxel at or before them",
-              count(r.late).c_str(), count(r.judged).c_str());
-  std::printf(" (%s more pass within %.2g voxels of an edge)\n", count(r.doubtful).c_str(),
-              t.doubt);
-  if (!file.layers().empty())
-    std::printf("layers     %s of %s triangle hits are in voxels that are not in their layer\n",
-                count(r.wrong_layer).c_str(), count(r.layered).c_str());
-  if (!is_solid(file.rule()))
-    std::printf("far        %s of %s voxels are more than %.4f voxels from the scene\n",
-                count(r.far).c_str(), count(r.voxels).c_str(), t.largest_distance);
-  if (file.grid().bounded)
-    std::printf("outside    %s of %s voxels are outside the bounds\n", count(r.outside).c_str(),
-                count(r.voxels).c_str());
-  if (file.rule() != Rule::kThin)
-    std::printf(
-        "uncovered  %s of %s points of the surface are more than %.4f voxels from a voxel\n",
-        count(r.uncovered).c_str(), count(r.points_judged).c_str(), t.largest_distance);
-  for (const RayOffender& offender : r.first) print_offender(file, offender);
-  std::printf("nearer     the voxel's hit is nearer than the triangle's by ... voxels:\n");
+  const std::string distance = formatted("%.4f", t.largest_distance);
+  verdict->add("late", "late", r.late, "triangle hits have no voxel at or before them");
+  verdict->also("judged", r.judged, "judged");
+  verdict->also("doubtful", r.doubtful, "doubtful");
+  verdict->also("doubt", rounded(t.doubt, "within %.2g voxels of an edge"));
+  verdict->for_programs("float_error", t.float_error);
+  verdict->hide(file.layers().empty());
+  verdict->add("wrong_layer", "layers", r.wrong_layer,
+               "triangle hits are in voxels that are not in their layer");
+  verdict->also("layered", r.layered, "judged");
+  verdict->hide(is_solid(file.rule()));
+  verdict->add("far", "far", r.far, "voxels are too far from the scene");
+  verdict->also("largest_distance", rounded(t.largest_distance, "more than %.4f voxels"));
+  verdict->also("voxels", r.voxels, "judged");
+  verdict->hide(!file.grid().bounded);
+  verdict->add("outside", "outside", r.outside, "voxels are outside the bounds");
+  verdict->hide(file.rule() == Rule::kThin);
+  verdict->add("uncovered", "uncovered", r.uncovered,
+               "points of the surface are more than " + distance + " voxels from a voxel");
+  verdict->also("points_judged", r.points_judged, "judged");
+  verdict->hide(false);
+}
+
+Verdict verdict_of(const DagFile& file, const TraceConfig& config, const TraceJudgement& t) {
+  const RayJudgement& r = t.result;
+  Verdict verdict =
+      judged_verdict("trace", file, t, "embree: its hits and distances, rechecked in double");
+  verdict.for_programs("resolution", file.grid().resolution());
+  verdict.for_programs("voxel_size", file.grid().voxel_size);
+  verdict.add("triangles_in_grid", "in grid", t.triangles, "triangles");
+  add_rays(&verdict, r);
+  add_claims(&verdict, file, t);
+  add_offenders(&verdict, file, r.first);
+  verdict.for_people("nearer", "the voxel's hit is nearer than the triangle's by ... voxels:");
   for (size_t bin = 0; bin < r.depth.size(); ++bin)
-    std::printf("  %-9s %s\n", bin_name(bin).c_str(), count(r.depth[bin]).c_str());
-  std::printf(
-      "Hausdorff  %.4f voxels from scene to voxels, %.4f from voxels to scene (to centres;"
-      " %s points, %s voxels)\n",
-      r.scene_to_voxels, r.voxels_to_scene, count(r.points).c_str(), count(r.voxels).c_str());
-  if (t.ok()) {
-    std::printf("%s\n", r.tested() ? "ok: all judged voxels and triangles agree" : kNothingToJudge);
-  } else {
-    std::printf("not ok: voxels and triangles differ; --seed %llu repeats it\n",
-                static_cast<unsigned long long>(config.seed));
-  }
-}
-
-nlohmann::json first_json(const RayJudgement& result) {
-  nlohmann::json first = nlohmann::json::array();
-  for (const RayOffender& o : result.first) {
-    constexpr const char* kNames[] = {"late", "far", "outside", "uncovered", "layer"};
-    first.push_back({{"what", kNames[size_t(o.what)]},
-                     {"ray", o.ray},
-                     {"point", {o.point[0], o.point[1], o.point[2]}},
-                     {"by", std::isinf(o.by) ? nlohmann::json() : nlohmann::json(o.by)}});
-  }
-  return first;
-}
-
-void print_json(const DagFile& file, const TraceConfig& config, const TraceJudgement& t) {
-  const RayJudgement& r = t.result;
-  nlohmann::json depth = nlohmann::json::object();
-  for (size_t bin = 0; bin < r.depth.size(); ++bin) depth[bin_name(bin)] = r.depth[bin];
-  nlohmann::json one_side = nlohmann::json::object();
-  for (size_t kind = 0; kind < r.one_side.size(); ++kind)
-    one_side[kRayKindNames[kind]] = {{"rays", rays_of_kind(r.rays, kind)},
-                                     {"hits", r.one_side[kind]}};
-  const nlohmann::json json = {{"command", "trace"},
-                               {"file", file.path()},
-                               {"content_hash", to_hex(file.header().content_hash)},
-                               {"ok", t.ok()},
-                               {"rule", rule_name(file.rule())},
-                               {"resolution", file.grid().resolution()},
-                               {"voxel_size", file.grid().voxel_size},
-                               {"seed", config.seed},
-                               {"grid_defects", t.grid.defects},
-                               {"grid_recomputed", t.grid.recomputed},
-                               {"bounded", file.grid().bounded},
-                               {"selection", selection_of(file)},
-                               {"triangles", t.counts.triangles},
-                               {"triangles_in_grid", t.triangles},
-                               {"invalid_triangles", t.counts.invalid},
-                               {"patterns_unmatched", t.counts.unmatched},
-                               {"rays", r.rays},
-                               {"both", r.both},
-                               {"neither", r.neither},
-                               {"triangle_only", r.triangle_only},
-                               {"dag_only", r.dag_only},
-                               {"one_side", one_side},
-                               {"judged", r.judged},
-                               {"late", r.late},
-                               {"doubtful", r.doubtful},
-                               {"layered", r.layered},
-                               {"wrong_layer", r.wrong_layer},
-                               {"doubt", t.doubt},
-                               {"float_error", t.float_error},
-                               {"voxels", r.voxels},
-                               {"far", r.far},
-                               {"outside", r.outside},
-                               {"largest_distance", t.largest_distance},
-                               {"points", r.points},
-                               {"points_judged", r.points_judged},
-                               {"uncovered", r.uncovered},
-                               {"nearer", depth},
-                               {"scene_to_voxels", r.scene_to_voxels},
-                               {"voxels_to_scene", r.voxels_to_scene},
-                               {"first", first_json(r)}};
-  std::printf("%s\n", json_text(json).c_str());
+    verdict.add("nearer/" + bin_name(bin), "  " + bin_name(bin), r.depth[bin]);
+  verdict.add("scene_to_voxels", "Hausdorff",
+              rounded(r.scene_to_voxels, "%.4f voxels from scene to voxels"));
+  verdict.also("points", r.points, "points");
+  verdict.also("voxels_to_scene",
+               rounded(r.voxels_to_scene, "%.4f from voxels to scene (to centres)"));
+  verdict.for_programs("seed", config.seed);
+  const std::string conclusion = !t.ok() ? "not ok: voxels and triangles differ; --seed " +
+                                               std::to_string(config.seed) + " repeats it"
+                                 : r.tested() ? "ok: all judged voxels and triangles agree"
+                                              : kNothingToJudge;
+  verdict.add("ok", "", shown(t.ok(), conclusion));
+  return verdict;
 }
 
 }  // namespace
@@ -301,12 +261,7 @@ int run(const TraceConfig& config) {
   const DagFile file = open_dag(config.file);
   require_union(file, "trace");
   const TraceJudgement judgement = trace(config, file);
-  if (config.common.json) {
-    print_json(file, config, judgement);
-  } else if (!config.common.quiet) {
-    print_text(file, config, judgement);
-  }
-  return int(judgement.ok() ? ExitCode::kOk : ExitCode::kDiffers);
+  return finish(config.common, verdict_of(file, config, judgement), judgement.ok());
 }
 
 }  // namespace svdag

@@ -1,65 +1,39 @@
-#include "verify/commands/vdb.h"
-#include "io/pack/unpack.h"
-
-#include <cstdio>
-#include <nlohmann/json.hpp>
-
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
-#include "io/json_text.h"
+#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/file/checksum.h"
+#include "verify/commands/commands.h"
 #include "verify/compare/compare_vdb.h"
 
 namespace svdag {
 namespace {
 
-nlohmann::json list(const std::vector<LatticePoint>& voxels) {
-  nlohmann::json json = nlohmann::json::array();
-  for (const LatticePoint& v : voxels) json.push_back({v.x, v.y, v.z});
-  return json;
+void add_voxels(Verdict* verdict, const std::string& key, const char* label, const Grid& grid,
+                const std::vector<LatticePoint>& voxels) {
+  verdict->for_programs(key, FigureValue::List());
+  for (size_t i = 0; i < voxels.size(); ++i)
+    verdict->add(key + "/" + std::to_string(i), label, voxel_value(grid, voxels[i]));
 }
 
-void print_json(const VdbConfig& config, const DagFile& file, const VdbGrid& theirs,
-                const Grid& grid, const VdbComparison& c) {
-  const nlohmann::json json = {{"command", "vdb"},
-                               {"file", config.file},
-                               {"content_hash", to_hex(file.header().content_hash)},
-                               {"vdb", config.vdb},
-                               {"grid", theirs.name()},
-                               {"type", theirs.type()},
-                               {"level", grid.levels},
-                               {"same", c.same()},
-                               {"both", c.both},
-                               {"missing", c.missing},
-                               {"extra", c.extra},
-                               {"first_missing", list(c.first_missing)},
-                               {"first_extra", list(c.first_extra)}};
-  std::printf("%s\n", json_text(json).c_str());
-}
-
-void print_voxels(const char* what, const Grid& grid, const std::vector<LatticePoint>& voxels) {
-  for (const LatticePoint& v : voxels) {
-    const Point world = voxel_centres(grid)(Point(v));
-    std::printf("  %s voxel (%lld, %lld, %lld) at (%.9g, %.9g, %.9g)\n", what,
-                static_cast<long long>(v.x), static_cast<long long>(v.y),
-                static_cast<long long>(v.z), world.x, world.y, world.z);
-  }
-}
-
-void print_text(const VdbGrid& theirs, const Grid& grid, const IndexMap& map,
-                const VdbComparison& c) {
-  std::printf("grid     %s, %s, on level %d (%s^3)%s\n", theirs.name().c_str(),
-              theirs.type().c_str(), grid.levels,
-              format_resolution(uint64_t(grid.resolution())).c_str(),
-              map.changes_axes() ? ", with other axes" : "");
-  std::printf("both     %s voxels\nmissing  %s\nextra    %s\n", format_count(c.both).c_str(),
-              format_count(c.missing).c_str(), format_count(c.extra).c_str());
-  print_voxels("missing", grid, c.first_missing);
-  print_voxels("extra  ", grid, c.first_extra);
-  std::printf(c.same() ? "same\n" : "different\n");
+Verdict verdict_of(const VdbConfig& config, const DagFile& file, const VdbGrid& theirs,
+                   const Grid& grid, const IndexMap& map, const VdbComparison& c) {
+  Verdict verdict = begin_verdict("vdb", file);
+  verdict.for_programs("vdb", config.vdb);
+  verdict.add("grid", "grid", theirs.name());
+  verdict.also("type", theirs.type());
+  verdict.also("level",
+               shown(grid.levels, "on level " + std::to_string(grid.levels) + " (" +
+                                      format_resolution(uint64_t(grid.resolution())) + "^3)" +
+                                      (map.changes_axes() ? ", with other axes" : "")));
+  verdict.add("both", "both", c.both, "voxels");
+  verdict.add("missing", "missing", c.missing);
+  verdict.add("extra", "extra", c.extra);
+  add_voxels(&verdict, "first_missing", "  missing", grid, c.first_missing);
+  add_voxels(&verdict, "first_extra", "  extra", grid, c.first_extra);
+  verdict.add("same", "", shown(c.same(), c.same() ? "same" : "different"));
+  return verdict;
 }
 
 void write_difference(const VdbConfig& config, const VdbComparison& comparison,
@@ -100,12 +74,8 @@ int run(const VdbConfig& config) {
   const VdbComparison comparison = comparer.compare(config.show);
   if (!config.write_diff.empty()) write_difference(config, comparison, &comparer);
   progress.finish();
-  if (config.common.json) {
-    print_json(config, file, *theirs, grid, comparison);
-  } else if (!config.common.quiet) {
-    print_text(*theirs, grid, fit.map, comparison);
-  }
-  return int(comparison.same() ? ExitCode::kOk : ExitCode::kDiffers);
+  return finish(config.common, verdict_of(config, file, *theirs, grid, fit.map, comparison),
+                comparison.same());
 }
 
 }  // namespace svdag

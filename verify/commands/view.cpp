@@ -1,5 +1,3 @@
-#include "verify/commands/view.h"
-
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +10,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
+#include "verify/commands/commands.h"
 #include "verify/view/folder.h"
 #include "verify/view/server.h"
 
@@ -74,9 +73,6 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
 }
 
 int view(const ViewConfig& config) {
-  const size_t up = std::string("xyz").find(config.up);
-  if (config.up.size() != 1 || up == std::string::npos)
-    fail_usage("--up: \"" + config.up + "\" is not x, y or z");
   ServerConfig server;
   if (!config.at.empty()) parse_address(config.at, &server);
   const DagFile file = open_dag(config.file);
@@ -87,8 +83,8 @@ int view(const ViewConfig& config) {
     fail_usage("--level: " + file.path() + " has levels 3 to " + std::to_string(levels) +
                " to show");
   const TileCutter cutter(file, uint32_t(level));
-  if (config.to) return write_to(*config.to, config, file, cutter, int(up));
-  server.up = int(up);
+  if (config.to) return write_to(*config.to, config, file, cutter, config.up);
+  server.up = config.up;
   server.keep = config.keep;
   serve(file, cutter, server, [&](const std::string& url) {
     std::printf("%s\n", url.c_str());

@@ -285,7 +285,7 @@ IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
   const DagFile& plain = converted ? *converted : file;
   IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata(), plain.layers());
   if (converted && !is_compact_form(file, plain, room))
-    report.defects.push_back("the bytes are not those of these nodes in the compact layout");
+    report.defects.push_back("the bytes differ from the compact layout of these nodes");
   return report;
 }
 

@@ -8,7 +8,7 @@
 //     1 + index else. Strictly ascending means that no two are equal, so the DAG is reduced;
 //   * every node but the root is a node's child, and the root's level has one node. A reduced DAG
 //     without unused nodes is minimal;
-//   * the voxels summed over the DAG equal those of the header, and none is outside the selection;
+//   * the voxels summed over the DAG equal the header's, and none is outside the selection;
 //   * the union of a surface rule is exactly the voxels of the layers (union_check.h);
 //   * the metadata matches the header, with every key once, in the format's exact words.
 #pragma once

@@ -34,7 +34,7 @@
 
 #include "io/grid.h"
 #include "io/triangle.h"
-#include "verify/judge/exact.h"
+#include "verify/judge/exact_quotients.h"
 
 namespace svdag {
 

@@ -8,12 +8,12 @@
 #include "io/dag/occupied_bounds.h"
 #include "io/json_number.h"
 #include "io/units.h"
+#include "io/verdict.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
 #include "verify/report/report_plots.h"
 #include "verify/report/report_style.h"
 #include "verify/report/report_text.h"
-#include "verify/view/base64.h"
 
 namespace svdag {
 namespace {
@@ -181,7 +181,7 @@ class Page {
                       formatted("%.3g", number("quantisation_voxels")) + " voxels.");
     if (bake_.at("resumed").get<bool>())
       box("note",
-          "The bake was resumed: times, memory and skipped work are those of its last process.");
+          "The bake was resumed: times, memory and skipped work are of its last process.");
   }
 
   void show(const std::vector<ReportPicture>& pictures) {
@@ -243,7 +243,7 @@ class Page {
         formatted("%.3g voxel", file_.header().largest_snap) + ", to a lattice of 2<sup>" +
             std::to_string(file_.header().fraction) + "</sup> steps per voxel");
     row("decisions at voxels", format_count(count("decisions")));
-    row("of which doubles could not decide, so integers did",
+    row("decided in integers, because doubles could not",
         percent(number("decisions_exact_share")));
     row("triangles of zero area, baked as segments or points",
         format_count(count("triangles_degenerate")));
@@ -384,8 +384,7 @@ Json parse_input(const ReportInput& input, const DagFile& file) {
 
 ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& file,
                        const DagStats& stats, const IntegrityReport& integrity,
-                       const std::vector<ReportPicture>& pictures,
-                       const EmbeddedViewer& viewer) {
+                       const std::vector<ReportPicture>& pictures, const EmbeddedViewer& viewer) {
   Json bake;
   std::vector<Json> verdicts;
   std::string path = file.path();  // of the input that is used

@@ -10,7 +10,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_stats.h"
 #include "verify/integrity/integrity.h"
-#include "verify/view/embedded.h"
+#include "verify/report/embedded_viewer.h"
 
 namespace svdag {
 

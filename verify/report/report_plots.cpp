@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/verdict.h"
 #include "verify/report/report_text.h"
 
 namespace svdag {

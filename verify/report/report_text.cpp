@@ -1,7 +1,10 @@
 #include "verify/report/report_text.h"
 
-#include <cstdio>
+#include <sodium/utils.h>
+
 #include <iterator>
+
+#include "io/verdict.h"
 
 namespace svdag {
 
@@ -28,12 +31,6 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string formatted(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
 std::string short_count(uint64_t count) {
   constexpr const char* kUnits[] = {"", " K", " M", " G", " T", " P"};
   double value = double(count);
@@ -43,6 +40,15 @@ std::string short_count(uint64_t count) {
     ++unit;
   }
   return formatted(unit == 0 || value >= 99.95 ? "%.0f" : "%.3g", value) + kUnits[unit];
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr int kVariant = sodium_base64_VARIANT_ORIGINAL;
+  std::string text(sodium_base64_encoded_len(bytes.size(), kVariant), '\0');
+  sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                    bytes.size(), kVariant);
+  text.pop_back();  // the terminating zero
+  return text;
 }
 
 }  // namespace svdag

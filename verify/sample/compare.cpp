@@ -4,35 +4,35 @@
 #include <bit>
 #include <memory>
 
+#include "verify/sample/judged_cube.h"
 #include "verify/sample/solid.h"
-#include "verify/sample/tile.h"
 
 namespace svdag {
 namespace {
 
-struct TileTriangle {
-  uint64_t tile;  // code
+struct CubeTriangle {
+  uint64_t cube;  // code
   uint32_t triangle;
-  bool operator<(const TileTriangle& other) const {
-    return tile != other.tile ? tile < other.tile : triangle < other.triangle;
+  bool operator<(const CubeTriangle& other) const {
+    return cube != other.cube ? cube < other.cube : triangle < other.triangle;
   }
 };
 
-struct TileNode {
-  uint64_t tile;  // code
+struct CubeNode {
+  uint64_t cube;  // code
   uint32_t node;
 };
 
-// The node and the triangles of one tile; begin .. end are its entries in the sorted list.
-struct TileWork {
-  uint64_t tile;
+// The node and the triangles of one cube; begin .. end are its entries in the sorted list.
+struct CubeWork {
+  uint64_t cube;
   uint32_t node;  // or kNoChild
   size_t begin, end;
 };
 
-// Number of triangles or tiles per task of the executor.
+// Number of triangles or cubes per task of the executor.
 constexpr size_t kTriangleChunk = 4096;
-constexpr size_t kTileChunk = 64;
+constexpr size_t kCubeChunk = 64;
 
 size_t chunks(size_t count, size_t chunk) {
   return (count + chunk - 1) / chunk;
@@ -40,10 +40,10 @@ size_t chunks(size_t count, size_t chunk) {
 
 using Judges = std::vector<std::unique_ptr<Judge>>;  // one per worker
 
-std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const LatticeTriangle> all,
-                                         const Judges& judges, Executor& executor,
-                                         Progress& progress) {
-  const int levels = tile_levels(grid.levels);
+std::vector<CubeTriangle> triangles_by_cube(const Grid& grid, std::span<const LatticeTriangle> all,
+                                            const Judges& judges, Executor& executor,
+                                            Progress& progress) {
+  const int levels = judged_cube_levels(grid.levels);
   const int shift = grid.fraction() + levels;
   VoxelBox window;
   for (int a = 0; a < 3; ++a) {
@@ -51,64 +51,64 @@ std::vector<TileTriangle> tile_triangles(const Grid& grid, std::span<const Latti
     window.max[a] = ((grid.selection.max[a] - 1) >> levels) + 1;
   }
   if (grid.selection.empty()) window = {};
-  std::vector<std::vector<TileTriangle>> lists(executor.workers());
+  std::vector<std::vector<CubeTriangle>> lists(executor.workers());
   executor.for_each(chunks(all.size(), kTriangleChunk), [&](size_t worker, size_t chunk) {
     const size_t end = std::min(all.size(), (chunk + 1) * kTriangleChunk);
     for (size_t i = chunk * kTriangleChunk; i < end; ++i) {
       judges[worker]->cells(all[i], shift, window, [&](const CellRun& run) {
-        LatticePoint tile = run.first;
-        for (int64_t n = 0; n < run.count; ++n, ++tile[run.axis])
-          lists[worker].push_back({cell_code(tile), uint32_t(i)});
+        LatticePoint cube = run.first;
+        for (int64_t n = 0; n < run.count; ++n, ++cube[run.axis])
+          lists[worker].push_back({cell_code(cube), uint32_t(i)});
       });
     }
     progress.advance(end - chunk * kTriangleChunk);
   });
-  // Workers get tasks in any order; sorting by (tile, triangle) makes the list deterministic.
+  // Workers get tasks in any order; sorting by (cube, triangle) makes the list deterministic.
   executor.for_each(lists.size(),
                     [&](size_t, size_t i) { std::sort(lists[i].begin(), lists[i].end()); });
-  std::vector<TileTriangle> merged;
-  for (std::vector<TileTriangle>& list : lists) {
+  std::vector<CubeTriangle> merged;
+  for (std::vector<CubeTriangle>& list : lists) {
     const auto middle = merged.insert(merged.end(), list.begin(), list.end());
-    std::vector<TileTriangle>().swap(list);
+    std::vector<CubeTriangle>().swap(list);
     std::inplace_merge(merged.begin(), middle, merged.end());
   }
   return merged;
 }
 
-void collect_nodes(const DagView& dag, uint32_t tile_level, uint32_t level, uint32_t node,
-                   uint64_t code, std::vector<TileNode>* out) {
-  if (level == tile_level) return out->push_back({code, node});
+void collect_nodes(const DagView& dag, uint32_t cube_level, uint32_t level, uint32_t node,
+                   uint64_t code, std::vector<CubeNode>* out) {
+  if (level == cube_level) return out->push_back({code, node});
   for (unsigned c = 0; c < 8; ++c) {
     const uint32_t child = dag_child(dag, level, node, c);
-    if (child != kNoChild) collect_nodes(dag, tile_level, level + 1, child, code << 3 | c, out);
+    if (child != kNoChild) collect_nodes(dag, cube_level, level + 1, child, code << 3 | c, out);
   }
 }
 
-// Merges the three sorted lists: one entry per tile that occurs in any.
-std::vector<TileWork> merge_tile_lists(std::span<const TileTriangle> triangles,
-                                       std::span<const TileNode> nodes,
+// Merges the three sorted lists: one entry per cube that occurs in any.
+std::vector<CubeWork> merge_cube_lists(std::span<const CubeTriangle> triangles,
+                                       std::span<const CubeNode> nodes,
                                        std::span<const uint64_t> inside) {
-  std::vector<TileWork> work;
+  std::vector<CubeWork> work;
   size_t t = 0, n = 0, i = 0;
   while (t < triangles.size() || n < nodes.size() || i < inside.size()) {
-    const uint64_t from_triangle = t < triangles.size() ? triangles[t].tile : UINT64_MAX;
-    const uint64_t from_node = n < nodes.size() ? nodes[n].tile : UINT64_MAX;
+    const uint64_t from_triangle = t < triangles.size() ? triangles[t].cube : UINT64_MAX;
+    const uint64_t from_node = n < nodes.size() ? nodes[n].cube : UINT64_MAX;
     const uint64_t from_inside = i < inside.size() ? inside[i] : UINT64_MAX;
-    TileWork tile{std::min({from_triangle, from_node, from_inside}), kNoChild, t, t};
-    while (t < triangles.size() && triangles[t].tile == tile.tile) ++t;
-    tile.end = t;
-    if (from_node == tile.tile) tile.node = nodes[n++].node;
-    if (from_inside == tile.tile) ++i;
-    work.push_back(tile);
+    CubeWork cube{std::min({from_triangle, from_node, from_inside}), kNoChild, t, t};
+    while (t < triangles.size() && triangles[t].cube == cube.cube) ++t;
+    cube.end = t;
+    if (from_node == cube.cube) cube.node = nodes[n++].node;
+    if (from_inside == cube.cube) ++i;
+    work.push_back(cube);
   }
   return work;
 }
 
-// Compares tiles, one at a time; one per worker.
-class TileComparison {
+// Compares cubes, one at a time; one per worker.
+class CubeComparison {
  public:
-  TileComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
-                 std::span<const TileTriangle> lists, const SolidColumns& solid, Judge& judge)
+  CubeComparison(const DagView& dag, const Grid& grid, std::span<const LatticeTriangle> triangles,
+                 std::span<const CubeTriangle> lists, const SolidColumns& solid, Judge& judge)
       : dag_(dag),
         grid_(grid),
         triangles_(triangles),
@@ -116,23 +116,23 @@ class TileComparison {
         solid_(solid),
         judge_(judge) {}
 
-  void compare(const TileWork& work, Comparison* result) {
-    const int levels = tile_levels(grid_.levels);
-    const LatticePoint corner = cell_of_code(work.tile) << int64_t(levels);
+  void compare(const CubeWork& work, Comparison* result) {
+    const int levels = judged_cube_levels(grid_.levels);
+    const LatticePoint corner = cell_of_code(work.cube) << int64_t(levels);
     own_->clear();
     file_->clear();
     voxelize(work, corner, int64_t(1) << levels);
     solid_.fill(corner, int64_t(1) << levels, own_.get());
     if (work.node != kNoChild)
-      fill_tile(dag_, dag_.levels - uint32_t(levels), work.node, 0, file_.get());
+      fill_cube(dag_, dag_.levels - uint32_t(levels), work.node, 0, file_.get());
     for (uint64_t code = 0; code < uint64_t(1) << (3 * (levels - 2)); ++code) {
       const Brick own = own_->brick(code), file = file_->brick(code);
-      if ((own | file) != 0) result->add(own, file, corner + cell_of_code(code) * int64_t(4));
+      if ((own | file) != 0) result->add_brick(own, file, corner + cell_of_code(code) * int64_t(4));
     }
   }
 
  private:
-  void voxelize(const TileWork& work, const LatticePoint& corner, int64_t side) {
+  void voxelize(const CubeWork& work, const LatticePoint& corner, int64_t side) {
     VoxelBox window;
     for (int a = 0; a < 3; ++a) {
       window.min[a] = std::max(corner[a], grid_.selection.min[a]);
@@ -148,35 +148,21 @@ class TileComparison {
   const DagView& dag_;
   const Grid& grid_;
   std::span<const LatticeTriangle> triangles_;
-  std::span<const TileTriangle> lists_;
+  std::span<const CubeTriangle> lists_;
   const SolidColumns& solid_;
   Judge& judge_;
-  std::unique_ptr<Tile> own_ = std::make_unique<Tile>();
-  std::unique_ptr<Tile> file_ = std::make_unique<Tile>();
+  std::unique_ptr<JudgedCube> own_ = std::make_unique<JudgedCube>();
+  std::unique_ptr<JudgedCube> file_ = std::make_unique<JudgedCube>();
 };
 
 }  // namespace
 
-void Comparison::add(uint64_t judge, uint64_t file, const LatticePoint& corner) {
-  ++bricks;
-  judge_voxels += uint64_t(std::popcount(judge));
-  file_voxels += uint64_t(std::popcount(file));
-  if (judge == file) return;
-  ++wrong_bricks;
-  missing += uint64_t(std::popcount(judge & ~file));
-  extra += uint64_t(std::popcount(file & ~judge));
-  for (unsigned bit = 0; bit < 64 && first.size() < kShown; ++bit) {
-    if (((judge ^ file) >> bit & 1U) == 0) continue;
-    // Two octal digits, outer and inner child number, are a Morton code of two levels.
-    first.push_back({corner + cell_of_code(bit), (judge >> bit & 1U) != 0});
-  }
+void WrongVoxels::add(const LatticePoint& voxel, bool is_missing) {
+  ++(is_missing ? missing : extra);
+  if (first.size() < kShown) first.push_back({voxel, is_missing});
 }
 
-void Comparison::append(const Comparison& later) {
-  bricks += later.bricks;
-  wrong_bricks += later.wrong_bricks;
-  judge_voxels += later.judge_voxels;
-  file_voxels += later.file_voxels;
+void WrongVoxels::append(const WrongVoxels& later) {
   missing += later.missing;
   extra += later.extra;
   for (const WrongVoxel& wrong : later.first) {
@@ -184,29 +170,49 @@ void Comparison::append(const Comparison& later) {
   }
 }
 
+void Comparison::add_brick(uint64_t judge, uint64_t file, const LatticePoint& corner) {
+  ++bricks;
+  judge_voxels += uint64_t(std::popcount(judge));
+  file_voxels += uint64_t(std::popcount(file));
+  wrong_bricks += judge != file;
+  for (uint64_t wrong = judge ^ file; wrong != 0; wrong &= wrong - 1) {
+    const unsigned bit = unsigned(std::countr_zero(wrong));
+    // Two octal digits, outer and inner child number, are a Morton code of two levels.
+    add(corner + cell_of_code(bit), (judge >> bit & 1U) != 0);
+  }
+}
+
+void Comparison::append(const Comparison& later) {
+  WrongVoxels::append(later);
+  bricks += later.bricks;
+  wrong_bricks += later.wrong_bricks;
+  judge_voxels += later.judge_voxels;
+  file_voxels += later.file_voxels;
+}
+
 Comparison compare_all(const DagView& dag, const Grid& grid,
                        std::span<const LatticeTriangle> triangles, const JudgeChoice& choice,
                        Executor& executor, Progress& progress) {
   const Judges judges = make_judges(choice, executor.workers());
-  progress.phase("sorting triangles into tiles", triangles.size());
-  const std::vector<TileTriangle> lists =
-      tile_triangles(grid, triangles, judges, executor, progress);
-  std::vector<TileNode> nodes;
-  const uint32_t tile_level = uint32_t(grid.levels - tile_levels(grid.levels));
-  if (!dag.empty()) collect_nodes(dag, tile_level, 0, 0, 0, &nodes);
+  progress.phase("sorting triangles into cubes", triangles.size());
+  const std::vector<CubeTriangle> lists =
+      triangles_by_cube(grid, triangles, judges, executor, progress);
+  std::vector<CubeNode> nodes;
+  const uint32_t cube_level = uint32_t(grid.levels - judged_cube_levels(grid.levels));
+  if (!dag.empty()) collect_nodes(dag, cube_level, 0, 0, 0, &nodes);
   const SolidColumns solid(grid, choice.rule, triangles, *judges[0]);
-  const std::vector<TileWork> work = merge_tile_lists(lists, nodes, solid.tiles());
+  const std::vector<CubeWork> work = merge_cube_lists(lists, nodes, solid.cubes());
 
   progress.phase("comparing", work.size());
-  std::vector<TileComparison> comparisons;
+  std::vector<CubeComparison> comparisons;
   for (size_t i = 0; i < executor.workers(); ++i)
     comparisons.emplace_back(dag, grid, triangles, lists, solid, *judges[i]);
-  std::vector<Comparison> parts(chunks(work.size(), kTileChunk));
+  std::vector<Comparison> parts(chunks(work.size(), kCubeChunk));
   executor.for_each(parts.size(), [&](size_t worker, size_t chunk) {
-    const size_t end = std::min(work.size(), (chunk + 1) * kTileChunk);
-    for (size_t i = chunk * kTileChunk; i < end; ++i)
+    const size_t end = std::min(work.size(), (chunk + 1) * kCubeChunk);
+    for (size_t i = chunk * kCubeChunk; i < end; ++i)
       comparisons[worker].compare(work[i], &parts[chunk]);
-    progress.advance(end - chunk * kTileChunk);
+    progress.advance(end - chunk * kCubeChunk);
   });
   progress.finish();
   Comparison all;

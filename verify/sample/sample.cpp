@@ -77,7 +77,7 @@ Brick BrickSample::in_file(const DagView& dag, size_t index) const {
 Comparison BrickSample::compare(const DagView& dag) const {
   Comparison result;
   for (size_t i = 0; i < codes_.size(); ++i)
-    result.add(bricks_[i], in_file(dag, i), cell_of_code(codes_[i]) * int64_t(kBrickSide));
+    result.add_brick(bricks_[i], in_file(dag, i), cell_of_code(codes_[i]) * int64_t(kBrickSide));
   return result;
 }
 

@@ -28,7 +28,7 @@ std::vector<uint64_t> sample_dag(const DagView& dag, uint64_t count, Random& ran
 
 // `count` draws, half from the file and half from the scene. An odd draw is the scene's, so that a
 // single draw detects an empty file. Draws that the scene cannot give are made from the file. For
-// the solid rules, as many again are made anywhere in the selection, inside and outside.
+// the solid rules, the same number is drawn again anywhere in the selection, inside and outside.
 struct BrickDraw {
   std::vector<uint64_t> file;
   SceneDraw scene;
@@ -46,7 +46,7 @@ BrickDraw draw_bricks(const Scene& scene, const DagView& dag, const Grid& grid, 
 // Memory of one draw while its brick is drawn and compared: its position, several copies of its
 // code, and the brick; or its window.
 constexpr uint64_t kBytesOfDraw = 64;
-// With a solid rule, of which as many bricks again are drawn: also the windings of the voxels.
+// With a solid rule, for which the same number of bricks is drawn again: also the voxels' windings.
 constexpr uint64_t kBytesOfSolidDraw = 2 * (kBytesOfDraw + 64 * sizeof(int32_t));
 
 // Throws the Error (kUsage) for an untested sample.

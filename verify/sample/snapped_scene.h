@@ -21,8 +21,8 @@ struct SnapCounts {
 using SnappedSink = std::function<void(std::span<const LatticeTriangle>, const TriangleBatch&)>;
 
 // Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; for the
-// solid rules, whose winding numbers need them, all triangles, and those of open parts as sheets.
-// `layer`: the scene is one layer of this kind, unless kNone.
+// solid rules, whose winding numbers need them, all triangles, and triangles of open parts as
+// sheets. `layer`: the scene is one layer of this kind, unless kNone.
 SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
                           Rule rule = Rule::kConservative, LayerKind layer = LayerKind::kNone);
 
@@ -36,7 +36,7 @@ struct GridJudgement {
 // recorded, as in imports, which have no triangles.
 std::string snap_defect(double recorded, const SnapCounts& whole_scene);
 
-// `bounds`: those of the vertices that triangles use, computed by the judge itself.
+// `bounds`: of the vertices that triangles use, computed by the judge itself.
 GridJudgement judge_grid(const Grid& grid, const Box& bounds);
 
 }  // namespace svdag

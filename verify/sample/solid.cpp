@@ -47,7 +47,7 @@ void SolidColumns::for_each_inside(std::span<const Change> column, const Visit& 
   }
 }
 
-void SolidColumns::fill(const LatticePoint& corner, int64_t side, Tile* tile) const {
+void SolidColumns::fill(const LatticePoint& corner, int64_t side, JudgedCube* cube) const {
   if (changes_.empty()) return;
   for (int64_t x = 0; x < side; ++x) {
     for (int64_t y = 0; y < side; ++y) {
@@ -58,25 +58,25 @@ void SolidColumns::fill(const LatticePoint& corner, int64_t side, Tile* tile) co
       for_each_inside(column(at.x, at.y), [&](int64_t low, int64_t high) {
         low = std::max(low, corner.z);
         high = std::min(high, corner.z + side);
-        if (low < high) tile->set({LatticePoint(x, y, low - corner.z), 2, high - low});
+        if (low < high) cube->set({LatticePoint(x, y, low - corner.z), 2, high - low});
       });
     }
   }
 }
 
-std::vector<uint64_t> SolidColumns::tiles() const {
-  const int log2 = tile_levels(grid_.levels);
+std::vector<uint64_t> SolidColumns::cubes() const {
+  const int log2 = judged_cube_levels(grid_.levels);
   std::vector<bool> is_inside(size_t(1) << 3 * (grid_.levels - log2));
   for (size_t begin = 0, end = 0; begin < changes_.size(); begin = end) {
     const uint64_t column = changes_[begin].column;
     while (end < changes_.size() && changes_[end].column == column) ++end;
-    LatticePoint tile(int64_t(column >> 20), int64_t(column & 0xFFFFF), 0);
-    if (!selects(grid_, {tile.x, tile.y, grid_.selection.min.z})) continue;
-    tile.x >>= log2, tile.y >>= log2;
+    LatticePoint cube(int64_t(column >> 20), int64_t(column & 0xFFFFF), 0);
+    if (!selects(grid_, {cube.x, cube.y, grid_.selection.min.z})) continue;
+    cube.x >>= log2, cube.y >>= log2;
     for_each_inside(std::span(changes_).subspan(begin, end - begin),
                     [&](int64_t low, int64_t high) {
-                      for (tile.z = low >> log2; tile.z <= (high - 1) >> log2; ++tile.z)
-                        is_inside[cell_code(tile)] = true;
+                      for (cube.z = low >> log2; cube.z <= (high - 1) >> log2; ++cube.z)
+                        is_inside[cell_code(cube)] = true;
                     });
   }
   std::vector<uint64_t> codes;

@@ -10,7 +10,7 @@
 #include "io/dag/format.h"
 #include "io/grid.h"
 #include "verify/judge/judge.h"
-#include "verify/sample/tile.h"
+#include "verify/sample/judged_cube.h"
 
 namespace svdag {
 
@@ -23,10 +23,10 @@ class SolidColumns {
   SolidColumns(const Grid& grid, Rule rule, std::span<const LatticeTriangle> triangles,
                Judge& judge);
 
-  // Sets the inside voxels of the selection in the tile at `corner` of `side` voxels.
-  void fill(const LatticePoint& corner, int64_t side, Tile* tile) const;
-  // Codes (verify/judge/cell_code.h) of all tiles with inside voxels, sorted.
-  std::vector<uint64_t> tiles() const;
+  // Sets the inside voxels of the selection in the cube at `corner` of `side` voxels.
+  void fill(const LatticePoint& corner, int64_t side, JudgedCube* cube) const;
+  // Codes (verify/judge/cell_code.h) of all cubes with inside voxels, sorted.
+  std::vector<uint64_t> cubes() const;
 
  private:
   struct Change {

@@ -2,8 +2,8 @@
 // matter, the section is shown.
 //
 // The box has voxel planes, and a ray crosses them at the times of verify/trace/kernel/ray.h, the
-// same by which the traversal selects cells. So the picture is that of a DAG without the voxels
-// outside, exactly.
+// same by which the traversal selects cells. So the picture equals the one of a DAG without the
+// voxels outside, exactly.
 #pragma once
 
 #include <optional>

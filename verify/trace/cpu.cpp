@@ -18,8 +18,8 @@ uint32_t secondary_per_ray(const Shading& shading) {
 // Renders tiles. The memory of a tile's rays is reused for the next one.
 class PixelTile {
  public:
-  PixelTile(const DagView& dag, const Tree64View& tree, const Camera& camera, const Shading& shading,
-       const RenderConfig& config)
+  PixelTile(const DagView& dag, const Tree64View& tree, const Camera& camera,
+            const Shading& shading, const RenderConfig& config)
       : dag_(dag), tree_(tree), camera_(camera), shading_(shading), config_(config) {}
 
   void render(int left, int top, Image* image) {
@@ -177,6 +177,18 @@ class PixelTile {
 };
 
 }  // namespace
+
+LayerColours::LayerColours(const DagFile& file) {
+  if (file.layers().empty()) return;
+  index_.emplace(file.layer_index());
+  for (const Layer& layer : file.layers().layers) albedos_.push_back(albedo_of(layer.colour));
+}
+
+void LayerColours::show_in(RenderConfig* picture) const {
+  if (!index_) return;
+  picture->layers = index_->view();
+  picture->albedos = albedos_;
+}
 
 uint64_t uncut_rays(const DagView& dag, const Shading& shading, const RenderConfig& config) {
   const uint64_t per_pixel = uint64_t(config.supersample) * uint64_t(config.supersample);

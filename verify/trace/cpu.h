@@ -1,6 +1,7 @@
 // Renders pictures on the processor, a row of tiles per task.
 #pragma once
 
+#include "io/dag/dag_file.h"
 #include "io/dag/layers/layer_index.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
@@ -19,6 +20,19 @@ struct RenderConfig {
   std::optional<ClipBox> clip = {};    // the voxels that are shown; none: all
   LayerIndexView layers = {};          // of the file, if it has layers; else without entries
   std::span<const Vec3> albedos = {};  // [layer]: the part of light that it reflects
+};
+
+// The colours of a file's layers, for pictures.
+class LayerColours {
+ public:
+  // `file` must outlive this. Without layers there is nothing to show.
+  explicit LayerColours(const DagFile& file);
+  // Shows them in a picture; this must outlive its rendering.
+  void show_in(RenderConfig* picture) const;
+
+ private:
+  std::optional<LayerIndex> index_;
+  std::vector<Vec3> albedos_;
 };
 
 // Upper bound of the rays of a picture that have no cut: those that a 64-tree can trace.

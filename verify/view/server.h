@@ -1,6 +1,6 @@
 // Serves the viewer's page, the scene and its tiles to browsers of this machine.
 //
-// It listens on 127.0.0.1 alone and only reads. The URL has a random token, which other users and
+// It listens only on 127.0.0.1 and only reads. The URL has a random token, which other users and
 // web pages do not know; and requests must name this machine as their host, so that a web page
 // whose name is made to lead here (DNS rebinding) is refused. Tiles are cut on demand.
 #pragma once

@@ -20,7 +20,7 @@ uint32_t blocks_of(Brick brick) {
 }
 
 // The children of a node, and their children, as the bits of a brick.
-Brick two_levels(const DagView& dag, uint32_t level, uint32_t node) {
+Brick brick_of_two_levels(const DagView& dag, uint32_t level, uint32_t node) {
   if (level == dag.brick_level()) return dag.bricks[node];
   Brick brick = 0;
   dag_for_children(dag, level, node, [&](unsigned c, uint32_t child) {
@@ -141,7 +141,7 @@ class TileCutter::Cut {
     std::vector<Brick> of_node;
     Brick all = 0;
     for (const LayerNode& node : cube.nodes) {
-      of_node.push_back(two_levels(cutter_.view(cube, node), cube.level, node.node));
+      of_node.push_back(brick_of_two_levels(cutter_.view(cube, node), cube.level, node.node));
       all |= of_node.back();
     }
     const uint32_t shape = add(cube.level - top_, {uint32_t(all), uint32_t(all >> 32)});

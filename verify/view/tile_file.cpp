@@ -70,7 +70,7 @@ class WordReader {
   std::span<const uint32_t> left_;
 };
 
-// Checks references: each offset is that of a node, and each node is referred to, but for the root.
+// Checks references: each offset is a node's, and each node except the root is referred to.
 bool has_valid_nodes(const DagTile& tile) {
   std::set<uint32_t> referred = {0};
   for (size_t depth = 0; depth < tile.sections.size(); ++depth) {

@@ -25,7 +25,7 @@ std::vector<uint32_t> words_of(const DagTile& tile);
 std::string encode_tile(const DagTile& tile);
 
 // The tile of `words`; nothing if they are not exactly those of a valid tile: an offset that is not
-// that of a node of the next section, a node or set that repeats or that nothing refers to, a value
+// a node's in the next section, a node or set that repeats or that nothing refers to, a value
 // out of range.
 std::optional<DagTile> tile_of_words(std::span<const uint32_t> words);
 // The same for bytes, with memory of at most 1,032 times as many, as gzip allows.

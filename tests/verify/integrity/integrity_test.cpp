@@ -77,7 +77,7 @@ TEST(Integrity, FilesWithLayersAreSound) {
   }
 }
 
-// The union as it is, beside layers of which one lacks a voxel, or has one more.
+// The union as it is, beside layers: one lacks a voxel, or has one more.
 TEST(Integrity, ReportsAUnionThatIsNotTheVoxelsOfTheLayers) {
   for (int levels = 3; levels <= 8; ++levels) {
     std::vector<VoxelSet> sets = layers_of(levels, 3);

@@ -1,4 +1,4 @@
-// Compares the judge's largest move by the snap with that of a bake and that in a header.
+// Compares the judge's largest move by the snap with a bake's and with the header's.
 #include "verify/sample/snapped_scene.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,8 @@ class SnappedSceneTest : public ::testing::Test {
   }
 
   SnapCounts judged(const Grid& grid) {
-    return stream_snapped(Scene(config_, &budget_), grid, [](std::span<const LatticeTriangle>, const TriangleBatch&) {});
+    return stream_snapped(Scene(config_, &budget_), grid,
+                          [](std::span<const LatticeTriangle>, const TriangleBatch&) {});
   }
   double baked(const Grid& grid) {
     SplitConfig config;

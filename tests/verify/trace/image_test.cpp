@@ -3,7 +3,7 @@
 
 #include "tests/verify/trace/ray_families.h"
 #include "verify/trace/cpu.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {

@@ -1,5 +1,5 @@
 // The plain traversal, the reference for verify/trace/kernel/traverse.h: a stack frame per level,
-// one cube per step, and children found by comparing times with those of the middle planes only.
+// one cube per step, and children found by comparing times with the middle planes' only.
 #pragma once
 
 #include <cstring>

@@ -225,7 +225,7 @@ TEST_F(Tiles, OfOctantsThatAreFullDoNotExist) {
   ASSERT_TRUE(root);
   EXPECT_EQ(root->finer[0], 0U);
   EXPECT_EQ(root->finer[7], 15U);
-  // The corner's tiles alone, level by level.
+  // Only the corner's tiles, level by level.
   EXPECT_EQ(list_tiles(cutter).cubes.size(), 5U);
 }
 

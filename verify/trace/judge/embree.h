@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "streaming/memory/memory_budget.h"
-#include "verify/trace/judge/triangle.h"
+#include "verify/trace/judge/voxel_triangle.h"
 
 namespace svdag {
 

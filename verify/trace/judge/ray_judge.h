@@ -16,12 +16,12 @@
 //       Thin: a triangle that crosses no centre segment sets no voxel, so no bound exists.
 //
 //   (d) The voxel that holds a hit of a triangle, further than doubt() from its border, is in the
-//       layer of the triangle, and the index finds no later layer for it. So if one layer alone
+//       layer of the triangle, and the index finds no later layer for it. So if only one layer
 //       holds it, that is the layer of the ray. Tested where (a) is, by the same rules.
 //
 // Rays miss triangles of zero area; (c) tests their points, too.
 //
-// Measured only: hits of one side alone, how much nearer the DAG's hit is, and the distance between
+// Only measured: hits of one side only, how much nearer the DAG's hit is, and the distance between
 // surface and voxel centres both ways (Hausdorff).
 //
 // A triangle hit within doubt() of an edge may be a miss; such hits are counted separately.

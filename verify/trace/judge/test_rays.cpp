@@ -8,7 +8,6 @@
 namespace svdag {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kUp = 1;  // of the camera; any axis would do
 constexpr Vec3 kTowards{{-0.6, -0.5, -0.7}};
 

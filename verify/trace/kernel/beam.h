@@ -50,7 +50,7 @@ class Beam {
   struct Box {
     Vec3 min{{1e300, 1e300, 1e300}}, max{{-1e300, -1e300, -1e300}};
   };
-  class Walk;
+  class Descent;
 
   SVDAG_HD static void grow(double value, double* low, double* high) {
     *low = value < *low ? value : *low;
@@ -63,9 +63,10 @@ class Beam {
 };
 
 // A descent, nearest children first, that skips cubes whose span is inside the one found so far.
-class Beam::Walk {
+class Beam::Descent {
  public:
-  SVDAG_HD Walk(const Beam& beam, const DagView& dag, const Span& span, const Cut& cut, bool both)
+  SVDAG_HD Descent(const Beam& beam, const DagView& dag, const Span& span, const Cut& cut,
+                   bool both)
       : beam_(beam),
         dag_(dag),
         span_(span),
@@ -167,7 +168,7 @@ class Beam::Walk {
 
 SVDAG_HD inline Span Beam::reach(const DagView& dag, const Span& span, const Cut& cut,
                                  bool both) const {
-  return Walk(*this, dag, span, cut, both).run();
+  return Descent(*this, dag, span, cut, both).run();
 }
 
 }  // namespace svdag

@@ -13,7 +13,7 @@ constexpr double kMargin = 1.04;
 constexpr double kFramingCubes = 128;  // along the longest side of the box
 
 double slope_of(double fov) {
-  return std::tan(fov * 3.14159265358979323846 / 360);
+  return std::tan(fov * kPi / 360);
 }
 
 // The nearest camera that shows all cubes that were added, for a fixed direction of view.

@@ -6,7 +6,7 @@
 //
 //   time(a, i) = (i - origin[a]) * inverse[a]      in double: one subtraction, one multiplication
 //
-// and these alone define its position: at time t it is in the cell of the last planes that it has
+// and only these define its position: at time t it is in the cell of the last planes that it has
 // passed (time <= t). A cube is entered at enter = max(begin, its three near planes), left at
 // exit = min(end, its three far planes), and met if enter < exit. The hit is the solid cube met
 // first. So the hit depends on ray and voxels only, not on the traversal: all of them (plain, fast,
@@ -18,7 +18,7 @@
 // few beyond 8K^3); adding increments (they drift); i * inverse - origin * inverse (cancellation,
 // and not faster without fused operations, which differ between machines).
 //
-// Depends on dag_view.h alone, for host and CUDA.
+// Depends only on dag_view.h, for host and CUDA.
 #pragma once
 
 #include "io/dag/dag_view.h"

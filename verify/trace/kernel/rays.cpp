@@ -14,9 +14,10 @@ constexpr int kInFlight = 8;
 
 // The walks in progress, and the rays that have not started. Calls done(i, walk) when ray i ends.
 template <class Done>
-class Walks {
+class RaysInFlight {
  public:
-  Walks(const Tree64View& tree, const Ray* rays, size_t count, const Span& span, const Done& done)
+  RaysInFlight(const Tree64View& tree, const Ray* rays, size_t count, const Span& span,
+               const Done& done)
       : tree_(tree), rays_(rays), count_(count), span_(span), done_(done) {
     for (int i = 0; i < kInFlight; ++i) walks_[i] = &storage_[i];
     while (active_ < kInFlight && fill(active_)) ++active_;
@@ -38,7 +39,7 @@ class Walks {
   }
 
  private:
-  struct RayWalk {
+  struct RayInFlight {
     Walk64 walk;
     size_t ray;
   };
@@ -62,8 +63,8 @@ class Walks {
   const Done& done_;
   size_t next_ = 0;
   int active_ = 0;
-  RayWalk* walks_[kInFlight];
-  RayWalk storage_[kInFlight];
+  RayInFlight* walks_[kInFlight];
+  RayInFlight storage_[kInFlight];
 };
 
 // Walks all rays through the tree and calls done(i, walk) for each. Returns false, without having
@@ -74,7 +75,7 @@ template <class Done>
                                                                      const Ray* rays, size_t count,
                                                                      const Span& span,
                                                                      const Done& done) {
-  Walks<Done> walks(tree, rays, count, span, done);
+  RaysInFlight<Done> walks(tree, rays, count, span, done);
   while (walks.active() > 0) {
     for (int i = 0; i < walks.active();) {
       const Walk64& walk = walks.walk(i);

@@ -4,7 +4,7 @@
 // depend on the order of threads. n rays are stratified in an s x s grid, s = floor(sqrt(n)); the
 // rest are not stratified. The square is mapped to a disk by Shirley and Chiu's concentric map; the
 // disk lifted to the hemisphere is cosine-weighted (Malley). Sine and cosine are polynomials,
-// because those of libraries differ in the last bit between host and device.
+// because libraries' functions differ in the last bit between host and device.
 #pragma once
 
 #include "verify/trace/kernel/vector.h"

@@ -1,10 +1,10 @@
-// A view of a 64-tree: the DAG with its levels taken two at a time, for tracing alone.
+// A view of a 64-tree: the DAG with its levels taken two at a time; only for tracing.
 //
 // Idea: bricks are cubes of 4^3 cells already, 64 bits; so every node is one. This halves the depth
 // (7 nodes instead of 13 at 16K^3), and the cells that a ray meets are found for 64 cells at once
 // (cells64.h). It is still a DAG: subtrees that the file shares over two levels are shared here.
 //
-// Notation: a node of depth d (the root's is 0) has cells of side 4^(depth - d); those of depth
+// Notation: a node of depth d (the root's is 0) has cells of side 4^(depth - d); cells of depth
 // `depth` are the bricks, whose cells are voxels. Cell 8b + c is child c of child b, as the bits of
 // a brick, on all depths. A node is a u64 mask of its cells, followed by
 //
@@ -14,7 +14,7 @@
 // If the DAG has an odd number of levels, the root's cube is twice as wide as the grid and repeats
 // it, so that mirroring (ray.h) needs no exception; clipped rays end before they reach the copy.
 //
-// Depends on dag_view.h alone, for host and CUDA. verify/trace/kernel/tree64.h builds it.
+// Depends only on dag_view.h, for host and CUDA. verify/trace/kernel/tree64.h builds it.
 #pragma once
 
 #include "io/dag/dag_view.h"

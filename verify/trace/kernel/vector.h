@@ -5,6 +5,8 @@
 
 namespace svdag {
 
+constexpr double kPi = 3.14159265358979323846;
+
 SVDAG_HD inline Vec3 operator+(const Vec3& a, const Vec3& b) {
   return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
 }

@@ -115,7 +115,7 @@ class Walk64 {
     return false;
   }
 
-  Queue queues_[kMaxDepth + 1];  // by depth; that of the bricks is always empty
+  Queue queues_[kMaxDepth + 1];  // by depth; the last, of bricks, is always empty
   RayTimes times_;
   alignas(32) double origin_[4];
   Visit visit_;

@@ -28,7 +28,7 @@ struct PlainFile {
 // if it is larger than `max_bytes`.
 PlainFile read_plain_file(const std::string& path, uint64_t max_bytes = UINT64_MAX);
 
-// Makes `view` and `index` those of layer `layer` of the table. The view stays within `words`.
+// Sets `view` and `index` to layer `layer` of the table. The view stays within `words`.
 void show_layer(PlainFile* file, size_t layer);
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// The program svdag-trace: the tracer alone, on the processor or a GPU. Loads no third-party
+// The program svdag-trace: only the tracer, on the processor or a GPU. Loads no third-party
 // library.
 #include <cstdio>
 #include <optional>
@@ -218,11 +218,12 @@ uint64_t memory_for_file(const TraceOptions& options) {
   const uint64_t half = default_memory_limit();
   const uint64_t pixel_bytes =
       kResultBytesPerPixel + (options.dump.empty() ? 0 : sizeof(PixelRecord));
-  const uint64_t results =
-      (options.compare ? 2 : 1) * pixel_bytes * uint64_t(options.width) * options.height;
+  const uint64_t results = (options.compare ? 2 : 1) * pixel_bytes *
+                           uint64_t(options.view.size.width) * uint64_t(options.view.size.height);
   if (results > half)
-    throw Error(ExitCode::kMemory, "--size: the results of " + std::to_string(options.width) + "x" +
-                                       std::to_string(options.height) +
+    throw Error(ExitCode::kMemory, "--size: the results of " +
+                                       std::to_string(options.view.size.width) + "x" +
+                                       std::to_string(options.view.size.height) +
                                        " pixels do not fit in half of the memory: choose fewer");
   return 2 * half - results;
 }

@@ -6,26 +6,21 @@
 #include <vector>
 
 #include "verify/trace/program/device.h"
+#include "verify/trace/view_options.h"
 
 namespace svdag {
 
 struct TraceOptions {
   std::string file;
   std::string device = "cpu";  // cpu, cuda
-  std::string preset = "iso";  // of preset_camera
-  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov] in scene units; empty: the preset
-  std::vector<double> light;   // x,y,z[,radius] in scene units; empty: above the voxels
-  int up = 1;                  // axis
-  uint32_t width = 1280, height = 720;
-  uint32_t samples = 64, rounds = 3;
+  ViewOptions view;            // without --light: above the voxels; --reach unlimited; --cone exact
+  uint32_t rounds = 3;
   unsigned threads = 0;  // 0: one per processor
-  double reach = 0;      // length of ambient occlusion rays, in scene units; 0: unlimited
-  double cone = 0;       // half the angle of their cones, in degrees; 0: exact
   bool beams = true;
-  bool compare = false;              // trace on both devices, and compare
-  bool json = false;                 // print one line of JSON instead of a table
-  std::vector<std::string> layers;  // at most one: trace it alone
-  std::string dump, picture;         // output files; empty: none
+  bool compare = false;             // trace on both devices, and compare
+  bool json = false;                // print one line of JSON instead of a table
+  std::vector<std::string> layers;  // at most one: trace only it
+  std::string dump, picture;        // output files; empty: none
 };
 
 // Returns nothing if there is nothing to trace (--help, --version). Error: kUsage.

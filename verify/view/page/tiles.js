@@ -1,5 +1,5 @@
 // The tiles in the memory of the GPU: loads what a view needs, coarse first, and evicts what has
-// not been seen for longest. The format is that of verify/view/tile_file.h.
+// not been seen for longest. The format is described in verify/view/tile_file.h.
 //
 // Memory is one texture of 32-bit words. A tile takes whole rows of it, and the offsets in its
 // nodes are replaced by addresses. A pointer is an address and two flags: BRICK for a brick, ENTRY
@@ -171,7 +171,7 @@ export class Tiles {
   }
 
   // Notes what a picture shows. `hits`: of its pixels, 4 words each (trace.js); `level(x, y, z)`:
-  // the level that a voxel needs; `same`: the view is that of the last picture, whose requests stay.
+  // the level that a voxel needs; `same`: the view is the last picture's, whose requests stay.
   // Returns whether more is to come.
   look(hits, level, same) {
     ++this.pass;
@@ -257,7 +257,7 @@ export class Tiles {
     this.pool.write(row, out.subarray(begin));
     this.bytes += 4 * words.length;
 
-    // The root is the last node of its section, which it has alone.
+    // The root is the last, and only, node of its section.
     const root = sections[0], mask = words[root], layerRoot = value(words[3]);
     const nodes = Array(8).fill(0), octantLayers = Array(8).fill(layerRoot);
     for (let c = 0, i = root + 1; c < 8; ++c) {

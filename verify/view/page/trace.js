@@ -1,6 +1,6 @@
 // Draws the tiles: one pass traces a ray per pixel, the next one shades what they hit.
 //
-// The traversal is that of verify/trace/kernel/traverse.h: the cell is one integer coordinate per
+// The traversal of verify/trace/kernel/traverse.h: the cell is one integer coordinate per
 // axis, whose bits are the path down from the root; the ray is mirrored so that coordinates only
 // increase; a step leaves the largest empty cube, and resumes at the common ancestor.
 //

@@ -1,4 +1,4 @@
-// Embree's hits and distances against those of all triangles, by independent formulas.
+// Embree's hits and distances against all triangles, by independent formulas.
 #include "verify/trace/judge/embree.h"
 
 #include <gtest/gtest.h>

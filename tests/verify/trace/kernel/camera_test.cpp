@@ -8,7 +8,7 @@
 #include "tests/expect_error.h"
 #include "tests/verify/raw_dag.h"
 #include "verify/trace/kernel/traverse.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tests/expect_error.h"
 #include "tests/verify/raw_dag.h"
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 namespace svdag {
 namespace {
@@ -132,7 +132,7 @@ TEST(TraceOptions, InvalidValuesAreUsageErrors) {
       {{"--size"}, "--size: the value is missing"},
       {{"--size="}, "--size: the value is empty"},
       {{"--size", "4"}, "is not WIDTHxHEIGHT"},
-      {{"--size", "0x4"}, "is not a number from 1 to 16384"},
+      {{"--size", "0x4"}, "with 1 to 16384 pixels each"},
       {{"--size", "4x4", "--size", "8x8"}, "--size: is given more than once"},
       {{"-j", "2", "--threads", "3"}, "--threads: is given more than once"},
       {{"--device", "gpu"}, "\"gpu\" is not one of cpu, cuda"},

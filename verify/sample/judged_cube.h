@@ -1,7 +1,7 @@
-// A tile, the judge's unit of comparison: 64^3 voxels (or the whole of a smaller grid).
+// The judge's unit of comparison: a cube of 64^3 voxels (or the whole of a smaller grid).
 //
 // Its 16^3 bricks are in Morton order in 32 KiB, which fits the first-level cache; a DAG fills
-// them in one descent. Larger tiles would save set-up, but every clear and compare would miss that
+// them in one descent. Larger cubes would save set-up, but every clear and compare would miss that
 // cache.
 #pragma once
 
@@ -16,19 +16,19 @@
 
 namespace svdag {
 
-constexpr int kTileLevels = 6;
+constexpr int kJudgedCubeLevels = 6;
 
-// log2 of the side of a tile of this grid.
-inline int tile_levels(int grid_levels) {
-  return std::min(kTileLevels, grid_levels);
+// log2 of the side of a cube of this grid.
+inline int judged_cube_levels(int grid_levels) {
+  return std::min(kJudgedCubeLevels, grid_levels);
 }
 
-class Tile {
+class JudgedCube {
  public:
   void clear() { bricks_.fill(0); }
   Brick brick(uint64_t code) const { return bricks_[code]; }
   void set_brick(uint64_t code, Brick brick) { bricks_[code] = brick; }
-  // Sets the voxels of a run, given relative to the tile's corner.
+  // Sets the voxels of a run, given relative to the cube's corner.
   void set(const CellRun& run) {
     LatticePoint p = run.first;
     for (int64_t i = 0; i < run.count; ++i, ++p[run.axis]) {
@@ -49,13 +49,13 @@ class Tile {
   std::array<Brick, 4096> bricks_{};
 };
 
-// Writes the bricks of the sub-DAG at `node` of `level` to tile codes from `code` on.
-inline void fill_tile(const DagView& dag, uint32_t level, uint32_t node, uint64_t code,
-                      Tile* tile) {
-  if (level == dag.brick_level()) return tile->set_brick(code, dag.bricks[node]);
+// Writes the bricks of the sub-DAG at `node` of `level` to cube codes from `code` on.
+inline void fill_cube(const DagView& dag, uint32_t level, uint32_t node, uint64_t code,
+                      JudgedCube* cube) {
+  if (level == dag.brick_level()) return cube->set_brick(code, dag.bricks[node]);
   for (unsigned c = 0; c < 8; ++c) {
     const uint32_t child = dag_child(dag, level, node, c);
-    if (child != kNoChild) fill_tile(dag, level + 1, child, code << 3 | c, tile);
+    if (child != kNoChild) fill_cube(dag, level + 1, child, code << 3 | c, cube);
   }
 }
 

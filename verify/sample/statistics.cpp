@@ -1,4 +1,4 @@
-#include "verify/report/statistics.h"
+#include "verify/sample/statistics.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "verify/trace/judge/triangle.h"
+#include "verify/trace/judge/voxel_triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -29,7 +29,7 @@ Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle);
 // Distance from a point to the closed triangle, which may be a segment or a point.
 double distance(const Vec3& point, const VoxelTriangle& triangle);
 
-// `ray` rounded to floats relative to `middle`. The length of the direction is 1 but for rounding.
+// `ray` rounded to floats relative to `middle`. The direction has length 1, up to rounding.
 Ray float_ray(const Ray& ray, const Vec3& middle);
 
 }  // namespace svdag

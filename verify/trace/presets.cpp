@@ -1,4 +1,4 @@
-#include "verify/trace/program/presets.h"
+#include "verify/trace/presets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 
 namespace svdag {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool contains(const VoxelBounds& box, const Vec3& point) {
   bool inside = true;

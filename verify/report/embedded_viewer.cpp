@@ -1,4 +1,4 @@
-#include "verify/view/embedded.h"
+#include "verify/report/embedded_viewer.h"
 
 #include <sodium/crypto_hash_sha256.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "verify/view/base64.h"
+#include "verify/report/report_text.h"
 #include "verify/view/folder.h"
 
 namespace svdag {
