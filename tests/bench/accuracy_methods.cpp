@@ -41,8 +41,8 @@ class BuilderDescent {
       for (unsigned c = 0; c < 8; ++c) descend(cube.child(c), lists[c], out);
       return;
     }
-    const Brick voxels = kernels().conservative(list.data(), list.size(), cube.corner(grid_.levels),
-                                                grid_.fraction(), ~Brick(0), &counts_);
+    const Brick voxels = kernels().conservative.brick(
+        list.data(), list.size(), cube.corner(grid_.levels), grid_.fraction(), ~Brick(0), &counts_);
     if (voxels != 0) out->push_back({morton(cube.coordinate), voxels});
   }
 
